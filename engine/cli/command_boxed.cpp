@@ -1,34 +1,22 @@
-#include <iostream>
-#include <iterator>
 #include <memory>
 
+#include "cli/boxed_job.h"
 #include "cli/commands.h"
-#include "course/grading/boxed_work.h"
-#include "course/grading/job_descriptions.h"
 
 namespace dynlab::inline cli {
 namespace {
 
-constexpr std::uint64_t kMostOfJob = 256u << 20;  // bytes: the answers of all runs, the files of checks
-
-/// One piece of work on what is not trusted: a job on standard input, its result on standard output.
-template <class Job>
-void work(typename Job::Result (*function)(const Job&)) {
-    const std::string bytes{std::istreambuf_iterator<char>(std::cin), {}};
-    std::cout << cbor_of(function(from_cbor<Job>(bytes, boxed_limits(kMostOfJob)))) << std::flush;
-}
-
 int boxed(const std::string& name) {
     if (name == RunJob::kWork)
-        work(run_for_grading);
+        do_boxed_job(run_for_grading);
     else if (name == ChecksJob::kWork)
-        work(try_checks);
+        do_boxed_job(try_checks);
     else if (name == UnpackJob::kWork)
-        work(unpack_archive);
+        do_boxed_job(unpack_archive);
     else if (name == DocumentJob::kWork)
-        work(make_boxed_document);
+        do_boxed_job(make_boxed_document);
     else if (name == VersionJob::kWork)
-        work(make_version);
+        do_boxed_job(make_version);
     else
         return kUsage;
     return kDone;

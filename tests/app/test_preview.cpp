@@ -191,7 +191,7 @@ TEST_F(preview_page, a_stranger_s_document_is_shown_and_runs_only_when_told) {
 TEST_F(preview_page, tabs_come_and_go_and_the_end_is_told) {
     write(kHead + kFirst);
     Preview preview(file());
-    Browser browser;
+    Browser browser(1280, 900, Browser::Kind::kWhole);  // which tells a tab that it is hidden
     for (int i = 0; i < 10; ++i) {
         if (i > 0) browser.new_tab();
         browser.open(preview.address());

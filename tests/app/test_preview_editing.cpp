@@ -165,6 +165,23 @@ TEST_F(preview_editing, an_edit_on_both_sides_shows_both) {
     browser.click("#take-theirs");
     EXPECT_TRUE(editor_has(browser, "-- theirs again"));
     EXPECT_TRUE(browser.comes("document.getElementById('save').disabled"));
+    // What is the same between two changes is not shown as another.
+    std::string far;
+    for (int i = 1; i <= 20; ++i) far += "-- line " + std::to_string(i) + "\n";
+    write(kHead + kFirst + far);
+    ASSERT_TRUE(editor_has(browser, "-- line 20"));
+    type(browser, "\n-- mine\n");
+    far.replace(far.find("line 2\n"), 6, "another");
+    far.replace(far.find("line 18"), 7, "yet another");
+    write(kHead + kFirst + far);
+    ASSERT_TRUE(browser.comes("document.getElementById('theirs').innerText.includes('yet another')"));
+    const std::string theirs = browser.evaluate("return document.getElementById('theirs').innerText");
+    EXPECT_THAT(theirs, testing::ContainsRegex("› [0-9]+  -- another"));
+    EXPECT_THAT(theirs, testing::ContainsRegex("› [0-9]+  -- yet another"));
+    EXPECT_THAT(theirs, HasSubstr("-- line 17"));
+    EXPECT_THAT(theirs, testing::Not(HasSubstr("line 10")));
+    browser.click("#take-theirs");
+    EXPECT_TRUE(browser.comes("document.getElementById('save').disabled"));
     // A file that changes while nothing was typed is just shown.
     write(kHead + kFirst + "-- new\n");
     EXPECT_TRUE(editor_has(browser, "-- new"));

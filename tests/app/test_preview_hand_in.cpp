@@ -84,6 +84,24 @@ TEST_F(preview_hand_in, nothing_is_made_of_what_was_not_allowed_to_run) {
     EXPECT_FALSE(fs::exists(folder.path() / "mine.zip"));
 }
 
+/// The points are those of the checks as they are now.
+TEST_F(preview_hand_in, the_checks_are_followed) {
+    make_folder();
+    std::string script = read_text(mine() / "analysis.lua");
+    script.replace(script.find("-- YOUR CODE HERE"), 17, "answer(\"gain\", 2)");
+    write(script, "mine/analysis.lua");
+    const Preview preview(mine());
+    Browser browser;
+    browser.open(preview.address());
+    const std::string told = "document.getElementById('show-findings').innerText";
+    EXPECT_TRUE(browser.comes("/3 of 3 points/.test(" + told + ")", 120)) << browser.evaluate("return " + told);
+    std::string checks = read_text(mine() / "checks.lua");
+    checks.replace(checks.find("points = 3"), 10, "points = 5");
+    checks.replace(checks.find("a.gain, 2"), 9, "a.gain, 4");
+    write(checks, "mine/checks.lua");
+    EXPECT_TRUE(browser.comes("/0 of 5 points/.test(" + told + ")", 120)) << browser.evaluate("return " + told);
+}
+
 /// A question with two blanks is one; an answer that is not given is not told a second and a third time.
 TEST_F(preview_hand_in, each_thing_is_counted_once_and_points_are_shown) {
     make_folder();

@@ -103,7 +103,7 @@ void measure_live(Report& report) {
     };
 
     save(0);
-    Browser browser;
+    Browser browser(1280, 900, Browser::Kind::kWhole);  // as users have it
     {
         const Preview preview(file, true, {}, bench.path("cache"));
         browser.open(preview.address());

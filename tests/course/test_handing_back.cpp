@@ -102,6 +102,7 @@ TEST(handing_back, an_autograder_for_gradescope_grades_alone) {
     const std::string environment = "unset DYNLAB_HOME; export PREFIX=$PWD/prefix AUTOGRADER=$PWD/g; ";
     const ChildResult setup = work.shell(environment + "bash g/source/setup.sh");
     ASSERT_EQ(setup.exit_code, 0) << setup.error_output;
+    EXPECT_THAT(work.shell("ls prefix/bin").output, AllOf(HasSubstr("dynlab\n"), HasSubstr("dynlab-boxed\n")));
     work.write("g/submission/analysis.lua", GradingBench::header(kAnswers) + "answer('x', 1)\n");
     const ChildResult run = work.shell(environment + "bash g/source/run_autograder");
     EXPECT_EQ(run.exit_code, 0) << run.error_output;

@@ -25,14 +25,14 @@ std::string script_of(const std::string& lesson) {
 }
 
 json record_of_run(const std::string& script) {
-    const Workbench bench;
+    const Workbench bench(Workbench::Memory::kShared);
     const ChildResult run = bench.dynlab({"run", script, "--out", "made"});
     EXPECT_EQ(run.exit_code, 0) << run.error_output;
     return json::parse(bench.read("made/record.json"));
 }
 
 json record_of_code(const std::string& code) {
-    const Workbench bench;
+    const Workbench bench(Workbench::Memory::kShared);
     bench.write("oracle.lua", code);
     const ChildResult run = bench.dynlab({"run", "oracle.lua", "--out", "made"});
     EXPECT_EQ(run.exit_code, 0) << run.error_output;
@@ -96,7 +96,7 @@ TEST_P(lesson_pages, show_every_figure_with_number_and_caption) {
 }
 
 TEST_P(lesson_pages, tell_students_how_results_reach_the_page) {
-    const Workbench bench;
+    const Workbench bench(Workbench::Memory::kShared);
     ASSERT_EQ(bench.dynlab({"new", GetParam(), "mine"}).exit_code, 0);
     std::istringstream copy(bench.read("mine/analysis.lua"));
     int explained = 0;

@@ -40,7 +40,7 @@ std::string text_of_pdf(const Workbench& bench, const std::string& file) {
 }
 
 TEST_P(lessons, report_is_whole) {
-    const Workbench bench;
+    const Workbench bench(Workbench::Memory::kShared);
     const ChildResult made = bench.dynlab({"report", GetParam()});
     ASSERT_EQ(made.exit_code, 0) << made.error_output;
     const std::string text = text_of_pdf(bench, GetParam() + ".pdf");
@@ -71,7 +71,7 @@ TEST_P(lessons, equations_have_the_same_numbers_with_and_without_the_solutions) 
 }
 
 TEST_P(lessons, starter_runs_and_shows_no_solution) {
-    const Workbench bench;
+    const Workbench bench(Workbench::Memory::kShared);
     ASSERT_EQ(bench.dynlab({"new", GetParam(), "mine"}).exit_code, 0);
     const ChildResult run = bench.dynlab({"run", "mine/analysis.lua", "--out", "made"});
     EXPECT_EQ(run.exit_code, 0) << run.error_output;
@@ -85,7 +85,7 @@ TEST_P(lessons, starter_runs_and_shows_no_solution) {
 }
 
 TEST(lesson_01, readings_and_estimates_find_the_parameters_of_the_simulated_processes) {
-    const Workbench bench;
+    const Workbench bench(Workbench::Memory::kShared);
     const ChildResult run =
         bench.dynlab({"run", DYNLAB_SOURCE_DIR "/lessons/01_process_models/lesson.lua", "--out", "made"});
     ASSERT_EQ(run.exit_code, 0) << run.error_output;
@@ -96,7 +96,7 @@ double number(const nlohmann::json& record, const std::string& name) {
 }
 
 TEST(lesson_02, line_residuals_and_forecast_follow_the_textbook_formulas) {
-    const Workbench bench;
+    const Workbench bench(Workbench::Memory::kShared);
     const ChildResult run =
         bench.dynlab({"run", DYNLAB_SOURCE_DIR "/lessons/02_least_squares/lesson.lua", "--out", "made"});
     ASSERT_EQ(run.exit_code, 0) << run.error_output;
@@ -130,7 +130,7 @@ TEST(lesson_02, line_residuals_and_forecast_follow_the_textbook_formulas) {
 // Oracles: the simulators' parameters as SOURCE.md states them, within four standard errors, the standard deviation of
 // the noise, and an independent program's estimates and fits for the hair dryer.
 TEST(lesson_03_workflow, models_agree_with_the_simulators_and_with_an_independent_program) {
-    const Workbench bench;
+    const Workbench bench(Workbench::Memory::kShared);
     const ChildResult run = bench.dynlab({"run", DYNLAB_SOURCE_DIR "/lessons/03_workflow/lesson.lua", "--out", "made"});
     ASSERT_EQ(run.exit_code, 0) << run.error_output;
     const auto record = nlohmann::json::parse(bench.read("made/record.json"));
@@ -191,7 +191,7 @@ void expect_study(const nlohmann::json& rows, const std::string& reference_file,
 }
 
 TEST(lesson_04, studies_agree_with_the_reference_and_own_programs_with_the_library) {
-    const Workbench bench;
+    const Workbench bench(Workbench::Memory::kShared);
     const ChildResult run =
         bench.dynlab({"run", DYNLAB_SOURCE_DIR "/lessons/04_estimators/lesson.lua", "--out", "made"});
     ASSERT_EQ(run.exit_code, 0) << run.error_output;
@@ -212,7 +212,7 @@ TEST(lesson_04, studies_agree_with_the_reference_and_own_programs_with_the_libra
 
 // Oracles: the simulator's parameters (crane_truth), the limits of the assignment, the fit that no linear model beats.
 TEST(lesson_03_crane, finds_the_crane_and_says_what_the_model_is_worth) {
-    const Workbench bench;
+    const Workbench bench(Workbench::Memory::kShared);
     const ChildResult run = bench.dynlab({"run", DYNLAB_SOURCE_DIR "/lessons/03_crane/lesson.lua", "--out", "made"});
     ASSERT_EQ(run.exit_code, 0) << run.error_output;
     const auto record = nlohmann::json::parse(bench.read("made/record.json"));
@@ -283,7 +283,7 @@ void expect_no_result_typed_in(const TemplateFile& source, const std::set<std::s
 
 TEST_P(lesson_03_crane_report, keeps_to_six_pages_and_one_of_appendix) {
     const std::string language = GetParam();
-    const Workbench bench;
+    const Workbench bench(Workbench::Memory::kShared);
     const std::vector<std::string> pages = pages_of(bench, "03_crane", language);
     if (pages.empty()) GTEST_SKIP() << "texlive-lang-french is not installed";
     const DocumentRules rules = document_rules(report_of("03_crane", language));
@@ -297,7 +297,7 @@ TEST_P(lesson_03_crane_report, types_no_result_in) {
 }
 
 TEST_P(lesson_05_slides, keep_to_twelve_with_the_eight_points_and_pass_the_check) {
-    const Workbench bench;
+    const Workbench bench(Workbench::Memory::kShared);
     const std::vector<std::string> pages = pages_of(bench, "05_thruster", GetParam());
     if (pages.empty()) GTEST_SKIP() << "texlive-lang-french is not installed";
     const DocumentRules rules = document_rules(report_of("05_thruster", GetParam()));
@@ -316,7 +316,7 @@ TEST_P(lesson_05_slides, type_no_result_in) {
 // oracle: the notation of plot_data.h; how it moves is seen in tests/documents
 TEST(lesson_pages, of_crane_and_thruster_show_the_rig_in_motion_and_copies_say_how) {
     for (const auto& [lesson, parts] : {std::pair{"03_crane", 2}, std::pair{"05_thruster", 1}}) {
-        const Workbench bench;
+        const Workbench bench(Workbench::Memory::kShared);
         const ChildResult made = bench.dynlab({"report", lesson, "-o", "page.html"});
         ASSERT_EQ(made.exit_code, 0) << made.error_output;
         const std::string page = bench.read("page.html");
@@ -335,7 +335,7 @@ TEST(lesson_pages, of_crane_and_thruster_show_the_rig_in_motion_and_copies_say_h
 }
 
 TEST(lesson_03_crane_copy, has_the_sections_and_no_text_of_the_solution) {
-    const Workbench bench;
+    const Workbench bench(Workbench::Memory::kShared);
     ASSERT_EQ(bench.dynlab({"new", "03_crane", "mine"}).exit_code, 0);
     const std::string report = bench.read("mine/report.md");
     EXPECT_THAT(report, HasSubstr("# Raw data"));
@@ -345,7 +345,7 @@ TEST(lesson_03_crane_copy, has_the_sections_and_no_text_of_the_solution) {
 
 // Oracles: the simulator's parameters (thruster_truth, thruster_thrust), the bars of the assignment.
 TEST(lesson_05_thruster, finds_curve_and_delay_and_a_better_model_than_a_linear_one) {
-    const Workbench bench;
+    const Workbench bench(Workbench::Memory::kShared);
     const ChildResult run = bench.dynlab({"run", DYNLAB_SOURCE_DIR "/lessons/05_thruster/lesson.lua", "--out", "made"});
     ASSERT_EQ(run.exit_code, 0) << run.error_output;
     const auto record = nlohmann::json::parse(bench.read("made/record.json"));
@@ -374,7 +374,7 @@ TEST(lesson_05_thruster, finds_curve_and_delay_and_a_better_model_than_a_linear_
 // Oracle: common English words, and the cells of the lesson.
 TEST(lesson_copies, are_french_throughout_where_french_is_asked_for) {
     for (const std::string& lesson : lesson_slugs(true)) {
-        const Workbench bench;
+        const Workbench bench(Workbench::Memory::kShared);
         ASSERT_EQ(bench.dynlab({"new", lesson, "mine", "--lang", "fr"}).exit_code, 0);
         ASSERT_EQ(bench.dynlab({"new", lesson, "english"}).exit_code, 0);
         const std::string script = bench.read("mine/analysis.lua"), report = bench.read("mine/report.md");
@@ -407,7 +407,7 @@ TEST(lesson_copies, mention_what_they_show) {
 }
 
 TEST(lesson_copies, of_a_review_are_french_as_well) {
-    const Workbench bench;
+    const Workbench bench(Workbench::Memory::kShared);
     ASSERT_EQ(bench.dynlab({"new", "review", "mine", "--lang", "fr"}).exit_code, 0);
     const std::string report = bench.read("mine/report.md");
     for (const char* word : {" is ", " are ", " your ", " what ", " with ", " which "})
@@ -417,7 +417,7 @@ TEST(lesson_copies, of_a_review_are_french_as_well) {
 }
 
 TEST(lesson_05_copy, makes_slides_with_the_points_and_no_guidance) {
-    const Workbench bench;
+    const Workbench bench(Workbench::Memory::kShared);
     ASSERT_EQ(bench.dynlab({"new", "05", "mine"}).exit_code, 0);
     EXPECT_THAT(bench.read("mine/report.md"), HasSubstr("title: \"Identification of an underwater thruster\""));
     const ChildResult made = bench.dynlab({"report", "mine"});

@@ -13,7 +13,7 @@ namespace dynlab::test {
 namespace test_report_statements {
 
 nlohmann::json record_of(const std::string& lesson) {
-    const Workbench bench;
+    const Workbench bench(Workbench::Memory::kShared);
     const ChildResult run =
         bench.dynlab({"run", DYNLAB_SOURCE_DIR "/lessons/" + lesson + "/lesson.lua", "--out", "made"});
     EXPECT_EQ(run.exit_code, 0) << run.error_output;

@@ -41,7 +41,7 @@ TEST(self_check, has_five_questions_a_lesson_each_with_one_right_answer_and_a_re
 }
 
 TEST(self_check, is_the_end_of_the_sheet_and_no_part_of_the_copy) {
-    const Workbench bench;
+    const Workbench bench(Workbench::Memory::kShared);
     const ChildResult made = bench.dynlab({"sheet", "05"});
     ASSERT_EQ(made.exit_code, 0) << made.error_output;
     const std::string text = bench.shell("pdftotext -layout 05_thruster_sheet.pdf -").output;
@@ -60,7 +60,7 @@ TEST(self_check, is_the_end_of_the_sheet_and_no_part_of_the_copy) {
 }
 
 TEST(self_check, and_tasks_are_french_where_french_is_asked_for) {
-    const Workbench bench;
+    const Workbench bench(Workbench::Memory::kShared);
     for (const Lesson& lesson : {find_lesson("03_crane"), find_lesson("05")}) {
         SCOPED_TRACE(lesson.slug);
         const ChildResult made = bench.dynlab({"sheet", lesson.slug, "--lang", "fr", "-o", "sheet.pdf"});
@@ -103,7 +103,7 @@ TEST(measures, have_the_same_formulas_in_french) {
 
 // oracle: the file of the lesson, and the values that its run reported
 TEST(talk_sheets, have_answers_for_the_instructor_only) {
-    const Workbench bench;
+    const Workbench bench(Workbench::Memory::kShared);
     const ChildResult made = bench.dynlab({"sheet", "05", "--talk", "-o", "ask.md"});
     ASSERT_EQ(made.exit_code, 0) << made.error_output;
     const std::string asked = bench.read("ask.md");

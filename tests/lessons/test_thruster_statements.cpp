@@ -115,7 +115,7 @@ Vector edges_of(const std::string& shape) {
 }
 
 nlohmann::json record_of_lesson() {
-    const Workbench bench;
+    const Workbench bench(Workbench::Memory::kShared);
     const ChildResult run = bench.dynlab({"run", DYNLAB_SOURCE_DIR "/lessons/05_thruster/lesson.lua", "--out", "made"});
     EXPECT_EQ(run.exit_code, 0) << run.error_output;
     return nlohmann::json::parse(bench.read("made/record.json"));

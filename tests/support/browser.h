@@ -7,7 +7,9 @@ namespace dynlab::test {
 /// A Chromium without a window, driven by chromedriver over HTTP (W3C WebDriver).
 class Browser {
   public:
-    Browser(int width = 1280, int height = 900);  ///< throws EnvironmentError
+    enum class Kind { kWithoutDesktop, kWhole };  ///< what pages do is the same in both
+    /// Throws EnvironmentError.
+    explicit Browser(int width = 1280, int height = 900, Kind kind = Kind::kWithoutDesktop);
     ~Browser();
     void open(const std::string& address);
     /// The JSON of what a script returns ("return ..."); throws EnvironmentError with its exception.

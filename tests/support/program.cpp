@@ -9,7 +9,10 @@ namespace dynlab::test {
 
 namespace fs = std::filesystem;
 
-Workbench::Workbench() : path_variable_(std::getenv("PATH")) {
+Workbench::Workbench(Memory memory)
+    : path_variable_(std::getenv("PATH")),
+      cache_(memory == Memory::kShared ? fs::path(DYNLAB_PROGRAM).parent_path().parent_path() / "memory_of_tests"
+                                       : folder_.path() / "cache") {
     fs::create_directory(path());
 }
 
@@ -50,7 +53,7 @@ ChildResult Workbench::run(std::vector<std::string> command) const {
     options.environment = {{"PATH", path_variable_},
                            {"DYNLAB", DYNLAB_PROGRAM},
                            {"DYNLAB_HOME", home_.empty() ? DYNLAB_SOURCE_DIR : home_},
-                           {"XDG_CACHE_HOME", (folder_.path() / "cache").string()},
+                           {"XDG_CACHE_HOME", cache_.string()},
                            {"XDG_STATE_HOME", (folder_.path() / "state").string()}};
     options.timeout = std::chrono::seconds(DYNLAB_SECONDS_OF_A_PROGRAM);
     return run_child(options, "dynlab");

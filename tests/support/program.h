@@ -11,6 +11,9 @@ namespace dynlab::test {
 /// An empty folder in which the built program is run as a user would run it, with a cache of its own.
 class Workbench {
   public:
+    /// kShared: what lessons computed once is recalled by other tests of this build, as by a user's second run.
+    enum class Memory { kOwn, kShared };
+
     std::filesystem::path path(const std::string& name = "") const { return folder_.path() / "work" / name; }
     void write(const std::string& name, const std::string& text) const;
     std::string read(const std::string& name) const;
@@ -23,13 +26,14 @@ class Workbench {
     /// The folder with lessons, data and templates from now on, instead of the source tree.
     void set_home(const std::filesystem::path& home) { home_ = home.string(); }
 
-    Workbench();
+    explicit Workbench(Memory memory = Memory::kOwn);
 
   private:
     ChildResult run(std::vector<std::string> command) const;
 
     TemporaryFolder folder_;
     std::string path_variable_, home_;
+    std::filesystem::path cache_;
 };
 
 }  // namespace dynlab::test

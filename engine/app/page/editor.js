@@ -51,12 +51,38 @@ function lineIn(to, from, line) {
   return line <= first ? line : Math.max(1, line + b.length - a.length);
 }
 
-/// The lines of a text that another has not, with their numbers and a line before and behind.
+/// Which lines of `a` stand in `b` too, in the same order: a longest common subsequence, by dynamic programming. Where that
+/// would take too long, none but those at the beginning and the end.
+function keptLines(a, b) {
+  const { first, last } = commonLines(a, b), rows = a.length - first - last, columns = b.length - first - last;
+  const kept = a.map((_, i) => i < first || i >= a.length - last);
+  if (rows * columns > 4e6) return kept;
+  const length = Array.from({ length: rows + 1 }, () => new Uint16Array(columns + 1));
+  for (let i = rows - 1; i >= 0; --i)
+    for (let j = columns - 1; j >= 0; --j)
+      length[i][j] = a[first + i] === b[first + j] ? length[i + 1][j + 1] + 1 : Math.max(length[i + 1][j], length[i][j + 1]);
+  for (let i = 0, j = 0; i < rows && j < columns;) {
+    if (a[first + i] === b[first + j]) kept[first + i] = true, ++i, ++j;
+    else if (length[i + 1][j] >= length[i][j + 1]) ++i;
+    else ++j;
+  }
+  return kept;
+}
+
+/// The lines of a text that another has not, with their numbers and a line before and behind; where it only lacks lines, the
+/// one before them.
 function otherLines(text, own) {
-  const a = text.split("\n"), { first, last } = commonLines(a, own.split("\n"));
-  const from = Math.max(0, first - 1), to = Math.min(a.length, a.length - last + 1);
-  return a.slice(from, to).map((line, i) =>
-    `${from + i >= first && from + i < a.length - last ? "›" : " "} ${from + i + 1}  ${line}`).join("\n");
+  const theirs = text.split("\n"), mine = own.split("\n"), kept = keptLines(theirs, mine);
+  const near = theirs.map((_, i) => !kept[i] || kept[i - 1] === false || kept[i + 1] === false);
+  const lines = [], width = String(theirs.length).length;
+  for (const [i, line] of theirs.entries()) {
+    if (!near[i]) continue;
+    if (lines.length > 0 && !near[i - 1]) lines.push("  …");
+    lines.push(`${kept[i] ? " " : "›"} ${String(i + 1).padStart(width)}  ${line}`);
+  }
+  if (lines.length > 0) return lines.join("\n");
+  const { first } = commonLines(theirs, mine);
+  return `  ${first}  ${theirs[first - 1] ?? ""}\n› (lines of yours are not in it)`;
 }
 
 /// CodeMirror knows one line end only; a file keeps its own.

@@ -115,7 +115,7 @@ function showStates(page) {
   }
   const words = page.recalled ? `of the run before${page.running ? "; running again" : ""}`
     : page.running ? `cell ${Math.min(done + 1, total)} of ${total}${running ? ", " + running : ""}${share > 0 ? `, ${Math.floor(100 * share)} %` : ""}`
-    : failed > 0 ? "stopped at a mistake" : done < total ? `stopped: ${done} of ${total} cells were run` : total > 0 ? `${total} cells, ${seconds.toFixed(1)} s` : "";
+    : failed > 0 ? "stopped at a mistake" : done < total ? `stopped: ${done} of ${total} cells were run` : total > 0 ? `${total} ${total === 1 ? "cell" : "cells"}, ${seconds.toFixed(1)} s` : "";
   $("state").textContent = words;
   $("stop").hidden = !page.running;
   $("to-mistake").hidden = failed === 0;

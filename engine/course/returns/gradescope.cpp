@@ -6,6 +6,8 @@
 #include <set>
 #include <sstream>
 
+#include "course/grading/boxed_work.h"
+#include "course/grading/graded_run.h"
 #include "course/grading/zip_file.h"
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"
@@ -25,7 +27,7 @@ set -eu
 prefix=${PREFIX:-/usr/local}
 libraries=${LIBRARIES:-/usr/lib/$(uname -m)-linux-gnu}
 cd "$(dirname "${BASH_SOURCE[0]}")"
-install -D -m 755 program/dynlab "$prefix/bin/dynlab"
+install -D -m 755 -t "$prefix/bin" program/*
 mkdir -p "$prefix/share/dynlab"
 cp -r share/. "$prefix/share/dynlab"
 known=$(ldconfig -p || true)
@@ -118,6 +120,8 @@ std::uintmax_t write_autograder(const AutograderRequest& request, const fs::path
                     fmt::arg("checks", request.more_checks ? " --checks \"$source/checks\"" : ""));
     contents["secret"] = request.secret;
     contents["program/dynlab"] = read_file(request.program);
+    const fs::path small = program_for(RunJob::kWork, request.program);  // its libraries are some of dynlab's
+    if (small != request.program) contents["program/" + small.filename().string()] = read_file(small);
     add_libraries(request.program, contents);
     for (const char* name : {"data", "report_templates"})
         add_folder(shared_folder() / name, std::string("share/") + name, contents);

@@ -1,7 +1,7 @@
 #pragma once
 #include "figures/figure.h"
 #include "figures/named_model.h"
-#include "numerics/fit/impulse_estimate.h"
+#include "numerics/models/impulse_estimate.h"
 
 namespace dynlab::inline figures {
 

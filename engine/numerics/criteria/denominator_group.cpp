@@ -6,10 +6,13 @@
 
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/polynomial.h"
+#include "numerics/linalg/side_by_side.h"
 
 namespace dynlab::inline numerics {
 
 namespace {
+
+constexpr Index kSharedSamples = 5'000;  // fewer are filtered sooner than several cores meet
 
 SampleView sample_view(const VectorView& samples) {
     return {samples.data(), samples.size()};
@@ -88,10 +91,15 @@ std::vector<Vector> DenominatorGroup::numerators(const Member& member, const Vec
 template <class Equations>
 NormalEquations DenominatorGroup::sum_over_records(const Equations& equations_of) const {
     if (members_.size() == 1 && weights_[0] == 1) return equations_of(members_.front());
+    std::vector<NormalEquations> equations(members_.size());
+    side_by_side(
+        members_.size(), [&](std::size_t i) { equations[i] = equations_of(members_[i]); },
+        sample_count() >= kSharedSamples);
     NormalEquations sum{Matrix::Zero(count_, count_), Vector::Zero(count_), Matrix(), 0};
-    for (const Member& member : members_) {
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+        const Member& member = members_[i];
         const double weight = weights_[member.output];
-        const NormalEquations own = equations_of(member);
+        const NormalEquations& own = equations[i];
         sum.z_phi(member.places, member.places) += weight * own.z_phi;
         sum.z_y(member.places) += weight * own.z_y;
         if (own.z_z.size() > 0) {
@@ -138,8 +146,9 @@ Vector DenominatorGroup::with_stable_poles(const VectorView& theta, bool* any) c
 
 double simulation_squares(const IdData& data, const TransferStructure& structure, const VectorView& theta,
                           Index output) {
-    double squares = 0;
-    for (const Experiment& experiment : data.experiments) {
+    Vector squares(static_cast<Index>(data.experiments.size()));
+    const auto simulate = [&](std::size_t e) {
+        const Experiment& experiment = data.experiments[e];
         RegressionRecord record = regression_record(data, experiment, output, Hold::kFoh);
         std::vector<Vector> A, B;
         for (Index input = 0; input < structure.inputs; ++input) {
@@ -148,9 +157,10 @@ double simulation_squares(const IdData& data, const TransferStructure& structure
             A.push_back(structure.denominator(theta, output, input));
             B.push_back(structure.numerator(theta, output, input));
         }
-        squares += transfer_filters().output_error_squares(record, A, B);
-    }
-    return squares;
+        squares[static_cast<Index>(e)] = transfer_filters().output_error_squares(record, A, B);
+    };
+    side_by_side(data.experiments.size(), simulate, data.sample_count() >= kSharedSamples);
+    return squares.sum();
 }
 
 namespace {

@@ -1,6 +1,5 @@
 #pragma once
-#include <algorithm>
-
+#include "numerics/linalg/tall_gram.h"
 #include "numerics/linalg/types.h"
 
 namespace dynlab::inline numerics {
@@ -42,19 +41,13 @@ inline Vector OutputErrorModel::output_at(const Vector& theta) const {
 }
 
 inline OutputErrorProducts OutputErrorModel::products(const Vector& theta, const VectorView& y) const {
-    constexpr Index kRowsTogether = 512;  // they stay in the processor's cache
     Vector errors;
     Matrix J;
     simulate(theta, errors, &J);
     errors = y - errors;
-    OutputErrorProducts sums{errors.squaredNorm(), Matrix::Zero(J.cols(), J.cols()), Vector::Zero(J.cols())};
-    for (Index row = 0; row < J.rows(); row += kRowsTogether) {
-        const Index rows = std::min(kRowsTogether, J.rows() - row);
-        const auto block = J.middleRows(row, rows);
-        sums.gram.noalias() += block.transpose() * block;
-        sums.descent.noalias() += block.transpose() * errors.segment(row, rows);
-    }
-    return sums;
+    const Index d = J.cols();
+    const Matrix sums = tall_gram(J, errors);
+    return {sums(d, d), sums.topLeftCorner(d, d), sums.col(d).head(d)};
 }
 
 }  // namespace dynlab::inline numerics

@@ -7,12 +7,14 @@
 #include "numerics/error.h"
 #include "numerics/filters/transfer_filters.h"
 #include "numerics/linalg/polynomial.h"
+#include "numerics/linalg/side_by_side.h"
 
 namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr double kFastest = 1e5;  // per time unit: no record tells faster motions from none
+constexpr Index kWorthSharing = 5'000;  // samples of inputs: filters run over fewer take less than cores need to meet
+constexpr double kFastest = 1e5;        // per time unit: no record tells faster motions from none
 
 std::vector<Index> denominators_of(const TransferStructure& structure, Index output) {
     std::vector<Index> different;
@@ -217,34 +219,41 @@ void TransferOutput::fix(const std::map<std::string, double>& values) {
 
 void TransferOutput::simulate(const Vector& theta, Vector& output, Matrix* sensitivities) const {
     output.setZero(samples_ * structure_.outputs);
-    if (sensitivities) sensitivities->setZero(output.size(), parameter_count());
     if (!usable(theta)) {
+        if (sensitivities) sensitivities->setZero(output.size(), parameter_count());
         output.setConstant(kInfinity);
         return;
     }
-    for (std::size_t e = 0; e < experiments_.size(); ++e) {
-        for (Index o = 0; o < structure_.outputs; ++o) {
-            Block block{experiments_[e], output.segment(row(e, o), rows(e)), sensitivities, row(e, o)};
-            for (Index input = 0; input < structure_.inputs; ++input) add_channel(theta, o, input, block);
-            if (condition_.state == InitialState::kEstimate) {
-                Index place = initial_start(e, o);
-                for (const Index denominator : denominators_[static_cast<std::size_t>(o)]) {
-                    add_free_motion(theta, denominator, place, block);
-                    place += structure_.poles[static_cast<std::size_t>(denominator)];
-                }
+    if (sensitivities) sensitivities->resize(output.size(), parameter_count());
+    side_by_side(
+        experiments_.size(), [&](std::size_t e) { simulate_experiment(theta, e, output, sensitivities); },
+        samples_ * structure_.inputs >= kWorthSharing);
+}
+
+void TransferOutput::simulate_experiment(const Vector& theta, std::size_t e, Vector& output,
+                                         Matrix* sensitivities) const {
+    for (Index o = 0; o < structure_.outputs; ++o) {
+        Block block{experiments_[e], output.segment(row(e, o), rows(e)), sensitivities, row(e, o)};
+        if (sensitivities) block.columns(0, parameter_count()).setZero();
+        for (Index input = 0; input < structure_.inputs; ++input) add_channel(theta, o, input, block);
+        if (condition_.state == InitialState::kEstimate) {
+            Index place = initial_start(e, o);
+            for (const Index denominator : denominators_[static_cast<std::size_t>(o)]) {
+                add_free_motion(theta, denominator, place, block);
+                place += structure_.poles[static_cast<std::size_t>(denominator)];
             }
-            if (condition_.offset) {
-                block.output.array() += theta[offset_index(e, o)];
-                if (sensitivities) block.columns(offset_index(e, o), 1).setOnes();
-            }
-            if (weights_[o] != 1) {
-                block.output *= weights_[o];
-                if (sensitivities) block.columns(0, parameter_count()) *= weights_[o];
-            }
-            const Index silent = experiments_[e].silent;
-            block.output.head(silent).setZero();
-            if (sensitivities) sensitivities->middleRows(row(e, o), silent).setZero();
         }
+        if (condition_.offset) {
+            block.output.array() += theta[offset_index(e, o)];
+            if (sensitivities) block.columns(offset_index(e, o), 1).setOnes();
+        }
+        if (weights_[o] != 1) {
+            block.output *= weights_[o];
+            if (sensitivities) block.columns(0, parameter_count()) *= weights_[o];
+        }
+        const Index silent = experiments_[e].silent;
+        block.output.head(silent).setZero();
+        if (sensitivities) sensitivities->middleRows(row(e, o), silent).setZero();
     }
 }
 

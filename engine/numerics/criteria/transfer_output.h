@@ -93,6 +93,7 @@ class TransferOutput : public OutputErrorModel {
     void set_channel(Index output, Index input, double least_delay, double largest_delay);
     void set_initial_units(std::size_t experiment, Index output);
     bool usable(const Vector& theta) const;
+    void simulate_experiment(const Vector& theta, std::size_t e, Vector& output, Matrix* sensitivities) const;
     void add_channel(const Vector& theta, Index output, Index input, Block& block) const;
     void add_free_motion(const Vector& theta, Index denominator, Index place, Block& block) const;
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "numerics/fit/impulse_estimate.h"
+#include "numerics/models/impulse_estimate.h"
 #include "numerics/signals/iddata.h"
 
 namespace dynlab::inline numerics {

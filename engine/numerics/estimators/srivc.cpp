@@ -4,6 +4,7 @@
 
 #include "numerics/fit/diagnosis.h"
 #include "numerics/fit/srivc_iteration.h"
+#include "numerics/fit/srivc_search.h"
 #include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
@@ -83,6 +84,15 @@ Fit srivc_by_passes(const IdData& data, const TransferStructure& structure, cons
         set_message(estimate, "SRIVC had not settled after " + passes +
                                   "; the best of them is given: " + simulation_text(estimate) + ".");
     return estimate;
+}
+
+Fit srivc(const IdData& data, const TransferStructure& structure, const FitOptions& options, const SearchAids& aids) {
+    options.validate();
+    if (!srivc_passes_suffice(structure, options) || aids.start.size() > 0)
+        return search_srivc(data, structure, options, aids);
+    Fit estimate = srivc_by_passes(data, structure, options);
+    if (estimate.termination == Termination::kCancelled) return estimate;
+    return search_where_passes_fail(std::move(estimate), data, options, aids);
 }
 
 }  // namespace dynlab::inline numerics

@@ -10,6 +10,7 @@
 #include "numerics/fit/diagnosis.h"
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/least_squares.h"
+#include "numerics/linalg/side_by_side.h"
 
 namespace dynlab::inline numerics {
 
@@ -222,12 +223,12 @@ Fit minimise_output_error(const OutputErrorModel& model, const VectorView& y, co
     if (starts.size() == 1) return minimise_output_error(model, y, starts.front(), options);
     const FitOptions rough = options.limited(std::min(kRoughIterations, options.max_iterations),
                                              std::max(kRoughTolerance, options.tolerance));
-    const auto follow = [&](const Vector& start) { return search_for(model, y, start, rough).run(start); };
-    Fit best = follow(starts.front());
-    for (std::size_t i = 1; i < starts.size() && best.termination != Termination::kCancelled; ++i) {
-        Fit other = follow(starts[i]);
-        if (other.loss < (1 - kRoughTolerance) * best.loss) best = std::move(other);
-    }
+    std::vector<Fit> trials(starts.size());
+    side_by_side(starts.size(),
+                 [&](std::size_t i) { trials[i] = search_for(model, y, starts[i], rough).run(starts[i]); });
+    Fit best = std::move(trials.front());
+    for (std::size_t i = 1; i < trials.size() && best.termination != Termination::kCancelled; ++i)
+        if (trials[i].loss < (1 - kRoughTolerance) * best.loss) best = std::move(trials[i]);
     Fit end = minimise_output_error(model, y, best.theta, options);
     end.trace.insert(end.trace.begin(), best.trace.begin(), best.trace.end());
     return end;

@@ -14,6 +14,7 @@
 #include "numerics/fit/transfer_refinement.h"
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/polynomial.h"
+#include "numerics/linalg/side_by_side.h"
 #include "numerics/signals/correlation.h"
 
 namespace dynlab::inline numerics {
@@ -149,30 +150,36 @@ std::vector<Vector> sampled_starts(const IdData& data, const TransferStructure& 
     if (structure.free_delays) {
         const DelayRange range = delay_range(data, options);
         const Index least = samples(range.least), most = samples(range.largest);
-        double smallest = kInfinity;
+        std::vector<Index> windows;
         for (Index window = std::max(least, here - kRoomFor * kMostWindows / 2);
-             window <= std::min(most, here + kRoomFor * kMostWindows / 2); window += kRoomFor) {
-            const double loss = fit_sampled(few, structure, found.start, window, kRoomFor - 1, options).loss;
-            if (!(loss < smallest)) continue;
-            smallest = loss;
-            first = window;
-            last = std::min(window + kRoomFor - 1, most);
+             window <= std::min(most, here + kRoomFor * kMostWindows / 2); window += kRoomFor)
+            windows.push_back(window);
+        std::vector<double> losses(windows.size());
+        side_by_side(windows.size(), [&](std::size_t i) {
+            losses[i] = fit_sampled(few, structure, found.start, windows[i], kRoomFor - 1, options).loss;
+        });
+        double smallest = kInfinity;
+        for (std::size_t i = 0; i < windows.size(); ++i) {
+            if (!(losses[i] < smallest)) continue;
+            smallest = losses[i];
+            first = windows[i];
+            last = std::min(first + kRoomFor - 1, most);
         }
     }
-    std::vector<NestedSolution> all;
-    for (Index late = first; late <= last; ++late) {
+    std::vector<NestedSolution> all(static_cast<std::size_t>(last - first + 1));
+    side_by_side(all.size(), [&](std::size_t place) {
+        const Index late = first + static_cast<Index>(place);
         const SampledModel model = fit_sampled(part, structure, found.start, late, 0, options);
-        if (!(model.loss < kClearlySmaller * found.loss)) continue;
-        NestedSolution best;
+        if (!(model.loss < kClearlySmaller * found.loss)) return;
         for (int i = 0; i < (structure.free_delays ? kPartsOfSample : 1); ++i) {
             const double delay = structure.free_delays
                                      ? (static_cast<double>(late) + static_cast<double>(i) / kPartsOfSample) * Ts
                                      : structure.channels.front().delay;
             NestedSolution one = with_linear_part(part, structure, found.start, model.A, delay);
-            if (one.loss < best.loss) best = std::move(one);
+            if (one.loss < all[place].loss) all[place] = std::move(one);
         }
-        if (best.theta.size() > 0) all.push_back(std::move(best));
-    }
+    });
+    std::erase_if(all, [](const NestedSolution& one) { return one.theta.size() == 0; });
     std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.loss < b.loss; });
     std::vector<Vector> starts;
     for (std::size_t i = 0; i < std::min(kMostSampledStarts, all.size()); ++i) starts.push_back(all[i].theta);

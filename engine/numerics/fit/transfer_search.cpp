@@ -12,6 +12,7 @@
 #include "numerics/fit/search_starts.h"
 #include "numerics/fit/srivc_iteration.h"
 #include "numerics/fit/transfer_refinement.h"
+#include "numerics/linalg/side_by_side.h"
 #include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
@@ -52,21 +53,21 @@ Fit refine_from(const IdData& data, const TransferStructure& structure, const St
         return refine_output_error(data, structure, condition, start, how);
     };
     if (starts.size() == 1) return refine(starts.front(), options);
-    std::vector<Fit> trials;
-    for (const Vector& start : starts) {
-        trials.push_back(refine(start, rough(options)));
-        if (trials.back().termination == Termination::kCancelled) break;
-    }
+    std::vector<Fit> trials(starts.size());
+    side_by_side(starts.size(), [&](std::size_t i) { trials[i] = refine(starts[i], rough(options)); });
     std::stable_sort(trials.begin(), trials.end(), [](const Fit& a, const Fit& b) { return a.loss < b.loss; });
-    std::vector<Fit> ends;
-    for (std::size_t i = 0; i < trials.size() && ends.size() < kFollowed; ++i) {
+    std::vector<std::size_t> followed;
+    for (std::size_t i = 0; i < trials.size() && followed.size() < kFollowed; ++i) {
         if (i > 0 && !(trials[i].loss <= kMayStillWin * trials.front().loss)) break;
         const bool known = std::any_of(trials.begin(), trials.begin() + static_cast<std::ptrdiff_t>(i),
                                        [&](const Fit& t) { return is_same_solution(t.theta, trials[i].theta); });
-        if (known) continue;
-        ends.push_back(continued(trials[i], refine(trials[i].theta, options)));
-        if (ends.back().termination == Termination::kCancelled) break;
+        if (!known) followed.push_back(i);
     }
+    std::vector<Fit> ends(followed.size());
+    side_by_side(followed.size(), [&](std::size_t k) {
+        const Fit& trial = trials[followed[k]];
+        ends[k] = continued(trial, refine(trial.theta, options));
+    });
     return *std::min_element(ends.begin(), ends.end(), [](const Fit& a, const Fit& b) { return a.loss < b.loss; });
 }
 

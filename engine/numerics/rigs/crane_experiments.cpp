@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "numerics/linalg/side_by_side.h"
 #include "numerics/rigs/seeded_prbs.h"
 #include "numerics/rigs/sensor.h"
 
@@ -46,41 +47,54 @@ class Experimenter {
         return -(lowest + highest) / 2;
     }
 
-    CraneRecord run(std::string name, const Vector& u, double start_position, double start_angle = 0) {
+    /// A record in which all is settled but what comes of it, with the numbers for the noise of its sensors.
+    struct Plan {
+        CraneRecord record;
+        CraneState start;
+        Vector position_normals, angle_normals;
+    };
+
+    Plan plan(std::string name, const Vector& u, double start_position, double start_angle = 0) {
         CraneState start;
         start.motor_position = start.position = start_position;
         start.angle = start_angle;
-        CraneSimulator crane(crane_, start);
-        CraneRecord record{std::move(name),
-                           Vector::LinSpaced(u.size(), 0, static_cast<double>(u.size() - 1)) * plan_.Ts, u,
-                           Vector(u.size()), Vector(u.size())};
-        for (Index k = 0; k < u.size(); ++k) {
+        const Index N = u.size();
+        CraneRecord record{std::move(name), Vector::LinSpaced(N, 0, static_cast<double>(N - 1)) * plan_.Ts, u,
+                           Vector(N), Vector(N)};
+        const Vector position_normals = random_.normal(N);
+        return {std::move(record), start, position_normals, random_.normal(N)};
+    }
+
+    CraneRecord run(Plan wanted) const {
+        CraneSimulator crane(crane_, wanted.start);
+        CraneRecord& record = wanted.record;
+        for (Index k = 0; k < record.u.size(); ++k) {
             record.x[k] = crane.state().position;
             record.theta[k] = crane.state().angle + plan_.angle_offset;
-            crane.advance(u[k], plan_.Ts);
+            crane.advance(record.u[k], plan_.Ts);
         }
-        record.x = measure(record.x, 0, plan_.position_resolution, random_);
-        record.theta = measure(record.theta, plan_.angle_noise_std, plan_.angle_resolution, random_);
-        return record;
+        record.x = measure(record.x, 0, plan_.position_resolution, wanted.position_normals);
+        record.theta = measure(record.theta, plan_.angle_noise_std, plan_.angle_resolution, wanted.angle_normals);
+        return std::move(record);
     }
 
-    CraneRecord random_record(std::string name) {
+    Plan random_record(std::string name) {
         const Vector u = joined({quiet(), prbs()});
-        return run(std::move(name), u, centred_start(u));
+        return plan(std::move(name), u, centred_start(u));
     }
 
-    CraneRecord steps() {
-        return run("steps",
-                   joined({quiet(), held(2, 1.5), held(0, 4), held(-2, 1.5), held(0, 4), held(4, 0.75), held(0, 4),
-                           held(-4, 0.75), held(0, 4)}),
-                   -0.1);
+    Plan steps() {
+        return plan("steps",
+                    joined({quiet(), held(2, 1.5), held(0, 4), held(-2, 1.5), held(0, 4), held(4, 0.75), held(0, 4),
+                            held(-4, 0.75), held(0, 4)}),
+                    -0.1);
     }
 
-    CraneRecord limits() {
+    Plan limits() {
         const Vector random_part = prbs();
         const Index third = random_part.size() / 3;
         const Vector before = random_part.head(third), after = random_part.tail(random_part.size() - third);
-        return run(
+        return plan(
             "limits",
             joined({quiet(), before, held(12, 1.2), held(0, 1), held(-12, 1.8), held(0, 1), held(3, 2.6), after}),
             centred_start(before));
@@ -110,12 +124,15 @@ std::vector<CraneRecord> simulate_crane(const CraneParameters& parameters, const
                                         std::uint32_t seed) {
     experiments.validate();
     Experimenter experimenter(parameters, experiments, seed);
-    std::vector<CraneRecord> records;
-    records.push_back(experimenter.random_record("estimation"));
-    records.push_back(experimenter.random_record("validation"));
-    records.push_back(experimenter.steps());
-    records.push_back(experimenter.run("free_swing", experimenter.held(0, 20), 0, experiments.release_angle));
-    records.push_back(experimenter.limits());
+    // All that is random is drawn in the records' order; then each can be simulated by itself.
+    std::vector<Experimenter::Plan> plans;
+    plans.push_back(experimenter.random_record("estimation"));
+    plans.push_back(experimenter.random_record("validation"));
+    plans.push_back(experimenter.steps());
+    plans.push_back(experimenter.plan("free_swing", experimenter.held(0, 20), 0, experiments.release_angle));
+    plans.push_back(experimenter.limits());
+    std::vector<CraneRecord> records(plans.size());
+    side_by_side(plans.size(), [&](std::size_t i) { records[i] = experimenter.run(std::move(plans[i])); });
     return records;
 }
 

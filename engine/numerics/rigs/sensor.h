@@ -14,6 +14,8 @@ struct RigRecord {
 /// A rig's sensor: white normal noise of standard deviation `noise_std`, then rounding to whole multiples of
 /// `resolution` (none when 0).
 Vector measure(const Vector& truth, double noise_std, double resolution, RandomStream& random);
+/// The same with the noise's numbers, of standard deviation one, drawn before.
+Vector measure(const Vector& truth, double noise_std, double resolution, const Vector& normals);
 
 /// Instants 0, Ts, ... that cover `duration` (s), both ends included when it is a multiple of Ts.
 Vector sampling_instants(double duration, double Ts);

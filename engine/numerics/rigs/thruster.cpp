@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "numerics/error.h"
+#include "numerics/linalg/side_by_side.h"
 #include "numerics/number_text.h"
 #include "numerics/rigs/delayed_input.h"
 #include "numerics/rigs/sensor.h"
@@ -25,16 +26,21 @@ double thrust_of_speed(const ThrusterParameters& p, double speed) {
     return (speed > 0 ? p.forward_thrust : p.reverse_thrust) * speed * std::abs(speed);
 }
 
-/// First-order Gauss-Markov noise of variance one.
-Vector turbulence(Index count, double Ts, double correlation_time, RandomStream& random) {
+/// First-order Gauss-Markov noise of variance one, of white noise of that variance.
+Vector turbulence(Vector noise, double Ts, double correlation_time) {
     const double kept = std::exp(-Ts / correlation_time), fresh = std::sqrt(1 - kept * kept);
-    Vector noise = random.normal(count);
-    for (Index k = 1; k < count; ++k) noise[k] = kept * noise[k - 1] + fresh * noise[k];
+    for (Index k = 1; k < noise.size(); ++k) noise[k] = kept * noise[k - 1] + fresh * noise[k];
     return noise;
 }
 
-Vector readings(const ThrusterParameters& p, const Vector& pwm, double Ts, RandomStream& random) {
-    const Vector wake = turbulence(pwm.size(), Ts, p.wake_time, random);
+/// The random numbers of a record, white and of variance one.
+struct ThrusterNormals {
+    ThrusterNormals(Index count, RandomStream& random) : wake(random.normal(count)), sensor(random.normal(count)) {}
+    Vector wake, sensor;
+};
+
+Vector readings(const ThrusterParameters& p, const Vector& pwm, double Ts, const ThrusterNormals& normals) {
+    const Vector wake = turbulence(normals.wake, Ts, p.wake_time);
     double voltage = 0, eddy = 0;
     const double w = 2 * std::numbers::pi * p.cell_frequency;
     OdeSolver solver(
@@ -57,7 +63,7 @@ Vector readings(const ThrusterParameters& p, const Vector& pwm, double Ts, Rando
             solver.advance(t, x, duration);
         });
     }
-    return measure(truth, p.noise_std, p.resolution, random);
+    return measure(truth, p.noise_std, p.resolution, normals.sensor);
 }
 
 Vector chirp_about_neutral(const ThrusterParameters& p, const ThrusterExperiments& plan, ChirpShape shape,
@@ -129,7 +135,7 @@ Vector simulate_thruster(const ThrusterParameters& parameters, const Vector& pwm
     if (pwm.size() == 0 || !pwm.allFinite())
         throw InvalidArgument("The thruster's pulse widths must be at least one finite number");
     RandomStream random(seed);
-    return readings(parameters, pwm, Ts, random);
+    return readings(parameters, pwm, Ts, {pwm.size(), random});
 }
 
 std::vector<ThrusterRecord> simulate_thruster(const ThrusterParameters& parameters,
@@ -137,7 +143,9 @@ std::vector<ThrusterRecord> simulate_thruster(const ThrusterParameters& paramete
     parameters.validate();
     experiments.validate();
     RandomStream random(seed);
+    // All that is random is drawn in the records' order; then each can be simulated by itself.
     std::vector<ThrusterRecord> records;
+    std::vector<ThrusterNormals> normals;
     for (const ChirpShape shape : {ChirpShape::kSine, ChirpShape::kSquare}) {
         for (const double amplitude : experiments.amplitudes) {
             ThrusterRecord record;
@@ -145,10 +153,13 @@ std::vector<ThrusterRecord> simulate_thruster(const ThrusterParameters& paramete
             record.pwm = chirp_about_neutral(parameters, experiments, shape, amplitude);
             const Index N = record.pwm.size();
             record.t = Vector::LinSpaced(N, 0, static_cast<double>(N - 1)) * experiments.Ts;
-            record.force = readings(parameters, record.pwm, experiments.Ts, random);
+            normals.emplace_back(N, random);
             records.push_back(std::move(record));
         }
     }
+    side_by_side(records.size(), [&](std::size_t i) {
+        records[i].force = readings(parameters, records[i].pwm, experiments.Ts, normals[i]);
+    });
     return records;
 }
 

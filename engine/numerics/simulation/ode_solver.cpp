@@ -27,8 +27,7 @@ OdeSolver::OdeSolver(OdeRate rate, const OdeOptions& options)
     options.validate();
 }
 
-OdeSolver::Step OdeSolver::step(double t, const OdeState& x, double h) const {
-    const OdeState k1 = rate_(t, x);
+OdeSolver::Step OdeSolver::step(double t, const OdeState& x, double h, const OdeState& k1) const {
     const OdeState k2 = rate_(t + h / 5, x + h / 5 * k1);
     const OdeState k3 = rate_(t + 3 * h / 10, x + h * (3. / 40 * k1 + 9. / 40 * k2));
     const OdeState k4 = rate_(t + 4 * h / 5, x + h * (44. / 45 * k1 - 56. / 15 * k2 + 32. / 9 * k3));
@@ -38,9 +37,9 @@ OdeSolver::Step OdeSolver::step(double t, const OdeState& x, double h) const {
         t + h, x + h * (9017. / 3168 * k1 - 355. / 33 * k2 + 46732. / 5247 * k3 + 49. / 176 * k4 - 5103. / 18656 * k5));
     Step step;
     step.x = x + h * (35. / 384 * k1 + 500. / 1113 * k3 + 125. / 192 * k4 - 2187. / 6784 * k5 + 11. / 84 * k6);
-    const OdeState k7 = rate_(t + h, step.x);
+    step.rate = rate_(t + h, step.x);
     step.error = h * (71. / 57600 * k1 - 71. / 16695 * k3 + 71. / 1920 * k4 - 17253. / 339200 * k5 + 22. / 525 * k6 -
-                      1. / 40 * k7);
+                      1. / 40 * step.rate);
     return step;
 }
 
@@ -51,12 +50,13 @@ double OdeSolver::error_of(const Step& step, const OdeState& x) const {
     return step.x.allFinite() && std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
 }
 
-double OdeSolver::time_of_event(double t, const OdeState& x, double h, const OdeGuard& guard) const {
+double OdeSolver::time_of_event(double t, const OdeState& x, double h, const OdeState& rate,
+                                const OdeGuard& guard) const {
     double before = 0, after = h;
     const double resolution = 2 * std::numeric_limits<double>::epsilon() * std::max(std::abs(t), h);
     while (after - before > resolution) {
         const double middle = (before + after) / 2;
-        const bool event = guard(t + middle, step(t, x, middle).x).minCoeff() < 0;
+        const bool event = guard(t + middle, step(t, x, middle, rate).x).minCoeff() < 0;
         (event ? after : before) = middle;
     }
     return after;
@@ -64,10 +64,12 @@ double OdeSolver::time_of_event(double t, const OdeState& x, double h, const Ode
 
 bool OdeSolver::advance(double& t, OdeState& x, double t_end, const OdeGuard& guard) {
     constexpr double kSafety = 0.9, kSlowest = 0.2, kFastest = 5, kOrder = 5;
+    if (!(t < t_end)) return false;
+    OdeState rate = rate_(t, x);
     while (t < t_end) {
         const bool last = next_step_ >= t_end - t;
         const double h = last ? t_end - t : next_step_;
-        const Step trial = step(t, x, h);
+        const Step trial = step(t, x, h, rate);
         const double error = error_of(trial, x);
         const double factor =
             error > 0 ? std::clamp(kSafety * std::pow(error, -1 / kOrder), kSlowest, kFastest) : kFastest;
@@ -79,13 +81,14 @@ bool OdeSolver::advance(double& t, OdeState& x, double t_end, const OdeGuard& gu
             continue;
         }
         if (guard && guard(t + h, trial.x).minCoeff() < 0) {
-            const double event = time_of_event(t, x, h, guard);
-            x = step(t, x, event).x;
+            const double event = time_of_event(t, x, h, rate, guard);
+            x = step(t, x, event, rate).x;
             t += event;
             return true;
         }
         t = last ? t_end : t + h;
         x = trial.x;
+        rate = trial.rate;
         next_step_ = last ? std::max(next_step_, h * factor) : h * factor;
     }
     return false;

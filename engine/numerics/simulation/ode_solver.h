@@ -34,9 +34,10 @@ class OdeSolver {
     struct Step {
         OdeState x;      ///< fifth-order result
         OdeState error;  ///< its difference from the fourth-order one
+        OdeState rate;   ///< at the end, where the next step may begin
     };
     /// One step of length h from (t, x), whatever its error.
-    Step step(double t, const OdeState& x, double h) const;
+    Step step(double t, const OdeState& x, double h) const { return step(t, x, h, rate_(t, x)); }
 
     /// Moves (t, x) to t_end. With a guard it may end earlier, just behind the first instant at which a value of the
     /// guard is negative, and returns true; the caller then changes the form of the equation and goes on. Throws
@@ -45,8 +46,9 @@ class OdeSolver {
     bool advance(double& t, OdeState& x, double t_end, const OdeGuard& guard = {});
 
   private:
-    double error_of(const Step& step, const OdeState& x) const;  ///< in units of the tolerance
-    double time_of_event(double t, const OdeState& x, double h, const OdeGuard& guard) const;
+    Step step(double t, const OdeState& x, double h, const OdeState& rate) const;  ///< with the rate at its beginning
+    double error_of(const Step& step, const OdeState& x) const;                    ///< in units of the tolerance
+    double time_of_event(double t, const OdeState& x, double h, const OdeState& rate, const OdeGuard& guard) const;
 
     OdeRate rate_;
     OdeOptions options_;

@@ -104,34 +104,6 @@ TEST(srivc, long_records_start_on_their_beginning) {  // oracle: the same fixed 
         EXPECT_LT(std::abs(all.col(i).dot(error)) / (all.col(i).norm() * error.norm()), 1e-8) << i;
 }
 
-// oracle: nested models; with its third pole far away the larger one is the smaller one
-TEST(srivc, superfluous_poles_do_not_spoil_the_model) {
-    const TransferFunction truth(Vector::Constant(1, 2.0), Eigen::Vector3d(1, 4, 3));
-    const Vector u = prbs(7, 8);
-    const Vector x = lsim(truth, u, 0.05);
-    for (const std::uint32_t seed : {1, 2, 3}) {
-        const IdData data(x + 0.1 * RandomStream(seed).normal(x.size()), u, 0.05);
-        for (const int poles : {3, 4}) {
-            const Fit large = srivc(data, TransferStructure::single(poles, 0));
-            EXPECT_LT(large.loss, 1.01 * srivc(data, kCourse).loss) << poles << ": " << large.message;
-        }
-    }
-}
-
-// oracle: nested models
-TEST(srivc, passes_that_settle_in_a_bad_minimum_are_seen_by_their_errors) {
-    const TransferFunction G(values({-6400, 1600}), values({1, 5, 408, 416, 1600}));
-    constexpr double kTs = 0.05;
-    const Vector u = prbs(8, 3), x = lsim(G, u, kTs);
-    for (std::uint32_t seed = 1; seed <= 3; ++seed) {
-        const Vector y = x + 0.35 * RandomStream(seed).normal(x.size());
-        const IdData data{Matrix(y), Matrix(u), kTs};
-        const Fit two = srivc(data, TransferStructure::single(2, 0)),
-                  three = srivc(data, TransferStructure::single(3, 0));
-        EXPECT_LE(three.loss, two.loss) << seed;
-    }
-}
-
 TEST(srivc, stops_when_asked_to_and_still_gives_a_model) {  // oracle: definition of the callback
     const IdData data = course_record(0.2, 14);
     FitOptions options;

@@ -1,9 +1,10 @@
+#include "numerics/fit/srivc_search.h"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "numerics/error.h"
-#include "numerics/estimators/srivc.h"
 #include "numerics/fit/diagnosis.h"
 #include "numerics/fit/sampled_starts.h"
 #include "numerics/fit/search_starts.h"
@@ -11,8 +12,6 @@
 #include "numerics/fit/transfer_search.h"
 
 namespace dynlab::inline numerics {
-
-// SRIVC where its passes are not enough, or not sure to be.
 
 namespace {
 
@@ -93,12 +92,12 @@ bool leaves_dynamics(const Fit& estimate, const IdData& data) {
 
 }  // namespace
 
-Fit srivc(const IdData& data, const TransferStructure& structure, const FitOptions& options, const SearchAids& aids) {
-    options.validate();
-    if (!srivc_passes_suffice(structure, options) || aids.start.size() > 0)
-        return search_transfer("srivc", data, structure, options, aids);
-    Fit estimate = srivc_by_passes(data, structure, options);
-    if (estimate.termination == Termination::kCancelled) return estimate;
+Fit search_srivc(const IdData& data, const TransferStructure& structure, const FitOptions& options,
+                 const SearchAids& aids) {
+    return search_transfer("srivc", data, structure, options, aids);
+}
+
+Fit search_where_passes_fail(Fit estimate, const IdData& data, const FitOptions& options, const SearchAids& aids) {
     const bool settled = estimate.termination == Termination::kConverged;
     const bool poor = !(estimate.fit_percent.minCoeff() > kPoorFit);
     const bool alone = aids.poorer.empty();

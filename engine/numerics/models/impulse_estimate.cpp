@@ -1,4 +1,4 @@
-#include "numerics/fit/impulse_estimate.h"
+#include "numerics/models/impulse_estimate.h"
 
 #include <algorithm>
 #include <cmath>

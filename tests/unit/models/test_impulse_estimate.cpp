@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "numerics/fit/impulse_estimate.h"
+#include "numerics/models/impulse_estimate.h"
 #include "support/thrown_message.h"
 
 namespace test_impulse_estimate {
