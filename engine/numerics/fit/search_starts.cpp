@@ -22,6 +22,7 @@ constexpr int kPlaces = 12;                 // to which poles are moved
 constexpr double kSlowestPlace = 0.1;       // rad in the longest record
 constexpr double kMovedDamping = 0.1;
 constexpr std::size_t kMostExchanged = 4;
+constexpr double kMayBecomeBest = 1.2;    // of the loss found, before numerator and poles move together
 constexpr Index kPlacedSamples = 10'000;  // on which the places are compared
 
 bool fewer_poles(TransferStructure& structure) {
@@ -237,7 +238,8 @@ std::vector<Vector> exchanged_poles(const IdData& data, const TransferStructure&
             tried.push_back(with_linear_part(part, structure, found.start, A, delay));
         }
         for (std::size_t i = 0; i < tried.size(); ++i) {
-            const bool valley = tried[i].loss < kInfinity && (i == 0 || tried[i].loss < tried[i - 1].loss) &&
+            const bool valley = tried[i].loss < kMayBecomeBest * found.loss &&
+                                (i == 0 || tried[i].loss < tried[i - 1].loss) &&
                                 (i + 1 == tried.size() || tried[i].loss <= tried[i + 1].loss);
             if (valley) all.push_back(tried[i]);
         }

@@ -72,7 +72,7 @@ NestedSolution with_linear_part(const IdData& data, const TransferStructure& str
 /// theta of models of one input and one output in which one or two poles of `found`, a fit of the structure, have
 /// changed places: a real one for others, the two slowest or the two fastest for a pair of damping 0.1, each at twelve
 /// frequencies over the band that the record can show. The rest follows by least squares. Of each exchange the valleys
-/// of the loss over the frequency count; best first, at most four.
+/// of the loss over the frequency count, below 1.2 times the loss of `found`; best first, at most four.
 std::vector<Vector> exchanged_poles(const IdData& data, const TransferStructure& structure, const Fit& found);
 
 }  // namespace dynlab::inline numerics

@@ -208,16 +208,19 @@ Fit or_from_further_starts(const IdData& record, const TransferStructure& struct
     const bool suits = structure.inputs == 1 && structure.outputs == 1 && options.fixed.empty() &&
                        best.termination != Termination::kCancelled;
     if (!suits) return best;
-    std::vector<Vector> starts;
+    // One after the other: those that are slow to show what they lead to would be dropped beside the others.
+    const auto refined = [&](const std::vector<Vector>& starts) {
+        if (starts.empty()) return;
+        best = settled(record, structure, std::move(best), options);
+        Fit other = refine_from(record, structure, best.start, starts, options);
+        if (other.loss < best.loss) best = std::move(other);
+    };
     if (record.regular() && fast_errors_follow_input(record, best))
-        starts = sampled_starts(record, structure, best, options);
+        refined(sampled_starts(record, structure, best, options));
     if (record.sample_count() <= kNestedSamples &&
         (errors_are_coloured(record, best) || errors_follow_input(record, best)))
-        for (Vector& start : exchanged_poles(record, structure, best)) starts.push_back(std::move(start));
-    if (starts.empty()) return best;
-    best = settled(record, structure, std::move(best), options);
-    Fit other = refine_from(record, structure, best.start, starts, options);
-    return other.loss < best.loss ? other : best;
+        refined(exchanged_poles(record, structure, best));
+    return best;
 }
 
 }  // namespace

@@ -113,6 +113,7 @@ TEST(search_starts, exchanged_poles_lead_to_the_system) {
         found.start = {InitialState::kZero, false};
         found.theta.resize(n + 1);
         found.theta << wrong.tail(n), 1;
+        found.loss = with_linear_part(data, found.structure, found.start, wrong, 0).loss;
         const std::vector<Vector> starts = exchanged_poles(data, found.structure, found);
         EXPECT_LE(starts.size(), 4u);
         double least = kInfinity, before = 0;
