@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <set>
+#include <span>
 
 #include "course/grading_bench.h"
 
@@ -27,26 +28,6 @@ struct Attack {
 
 // Every one hands in the right answer where it can, so that a verdict of zero is the attack's own doing.
 const Attack kAttacks[] = {
-    {"endless", "while true do end", 0, "longer than the time"},
-    {"endless_pcall", "local function f() while true do end end\nwhile true do pcall(f) end", 0,
-     "longer than the time"},
-    {"endless_coroutine", "while true do coroutine.wrap(function() while true do end end)() end", 0,
-     "longer than the time"},
-    {"endless_coroutine_pcall",
-     "while true do coroutine.resume(coroutine.create(function() while true do end end)) end", 0,
-     "longer than the time"},
-    {"endless_xpcall", "local function h() while true do end end\nwhile true do xpcall(error, h) end", 0,
-     "longer than the time"},
-    {"endless_close", "local x <close> = setmetatable({}, {__close = function() while true do end end})\nerror('out')",
-     0, ""},
-    {"endless_gc", "setmetatable({}, {__gc = function() while true do end end})\nanswer('x', 42)", 0, "__gc"},
-    {"endless_tostring", "error(setmetatable({}, {__tostring = function() while true do end end}))", 0, ""},
-    {"endless_index", "local t = setmetatable({}, {__index = function() while true do end end})\nanswer('x', t.y)", 0,
-     "longer than the time"},
-    {"endless_sort",
-     "local t = {}\nfor i = 1, 1e5 do t[i] = i end\nwhile true do table.sort(t, function() return math.random() < 0.5 "
-     "end) end",
-     0, ""},
     {"empty_repeated", "local s = string.rep('', 1e18)\nanswer('x', 42)", 1, ""},
     {"long_text", "local s = string.rep('x', 1e12)\nanswer('x', 42)", 0, ""},
     {"huge_move", "table.move({}, 1, 1e18, 2)\nanswer('x', 42)", 0, ""},
@@ -54,9 +35,6 @@ const Attack kAttacks[] = {
      ""},
     {"huge_remove", "table.remove(setmetatable({}, {__len = function() return 1e15 end}), 1)\nanswer('x', 42)", 0, ""},
     {"huge_concat", "table.concat({}, 'x', 1, 1e15)\nanswer('x', 42)", 0, ""},
-    {"slow_pattern", "string.find(string.rep('a', 40), string.rep('a?', 40) .. string.rep('a', 40))\nanswer('x', 42)",
-     0, ""},
-    {"slow_gsub", "string.gsub(string.rep('a', 1e5), '.-.-.-.-b', '')\nanswer('x', 42)", 0, ""},
     {"memory_bomb", "local t = {}\nwhile true do t[#t + 1] = string.rep('x', 1e6) .. #t end", 0, ""},
     {"table_bomb", "local t = {}\nwhile true do t = {t, t, {t}} t[#t + 1] = {} end", 0, ""},
     {"vector_bomb", "local v = {}\nwhile true do v[#v + 1] = zeros(7e7) end", 0, "1.07 GB in all"},
@@ -95,14 +73,40 @@ const Attack kAttacks[] = {
      "number"},
     {"shell_label", "save(plot(vector{1, 2}, {title = '`touch pwned`'}), 'a.pdf')\nanswer('x', 42)", 1, ""},
     {"shell_file", "save(plot(vector{1, 2}), 'a.pdf|touch pwned')\nanswer('x', 42)", 1, ""},
+    {"syntax", "answer('x' 42)", 0, "analysis.lua:1"},
+    {"nothing", "", 0, ""},
+};
+// These are ended by time, of which a second is as good as any.
+const Attack kEndlessAttacks[] = {
+    {"endless", "while true do end", 0, "longer than the time"},
+    {"endless_pcall", "local function f() while true do end end\nwhile true do pcall(f) end", 0,
+     "longer than the time"},
+    {"endless_coroutine", "while true do coroutine.wrap(function() while true do end end)() end", 0,
+     "longer than the time"},
+    {"endless_coroutine_pcall",
+     "while true do coroutine.resume(coroutine.create(function() while true do end end)) end", 0,
+     "longer than the time"},
+    {"endless_xpcall", "local function h() while true do end end\nwhile true do xpcall(error, h) end", 0,
+     "longer than the time"},
+    {"endless_close", "local x <close> = setmetatable({}, {__close = function() while true do end end})\nerror('out')",
+     0, ""},
+    {"endless_gc", "setmetatable({}, {__gc = function() while true do end end})\nanswer('x', 42)", 0, "__gc"},
+    {"endless_tostring", "error(setmetatable({}, {__tostring = function() while true do end end}))", 0, ""},
+    {"endless_index", "local t = setmetatable({}, {__index = function() while true do end end})\nanswer('x', t.y)", 0,
+     "longer than the time"},
+    {"endless_sort",
+     "local t = {}\nfor i = 1, 1e5 do t[i] = i end\nwhile true do table.sort(t, function() return math.random() < 0.5 "
+     "end) end",
+     0, ""},
+    {"slow_pattern", "string.find(string.rep('a', 40), string.rep('a?', 40) .. string.rep('a', 40))\nanswer('x', 42)",
+     0, ""},
+    {"slow_gsub", "string.gsub(string.rep('a', 1e5), '.-.-.-.-b', '')\nanswer('x', 42)", 0, ""},
     {"absurd_order", "local d = iddata(randn(500), randn(500), 0.1)\nfor i = 1, 1e6 do pcall(arx, d, {400, 90, 1}) end",
      0, "longer than the time"},
     {"long_native",
      "montecarlo{system = tf({2}, {1, 4, 3}), input = prbs(9, 100), Ts = 0.01, sigma = 1, runs = 1e7, seed = 1, "
      "estimators = {srivc = {{1, 2, 0}}}}",
      0, ""},
-    {"syntax", "answer('x' 42)", 0, "analysis.lua:1"},
-    {"nothing", "", 0, ""},
 };
 
 void write_odd_submissions(const Workbench& work) {
@@ -154,31 +158,47 @@ void write_odd_submissions(const Workbench& work) {
 #endif
 }
 
-// oracle: nothing outside the box changes, everything ends, every verdict is the one that was expected
-TEST(attacks, none_leaves_its_box_stops_the_batch_or_changes_a_mark) {
-    GradingBench bench(kAnswers, kChecks, kSolution);
+/// The state of what no attack may change.
+std::string outside_of(const Workbench& work) {
+    return work.shell("find home in secret.csv -exec ls -ld --time-style=full-iso {} + | sort; ls -A | grep -v '^out$'")
+        .output;
+}
+
+/// Grades them and what else was handed in: nothing outside the boxes changes, everything ends in time, every verdict
+/// is the one that was expected. Returns the exit code.
+int grade_attacks(GradingBench& bench, std::span<const Attack> attacks, std::size_t others, int timeout) {
     const Workbench& work = bench.bench();
-    for (const Attack& attack : kAttacks) bench.hand_in(attack.name, attack.script);
-    bench.hand_in("honest", kSolution);
-    write_odd_submissions(work);
-    const std::string before =
-        work.shell("find home in secret.csv -exec ls -ld --time-style=full-iso {} + | sort; ls -A").output;
+    for (const Attack& attack : attacks) bench.hand_in(attack.name, attack.script);
+    work.write("secret.csv", "y\n42\n");
+    const std::string before = outside_of(work);
     const auto start = std::chrono::steady_clock::now();
-    const ChildResult graded = bench.grade({"--timeout", std::to_string(kTimeout)});
+    const ChildResult graded = bench.grade({"--timeout", std::to_string(timeout)});
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-    ASSERT_EQ(graded.exit_code, 1) << graded.error_output;  // some cannot be read
-    EXPECT_EQ(
-        work.shell("find home in secret.csv -exec ls -ld --time-style=full-iso {} + | sort; ls -A | grep -v '^out$'")
-            .output,
-        before);
+    EXPECT_LT(taken.count(), (timeout + 1.0) * static_cast<double>(attacks.size() + others));
+    EXPECT_EQ(outside_of(work), before) << graded.error_output;
     EXPECT_EQ(work.shell("find / -xdev -name 'pwned*' -newer secret.csv 2>/dev/null").output, "");
-    for (const Attack& attack : kAttacks) {
+    for (const Attack& attack : attacks) {
         const auto result = bench.result(attack.name);
         EXPECT_EQ(GradingBench::score(result), attack.score) << attack.name << ": " << result.dump(1);
         const std::string told =
             GradingBench::trouble(result) + " " + result.at("tests").at(0).at("output").get<std::string>();
         EXPECT_THAT(told, tells(attack.told)) << attack.name;
     }
+    return graded.exit_code;
+}
+
+// oracle: what stood there before, the clock, the verdicts expected
+TEST(attacks, without_an_end_are_ended) {
+    GradingBench bench(kAnswers, kChecks, kSolution);
+    EXPECT_EQ(grade_attacks(bench, kEndlessAttacks, 0, 1), 0);
+}
+
+// oracle: what stood there before, the clock, the verdicts expected
+TEST(attacks, none_leaves_its_box_stops_the_batch_or_changes_a_mark) {
+    GradingBench bench(kAnswers, kChecks, kSolution);
+    bench.hand_in("honest", kSolution);
+    write_odd_submissions(bench.bench());
+    ASSERT_EQ(grade_attacks(bench, kAttacks, 24, kTimeout), 1);  // some cannot be read
     for (const char* name :
          {"honest", "it's \"quoted\"", "=1+1 🎉", "-rf", "new\nline", "in a folder", "a_pipe", "upwards", "absolute",
           "through_link", "devices", "good", "Zoe Zip_5_assignsubmission_file_"})
@@ -194,7 +214,6 @@ TEST(attacks, none_leaves_its_box_stops_the_batch_or_changes_a_mark) {
             << name << bench.result(name).dump(1);
         EXPECT_THAT(GradingBench::trouble(bench.result(name)), HasSubstr(told)) << name;
     }
-    EXPECT_LT(taken.count(), (kTimeout + 1.0) * (std::size(kAttacks) + 24));
 }
 
 // oracle: the kernel refuses paths of more than 4096 letters; the others' marks
