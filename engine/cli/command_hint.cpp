@@ -36,7 +36,7 @@ constexpr HintWords kEnglishHintWords = {
 constexpr HintWords kFrenchHintWords = {
     "Leçon {}\n\n",
     "Leçon {}, question {}\n",
-    "question {:>2}   {} indices, {} déjà vus\n",
+    "question {:>2}   indices : {}, déjà vus : {}\n",
     "\nLe premier d'une question :  dynlab hint {} {}\n",
     "\nIndice {} sur {}\n",
     "\nEncore {} :  dynlab hint {} {} --next\n",

@@ -55,7 +55,7 @@ TEST(feedback, is_titled_after_the_group_and_not_after_the_folder_of_a_platform)
     };
     EXPECT_THAT(
         feedback("Zoé Lefèvre_900001"),
-        AllOf(StartsWith("# Retour pour group-03\n\nLeçon 99\\_small : **0 points sur 2,5.**\n\nVotre script est "
+        AllOf(StartsWith("# Retour pour group-03\n\nLeçon 99\\_small, points : **0 sur 2,5.**\n\nVotre script est "
                          "allé jusqu'au bout.\n\n## Contrôles\n\n- **The number** – 0 sur 2,5"),
               Not(HasSubstr("assignsubmission")), HasSubstr("dites à votre enseignant")));
     EXPECT_THAT(feedback("Ada Byron_900002"), StartsWith("# Retour pour Ada Byron\n\nLeçon"));
@@ -64,7 +64,7 @@ TEST(feedback, is_titled_after_the_group_and_not_after_the_folder_of_a_platform)
     const std::string pdf =
         work.shell("pdftotext -layout out/results/Zo*/feedback.pdf - && pdfinfo out/results/Zo*/feedback.pdf").output;
     EXPECT_THAT(pdf, AllOf(HasSubstr("Retour pour group-03"), HasSubstr("Contrôles"), HasSubstr("0 sur 2,5"),
-                           HasSubstr("Leçon 99_small : 0 points sur 2,5."), Not(HasSubstr("assignsubmission"))));
+                           HasSubstr("Leçon 99_small, points : 0 sur 2,5."), Not(HasSubstr("assignsubmission"))));
     const std::string english = work.shell("pdftotext -layout out/results/Ida*/feedback.pdf -").output;
     EXPECT_THAT(english, AllOf(HasSubstr("Feedback for group-04"), HasSubstr("Checks"), HasSubstr("tell your")));
     work.write("roster.csv", "id,name,language\n1,Zoé Lefèvre,français\n");
@@ -81,8 +81,8 @@ TEST(feedback, of_late_work_tells_the_reason_in_its_language) {
     const ChildResult graded = bench.grade({"--deadlines", "deadlines.csv", "--timezone", "UTC"});
     ASSERT_EQ(graded.exit_code, 0) << graded.error_output;
     EXPECT_THAT(work.read("out/results/late/feedback.md"),
-                HasSubstr("ce qui coûte 0,62 points : reçu le 2026-03-03 08:00 UTC, 1 j 14 h après l'échéance du "
-                          "2026-03-01 18:00 UTC ; chaque jour entamé coûte 12,5 % des points, au plus 50 %."));
+                HasSubstr("points perdus : 0,62 (reçu le 2026-03-03 08:00 UTC, 1 j 14 h après l'échéance du "
+                          "2026-03-01 18:00 UTC ; chaque jour entamé coûte 12,5 % des points, au plus 50 %)."));
     EXPECT_THAT(work.read("out/gradebook.csv"), HasSubstr("1 d 14 h after the deadline of 2026-03-01 18:00 UTC"));
 }
 

@@ -81,7 +81,7 @@ TEST(handing_back, comments_are_in_the_language_of_the_feedback) {
     bench.grade({"--roster", "roster.csv"});
     work.dynlab({"hand-back", "out", "--roster", "roster.csv"});
     const std::string moodle = work.read("out/handed_back/moodle-grades.csv");
-    EXPECT_THAT(moodle, HasSubstr("\"0 points sur 2,5.\nSur un enregistrement que vous n'avez pas vu, cela n'atteint "
+    EXPECT_THAT(moodle, HasSubstr("\"Points : 0 sur 2,5.\nSur un enregistrement que vous n'avez pas vu, cela n'atteint "
                                   "pas tous les points. : 0 sur 2,5."));
     EXPECT_THAT(moodle, HasSubstr("0 of 2.5 points.\n" + unseen + ": 0 of 2.5."));
 }

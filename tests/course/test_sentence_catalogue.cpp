@@ -1,15 +1,19 @@
 // What is told in French. Oracles: sentences written here by hand; those that the lessons' checks hold.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <regex>
+#include <set>
 
+#include "course/findings/folder_check.h"
 #include "course/findings/sentence_catalogue.h"
 #include "course/grading/feedback.h"
 #include "documents/text_lines.h"
 #include "platform/error.h"
 #include "platform/text_file.h"
 #include "support/program.h"
+#include "told_in_french.h"
 #include "workflow/lesson_catalogue.h"
 
 namespace dynlab::test {
@@ -41,6 +45,18 @@ TEST(sentence_catalogue, tells_sentence_by_sentence_and_keeps_what_it_does_not_k
     EXPECT_EQ(known.translated("The figure."), "la figure ?");
     EXPECT_EQ(known.translated(""), "");
     EXPECT_EQ(SentenceCatalogue().translated("It is 0.25 away."), "It is 0.25 away.");
+    for (const auto& [number, french] : {std::pair("15.9 %", "15,9 %"),
+                                         {"15.9%", "15,9%"},
+                                         {"-1.5e-05", "-1,5e-05"},
+                                         {"0.25 rad/s", "0,25 rad/s"},
+                                         {"7", "7"},
+                                         {"7.", "7."},
+                                         {"1.2.3", "1.2.3"},
+                                         {"2.5x", "2.5x"},
+                                         {"a 2.5", "a 2.5"}})
+        EXPECT_EQ(known.translated(fmt::format("It is {} away.", number)), fmt::format("Il s'en faut de {}.", french));
+    EXPECT_EQ(known.translated("The name of A stands there: \"1.1 Data\"."), "Le nom de A est là : « 1.1 Data ».")
+        << "what is quoted stays as it is";
     EXPECT_TRUE(known.knows("It is 1 away."));
     EXPECT_FALSE(known.knows("It is 1 away. Hz is wanted."));
 }
@@ -92,19 +108,83 @@ TEST(sentence_catalogue, knows_all_that_checks_of_lessons_in_french_tell_and_not
     EXPECT_EQ(lessons_seen, 2);
 }
 
-// oracle: the program's own sources
+// oracle: the program's own sources. Numbers and their nouns are put together by the program, and so are some words
+// between; what stands between those is looked for, word by word.
 TEST(sentence_catalogue, holds_no_sentence_that_the_program_does_not_write) {
     std::string sources;
-    for (const auto& entry : fs::recursive_directory_iterator(fs::path(DYNLAB_SOURCE_DIR) / "engine/course"))
-        if (entry.path().extension() == ".cpp") sources += read_text(entry.path());
+    for (const char* layer : {"engine/course", "engine/documents"})
+        for (const auto& entry : fs::recursive_directory_iterator(fs::path(DYNLAB_SOURCE_DIR) / layer))
+            if (entry.path().extension() == ".cpp") sources += read_text(entry.path());
     sources = std::regex_replace(sources, std::regex("\"\\s*\n\\s*\""), "");
     sources = replaced(sources, "\\\"", "\"");
+    const std::regex put_together(
+        R"re(\{\}|[.;:,()"+]| -o |\b(pages?|slides?|sections?|figures?|tables?|texts?|values?|French|English|stands)\b|)re"
+        R"re(\b(the|there|as|is|are|has|have)\b)re");
     const fs::path file = fs::path(DYNLAB_SOURCE_DIR) / "report_templates/sentences.fr.txt";
-    // numbers and their nouns are put together by the program, so that words are what can be looked for
-    const std::regex word("[A-Za-z]{5,}");
     for (const std::string& sentence : english_of(file))
-        for (std::sregex_iterator at(sentence.begin(), sentence.end(), word), end; at != end; ++at)
-            EXPECT_NE(sources.find(at->str()), sources.npos) << at->str() << " in: " << sentence;
+        for (const std::string& line : lines_of(std::regex_replace(sentence, put_together, "\n")))
+            EXPECT_NE(sources.find(trimmed(line)), sources.npos) << trimmed(line) << " in: " << sentence;
+}
+
+/// A folder of French work, its findings told in French; their ids.
+std::set<std::string> ids_told(const Workbench& bench, const FolderLimits& limits = {}, bool lesson_checks = false) {
+    CheckOptions wishes;
+    wishes.lesson_checks = lesson_checks;
+    const CheckResult result = check_folder(bench.path("mine"), DYNLAB_PROGRAM, wishes, limits);
+    std::set<std::string> ids;
+    for (const std::string& part : result.checked)
+        if (!part.ends_with(".pdf")) expect_told_in_french(part);
+    for (const Finding& finding : result.findings) {
+        ids.insert(finding.id);
+        expect_told_in_french(finding.what);
+        expect_told_in_french(finding.remedy);
+    }
+    return ids;
+}
+
+void write_french_folder(const Workbench& bench, const std::string& script, const std::string& header = "") {
+    bench.write("mine/analysis.lua", "-- ---\n-- title: A\n-- language: fr\n" + header + "-- ---\n" + script);
+    bench.write("mine/report.md", "---\ntitle: A\nlang: fr\npages: 1\n---\n\nLa somme est `sum`{.value}.\n");
+}
+
+// oracle: the ids that folder_check.h lists, and the words of English that no French sentence has
+TEST(sentence_catalogue, tells_what_is_found_in_folders) {
+    const Workbench bench;
+    std::set<std::string> told;
+    const auto tell = [&](const FolderLimits& limits = {}, bool lesson_checks = false) {
+        const std::set<std::string> ids = ids_told(bench, limits, lesson_checks);
+        EXPECT_FALSE(ids.empty());
+        told.insert(ids.begin(), ids.end());
+    };
+    bench.write("mine/notes.txt", "");
+    tell();
+    write_french_folder(bench,
+                        "report.value('sum', 1)\n-- **Question 1.**\n-- VOTRE CODE ICI\n-- *Votre réponse :*\n"
+                        "-- **Question 2.**\n-- VOTRE CODE ICI\n-- # Et\n-- VOTRE CODE ICI\n"
+                        "report.value('one', 1)\nreport.text('a', 'x')\nreport.text('b', 'x')\n"
+                        "report.table('models', {{'a', 'b'}, {1, 2}})\n"
+                        "report.figure('line', plot({0, 1}, {0, 1}), 'A line')\n",
+                        "-- answers:\n--   gain: number\n");
+    bench.write("mine/group.toml", "members = []\n");
+    bench.write("mine/checks.lua",
+                "check{id = 'gain', points = 3, about = 'Le gain', test = function(a) return "
+                "near(a.gain, 2) end}\n");
+    bench.write("elsewhere.csv", "y\n1\n");
+    fs::create_symlink(bench.path("elsewhere.csv"), bench.path("mine/values.csv"));
+    bench.write("mine/report.pdf", "%PDF-1.4\n");
+    tell({}, true);
+    bench.shell("touch -d 2020-01-01 mine/report.pdf");
+    tell();
+    FolderLimits limits;
+    limits.files = 2;
+    tell(limits);
+    limits = {};
+    limits.time = std::chrono::seconds(1);
+    write_french_folder(bench, "while true do end\n");
+    tell(limits);
+    EXPECT_THAT(told, testing::IsSupersetOf({"analysis-missing", "folder-too-large", "analysis-fails", "answer-open",
+                                             "answer-missing", "not-shown", "members-missing", "pdf-outdated",
+                                             "pdf-differs", "link-left-out", "check-failed"}));
 }
 
 TEST(sentence_catalogue, is_used_by_check_and_feedback_of_french_work) {

@@ -109,7 +109,7 @@ void check_text(const PdfLayout& layout, const DocumentText& text, const Documen
     }
     result.checked.push_back(page_summary(text, result.pages, standard.rules));
     if (!standard.rules.sections.empty())
-        result.checked.push_back(fmt::format("{} sections", standard.rules.sections.size()));
+        result.checked.push_back(counted(static_cast<std::int64_t>(standard.rules.sections.size()), "section"));
     result.checked.push_back(counted(figures.figures, "numbered figure"));
     result.checked.push_back("unfilled slots");
     if (!result.language.empty()) result.checked.push_back(result.language == "fr" ? "French only" : "English only");

@@ -151,6 +151,7 @@ Findings page_findings(const DocumentText& text, int pages, const DocumentRules&
     if (pages <= most) return too_few_pages(text, pages, rules);
     const char *one = text.is_slides() ? "slide" : "page", *many = text.is_slides() ? "slides" : "pages";
     std::string limit = counted(allowed, one, many);
+    const char* verb = allowed == 1 && in_appendix == 0 ? "is" : "are";
     std::string remedy = "Shorten the text, or drop figures that show nothing of their own.";
     if (in_appendix > 0) {
         limit += fmt::format(" and {} of appendix", counted(in_appendix, one, many));
@@ -158,7 +159,8 @@ Findings page_findings(const DocumentText& text, int pages, const DocumentRules&
             remedy = "Shorten the text; a part beyond the limit must stand below a heading \"Appendix\".";
     }
     return {{"pages", Severity::kRule, most + 1, "",
-             fmt::format("The document has {}; at most {} are allowed.", counted(pages, one, many), limit), remedy}};
+             fmt::format("The document has {}; at most {} {} allowed.", counted(pages, one, many), limit, verb),
+             remedy}};
 }
 
 }  // namespace dynlab::inline course

@@ -26,10 +26,16 @@ bool ends_sentence(std::string_view text, std::size_t at) {
     return at == text.size() || text[at] == ' ';
 }
 
-std::string with_commas(std::string text) {
-    const bool number = !text.empty() && text.find_first_not_of("0123456789.-") == text.npos &&
-                        std::count(text.begin(), text.end(), '.') == 1 && !text.ends_with('.');
-    if (number) std::replace(text.begin(), text.end(), '.', ',');
+/// The number that a text begins with gets a comma; what follows it, a unit or an exponent, stays.
+std::string with_comma(std::string text) {
+    constexpr const char* kDigits = "0123456789";
+    const std::size_t begin = text.starts_with('-') ? 1 : 0;
+    const std::size_t point = std::min(text.find_first_not_of(kDigits, begin), text.size());
+    const std::size_t end = std::min(text.find_first_not_of(kDigits, point + 1), text.size());
+    if (point == begin || end <= point + 1 || text[point] != '.') return text;
+    const std::string rest = text.substr(end);
+    const bool exponent = rest.size() > 1 && rest[0] == 'e' && rest.find_first_of("+-0123456789", 1) == 1;
+    if (rest.empty() || rest[0] == ' ' || rest[0] == '%' || exponent) text[point] = ',';
     return text;
 }
 
@@ -94,8 +100,12 @@ std::string SentenceCatalogue::written(const Fit& found) const {
     std::string text = found.entry->to.front();
     for (std::size_t i = 0; i < found.between.size(); ++i) {
         const std::string_view between = found.between[i];
+        const bool quoted = found.entry->from[i].ends_with('"');
         const std::optional<Fit> known = fitting(between);
-        text += known && known->end == between.size() ? written(*known) : with_commas(std::string(between));
+        if (known && known->end == between.size())
+            text += written(*known);
+        else
+            text += quoted ? std::string(between) : with_comma(std::string(between));
         text += found.entry->to[i + 1];
     }
     return text;

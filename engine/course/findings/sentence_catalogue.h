@@ -16,8 +16,8 @@ class SentenceCatalogue {
     void add(const std::filesystem::path& file);
 
     /// The text, sentence by sentence, in the other language: of several entries that fit, the one with most letters
-    /// of its own; a sentence that none fits stays. What stands for {} is looked up as well, and decimal
-    /// points of numbers become commas.
+    /// of its own; a sentence that none fits stays. What stands for {} is looked up as well; where it begins with a
+    /// number, such as "15.9 %" or "-1.5e-05", its point becomes a comma, but for what stands in quotation marks.
     std::string translated(std::string_view text) const;
 
     /// Whether an entry is this sentence.

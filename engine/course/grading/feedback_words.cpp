@@ -25,8 +25,8 @@ constexpr FeedbackWords kEnglishFeedback = {
 
 constexpr FeedbackWords kFrenchFeedback = {
     "Retour pour {}",
-    "Leçon {} : **{} points sur {}.**",
-    "{} points sur {}.",
+    "Leçon {}, points : **{} sur {}.**",
+    "Points : {} sur {}.",
     " : ",
     "{} sur {}",
     "pas encore noté",
@@ -36,7 +36,7 @@ constexpr FeedbackWords kFrenchFeedback = {
     "**Votre travail n'a pas pu être lu ; il n'a donc pas encore de note :** ",
     "**Votre script n'a pas pu commencer :** ",
     "**Votre script n'est pas allé jusqu'au bout :** ",
-    "Il est arrivé en retard, ce qui coûte {} points : {}.",
+    "Il est arrivé en retard ; points perdus : {} ({}).",
     "**Cette remise ne compte pas.** De plusieurs remises de votre part, la meilleure compte : {}.",
     "**Cette remise ne compte pas.** De plusieurs remises de votre part, la plus récente compte : {}.",
     "Les points sont donnés par des programmes qui comparent vos réponses avec vos données et avec des enregistrements "
