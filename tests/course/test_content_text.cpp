@@ -38,5 +38,27 @@ TEST(content_text, maps_know_characters_of_two_units_and_ranges_with_lists) {
     EXPECT_EQ(map.text, wanted);
 }
 
+// oracle: ISO 32000-1, 9.7.5, and the operators of Adobe's technical note 5014
+TEST(content_text, maps_of_codes_to_themselves) {
+    const std::string two = "1 begincodespacerange <0000> <FFFF> endcodespacerange ",
+                      one = "1 begincodespacerange <00> <FF> endcodespacerange ";
+    const std::map<std::string, std::size_t> cases = {
+        {"%!PS-Adobe-3.0\n/CIDInit /ProcSet findresource begin 12 dict begin begincmap /CIDSystemInfo 3 dict dup begin "
+         "/Registry (Adobe) def /Ordering (Identity) def /Supplement 0 def end def /CMapType 1 def " +
+             two + "1 begincidrange <0000> <FFFF> 0 endcidrange endcmap end end",
+         2},
+        {one + "1 begincidrange <00> <FF> 0 endcidrange", 1},
+        {two + "2 begincidrange <0000> <00ff> 0 <0100> <01ff> 256 endcidrange 1 begincidchar <0300> 768 endcidchar", 2},
+        {two + "2 begincidrange <0000> <00ff> 0 <0100> <01ff> 255 endcidrange", 0},
+        {two + "1 begincidrange <0000> <FFFF> 0 endcidrange 1 begincidchar <0041> 66 endcidchar", 0},
+        {two + "1 begincidrange <0041> <0042> endcidrange", 0},
+        {one + two + "1 begincidrange <0000> <FFFF> 0 endcidrange", 0},
+        {one + "1 begincidrange <0000> <FFFF> 0 endcidrange", 0},
+        {"/UniGB-UCS2-H usecmap " + two + "1 begincidrange <0000> <FFFF> 0 endcidrange", 0},
+        {two, 0},
+        {"", 0}};
+    for (const auto& [cmap, bytes] : cases) EXPECT_EQ(bytes_of_identity(cmap), bytes) << cmap;
+}
+
 }  // namespace test_content_text
 }  // namespace dynlab

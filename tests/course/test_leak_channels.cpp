@@ -7,7 +7,9 @@
 #include <cmath>
 
 #include "course/names/anonymous_copy.h"
+#include "course/names/drawn_letters.h"
 #include "course/names/jpeg_parts.h"
+#include "documents/work_file.h"
 #include "leak_corpus.h"
 
 namespace dynlab {
@@ -124,13 +126,18 @@ TEST_F(leak_channels, fonts_that_tell_no_letters_are_told) {
     EXPECT_THAT(found_in("BT /F1 12 Tf 72 700 Td <0102> Tj ET", drawn("/A/eacute")), IsEmpty());
 }
 
-/// A font of two-byte codes with the whole of a font's file in it, its objects from 7 on.
+/// A composite font with the whole of a font's file in it, its objects from 7 on: what its codes mean, the file, which
+/// glyph each code is, and a CMap.
 struct WholeFont {
     std::string file, descendant, key, entries;
     bool numbered = false;  ///< codes are not glyphs but three more
+    std::string head = "/Type/Font/Subtype/Type0/Encoding/Identity-H", cmap = "";
+    int digits = 4;  ///< of a code
 };
 
-/// What is found where `text` is drawn and `told` is what the font's table says of it.
+constexpr const char* kMonospaced = "/usr/share/fonts/truetype/dejavu/DejaVuSansMono-Bold.ttf";
+
+/// A text in the codes of a font, and lines of the font's table that tell another one of them.
 class DrawnText {
   public:
     DrawnText(const WholeFont& font, const std::string& text, const std::string& told) {
@@ -139,9 +146,9 @@ class DrawnText {
         EXPECT_EQ(FT_Init_FreeType(&library), 0);
         EXPECT_EQ(FT_New_Face(library, font.file.c_str(), 0, &face), 0) << font.file;
         for (std::size_t i = 0; i < text.size(); ++i) {
-            char code[8], line[24];
+            char code[16], line[32];
             const unsigned glyph = FT_Get_Char_Index(face, static_cast<unsigned char>(text[i]));
-            std::snprintf(code, sizeof code, "%04X", glyph + (font.numbered ? 3 : 0));
+            std::snprintf(code, sizeof code, "%0*X", font.digits, glyph + (font.numbered ? 3 : 0));
             std::snprintf(line, sizeof line, "<%s> <%04X>\n", code, static_cast<unsigned char>(told[i]));
             codes += code;
             lines += line;
@@ -151,50 +158,120 @@ class DrawnText {
     std::string codes, lines;
 };
 
-TEST_F(leak_channels, a_table_that_lies_of_its_letters) {
-    const std::string dejavu = "/usr/share/fonts/truetype/dejavu/DejaVuSansMono-Bold.ttf",
-                      modern = "/usr/share/texmf/fonts/opentype/public/lm/lmsans10-bold.otf";
+/// Each letter is told to be the next but two, which is a truth of none.
+std::string lie_about(std::string text) {
+    for (char& c : text)
+        if (std::isalnum(static_cast<unsigned char>(c)) != 0)
+            c = static_cast<char>(std::isdigit(static_cast<unsigned char>(c)) ? 'a' + (c - '0')
+                                  : std::tolower(c) > 'w'                     ? c - 23
+                                                                              : c + 3);
+    return text;
+}
+
+class leak_fonts : public leak_channels {
+  protected:
+    /// What is found where `text` is drawn and `told` is what the font's table says of it.
+    std::vector<std::string> found_of(const WholeFont& font, const std::string& text, const std::string& told) {
+        const DrawnText drawn(font, text, told);
+        const std::string map = "begincmap 1 begincodespacerange <0000> <FFFF> endcodespacerange\n100 beginbfchar\n" +
+                                drawn.lines + "endbfchar endcmap";
+        std::string numbers(6, '\0');  // of codes 0 to 2: no glyph
+        for (unsigned glyph = 0; glyph < 3000; ++glyph) {
+            numbers += static_cast<char>(glyph >> 8);
+            numbers += static_cast<char>(glyph & 0xFF);
+        }
+        const std::string entries = font.key == "FontFile3" ? "/Subtype/OpenType" : "";
+        return found_in("BT /F1 12 Tf 72 700 Td <" + drawn.codes + "> Tj ET",
+                        "<<" + font.head + "/BaseFont/Own/ToUnicode 7 0 R/DescendantFonts[<</Type/Font/Subtype/" +
+                            font.descendant +
+                            "/BaseFont/Own/CIDSystemInfo<</Registry(Adobe)/Ordering(Identity)/Supplement 0>>/"
+                            "FontDescriptor<</Type/FontDescriptor/FontName/Own/Flags 4/" +
+                            font.key + " 8 0 R>>" + font.entries + ">>]>>",
+                        "0 0 m 9 9 l S",
+                        {stream_of(map), stream_of(read(font.file), entries), stream_of(numbers),
+                         stream_of(font.cmap, "/Type/CMap/CMapName/Own")});
+    }
+    const std::string honest_ = "The gain of the crane is known from 3 records", named_ = "made by Zoe Brandtner";
+};
+
+TEST_F(leak_fonts, a_table_that_lies_of_its_letters) {
     const std::vector<WholeFont> fonts = {
-        {dejavu, "CIDFontType2", "FontFile2", "/CIDToGIDMap 9 0 R", true},
-        {modern, "CIDFontType0", "FontFile3", ""},
+        {kMonospaced, "CIDFontType2", "FontFile2", "/CIDToGIDMap 9 0 R", true},
+        {"/usr/share/texmf/fonts/opentype/public/lm/lmsans10-bold.otf", "CIDFontType0", "FontFile3", ""},
         {"/usr/share/texmf/fonts/opentype/public/lm/lmsans10-oblique.otf", "CIDFontType0", "FontFile3", ""}};
-    std::string numbers(6, '\0');  // of codes 0 to 2: no glyph
-    for (unsigned glyph = 0; glyph < 3000; ++glyph) {
-        numbers += static_cast<char>(glyph >> 8);
-        numbers += static_cast<char>(glyph & 0xFF);
-    }
-    const auto lie = [](std::string text) {  // each letter is told to be the next but two, which is a truth of none
-        for (char& c : text)
-            if (std::isalnum(static_cast<unsigned char>(c)) != 0)
-                c = static_cast<char>(std::isdigit(static_cast<unsigned char>(c)) ? 'a' + (c - '0')
-                                      : std::tolower(c) > 'w'                     ? c - 23
-                                                                                  : c + 3);
-        return text;
-    };
+    const std::string numbered = "as 20214711 says";
     for (const WholeFont& font : fonts) {
-        const auto found_of = [&](const std::string& text, const std::string& told) {
-            const DrawnText drawn(font, text, told);
-            const std::string map =
-                "begincmap 1 begincodespacerange <0000> <FFFF> endcodespacerange\n100 beginbfchar\n" + drawn.lines +
-                "endbfchar endcmap";
-            const std::string entries = font.key == "FontFile3" ? "/Subtype/OpenType" : "";
-            return found_in("BT /F1 12 Tf 72 700 Td <" + drawn.codes + "> Tj ET",
-                            "<</Type/Font/Subtype/Type0/BaseFont/Own/Encoding/Identity-H/ToUnicode 7 0 R/"
-                            "DescendantFonts[<</Type/Font/Subtype/" +
-                                font.descendant +
-                                "/BaseFont/Own/CIDSystemInfo<</Registry(Adobe)/Ordering(Identity)/Supplement 0>>/"
-                                "FontDescriptor<</Type/FontDescriptor/FontName/Own/Flags 4/" +
-                                font.key + " 8 0 R>>" + font.entries + ">>]>>",
-                            "0 0 m 9 9 l S", {stream_of(map), stream_of(read(font.file), entries), stream_of(numbers)});
-        };
-        const std::string honest = "The gain of the crane is known from 3 records";
-        const std::string named = "made by Zoe Brandtner", numbered = "as 20214711 says";
-        EXPECT_THAT(found_of(honest, lie(honest)), IsEmpty()) << font.file;
-        EXPECT_THAT(found_of(named, lie(named)), Contains("name-hidden 1")) << font.file;
+        EXPECT_THAT(found_of(font, honest_, lie_about(honest_)), IsEmpty()) << font.file;
+        EXPECT_THAT(found_of(font, named_, lie_about(named_)), Contains("name-hidden 1")) << font.file;
         if (font.numbered) continue;  // a large font: once is enough
-        EXPECT_THAT(found_of(honest, honest), IsEmpty()) << font.file;
-        EXPECT_THAT(found_of(numbered, lie(numbered)), Contains("name-hidden 1")) << font.file;
+        EXPECT_THAT(found_of(font, honest_, honest_), IsEmpty()) << font.file;
+        EXPECT_THAT(found_of(font, numbered, lie_about(numbered)), Contains("name-hidden 1")) << font.file;
     }
+}
+
+// Oracle: ISO 32000-1, 9.7.5 and 9.7.6.2, what each CMap says; pdftoppm draws the letters in all.
+TEST_F(leak_fonts, a_font_is_known_by_its_parts_and_its_codes) {
+    WholeFont font{kMonospaced, "CIDFontType2", "FontFile2", "/CIDToGIDMap 9 0 R", true};
+    const std::string identity =
+        "/CMapName /Own def 1 begincodespacerange <0000> <FFFF> endcodespacerange\n1 begincidrange <0000> <FFFF> 0 "
+        "endcidrange";
+    const auto expect_read = [&] {
+        EXPECT_THAT(found_of(font, honest_, lie_about(honest_)), IsEmpty()) << font.head << font.cmap;
+        EXPECT_THAT(found_of(font, named_, lie_about(named_)), Contains("name-hidden 1")) << font.head << font.cmap;
+    };
+    for (const char* head : {"/Subtype/Type0/Encoding/Identity-H", "/Type/Other/Subtype/Type0/Encoding/Identity-V",
+                             "/Subtype/Type1/Encoding/Identity-H"}) {
+        font.head = head;
+        expect_read();
+    }
+    font.head = "/Type/Font/Subtype/Type0/Encoding 10 0 R";
+    font.cmap = identity;
+    expect_read();
+    for (const std::string& other : {identity + " 1 begincidchar <0041> 66 endcidchar", std::string("nothing")}) {
+        font.cmap = other;
+        EXPECT_THAT(found_of(font, named_, lie_about(named_)), ElementsAre("not-searched 0")) << other;
+    }
+    font.head = "/Type/Font/Subtype/Type0/Encoding/UniGB-UCS2-H";
+    EXPECT_THAT(found_of(font, named_, lie_about(named_)), ElementsAre("not-searched 0"));
+    font.head = "/Type/Font/Subtype/Type0/Encoding 10 0 R";
+    font.cmap = "1 begincodespacerange <00> <FF> endcodespacerange 1 begincidrange <00> <FF> 0 endcidrange";
+    font.digits = 2;
+    expect_read();
+}
+
+std::uint16_t glyph_of(char letter) {
+    const WholeFont font{kMonospaced, "", "", ""};
+    return static_cast<std::uint16_t>(std::stoul(DrawnText(font, std::string(1, letter), " ").codes, nullptr, 16));
+}
+
+// Oracle: which glyph each letter has in the font's own table, as FreeType reads it.
+TEST(drawn_letters, each_code_of_a_glyph_is_judged_by_what_is_told_of_it) {
+    GlyphCodes codes;
+    const std::uint16_t k = glyph_of('k'), r = glyph_of('R');
+    codes.glyphs = {0, k, k, k, 0, r, k, 0};
+    const CodeMap told{2, {{1, "k"}, {2, "q"}, {3, "K"}, {5, "x"}, {7, "q"}}};
+    const std::vector<CodeMap> drawn = DrawnLetters(known_fonts()).read(read_work_file(kMonospaced), codes, told);
+    ASSERT_EQ(drawn.size(), 1u);
+    const auto letter = [&](std::uint32_t code) {
+        const auto found = drawn[0].text.find(code);
+        return found == drawn[0].text.end() ? "" : found->second;
+    };
+    EXPECT_EQ(letter(1), "k");
+    EXPECT_TRUE(letter(2) == "k" || letter(2) == "K") << letter(2);
+    EXPECT_EQ(letter(3), "K");
+    EXPECT_EQ(letter(5), "R");
+    EXPECT_TRUE(letter(6) == "k" || letter(6) == "K") << letter(6);
+    EXPECT_EQ(letter(7), "q");
+}
+
+TEST(drawn_letters, codes_are_as_long_as_they_are_said_to_be) {
+    GlyphCodes codes;
+    codes.bytes = 1;
+    codes.glyphs = {glyph_of('R')};
+    const std::vector<CodeMap> drawn =
+        DrawnLetters(known_fonts()).read(read_work_file(kMonospaced), codes, {2, {{0, "x"}}});
+    ASSERT_EQ(drawn.size(), 1u);
+    EXPECT_EQ(drawn[0].bytes, 1u);
 }
 
 TEST_F(leak_channels, names_of_fonts_and_soft_hyphens) {

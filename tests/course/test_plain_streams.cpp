@@ -93,6 +93,37 @@ TEST_F(plain_streams, paths_are_left_out_and_nothing_else) {
 }
 
 // oracle: what poppler reads in the file as it was
+TEST_F(plain_streams, pieces_of_a_content_keep_their_paths) {
+    const auto encoded = [](const std::string& content, const std::string& entries = "") {
+        std::string digits;
+        char two[4];
+        for (const char c : content) {
+            std::snprintf(two, sizeof two, "%02X", static_cast<unsigned>(c));
+            digits += two;
+        }
+        return stream_of(digits + ">", "/Filter/ASCIIHexDecode" + entries);
+    };
+    const auto page = [](const std::string& contents) {
+        return "<</Type/Page/Parent 2 0 R/MediaBox[0 0 595 842]/Resources<</Font<</F1 3 0 R>>>>/Contents " + contents +
+               ">>";
+    };
+    const std::string pieces = "[4 0 R 5 0 R 6 0 R]";
+    for (const std::string kind : {"", "/Subtype/Form", "/Type/XObject/Subtype/Form/BBox[0 0 9 9]"})
+        for (const std::string& first : {page(pieces), page("8 0 R")})
+            for (const std::string& second : {page(pieces), page("5 0 R")}) {
+                const std::string pdf =
+                    pdf_of({"<</Type/Catalog/Pages 2 0 R>>", "<</Type/Pages/Kids[7 0 R 9 0 R]/Count 2>>",
+                            "<</Type/Font/Subtype/Type1/BaseFont/Helvetica>>",
+                            encoded("BT /F1 12 Tf 72 700 Td (The student number is "), encoded("20214711 0 l", kind),
+                            encoded(" and so on) Tj ET"), first, pieces, second});
+                const std::string plain = with_plain_streams(pdf);
+                EXPECT_THAT(boxes_of(pdf), HasSubstr(">20214711<"));
+                EXPECT_THAT(plain, HasSubstr("(The student number is "));
+                EXPECT_EQ(boxes_of(plain), boxes_of(pdf)) << kind << first << second;
+            }
+}
+
+// oracle: what poppler reads in the file as it was
 TEST_F(plain_streams, pages_of_any_operators_read_the_same) {
     const std::vector<std::string> drawing = {
         "1 20 m", "-3.5 300 l", ".5 0 1 2 3 4 c", "9 9 40 40 re",   "5 5 6 6 v", "h", "S",    "f*",

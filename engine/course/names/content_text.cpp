@@ -12,6 +12,7 @@
 #include <qpdf/QPDFTokenizer.hh>
 #include <set>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "course/names/byte_text.h"
@@ -307,6 +308,36 @@ CodeMap code_map(const std::string& to_unicode) {
     }
     if (map.bytes == 0) map.bytes = 1;
     return map;
+}
+
+std::size_t bytes_of_identity(const std::string& cmap) {
+    ContentTokens tokens(cmap);
+    std::vector<std::string> codes;
+    std::vector<long> cids;
+    std::size_t bytes = 0;
+    bool is_identity = true, maps = false;
+    for (auto kind = tokens.next(); is_identity && kind != QPDFTokenizer::tt_eof; kind = tokens.next()) {
+        const std::string& token = tokens.token();
+        if (kind == QPDFTokenizer::tt_string) codes.push_back(token);
+        if (kind == QPDFTokenizer::tt_integer) cids.push_back(std::strtol(token.c_str(), nullptr, 10));
+        if (kind == QPDFTokenizer::tt_bad) return 0;
+        if (kind != QPDFTokenizer::tt_word) continue;
+        const std::size_t of_entry = token == "endcidrange" ? 2 : token == "endcidchar" ? 1 : 0;
+        if (token == "usecmap") return 0;
+        if (token == "endcodespacerange" || of_entry > 0) {
+            if (bytes == 0 && !codes.empty()) bytes = codes.front().size();
+            for (const std::string& code : codes) is_identity = is_identity && code.size() == bytes;
+        }
+        if (of_entry > 0) {
+            is_identity = is_identity && codes.size() == of_entry * cids.size();
+            for (std::size_t i = 0; is_identity && i < cids.size(); ++i)
+                is_identity = std::cmp_equal(number_of(codes[of_entry * i]), cids[i]);
+            maps = maps || !cids.empty();
+        }
+        codes.clear();
+        cids.clear();
+    }
+    return is_identity && maps ? bytes : 0;
 }
 
 bool shows_text(std::string_view stream) {

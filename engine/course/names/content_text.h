@@ -15,6 +15,10 @@ struct CodeMap {
 
 CodeMap code_map(const std::string& to_unicode);
 
+/// Bytes of a code, where a CMap (ISO 32000-1, 9.7.5) gives each code its own number as CID; 0 where it does not, or
+/// where that cannot be told.
+std::size_t bytes_of_identity(const std::string& cmap);
+
 /// The letter of a glyph's name (Adobe Glyph List: "A", "eacute", "uni00E9", "f_i"); a space for a sign, "" for a name
 /// that says nothing.
 std::string text_of_glyph(const std::string& name);

@@ -124,25 +124,30 @@ std::vector<KnownLetter> known_letters(const FontReader& reader, const KnownFont
     return letters;
 }
 
-/// The nearest letter and the nearest digit, and how far away what is told is.
+/// How far an outline is from the nearest letter, the nearest digit, and from each text.
 struct Likeness {
     std::array<const KnownLetter*, 2> nearest{};  ///< letter, digit
     std::array<double, 2> away = {kNowhere, kNowhere};
-    double told = kNowhere;
+    std::map<std::string, double> of_text;  ///< by folded text
     static constexpr double kNowhere = std::numeric_limits<double>::infinity();
+
+    double away_from(const std::string& folded) const {
+        const auto found = of_text.find(folded);
+        return found == of_text.end() ? kNowhere : found->second;
+    }
 };
 
-void hold_against(const StretchedOutline& outline, const std::vector<KnownLetter>& letters, const std::string& told,
-                  Likeness& found) {
+void hold_against(const StretchedOutline& outline, const std::vector<KnownLetter>& letters, Likeness& found) {
     for (const KnownLetter& letter : letters) {
         const double away = outline_distance(outline, letter.outline);
         const std::size_t kind = letter.is_digit ? 1 : 0;
         if (away < found.away[kind]) found.away[kind] = away, found.nearest[kind] = &letter;
-        if (letter.folded == told) found.told = std::min(found.told, away);
+        double& nearest = found.of_text.try_emplace(letter.folded, Likeness::kNowhere).first->second;
+        nearest = std::min(nearest, away);
     }
 }
 
-/// By glyph, the code that shows it. Those of CFF fonts with numbers of their own (CIDs) are these.
+/// By code, the glyph that it shows. Those of CFF fonts with numbers of their own (CIDs) are these.
 std::map<std::uint32_t, std::uint32_t> glyph_by_code(FT_Face face, const GlyphCodes& codes) {
     std::map<std::uint32_t, std::uint32_t> glyphs;
     const auto count = static_cast<std::uint32_t>(std::clamp<FT_Long>(face->num_glyphs, 0, 0xFFFF));
@@ -199,20 +204,22 @@ std::vector<CodeMap> DrawnLetters::read(const std::string& font_file, const Glyp
     const FontReader::Face face = reader.face(font_file);
     if (!face) return {};
     std::array<CodeMap, 2> drawn = {told, told};  // as letters, as digits
+    std::map<std::uint32_t, Likeness> of_glyphs;  // many codes may lead to one glyph, such as that of what is missing
     for (const auto& [code, glyph] : glyph_by_code(face.get(), codes)) {
         const auto claim = told.text.find(code);
         const std::string claimed = claim == told.text.end() ? "" : folded_text(claim->second);
-        Likeness like;
+        const auto [known, is_new] = of_glyphs.try_emplace(glyph);
+        Likeness& like = known->second;
         for (const double slant : {0.0, kSlant})
-            if (const auto outline = reader.outline(face.get(), glyph, slant))
-                hold_against(*outline, letters_->all, claimed, like);
+            if (const auto outline = is_new ? reader.outline(face.get(), glyph, slant) : std::nullopt)
+                hold_against(*outline, letters_->all, like);
         for (std::size_t kind = 0; kind < drawn.size(); ++kind)
-            if (like.away[kind] < kLike && like.told - like.away[kind] > kClearly)
+            if (like.away[kind] < kLike && like.away_from(claimed) - like.away[kind] > kClearly)
                 drawn[kind].text[code] = like.nearest[kind]->text;
     }
     std::vector<CodeMap> otherwise;
     for (CodeMap& map : drawn) {
-        map.bytes = 2;
+        map.bytes = codes.bytes;
         if (map.text != told.text) otherwise.push_back(std::move(map));
     }
     return otherwise;

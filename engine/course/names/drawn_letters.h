@@ -17,10 +17,12 @@ const KnownFonts& known_fonts();  ///< read once
 
 /// How the codes of a font lead to its glyphs.
 struct GlyphCodes {
+    std::size_t bytes = 2;              ///< of a code
     std::vector<std::uint16_t> glyphs;  ///< by code; empty: codes are glyphs, or what the font itself numbers them by
 };
 
-/// What fonts of two-byte codes show, where their outlines are clearly those of other letters than their tables say.
+/// What composite fonts (ISO 32000-1, 9.7) show, where their outlines are clearly those of other letters than their
+/// tables say.
 class DrawnLetters {
   public:
     explicit DrawnLetters(const KnownFonts& known);

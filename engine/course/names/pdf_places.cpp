@@ -153,7 +153,7 @@ class Places {
             for (const Object& entry : value.getArrayAsVector()) note_kinds(entry, depth + 1);
         value = dictionary_in(value);
         if (!value.isDictionary()) return;
-        if (text_of(value, "/Type") == "Font") {
+        if (text_of(value, "/Type") == "Font" || has_any(value, {"/DescendantFonts", "/CharProcs"})) {
             note_font(value);
             note_drawn_letters(value);
         }
@@ -186,24 +186,36 @@ class Places {
         return has_one ? Object(inner).getArrayItem(0) : inner;
     }
 
+    /// Bytes of a code, where the codes of a font are the numbers of its letters; else 0.
+    std::size_t bytes_of_code(Object encoding) {
+        if (encoding.isName()) return encoding.getName().starts_with("/Identity") ? 2 : 0;
+        const bool is_alone = encoding.isStream() && !encoding.getDict().hasKey("/UseCMap");
+        return is_alone ? bytes_of_identity(content_of(encoding)) : 0;
+    }
+
     /// What such a font's table tells of its letters need not be what a reader sees.
     void note_drawn_letters(Object font) {
-        if (text_of(font, "/Subtype") != "Type0" || !text_of(font, "/Encoding").starts_with("Identity")) return;
+        if (!font.hasKey("/DescendantFonts")) return;
         Object inner = descendant_of(font);
         Object description = inner.isDictionary() ? inner.getKey("/FontDescriptor") : inner;
         if (!description.isDictionary()) return;
         const Object table = font.getKey("/ToUnicode"), order = inner.getKey("/CIDToGIDMap");
         const CodeMap told = Object(table).isStream() ? code_map(content_of(table)) : CodeMap();
         GlyphCodes codes;
+        codes.bytes = bytes_of_code(font.getKey("/Encoding"));
         if (Object(order).isStream()) {
             const std::string bytes = content_of(order);
             for (std::size_t i = 0; i + 1 < bytes.size(); i += 2)
                 codes.glyphs.push_back(static_cast<std::uint16_t>(static_cast<unsigned char>(bytes[i]) << 8 |
                                                                   static_cast<unsigned char>(bytes[i + 1])));
         }
-        for (const char* key : {"/FontFile2", "/FontFile3"}) {
+        for (const char* key : {"/FontFile", "/FontFile2", "/FontFile3"}) {
             const Object file = description.getKey(key);
             if (!Object(file).isStream()) continue;
+            if (codes.bytes == 0) {
+                trouble_ = "It has a font whose codes are not the numbers of its letters.";
+                return;
+            }
             for (CodeMap& map : drawn_.read(content_of(file), codes, told)) note_map(std::move(map));
         }
     }
@@ -211,13 +223,15 @@ class Places {
     /// A font whose codes no table explains shows what nobody can read but on paper.
     void note_font(Object font) {
         const std::string kind = text_of(font, "/Subtype");
-        if (font.hasKey("/ToUnicode") || (kind != "Type0" && kind != "Type3")) return;
+        const bool is_composite = kind == "Type0" || font.hasKey("/DescendantFonts");
+        if (font.hasKey("/ToUnicode") || (!is_composite && kind != "Type3")) return;
         bool readable = false;
-        if (kind == "Type0") {
+        if (is_composite) {
             const Object first = descendant_of(font);
             const Object system = Object(first).isDictionary() ? Object(first).getKey("/CIDSystemInfo") : first;
             const std::string script = Object(system).isDictionary() ? text_of(system, "/Ordering") : "";
-            readable = !text_of(font, "/Encoding").starts_with("Identity") || (!script.empty() && script != "Identity");
+            const bool is_known = font.getKey("/Encoding").isName() && bytes_of_code(font.getKey("/Encoding")) == 0;
+            readable = is_known || (!script.empty() && script != "Identity");
         } else {
             const Object encoding = font.getKey("/Encoding");
             const Object names = Object(encoding).isDictionary() ? Object(encoding).getKey("/Differences") : encoding;

@@ -23,15 +23,22 @@ bool is_left_alone(QPDFObjectHandle stream) {
            std::any_of(std::begin(kUnread), std::end(kUnread), is_of_type);
 }
 
-/// Streams that are the whole content of a page, and forms.
+/// Streams that are the whole content of a page, and forms. One that is a piece of some content as well is none of
+/// them, for a string may begin in the piece before it.
 std::set<QPDFObjGen> whole_contents(QPDF& pdf, std::vector<QPDFObjectHandle>& objects) {
-    std::set<QPDFObjGen> contents;
+    std::set<QPDFObjGen> contents, pieces;
+    const auto note_page = [&](QPDFObjectHandle content) {
+        if (content.isStream()) contents.insert(content.getObjGen());
+        if (!content.isArray()) return;
+        for (const QPDFObjectHandle& piece : content.getArrayAsVector()) pieces.insert(piece.getObjGen());
+    };
+    for (QPDFObjectHandle page : pdf.getAllPages()) note_page(page.getKey("/Contents"));
     for (QPDFObjectHandle& object : objects) {
         if (object.isStream() && object.getDict().isDictionaryOfType("", "/Form")) contents.insert(object.getObjGen());
+        if (object.isDictionary())
+            note_page(object.getKey("/Contents"));  // readers differ in what they take for a page
     }
-    for (QPDFObjectHandle page : pdf.getAllPages())
-        if (QPDFObjectHandle content = page.getKey("/Contents"); content.isStream())
-            contents.insert(content.getObjGen());
+    for (const QPDFObjGen& piece : pieces) contents.erase(piece);
     return contents;
 }
 
