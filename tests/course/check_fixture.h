@@ -6,6 +6,7 @@
 #include "course/findings/document_findings.h"
 #include "documents/document_fixture.h"
 #include "platform/child_process.h"
+#include "told_in_french.h"
 
 namespace dynlab {
 
@@ -87,6 +88,7 @@ class CheckTest : public DocumentTest {
 
     static std::vector<std::string> ids(const CheckResult& result) {
         std::vector<std::string> found;
+        expect_told_in_french(result.findings);
         for (const Finding& finding : result.findings) {
             EXPECT_TRUE(finding.what.ends_with('.')) << finding.what;
             EXPECT_TRUE(finding.remedy.ends_with('.')) << finding.remedy;

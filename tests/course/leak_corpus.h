@@ -65,6 +65,7 @@ class LeakCorpus : public CheckTest {
             const bool of_names = finding.id.starts_with("name-") || finding.id == "author-named" ||
                                   finding.id == "not-searched" || finding.id == "damaged";
             if (!of_names) continue;
+            expect_told_in_french({finding});
             EXPECT_TRUE(finding.what.ends_with('.')) << finding.what;
             EXPECT_TRUE(finding.remedy.ends_with('.')) << finding.remedy;
             const std::string words = finding.id + " " + std::to_string(finding.page);
