@@ -36,6 +36,32 @@ const std::string kSlider =
 const std::string kMoveTo8 =
     "const s = document.getElementById('slider-k'); s.value = 14; s.dispatchEvent(new Event('input'))";
 
+/// Long calls below a slider that do not depend on it are recalled, not computed again. Oracle: the memory of calls.
+TEST_F(preview_editing, a_slider_leaves_long_calls_that_do_not_depend_on_it) {
+    write(
+        kHead +
+        "-- %% id=one\nlocal x = slider(\"x\", 3, 1, 5)\n\n-- %% id=long\nlocal M = montecarlo{system = tf({2}, "
+        "{1, 4, 3}), input = prbs(7, 20), Ts = 0.01, sigma = 0.2, runs = 6000, estimators = {{\"srivc\", {1, 2, 0}}}}\n"
+        "print(\"last \" .. x)\n");
+    const fs::path cache = folder.path() / "cache";
+    const auto kept = [&] {
+        std::ptrdiff_t count = 0;
+        for (const auto& entry : fs::recursive_directory_iterator(cache))
+            count += entry.is_regular_file() && entry.path().parent_path().filename() == "calls";
+        return count;
+    };
+    const Preview preview(file(), true, {}, cache);
+    Browser browser;
+    browser.open(preview.address());
+    ASSERT_TRUE(shows(browser, "last 3"));
+    ASSERT_EQ(kept(), 1);
+    browser.evaluate(
+        "const s = document.querySelector('input[type=range]'); s.value = 40; s.dispatchEvent(new Event('input', "
+        "{bubbles: true})); s.dispatchEvent(new Event('change', {bubbles: true}))");
+    ASSERT_TRUE(browser.comes("/last 1[.]/.test(document.getElementById('document').innerText)"));
+    EXPECT_EQ(kept(), 1);
+}
+
 TEST_F(preview_editing, a_slider_runs_what_follows_it) {
     write(kHead + kSlider);
     const Preview preview(file());

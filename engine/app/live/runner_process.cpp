@@ -47,11 +47,17 @@ struct World {
     Runtime runtime;
     std::map<std::string, std::string> drawn;  ///< names of figures, and what a page draws them from
 
-    explicit World(const RunOptions& options, const std::string& report_language)
-        : language{report_language}, runtime(options, renderer) {
+    World(RunOptions options, const std::string& report_language)
+        : language{report_language}, runtime(with_memory(std::move(options), &calls), renderer) {
         runtime.set_service(&language);
         sliders.clamped = true;  // it was chosen before the script had this range
         runtime.set_service(&sliders);
+    }
+
+  private:
+    static RunOptions with_memory(RunOptions options, CallCache* calls) {
+        options.call_cache = calls;
+        return options;
     }
 };
 
