@@ -51,7 +51,7 @@ struct FitOptions {
     std::map<std::string, double> fixed;  ///< searches: parameters that are not estimated, by name, in seconds
     Vector output_weights;                ///< of each output's errors; by their standard deviations when empty
     bool precision = true;                ///< a search ends with the covariance
-    std::function<bool()> cancel;         ///< asked before every iteration
+    std::function<bool()> cancel;         ///< asked before every iteration, by several threads at once
 
     /// Throws InvalidArgument naming the option.
     void validate() const;
