@@ -3,7 +3,7 @@
 
 #include <iostream>
 
-#include "cli/course_commands.h"
+#include "cli/course/course_commands.h"
 #include "course/review/oral_marks.h"
 #include "course/store/aligned_table.h"
 #include "course/store/course_export.h"

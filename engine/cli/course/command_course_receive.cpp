@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <iostream>
 
-#include "cli/course_commands.h"
+#include "cli/course/course_commands.h"
 #include "course/corrections/arrival_times.h"
 #include "course/store/aligned_table.h"
 #include "course/store/graded_work.h"

@@ -4,7 +4,7 @@
 #include <iostream>
 
 #include "cli/commands.h"
-#include "cli/course_commands.h"
+#include "cli/course/course_commands.h"
 #include "course/store/assignments.h"
 #include "course/store/course_status.h"
 #include "course/store/groups.h"

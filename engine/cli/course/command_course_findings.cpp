@@ -2,7 +2,7 @@
 
 #include <iostream>
 
-#include "cli/course_commands.h"
+#include "cli/course/course_commands.h"
 #include "cli/terminal_colour.h"
 #include "course/findings/findings_report.h"
 #include "course/review/review_pairs.h"

@@ -2,7 +2,7 @@
 
 #include <iostream>
 
-#include "cli/course_commands.h"
+#include "cli/course/course_commands.h"
 #include "course/corrections/corrections.h"
 #include "course/review/review_marks.h"
 #include "course/store/hand_ins.h"

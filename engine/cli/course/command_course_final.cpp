@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <iostream>
 
-#include "cli/course_commands.h"
+#include "cli/course/course_commands.h"
 #include "course/review/final_changes.h"
 #include "course/review/final_changes_document.h"
 #include "numerics/number_text.h"

@@ -2,7 +2,7 @@
 
 #include <iostream>
 
-#include "cli/course_commands.h"
+#include "cli/course/course_commands.h"
 #include "course/names/anonymous_copy.h"
 #include "course/returns/returned_files.h"
 #include "course/review/peer_review.h"
