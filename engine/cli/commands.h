@@ -19,6 +19,7 @@ void add_hint(CLI::App& app, Action& action);
 void add_sheet(CLI::App& app, Action& action);
 void add_weave(CLI::App& app, Action& action);
 void add_preview(CLI::App& app, Action& action);
+void add_app(CLI::App& app, Action& action);
 void add_new(CLI::App& app, Action& action);
 void add_check(CLI::App& app, Action& action);
 void add_demo(CLI::App& app, Action& action);

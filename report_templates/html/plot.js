@@ -132,8 +132,9 @@ const dynlabPlots = (() => {
       this.panels = figure.panels.map((panel) => new Panel(panel));
       if (figure.motion) this.panels[figure.motion.picture].picture = true;
     }
-    /// The same figure of another run: what was zoomed or hidden stays so.
-    renew(figure) {
+    /// The same figure of another run: what was zoomed or hidden stays so. `whole`: by panel, what its abscissa is as a
+    /// whole, where the figure is a part of it.
+    renew(figure, whole = null) {
       const before = this.panels;
       this.take(figure);
       this.panels.forEach((panel, i) => {
@@ -141,6 +142,7 @@ const dynlabPlots = (() => {
         if (!was) return;
         for (const axis of ["x", "y"])
           if (was[axis].moved) [panel[axis].low, panel[axis].high] = [was[axis].low, was[axis].high];
+        if (whole?.[i]) panel.x.whole = whole[i];
         panel.curves.forEach((curve, k) => { curve.shown = was.curves[k]?.shown ?? true; });
       });
       this.cursor = null;
@@ -225,6 +227,7 @@ const dynlabPlots = (() => {
       for (const handle of this.handles) handle.draw();
       this.drawCursor();
       this.motion?.refresh();
+      this.box.dispatchEvent(new Event("drawn"));
     }
     /// An instant that is shown elsewhere, as a line through the panels over time.
     showMoment(instant) {
@@ -238,6 +241,7 @@ const dynlabPlots = (() => {
     reset() {
       for (const panel of this.panels) { panel.x.reset(); panel.y.reset(); }
       this.draw();
+      this.box.dispatchEvent(new Event("zoomed"));
     }
     /// Positions on the panel's axes (0 to 1) become its corners; null leaves an axis as it is.
     zoom(panel, x, y) {
@@ -247,6 +251,7 @@ const dynlabPlots = (() => {
       }
       if (y) panel.y.zoom(...y);
       this.draw();
+      this.box.dispatchEvent(new Event("zoomed"));
     }
     zoomAround(panel, [x, y], factor, only = "") {
       const part = (position) => [position - position * factor, position + (1 - position) * factor];
@@ -485,5 +490,13 @@ const dynlabPlots = (() => {
   function enlivenNow(root) {
     root.querySelectorAll("script.plot-data").forEach(begin);
   }
-  return { enliven, enlivenNow };
+  /// A figure without a picture, in `holder`: gives the plot, whose `renew` shows the next one.
+  function show(holder, figure, words) {
+    const picture = Object.assign(document.createElement("img"), { className: "printed", alt: words });
+    holder.append(picture);
+    const plot = new Plot(picture, figure);
+    plot.draw();
+    return plot;
+  }
+  return { enliven, enlivenNow, show };
 })();

@@ -16,16 +16,15 @@
 
 namespace dynlab::test {
 
-/// The program that serves a document, as a user starts it.
-class Preview {
+/// The program that serves a page, as a user starts it.
+class PageProgram {
   public:
-    /// A cache of its own unless one is named.
-    explicit Preview(const std::filesystem::path& document, bool run = true,
-                     const std::vector<std::string>& options = {}, const std::filesystem::path& cache = {}) {
+    /// `words`: the command and what follows it. A cache of its own unless one is named.
+    explicit PageProgram(std::vector<std::string> words, const std::filesystem::path& cache = {},
+                         const std::filesystem::path& folder = {}) {
         const std::filesystem::path address = out.path() / "address";
-        std::vector<std::string> words = {"dynlab", "preview", document, "--no-browser"};
-        if (run) words.push_back("--run");
-        words.insert(words.end(), options.begin(), options.end());
+        words.insert(words.begin(), "dynlab");
+        words.push_back("--no-browser");
         std::vector<char*> pointers;
         for (std::string& word : words) pointers.push_back(word.data());
         pointers.push_back(nullptr);
@@ -34,6 +33,7 @@ class Preview {
             ::setenv("XDG_CACHE_HOME", cache.empty() ? out.path().c_str() : cache.c_str(), 1);
             ::setenv("DYNLAB_HOME", DYNLAB_SOURCE_DIR, 1);
             if (!std::freopen(address.c_str(), "w", stdout)) ::_exit(1);
+            if (!folder.empty()) std::filesystem::current_path(folder);
             ::execv(DYNLAB_PROGRAM, pointers.data());
             ::_exit(1);
         }
@@ -43,7 +43,9 @@ class Preview {
             std::this_thread::sleep_for(std::chrono::milliseconds(10));
         }
     }
-    ~Preview() { end(); }
+    ~PageProgram() { end(); }
+    PageProgram(const PageProgram&) = delete;
+    PageProgram& operator=(const PageProgram&) = delete;
     void end() {
         if (process_ <= 0) return;
         ::kill(process_, SIGINT);
@@ -82,6 +84,23 @@ class Preview {
 
     pid_t process_ = 0;
     std::string address_;
+};
+
+/// `dynlab preview`.
+class Preview : public PageProgram {
+  public:
+    explicit Preview(const std::filesystem::path& document, bool run = true,
+                     const std::vector<std::string>& options = {}, const std::filesystem::path& cache = {})
+        : PageProgram(words_of(document, run, options), cache) {}
+
+  private:
+    static std::vector<std::string> words_of(const std::filesystem::path& document, bool run,
+                                             const std::vector<std::string>& options) {
+        std::vector<std::string> words = {"preview", document};
+        if (run) words.push_back("--run");
+        words.insert(words.end(), options.begin(), options.end());
+        return words;
+    }
 };
 
 }  // namespace dynlab::test

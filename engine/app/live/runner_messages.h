@@ -18,6 +18,12 @@ struct RunOrder {
     std::map<std::string, double> slider_values;  ///< instead of what the script gives its sliders
 };
 
+/// What scripts find in the process besides dynlab's own functions, and what becomes of their figures.
+struct RunnerWorld {
+    std::string prelude;        ///< Lua that runs before every script, with workbench.show (page_values.h); none: empty
+    bool draws_figures = true;  ///< those of a record, for documents; else records come without them
+};
+
 /// What it tells.
 struct RunnerNews {
     /// "split": a process goes on from here, its line comes with the message; "begun": a part begins; "progress": of
@@ -29,9 +35,10 @@ struct RunnerNews {
     double seconds = 0;        ///< the part took
     double progress = 0;       ///< from 0 to 1
     RunRecord record = {};
+    std::map<std::string, std::string> shown = {};  ///< what the part gave the page (page_values.h)
 };
 
 DYNLAB_DESCRIBE(RunOrder, file, source, from, seed, figure_folder, slider_values)
-DYNLAB_DESCRIBE(RunnerNews, kind, part, process, seconds, progress, record)
+DYNLAB_DESCRIBE(RunnerNews, kind, part, process, seconds, progress, record, shown)
 
 }  // namespace dynlab::inline app

@@ -1,6 +1,7 @@
 #include "app/live/runner_process.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -11,12 +12,14 @@
 #include <map>
 #include <memory>
 
+#include "app/live/page_values.h"
 #include "app/live/runner_messages.h"
 #include "data_io/values/cbor_values.h"
 #include "documents/html/plot_data.h"
 #include "figures/french_texts.h"
 #include "figures/gnuplot_renderer.h"
 #include "platform/cache.h"
+#include "platform/error.h"
 #include "platform/terminal/progress.h"
 #include "scripting/memoized_calls/call_cache.h"
 #include "scripting/runtime/report_language.h"
@@ -44,12 +47,20 @@ struct World {
     GnuplotRenderer renderer{&cache};
     ReportLanguage language;
     SliderValues sliders;
+    PageValues page;
     Runtime runtime;
     std::map<std::string, std::string> drawn;  ///< names of figures, and what a page draws them from
 
-    World(RunOptions options, const std::string& report_language)
+    World(RunOptions options, const std::string& report_language, const std::string& prelude)
         : language{report_language}, runtime(with_memory(std::move(options), &calls), renderer) {
         runtime.set_service(&language);
+        runtime.set_service(&page);
+        page.decimal_comma = report_language == "fr";
+        if (!prelude.empty()) {
+            runtime.add_functions(page_functions());
+            const RunRecord made = runtime.run_code(prelude, "workbench");
+            if (made.error) throw EnvironmentError(made.error->message);
+        }
         sliders.clamped = true;  // it was chosen before the script had this range
         runtime.set_service(&sliders);
     }
@@ -63,7 +74,7 @@ struct World {
 
 class RunnerProcess {
   public:
-    explicit RunnerProcess(Channel orders) : line_(std::move(orders)) {}
+    RunnerProcess(Channel orders, RunnerWorld wanted) : line_(std::move(orders)), wanted_(std::move(wanted)) {}
 
     [[noreturn]] void serve() {
         while (const auto message = line_.receive()) {
@@ -116,9 +127,16 @@ class RunnerProcess {
             const Clock::time_point start = Clock::now();
             RunRecord record = world_->runtime.run_part(script, parts[i]);
             const double seconds = seconds_since(start);
-            draw(record, order.figure_folder, i + 1 == parts.size());
+            if (wanted_.draws_figures)
+                draw(record, order.figure_folder, i + 1 == parts.size());
+            else
+                record.figures.clear();
             const bool failed = record.error.has_value();
-            tell({.kind = "done", .part = i, .seconds = seconds, .record = std::move(record)});
+            tell({.kind = "done",
+                  .part = i,
+                  .seconds = seconds,
+                  .record = std::move(record),
+                  .shown = world_->page.take()});
             if (failed) {
                 tell({.kind = "ended", .part = i});
                 ::_exit(0);
@@ -135,7 +153,7 @@ class RunnerProcess {
         const std::filesystem::path folder = script.file.parent_path();
         options.script_folder = folder.empty() ? "." : folder;
         options.out_folder = order.figure_folder;
-        world_ = std::make_unique<World>(options, script.header.language);
+        world_ = std::make_unique<World>(options, script.header.language, wanted_.prelude);
         world_->runtime.begin_parts(script);
     }
 
@@ -157,6 +175,7 @@ class RunnerProcess {
     }
 
     Channel line_;
+    RunnerWorld wanted_;
     std::unique_ptr<World> world_;
     Clock::time_point kept_at_ = Clock::now();
 };
@@ -171,10 +190,13 @@ void leave_terminal() {
 
 }  // namespace
 
-void serve_runs(Channel orders) {
+void serve_runs(Channel orders, RunnerWorld world) {
     leave_terminal();
     try {
-        RunnerProcess(std::move(orders)).serve();
+        RunnerProcess(std::move(orders), std::move(world)).serve();
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "dynlab: {}\n", error.what());
+        ::_exit(1);
     } catch (...) {
         ::_exit(1);
     }

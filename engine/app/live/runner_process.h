@@ -1,5 +1,6 @@
 #pragma once
 #include "app/live/channel.h"
+#include "app/live/runner_messages.h"
 
 namespace dynlab::inline app {
 
@@ -7,6 +8,6 @@ namespace dynlab::inline app {
 /// part that took time: the process that stays keeps the state in which the script was there, and the one that goes on
 /// tells of its own line. Whoever changes the end of a script has the last process before it go on anew. Nothing of
 /// this returns. Threads do not outlive a split: call it in a process that has none.
-[[noreturn]] void serve_runs(Channel orders);
+[[noreturn]] void serve_runs(Channel orders, RunnerWorld world);
 
 }  // namespace dynlab::inline app

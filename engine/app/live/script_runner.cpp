@@ -29,7 +29,7 @@ bool is_same(const ScriptPart& a, const ScriptPart& b) {
 
 }  // namespace
 
-ScriptRunner::ScriptRunner() {
+ScriptRunner::ScriptRunner(RunnerWorld world) {
     auto [here, there] = Channel::pair();
     const pid_t self = ::getpid();
     const pid_t first = ::fork();
@@ -38,7 +38,7 @@ ScriptRunner::ScriptRunner() {
         ::prctl(PR_SET_PDEATHSIG, SIGKILL);
         if (::getppid() != self) ::_exit(0);
         here.release();
-        serve_runs(std::move(there));
+        serve_runs(std::move(there), std::move(world));
     }
     kept_.push_back({0, std::move(here), first});
 }

@@ -20,7 +20,7 @@ namespace dynlab::inline app {
 class ScriptRunner {
   public:
     /// Starts the first process. To be made before the program has threads.
-    ScriptRunner();
+    explicit ScriptRunner(RunnerWorld world = {});
     ~ScriptRunner();  ///< ends all of them
     ScriptRunner(const ScriptRunner&) = delete;
     ScriptRunner& operator=(const ScriptRunner&) = delete;

@@ -1,5 +1,5 @@
-# Writes one C++ source that holds the files of the pages: cmake -DPAGES=folder -DOUTPUT=file.cpp -P embed_pages.cmake
-file(GLOB pages ${PAGES}/*.html ${PAGES}/*.css ${PAGES}/*.js)
+# Writes one C++ source that holds the files of the pages: cmake -DAPP=folder -DOUTPUT=file.cpp -P embed_pages.cmake
+file(GLOB pages ${APP}/page/*.html ${APP}/page/*.css ${APP}/page/*.js ${APP}/workbench/*.lua)
 list(SORT pages)
 set(entries "")
 foreach(page IN LISTS pages)

@@ -41,6 +41,7 @@ bool has_editor() {
 
 void serve_page_files(WebServer& server, const std::string& first) {
     for (const PageFile& file : page_files()) {
+        if (file.name.ends_with(".lua")) continue;
         const PageReply reply{std::string(file.text), type_of_page_file(file.name)};
         server.on_get("/" + std::string(file.name == first ? "" : file.name),
                       [reply](const PageRequest&) { return reply; });

@@ -1,0 +1,100 @@
+#include "app/live/page_values.h"
+
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "documents/html/plot_data.h"
+#include "figures/french_texts.h"
+#include "scripting/arguments/arguments.h"
+#include "scripting/objects/figure_object.h"
+#include "scripting/objects/numeric.h"
+#include "scripting/runtime/context.h"
+
+namespace dynlab::inline app {
+namespace {
+
+using nlohmann::json;
+
+constexpr int kDeepest = 12;  // tables in tables; one that holds itself ends there
+
+json number_json(double value) {
+    return std::isfinite(value) ? json(value) : json();
+}
+
+json matrix_json(NumericBlock& block) {
+    json rows = json::array();
+    for (Index i = 0; i < block.rows; ++i) {
+        json row = json::array();
+        for (Index k = 0; k < block.columns; ++k) row.push_back(number_json(block.matrix()(i, k)));
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+json vector_json(NumericBlock& block) {
+    json list = json::array();
+    for (const double value : block.vector()) list.push_back(number_json(value));
+    return list;
+}
+
+json figure_json(lua_State* L, ScriptFigure& shown) {
+    shown.used = true;
+    const bool comma = service<PageValues>(L).decimal_comma;
+    return json::parse(plot_data(comma ? in_french(shown.figure) : shown.figure, comma));
+}
+
+json value_json(lua_State* L, int index, int depth);
+
+/// A list where the keys are 1, 2, ...; else an object of those that are texts.
+json table_json(lua_State* L, int index, int depth) {
+    const auto length = static_cast<lua_Integer>(lua_rawlen(L, index));
+    if (depth > kDeepest) return nullptr;
+    luaL_checkstack(L, 4, "tables in tables");
+    json list = json::array(), object = json::object();
+    for (lua_Integer i = 1; i <= length; ++i) {
+        lua_rawgeti(L, index, i);
+        list.push_back(value_json(L, lua_gettop(L), depth + 1));
+        lua_pop(L, 1);
+    }
+    for (lua_pushnil(L); lua_next(L, index) != 0; lua_pop(L, 1))
+        if (lua_type(L, -2) == LUA_TSTRING) object[lua_tostring(L, -2)] = value_json(L, lua_gettop(L), depth + 1);
+    return object.empty() ? list : object;
+}
+
+json value_json(lua_State* L, int index, int depth) {
+    switch (lua_type(L, index)) {
+        case LUA_TBOOLEAN:
+            return lua_toboolean(L, index) != 0;
+        case LUA_TNUMBER:
+            return number_json(lua_tonumber(L, index));
+        case LUA_TSTRING:
+            return lua_tostring(L, index);
+        case LUA_TTABLE:
+            return table_json(L, index, depth);
+        default:
+            break;
+    }
+    if (NumericBlock* const block = to_vector(L, index)) return vector_json(*block);
+    if (NumericBlock* const block = to_matrix(L, index)) return matrix_json(*block);
+    if (FigurePointer* const figure = to_object<FigurePointer>(L, index)) return figure_json(L, **figure);
+    return nullptr;
+}
+
+int show(Call& call) {
+    const json value = value_json(call.state(), 2, 0);
+    service<PageValues>(call.state())
+        .show(call.text(1, "name"), value.dump(-1, ' ', false, json::error_handler_t::replace));
+    return 0;
+}
+
+constexpr std::array kPageFunctions = {FunctionEntry{"workbench.show", "workbench", "workbench.show(name, value)",
+                                                     "gives the page a value", guarded<show>}};
+
+}  // namespace
+
+FunctionEntries page_functions() {
+    return kPageFunctions;
+}
+
+}  // namespace dynlab::inline app

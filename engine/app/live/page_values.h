@@ -1,0 +1,25 @@
+#pragma once
+#include <map>
+#include <string>
+#include <utility>
+
+#include "scripting/runtime/function_entry.h"
+
+namespace dynlab::inline app {
+
+/// A service of the runtime: what a script gives the page that runs it, by names, each as JSON.
+class PageValues {
+  public:
+    bool decimal_comma = false;  ///< numbers on figures are written as French writes them
+    void show(const std::string& name, std::string json) { shown_[name] = std::move(json); }
+    std::map<std::string, std::string> take() { return std::exchange(shown_, {}); }
+
+  private:
+    std::map<std::string, std::string> shown_;
+};
+
+/// `workbench.show(name, value)`: numbers (null for what is not finite), texts, true and false, vectors, matrices
+/// (rows), tables (a list where the keys are 1, 2, ...), and figures as documents/html/plot_data.h says.
+FunctionEntries page_functions();
+
+}  // namespace dynlab::inline app

@@ -1,0 +1,172 @@
+// Controls of a step that calls an estimator: they follow from its form, show what the step's line says, and change that line.
+import { change, post, session, trouble } from "/bench_session.js";
+import { formOf, luaNumber, replaced, stepOf } from "/bench_steps.js";
+import { say } from "/bench_words.js";
+
+export function element(tag, fields = {}, ...children) {
+  const node = Object.assign(document.createElement(tag), fields);
+  node.append(...children);
+  return node;
+}
+export const button = (words, act, fields = {}) => element("button", { type: "button", textContent: words, onclick: act, ...fields });
+
+/// The help page of a function, in a dialog.
+export async function help(name) {
+  const answer = await fetch(`/help?name=${encodeURIComponent(name)}`);
+  document.getElementById("help-title").textContent = `${say("help")} ${name}`;
+  document.getElementById("help-text").textContent = (await answer.text()).replace(/^# .*\n+/, "");
+  document.getElementById("page-of-help").showModal();
+}
+export const why = (name) => button(say("why"), () => help(name), { className: "why", ariaLabel: `${say("why")} ${name}`, title: `dynlab help ${name}` });
+
+/// Writes a step anew; `make(step)` gives what is other.
+export function rewrite(key, make, how) {
+  return change(() => {
+    const step = stepOf(key);
+    return step ? [replaced(step, make(step))] : null;
+  }, how);
+}
+const withArgument = (step, place, text) => ({ arguments: step.arguments.map((old, i) => (i === place ? text : old)) });
+export function withOption(step, name, text) {
+  const options = step.options.filter(({ key }) => key !== name);
+  if (text !== "") {
+    const at = step.options.findIndex(({ key }) => key === name);
+    options.splice(at < 0 ? options.length : at, 0, { key: name, text });
+  }
+  return { options };
+}
+const optionText = (step, name) => step.options.find(({ key }) => key === name)?.text ?? "";
+const isNumber = (text) => text.trim() !== "" && Number.isFinite(Number(text));
+
+function labelled(words, control, title = "") {
+  control.title = title;
+  return element("label", { title }, element("span", { textContent: words }), control);
+}
+
+function choice(values, now, act, names = values) {
+  const list = element("select", { onchange: () => act(list.value) });
+  for (const [i, value] of values.entries()) list.append(element("option", { value, textContent: names[i] }));
+  if (!values.includes(now)) list.append(element("option", { value: now, textContent: now }));
+  list.value = now;
+  return list;
+}
+
+/// A field for an expression of Lua: what is no expression is told by the run, in its line.
+const textField = (now, act) => element("input", { type: "text", value: now, spellcheck: false, onchange: (event) => act(event.target.value.trim()) });
+
+/// Controls are not made anew while a hand is at one of them.
+export const hold = (held) => document.dispatchEvent(new CustomEvent("benchheld", { detail: held }));
+
+/// A number with a slider over 1/30 to 30 times what it is when a hand takes it.
+function numberField(now, act, { slider = true } = {}) {
+  if (now !== "" && !isNumber(now)) return textField(now, act);
+  const box = element("input", { type: "number", step: "any", value: now });
+  box.onchange = () => act(box.value === "" ? "" : luaNumber(box.value), {});
+  if (!slider || !isNumber(now) || !(Number(now) > 0)) return box;
+  const range = element("input", { type: "range", min: -1, max: 1, step: 0.01, value: 0, ariaLabel: say("value") });
+  let middle = Number(now), held = false;
+  range.oninput = () => {
+    const text = luaNumber((middle * 30 ** Number(range.value)).toPrecision(3));
+    box.value = text;
+    if (!held) hold(true);
+    act(text, { goesOn: held, held: true });
+    held = true;
+  };
+  range.onchange = () => {
+    held = false;
+    act(box.value, { goesOn: true });
+    middle = Number(box.value);
+    range.value = 0;
+    hold(false);
+  };
+  const both = element("span", { className: "slid" }, box, range);
+  return both;
+}
+
+function ordersField(parts, now, act) {
+  const numbers = /^\{\s*[\d\s,]*\}$/.test(now) ? now.slice(1, -1).split(",").map((text) => text.trim()) : null;
+  if (!numbers || numbers.length !== parts.length) return labelled(parts.join(", "), textField(now, act));
+  const row = element("span", { className: "orders" });
+  parts.forEach((name, i) => {
+    const box = element("input", { type: "number", min: 0, max: 99, value: numbers[i] });
+    box.oninput = () => {
+      if (box.value === "" || !box.checkValidity()) return;
+      numbers[i] = box.value;
+      act(`{${numbers.join(", ")}}`, {});
+    };
+    row.append(labelled(name, box));
+  });
+  return row;
+}
+
+/// "P2DU": poles, and which letters.
+function processField(now, act) {
+  const read = /^"P([123])([DIZU]*)"$/.exec(now);
+  if (!read) return textField(now, act);
+  const letters = new Set(read[2]);
+  let poles = read[1];
+  const tell = () => act(`"P${poles}${[..."DIUZ"].filter((letter) => letters.has(letter) && !(letter === "U" && poles === "1")).join("")}"`, {});
+  const row = element("span", { className: "orders" }, choice(["1", "2", "3"], poles, (value) => { poles = value; tell(); }, ["P1", "P2", "P3"]));
+  for (const letter of "DIZU") {
+    const box = element("input", { type: "checkbox", checked: letters.has(letter), disabled: letter === "U" && poles === "1" });
+    box.onchange = () => { if (box.checked) letters.add(letter); else letters.delete(letter); tell(); };
+    row.append(labelled(letter, box, { D: "delay", I: "integrator", Z: "zero", U: "under-damped pair" }[letter]));
+  }
+  return row;
+}
+
+function argumentControl(key, field, place, now) {
+  const act = (text, how) => rewrite(key, (step) => withArgument(step, place, text), how);
+  if (field.kind === "orders") return ordersField(field.parts, now, act);
+  if (field.kind === "process") return processField(now, act);
+  const whole = field.name !== "lambda" && isNumber(now);
+  if (!whole) return labelled(field.name, numberField(now, act), field.words);
+  const box = element("input", { type: "number", min: 0, max: 99, value: now });
+  box.oninput = () => { if (box.value !== "" && box.checkValidity()) act(box.value, {}); };
+  return labelled(field.name, box, field.words);
+}
+
+function optionControl(key, field, now) {
+  const act = (text, how) => rewrite(key, (step) => withOption(step, field.name, text), how);
+  if (field.kind === "choice") return choice(["", ...field.parts], now, act, [say("notGiven"), ...field.parts.map((text) => text.replace(/"/g, ""))]);
+  if (field.kind === "flag") return choice(["", "true", "false"], now, act, [say("notGiven"), "true", "false"]);
+  return field.kind === "number" ? numberField(now, act) : textField(now, act);
+}
+
+/// Free, fixed or none, where the method leaves the choice.
+function delayControl(key, step) {
+  const fixed = optionText(step, "IODelay"), none = optionText(step, "TdMax") === "0";
+  const now = fixed ? "fixed" : none ? "none" : "free";
+  const without = (step) => step.options.filter(({ key }) => !["IODelay", "TdMax", "TdMin", "Td0", "NumTd"].includes(key));
+  const act = (way) => rewrite(key, (step) => ({
+    options: [...without(step), ...(way === "free" ? [] : [way === "none" ? { key: "TdMax", text: "0" } : { key: "IODelay", text: fixed || "0.1" }])],
+  }));
+  const row = element("span", { className: "orders" }, labelled(say("delay"), choice(["free", "fixed", "none"], now, act, [say("free"), say("fixed"), say("noDelay")])));
+  if (fixed) row.append(numberField(fixed, (text, how) => rewrite(key, (step) => withOption(step, "IODelay", text), how)));
+  return row;
+}
+
+/// All controls of a step that calls an estimator.
+export function stepControls(key, step, { open = false } = {}) {
+  const form = formOf(step.function);
+  const node = element("div", { className: "controls" });
+  form.arguments.forEach((field, i) => { if (step.arguments[i + 1] !== undefined) node.append(argumentControl(key, field, i + 1, step.arguments[i + 1])); });
+  const hasDelay = form.options.some(({ name }) => name === "IODelay") && form.options.some(({ name }) => name === "TdMax");
+  if (hasDelay) node.append(delayControl(key, step));
+  const given = form.options.filter(({ name }) => optionText(step, name) !== "" && !(hasDelay && ["IODelay", "TdMax"].includes(name)));
+  const rest = form.options.filter((field) => !given.includes(field) && !(hasDelay && field.name === "IODelay"));
+  for (const field of given) node.append(labelled(field.name, optionControl(key, field, optionText(step, field.name)), field.words));
+  if (rest.length > 0) {
+    const more = element("details", { open }, element("summary", { textContent: `${say("options")} (${rest.length})` }));
+    for (const field of rest) more.append(labelled(field.name, optionControl(key, field, optionText(step, field.name)), field.words));
+    node.append(more);
+  }
+  return node;
+}
+
+/// The line of a new step of this form.
+export function firstCall(form, data) {
+  const args = form.arguments.map((field) => (field.kind === "orders" ? `{${field.initial}}` : field.initial || "1"));
+  return `${form.name}(${[data, ...args].join(", ")})`;
+}
+export { labelled, choice, numberField, textField, isNumber };

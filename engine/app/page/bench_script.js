@@ -1,0 +1,72 @@
+// The script beside the pictures: what is typed is the session, too.
+import { change, session } from "/bench_session.js";
+
+const kRest = 400;  // ms after the last key
+let mirror = null, timer = 0, own = false, shown = "", line = -1;
+
+function loaded(file) {
+  return new Promise((yes, no) => {
+    const css = file.endsWith(".css");
+    const node = Object.assign(document.createElement(css ? "link" : "script"), css ? { rel: "stylesheet", href: file } : { src: file, async: false });
+    node.onload = yes;
+    node.onerror = no;
+    document.head.append(node);
+  });
+}
+
+function typed(text) {
+  clearTimeout(timer);
+  timer = setTimeout(() => { timer = 0; change(() => (text() === session.source ? null : { text: text() })); }, kRest);
+}
+
+export async function openScript() {
+  const field = document.getElementById("field");
+  try {
+    await loaded("/codemirror.js");
+    await Promise.all([loaded("/codemirror.css"), loaded("/codemirror-lua.js")]);
+    mirror = CodeMirror(document.getElementById("code"), { mode: "lua", lineNumbers: true, lineWrapping: true, value: session.source,
+                                                          extraKeys: { Tab: false, "Shift-Tab": false, "Ctrl-Z": () => document.getElementById("undo").click(), "Ctrl-Y": () => document.getElementById("redo").click() } });
+    mirror.on("change", () => { if (!own) typed(() => mirror.getValue()); });
+  } catch {
+    field.hidden = false;
+    document.getElementById("code").hidden = true;
+    field.oninput = () => typed(() => field.value);
+  }
+  showScript();
+}
+
+/// The text as it is now, with what changed marked, unless somebody is typing.
+export function showScript() {
+  const field = document.getElementById("field");
+  if (timer) return;
+  const before = shown.split("\n"), after = session.source.split("\n");
+  shown = session.source;
+  if (!mirror) { if (field.value !== shown) field.value = shown; return; }
+  if (mirror.getValue() !== shown) {
+    let first = 0, last = 0;
+    while (first < before.length && first < after.length && before[first] === after[first]) ++first;
+    while (last < before.length - first && last < after.length - first && before[before.length - 1 - last] === after[after.length - 1 - last]) ++last;
+    own = true;
+    const old = mirror.getValue().split("\n");
+    if (old.join("\n") === before.join("\n") && before.length > 1)
+      mirror.replaceRange(after.slice(first, after.length - last).join("\n") + (last > 0 && after.length - last > first ? "\n" : ""), { line: first, ch: 0 },
+                          last > 0 ? { line: before.length - last, ch: 0 } : { line: before.length, ch: 0 });
+    if (mirror.getValue() !== shown) mirror.setValue(shown);
+    own = false;
+    if (before.length > 1) mark(first, after.length - last);
+  }
+  showMistake();
+}
+
+function mark(first, last) {
+  for (let i = first; i < last; ++i) mirror.addLineClass(i, "wrap", "fresh-line");
+  mirror.scrollIntoView({ line: Math.min(first, mirror.lineCount() - 1), ch: 0 }, 60);
+  setTimeout(() => mirror.eachLine((handle) => mirror.removeLineClass(handle, "wrap", "fresh-line")), 1500);
+}
+
+export function showMistake() {
+  if (!mirror) return;
+  if (line >= 0 && line < mirror.lineCount()) mirror.removeLineClass(line, "wrap", "broken-line");
+  line = session.error?.line > 0 ? session.error.line - 1 : -1;
+  if (line >= 0 && line < mirror.lineCount()) mirror.addLineClass(line, "wrap", "broken-line");
+}

@@ -1,0 +1,231 @@
+// The pictures of a session, as many at once as wanted, and what is told with them.
+import { change, look, session } from "/bench_session.js";
+import { Brushes } from "/bench_brushes.js";
+import { button, element, why } from "/bench_fields.js";
+import { endOfScript, freeName, insertedBehind, modelSteps, newCell, replaced, roles, variables } from "/bench_steps.js";
+import { say, shortNumber, viewName, viewNames } from "/bench_words.js";
+
+const HELP = { record: "idplot", spectrum: "fft", compare: "compare", residuals: "resid", step: "step", impulse: "impulse", bode: "bode", nyquist: "nyquist",
+               poles: "pzmap", parameters: "present", correlation: "impulseest", delay: "delayest", orders: "srivcstruc", study: "montecarlo" };
+const WIDE = ["record", "study"];
+const tiles = new Map();  // name -> {node, body, words, plot}
+const hidden = new Set();  // models that are not drawn
+let chosen = null;         // names of views; until somebody chooses, what there is decides
+let range = null;          // of the record, where it was zoomed
+let timer = 0;
+
+function defaultViews() {
+  const { raw, orders, study } = roles(), models = modelSteps().length > 0;
+  const names = raw ? ["record"] : [];
+  if (models) names.push("compare", "residuals", "step", "bode");
+  else if (raw) names.push("correlation", "spectrum");
+  if (orders) names.push("orders");
+  if (study) names.push("study");
+  return names;
+}
+export const shownViews = () => chosen ?? defaultViews();
+export const isHidden = (model) => hidden.has(model);
+export function setHidden(model, hide) {
+  if (hide) hidden.add(model); else hidden.delete(model);
+  ask();
+}
+export function toggleView(name, on = !shownViews().includes(name)) {
+  chosen = viewNames().filter((other) => (other === name ? on : shownViews().includes(other)));
+  arrange();
+}
+
+/// Tells the server what is to be seen, at which size.
+export function ask() {
+  clearTimeout(timer);
+  timer = setTimeout(() => {
+    const part = roles(), all = modelSteps().filter((step) => step.on).map((step) => step.names[0]);
+    const names = [...new Set([...Object.values(part), ...all].filter((name) => name && /^[A-Za-z_]\w*$/.test(name)))];
+    const every = [...new Set([...names, ...session.steps.filter((step) => step.on).flatMap((step) => step.names)])];
+    const sizes = {};
+    for (const [name, { body }] of tiles) sizes[name] = [body.clientWidth - 8, body.clientHeight - (name === "record" ? 40 : 4)];
+    const of = [part.raw, part.prepared];
+    const until = Math.max(0, ...session.steps.filter((step) => step.names.some((name) => of.includes(name))).map((step) => step.last_line));
+    look(every, { ...part, views: shownViews(), models: all.filter((name) => !hidden.has(name)).slice(-8), all_models: all, sizes, range, advice: true }, until);
+  }, 0);
+}
+
+function makeTile(name) {
+  const node = element("section", { className: "tile", ariaLabel: viewName(name) });
+  node.dataset.view = name;
+  node.classList.toggle("wide", WIDE.includes(name));
+  const close = button("×", () => toggleView(name, false), { className: "close", ariaLabel: `${say("close")}: ${viewName(name)}` });
+  const into = button(say("intoScript"), () => intoScript(name), { className: "into" });
+  const body = element("div", { className: "body" }), words = element("p", { className: "told" });
+  const title = element("h2", { textContent: viewName(name) });
+  node.append(element("header", {}, title, why(HELP[name]), ...(LINES[name] ? [into] : []), close), body, words);
+  return { node, body, words, title };
+}
+
+export function arrange() {
+  const main = document.getElementById("views"), names = shownViews();
+  for (const [name, tile] of tiles) if (!names.includes(name)) { tile.node.remove(); tiles.delete(name); }
+  for (const name of names) {
+    if (!tiles.has(name)) tiles.set(name, makeTile(name));
+    main.append(tiles.get(name).node);
+  }
+  drawTiles(names);
+  ask();
+}
+
+/// Lines that put a view into the report.
+const LINES = {
+  record: ({ raw }) => `idplot(${raw})`,
+  compare: ({ validation }, models) => `compare(${[validation, ...models].join(", ")})`,
+  residuals: ({ validation }, models) => `resid(${validation}, ${models[models.length - 1]})`,
+  step: (_, models) => `step(${models.join(", ")})`, impulse: (_, models) => `impulse(${models.join(", ")})`,
+  bode: (_, models) => `bode(${models.join(", ")})`, nyquist: (_, models) => `nyquist(${models.join(", ")})`, poles: (_, models) => `pzmap(${models.join(", ")})`,
+  parameters: (_, models) => models.map((model) => `present(${model})`).join("\n"),
+  correlation: ({ estimation }, models) => `impulseest(${[estimation, ...models].join(", ")})`,
+  study: ({ study }) => `print(${study})\n${study}:histograms()`, orders: ({ orders }) => `print(${orders})`,
+};
+function intoScript(name) {
+  const models = modelSteps().filter((step) => step.on && !hidden.has(step.names[0])).map((step) => step.names[0]);
+  let k = 1;
+  const id = () => `${name}${k > 1 ? k : ""}`;
+  while (session.cells.some((cell) => cell.id === id())) ++k;
+  change(() => [insertedBehind(endOfScript(), `\n-- %% [markdown]\n-- ## ${viewName(name)}\n\n-- %% id=${id()}\n${LINES[name](roles(), models)}`)]);
+}
+
+const dataOf = (name) => variables()[name];
+
+/// The step that gives a part of the record its name, where it has one of its own.
+function partStep(kind) {
+  const part = roles(), name = part[kind];
+  if (!name || name === part.prepared || name === part.raw || (kind === "validation" && name === part.estimation)) return null;
+  return session.steps.find((step) => step.on && step.names.length === 1 && step.names[0] === name) ?? null;
+}
+
+/// [from, to] of the parts, in seconds of the record that they are taken from.
+function partsNow() {
+  const part = roles(), parts = {};
+  for (const kind of ["estimation", "validation"]) {
+    const data = dataOf(partStep(kind)?.names[0] ?? part.prepared);
+    if (data?.kind === "data") parts[kind] = [data.start, data.last];
+  }
+  return parts;
+}
+
+/// A part becomes what a hand says: samples of the prepared record, the whole of it by its name.
+let partIsHeld = false;
+function movePart(kind, [from, to], held) {
+  const { prepared } = roles(), data = dataOf(prepared);
+  if (data?.kind !== "data") return;
+  const sample = (instant) => Math.min(Math.max(Math.round((instant - data.start) / data.Ts) + 1, 1), data.N);
+  const first = sample(from), final = Math.min(Math.max(sample(to), first + 9), data.N);
+  const whole = first === 1 && final === data.N;
+  const value = whole ? { receiver: "", function: "", arguments: [prepared] } : { receiver: prepared, function: "range", arguments: [String(first), String(final)] };
+  change(() => {
+    const step = partStep(kind);
+    return [step ? replaced(step, { ...value, options: [] }) : newCell(kind, `${kind} = ${whole ? prepared : `${prepared}:range(${first}, ${final})`}`)];
+  }, { goesOn: partIsHeld, held });
+  partIsHeld = held;
+}
+
+export function divide(share) {
+  const { prepared } = roles(), data = dataOf(prepared), at = Math.round(share * data.N);
+  const lines = { estimation: share < 1 ? `${prepared}:range(1, ${at})` : prepared, validation: share < 1 ? `${prepared}:range(${at + 1}, ${data.N})` : prepared };
+  change(() => {
+    const edits = [], fresh = [];
+    for (const [kind, text] of Object.entries(lines)) {
+      const step = partStep(kind);
+      if (step) edits.push({ first: step.first_line, last: step.last_line, text: `${step.names[0]} = ${text}` });
+      else fresh.push(`${kind} = ${text}`);
+    }
+    if (fresh.length > 0) edits.push(newCell("parts", fresh.join("\n")));
+    return edits;
+  });
+}
+
+/// Zooms the record to samples of what was prepared, with as much before and behind.
+export function showSamples([first, last]) {
+  const plot = tiles.get("record")?.plot, data = dataOf(roles().prepared);
+  if (!plot || data?.kind !== "data") return;
+  const wide = Math.max((last - first) * data.Ts, 20 * data.Ts), from = data.start + (first - 1) * data.Ts, { x } = plot.panels[0];
+  plot.zoom(plot.panels[0], [x.position(from - wide), x.position(from + (last - first) * data.Ts + wide)], null);
+}
+
+/// Zooming a long record asks for the samples that are seen then.
+function followZoom(tile) {
+  tile.plot.box.addEventListener("zoomed", () => {
+    const { x } = tile.plot.panels[0];
+    range = x.moved ? [x.low, x.high] : null;
+    ask();
+  });
+}
+
+function drawFigure(name, tile, figure) {
+  if (!tile.plot) {
+    tile.body.replaceChildren();
+    tile.plot = dynlabPlots.show(tile.body, figure, viewName(name));
+    if (name === "record") { new Brushes(tile.plot, partsNow, movePart); followZoom(tile); }
+    return;
+  }
+  const whole = name === "record" && range ? tile.plot.panels.map((panel) => panel.x.whole) : null;
+  tile.plot.renew(figure, whole);
+}
+
+function table(head, rows) {
+  const body = rows.map((cells) => element("tr", {}, ...cells.map((cell) => {
+    const numeric = typeof cell === "number";
+    const node = element("td", { className: numeric ? "number" : "" });
+    node.append(numeric ? shortNumber(cell) : cell ?? "");
+    return node;
+  })));
+  return element("table", {}, element("thead", {}, element("tr", {}, ...head.map((text) => element("th", { textContent: text, scope: "col" })))), element("tbody", {}, ...body));
+}
+
+/// The map of orders: a click estimates the structure.
+function ordersMap(seen) {
+  const rows = seen.rows, zeros = [...new Set(rows.map((row) => row.zeros))].sort((a, b) => a - b), poles = [...new Set(rows.map((row) => row.poles))].sort((a, b) => a - b);
+  const best = Math.max(...rows.map((row) => row.validation ?? row.fit ?? -Infinity)), worst = Math.min(...rows.map((row) => row.validation ?? row.fit ?? Infinity));
+  const cell = (p, z) => {
+    const row = rows.find((row) => row.poles === p && row.zeros === z);
+    if (!row) return "";
+    const fit = row.validation ?? row.fit;
+    const words = row.failure ? say("failed") : `${shortNumber(fit, 4)} %${row.best ? " ★" : ""}${row.doubt ? " ?" : ""}`;
+    const node = button(words, () => takeOrders(p, z, row.delay), { title: row.failure ?? `${say("takeOrders")}: YIC ${shortNumber(row.yic, 3)}, BIC ${shortNumber(row.bic, 5)}` });
+    node.style.setProperty("--share", String(best > worst ? (fit - worst) / (best - worst) : 1));
+    node.className = "order";
+    return node;
+  };
+  return table([`${say("poles")} \\ ${say("zeros")}`, ...zeros.map(String)], poles.map((p) => [element("b", { textContent: p }), ...zeros.map((z) => cell(p, z))]));
+}
+function takeOrders(poles, zeros, delay) {
+  const { estimation } = roles();
+  change(() => {
+    const name = freeName("G");
+    return [newCell(name, `${name} = tfsrivc(${estimation}, ${poles}, ${zeros}${delay > 0 ? "" : ", {TdMax = 0}"})`)];
+  });
+}
+
+const TABLES = {
+  parameters: (seen) => table([say("model"), say("parameter"), say("value"), say("error")], seen.rows),
+  orders: ordersMap,
+};
+const studyTable = (seen) => table(["", say("parameter"), say("truth"), say("meanOf"), say("scatter"), say("bound"), say("reported")], seen.rows);
+
+function drawTile(name) {
+  const tile = tiles.get(name), seen = session.views["view " + name] ?? {};
+  const older = session.error !== null && session.shown === session.revision;
+  tile.node.classList.toggle("older", older);
+  tile.words.textContent = seen.error ?? seen.words ?? (older ? say("older") : "");
+  tile.words.classList.toggle("broken", Boolean(seen.error));
+  if (seen.figure) drawFigure(name, tile, seen.figure);
+  if (TABLES[name] && seen.rows) tile.body.replaceChildren(TABLES[name](seen));
+  if (name === "study" && seen.rows) {
+    tile.rows ??= tile.node.insertBefore(element("div", {}), tile.words);
+    tile.rows.replaceChildren(studyTable(seen));
+  }
+}
+export function drawTiles(names = shownViews()) {
+  for (const name of names) if (tiles.has(name)) drawTile(name);
+}
+/// What the picture of the record has to say again where its parts have moved.
+export const redrawBrushes = () => tiles.get("record")?.plot?.box.dispatchEvent(new Event("drawn"));
+
+new ResizeObserver(() => ask()).observe(document.getElementById("views"));

@@ -1,0 +1,173 @@
+#include "app/workbench/estimator_forms.h"
+
+#include <algorithm>
+#include <map>
+#include <regex>
+#include <set>
+
+#include "documents/text_lines.h"
+#include "numerics/estimators/catalogue.h"
+#include "scripting/runtime/help.h"
+
+namespace dynlab::inline app {
+namespace {
+
+const FunctionEntry* find_function(const std::string& name) {
+    for (const FunctionEntry& entry : catalogue_of_functions())
+        if (name == entry.name) return &entry;
+    return nullptr;
+}
+
+/// What stands between the brackets of "f(data, {na, nb}, x, {hold =}) -> G", taken apart at the outer commas.
+std::vector<std::string> arguments_of(const std::string& signature) {
+    std::vector<std::string> arguments(1);
+    int depth = 0;
+    for (const char c : signature.substr(signature.find('(') + 1)) {
+        if (c == ')' && depth == 0) break;
+        depth += (c == '{') - (c == '}');
+        if (c == ',' && depth == 0)
+            arguments.emplace_back();
+        else
+            arguments.back() += c;
+    }
+    for (std::string& argument : arguments) argument = trimmed(argument);
+    return arguments;
+}
+
+/// The items of a page's list of arguments, each in one line.
+std::vector<std::string> argument_items(std::string_view page) {
+    std::vector<std::string> items;
+    bool inside = false;
+    for (const std::string& line : lines_of(page)) {
+        if (line.starts_with("## ")) inside = line == "## Arguments";
+        if (!inside) continue;
+        if (line.starts_with("- "))
+            items.push_back(line.substr(2));
+        else if (!items.empty() && !is_blank(line))
+            items.back() += " " + trimmed(line);
+    }
+    return items;
+}
+
+/// "`MaxIter`, `Tol`: words; `NumTd`: words" as names with their words.
+void add_described(const std::string& item, std::vector<std::pair<std::string, std::string>>& described) {
+    static const std::regex kNames(R"((^|[;.] |or )((`\w+`(, | and )?)+):)"), kName(R"(`(\w+)`)");
+    std::vector<std::smatch> heads(std::sregex_iterator(item.begin(), item.end(), kNames), {});
+    for (std::size_t i = 0; i < heads.size(); ++i) {
+        const auto begin = heads[i][0].second;
+        const auto end = i + 1 < heads.size() ? heads[i + 1][0].first : item.end();
+        const std::string words = trimmed(std::string(begin, end)), names = heads[i][2];
+        for (std::sregex_iterator name(names.begin(), names.end(), kName), last; name != last; ++name)
+            described.emplace_back((*name)[1], words);
+    }
+}
+
+std::vector<std::pair<std::string, std::string>> described_options(const std::string& function) {
+    std::vector<std::pair<std::string, std::string>> described;
+    if (const auto page = find_help_page(function))
+        for (const std::string& item : argument_items(page->text)) add_described(item, described);
+    return described;
+}
+
+/// The words of an option; where they only point to another page, that page's.
+std::string words_of(const std::string& option, const std::string& words) {
+    static const std::regex kElsewhere(R"(as for `(\w+)`)");
+    std::smatch elsewhere;
+    if (!std::regex_search(words, elsewhere, kElsewhere)) return words;
+    for (const auto& [name, there] : described_options(elsewhere[1]))
+        if (name == option) return words_of(option, there);
+    return words;
+}
+
+FormField option_field(const std::string& name, const std::string& words) {
+    static const std::regex kChoice(R"(`("\w+")`( \([^)]*the default\))?)"),
+        kNumbers(
+            R"(\b(iterations?|change at which|bounds?|between which|seconds|rad/s|grid|number|numbers|delays?|coefficients|bins|samples|gain|frequency)\b)");
+    FormField field{name, "text", {}, "", words};
+    for (std::sregex_iterator found(words.begin(), words.end(), kChoice), last; found != last; ++found) {
+        field.parts.push_back((*found)[1]);
+        if ((*found)[2].matched) field.initial = (*found)[1];
+    }
+    if (field.parts.size() > 1)
+        field.kind = "choice";
+    else if (words.starts_with("true"))
+        field.kind = "flag";
+    else if (words.find("{") == std::string::npos && words.find("edges") == std::string::npos &&
+             std::regex_search(words, kNumbers))
+        field.kind = "number";
+    if (field.kind != "choice") field.parts.clear();
+    return field;
+}
+
+/// What a new step begins with: two poles, no zero, no delay.
+std::string initial_order(const std::string& name) {
+    static const std::map<std::string, std::string> kOrders = {{"na", "2"}, {"nb", "1"}, {"nc", "1"},
+                                                               {"nd", "1"}, {"nf", "2"}, {"nk", "0"},
+                                                               {"np", "2"}, {"nz", "0"}, {"order", "2"}};
+    const auto found = kOrders.find(name);
+    return found == kOrders.end() ? "1" : found->second;
+}
+
+FormField argument_field(const std::string& written) {
+    if (written.front() == '"') return {"structure", "process", {}, "\"P2D\"", ""};
+    if (written.front() != '{') return {written, "number", {}, written == "lambda" ? "" : initial_order(written), ""};
+    FormField field{"orders", "orders", {}, "", ""};
+    for (const std::string& name : arguments_of("(" + written.substr(1, written.size() - 2) + ")")) {
+        field.parts.push_back(name);
+        field.initial += (field.initial.empty() ? "" : ", ") + initial_order(name);
+    }
+    return field;
+}
+
+bool is_options(const std::string& written) {
+    return written.find('=') != std::string::npos;
+}
+
+EstimatorForm form_of(const MethodEntry& method, const FunctionEntry& function) {
+    EstimatorForm form{function.name,
+                       function.summary,
+                       method.structure,
+                       method.noise,
+                       method.domain == TimeDomain::kContinuous ? "continuous" : "discrete",
+                       {},
+                       {}};
+    std::vector<std::string> written = arguments_of(function.signature);
+    std::set<std::string> known = {"data"};
+    bool takes_options = false;
+    for (std::size_t i = 1; i < written.size(); ++i) {
+        takes_options = takes_options || is_options(written[i]);
+        if (!is_options(written[i])) form.arguments.push_back(argument_field(written[i]));
+    }
+    const auto described = described_options(function.name);
+    for (FormField& argument : form.arguments) {
+        known.insert(argument.name);
+        for (const auto& [name, words] : described)
+            if (name == argument.name) argument.words = words;
+    }
+    for (const auto& [name, words] : described)
+        if (takes_options && known.insert(name).second)
+            form.options.push_back(option_field(name, words_of(name, words)));
+    return form;
+}
+
+std::vector<EstimatorForm> make_forms() {
+    std::vector<EstimatorForm> forms;
+    for (const MethodEntry& method : method_catalogue())
+        for (const std::string& name : method.lua_names) {
+            const FunctionEntry* const function = find_function(name);
+            if (function == nullptr) continue;
+            const std::string signature = function->signature;
+            const bool from_record = arguments_of(signature).front() == "data" && signature.ends_with("-> G");
+            if (from_record) forms.push_back(form_of(method, *function));
+        }
+    return forms;
+}
+
+}  // namespace
+
+const std::vector<EstimatorForm>& estimator_forms() {
+    static const std::vector<EstimatorForm> kForms = make_forms();
+    return kForms;
+}
+
+}  // namespace dynlab::inline app

@@ -1,0 +1,33 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "data_io/values/described.h"
+
+namespace dynlab::inline app {
+
+/// An argument or option as a control shows it.
+struct FormField {
+    std::string name;
+    std::string kind;  ///< "orders" (whole numbers, `parts` names them), "number", "choice", "flag", "process" (letters
+                       ///< of a process model), "text" (any expression)
+    std::vector<std::string> parts;  ///< of orders: their names; of a choice: what can be chosen, as scripts write it
+    std::string initial;             ///< what a new step is given; of an option, what it is without being given
+    std::string words;               ///< what the help page says of it
+};
+DYNLAB_DESCRIBE(FormField, name, kind, parts, initial, words)
+
+/// The controls of one function that makes a model of a record.
+struct EstimatorForm {
+    std::string name, summary, structure, noise;
+    std::string domain;                ///< "continuous" or "discrete"
+    std::vector<FormField> arguments;  ///< behind the data
+    std::vector<FormField> options;
+};
+DYNLAB_DESCRIBE(EstimatorForm, name, summary, structure, noise, domain, arguments, options)
+
+/// All methods of the catalogue that make a model of a record, in its order. They follow from the catalogue, from the
+/// functions' signatures and from the part "Arguments" of their help pages: a new method is among them by itself.
+const std::vector<EstimatorForm>& estimator_forms();
+
+}  // namespace dynlab::inline app

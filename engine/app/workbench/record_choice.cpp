@@ -1,0 +1,156 @@
+#include "app/workbench/record_choice.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <limits>
+#include <map>
+
+#include "data_io/dataset_index.h"
+#include "platform/error.h"
+#include "workflow/look.h"
+#include "workflow/recording.h"
+
+namespace dynlab::inline app {
+namespace {
+
+/// Beginnings of names that people give to what drives a plant, and to what it does.
+constexpr std::string_view kInputs[] = {"u",     "in",     "force",   "voltage", "power",   "valve",  "heat",
+                                        "motor", "torque", "current", "duty",    "flow_in", "entree", "commande"};
+constexpr std::string_view kOutputs[] = {"y",     "out",   "x",        "temp",     "theta",    "angle",  "pos",
+                                         "speed", "level", "velocity", "pressure", "response", "sortie", "omega"};
+
+std::string letters_of(const std::string& name) {
+    std::string letters;
+    for (const char c : name)
+        if (std::isalpha(static_cast<unsigned char>(c)) || c == '_')
+            letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return letters;
+}
+
+template <class Words>
+bool sounds_like(const std::string& name, const Words& words) {
+    const std::string letters = letters_of(name);
+    return std::any_of(std::begin(words), std::end(words), [&](std::string_view word) {
+        return word.size() == 1 ? letters == word || letters.starts_with(std::string(word) + "_")
+                                : letters.starts_with(word);
+    });
+}
+
+RecordColumn column_of(const std::string& name, const std::string& unit, const Vector& numbers, Index samples) {
+    RecordColumn column{name, unit, "", 0, 0, ""};
+    const auto finite = numbers.array().isFinite();
+    if (numbers.size() != samples)
+        column.trouble = fmt::format("{} of {} values", numbers.size(), samples);
+    else if (!finite.any())
+        column.trouble = "no numbers";
+    if (!column.trouble.empty()) return column;
+    column.smallest = finite.select(numbers.array(), std::numeric_limits<double>::infinity()).minCoeff();
+    column.largest = finite.select(numbers.array(), -std::numeric_limits<double>::infinity()).maxCoeff();
+    if (column.smallest == column.largest) column.trouble = "constant";
+    return column;
+}
+
+/// The signals of a file in its order, matrices column by column.
+class Columns {
+  public:
+    explicit Columns(const LoadedData& loaded) : loaded_(loaded) {
+        std::vector<std::string> names = loaded.columns;
+        for (const auto& [name, variable] : loaded.variables)
+            if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+        for (const std::string& name : names) collect(name, loaded.variables.at(name));
+        std::map<Index, int> times;
+        for (const auto& [name, numbers] : signals_) ++times[numbers.size()];
+        int most = 0;
+        for (const auto& [length, count] : times)
+            if (count >= most && length > 1) most = count, samples_ = length;
+    }
+
+    std::vector<RecordColumn> offered() const {
+        std::vector<RecordColumn> columns;
+        const auto time = time_column(loaded_, samples_);
+        for (const auto& [name, numbers] : signals_) {
+            const auto unit = loaded_.units.find(name);
+            columns.push_back(column_of(name, unit == loaded_.units.end() ? "" : unit->second, numbers, samples_));
+            RecordColumn& column = columns.back();
+            if (time && time->name == name)
+                column.role = "time";
+            else if (column.trouble.empty() && sounds_like(name, kInputs))
+                column.role = "input";
+            else if (column.trouble.empty() && sounds_like(name, kOutputs))
+                column.role = "output";
+        }
+        for (const std::string& name : texts_) columns.push_back({name, "", "", 0, 0, "text"});
+        guess_rest(columns);
+        return columns;
+    }
+
+  private:
+    void collect(const std::string& name, const Variable& variable) {
+        if (const auto* vector = std::get_if<Vector>(&variable.value)) signals_.emplace_back(name, *vector);
+        if (const auto* matrix = std::get_if<Matrix>(&variable.value))
+            for (Index j = 0; j < matrix->cols(); ++j)
+                signals_.emplace_back(fmt::format("{}{}", name, j + 1), matrix->col(j));
+        if (std::holds_alternative<std::shared_ptr<VariableList>>(variable.value)) texts_.push_back(name);
+    }
+
+    /// Where names tell nothing the input is the first, the output the last.
+    static void guess_rest(std::vector<RecordColumn>& columns) {
+        const auto none = [&](const char* role) {
+            return std::none_of(columns.begin(), columns.end(),
+                                [&](const RecordColumn& column) { return column.role == role; });
+        };
+        const auto free = [](const RecordColumn& column) { return column.role.empty() && column.trouble.empty(); };
+        if (none("output"))
+            if (const auto last = std::find_if(columns.rbegin(), columns.rend(), free); last != columns.rend())
+                last->role = "output";
+        if (none("input"))
+            if (const auto first = std::find_if(columns.begin(), columns.end(), free); first != columns.end())
+                first->role = "input";
+    }
+
+    const LoadedData& loaded_;
+    std::vector<std::pair<std::string, Vector>> signals_;
+    std::vector<std::string> texts_;
+    Index samples_ = 0;
+};
+
+}  // namespace
+
+RecordChoice look_at_record(const std::string& data) {
+    const LoadedData loaded = load_data(data, ".");
+    return {data, Columns(loaded).offered(), look_at_data(data, {}).text};
+}
+
+std::string record_lines(const RecordOrder& order) {
+    const Recording recording(order.data, order.inputs, {order.output},
+                              order.Ts > 0 ? std::optional(order.Ts) : std::nullopt, order.time);
+    const std::string file = order.name + "_file";
+    return recording.loading(file) + fmt::format("{} = {}\n", order.name, recording.data(file, order.output));
+}
+
+RecordOrder suggested_order(const RecordChoice& choice) {
+    RecordOrder order{choice.data, {}, "", "", 0, "data"};
+    for (const RecordColumn& column : choice.columns) {
+        if (column.role == "input") order.inputs.push_back(column.name);
+        if (column.role == "output" && order.output.empty()) order.output = column.name;
+        if (column.role == "time") order.time = column.name;
+    }
+    if (order.inputs.empty() || order.output.empty())
+        throw EnvironmentError(choice.data + " has no two signals of the same length that change");
+    return order;
+}
+
+std::string new_session(const std::string& title, const std::string& lines, const std::string& language) {
+    std::string text = fmt::format("-- ---\n-- title: {}\n", title);
+    if (language != "en") text += fmt::format("-- language: {}\n", language);
+    text += "-- ---\n";
+    if (lines.empty()) return text;
+    return text + fmt::format(
+                      "\n-- %% id=record\n{}\n-- %% id=preparation\nprepared = data\n\n-- %% id=parts\nestimation = "
+                      "prepared\nvalidation = prepared\n",
+                      lines);
+}
+
+}  // namespace dynlab::inline app

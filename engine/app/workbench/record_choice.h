@@ -1,0 +1,48 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "data_io/values/described.h"
+
+namespace dynlab::inline app {
+
+/// A signal of a data file as it is offered.
+struct RecordColumn {
+    std::string name, unit;
+    std::string role;  ///< what it probably is: "input", "output", "time" or ""
+    double smallest = 0, largest = 0;
+    std::string trouble;  ///< why it cannot be a signal: "text", "constant", "3 of 200 values"; else empty
+};
+DYNLAB_DESCRIBE(RecordColumn, name, unit, role, smallest, largest, trouble)
+
+/// A data file as it is offered: which column is what, how it is sampled.
+struct RecordChoice {
+    std::string data;  ///< file or data set, as load() takes it
+    std::vector<RecordColumn> columns;
+    std::string look;  ///< what `dynlab look` says
+};
+DYNLAB_DESCRIBE(RecordChoice, data, columns, look)
+
+/// `data`: a file or a data set. Throws EnvironmentError as load_data().
+RecordChoice look_at_record(const std::string& data);
+
+/// What was chosen of it.
+struct RecordOrder {
+    std::string data;
+    std::vector<std::string> inputs;
+    std::string output, time;  ///< time: none when empty
+    double Ts = 0;             ///< s; 0: as the file says
+    std::string name;          ///< of the variable that gets the record
+};
+DYNLAB_DESCRIBE(RecordOrder, data, inputs, output, time, Ts, name)
+
+/// The lines that load it: `NAME_file = load(...)`, `NAME = iddata(...)`. Throws EnvironmentError as Recording.
+std::string record_lines(const RecordOrder& order);
+
+/// The order that the roles of a choice's columns suggest. Throws EnvironmentError where there are no two signals.
+RecordOrder suggested_order(const RecordChoice& choice);
+
+/// The script of a new session; `lines` of record_lines() for the record "data", or empty.
+std::string new_session(const std::string& title, const std::string& lines, const std::string& language);
+
+}  // namespace dynlab::inline app

@@ -1,0 +1,235 @@
+#include "app/workbench/session_script.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <span>
+
+#include "data_io/values/value_limits.h"
+#include "documents/text_lines.h"
+#include "scripting/runtime/lua_tokens.h"
+
+namespace dynlab::inline app {
+namespace {
+
+using Tokens = std::span<const LuaToken>;
+using Kind = LuaToken::Kind;
+
+constexpr std::string_view kOff = "-- off: ";
+
+bool opens(const LuaToken& token) {
+    return token.is("(") || token.is("{") || token.is("[");
+}
+bool closes(const LuaToken& token) {
+    return token.is(")") || token.is("}") || token.is("]");
+}
+
+/// How much deeper a script's blocks are behind a token: `for` and `while` have their `do`.
+int block_change(const LuaToken& token) {
+    if (token.is("function") || token.is("do") || token.is("if") || token.is("repeat")) return 1;
+    if (token.is("end") || token.is("until")) return -1;
+    return 0;
+}
+
+/// Whether a statement cannot end with this token, since more must come.
+bool goes_on(const LuaToken& token) {
+    if (token.kind == Kind::kSign) return !closes(token) && !token.is(";");
+    return token.is("and") || token.is("or") || token.is("not") || token.is("local") || token.is("return");
+}
+
+/// Whether a statement can begin with this token.
+bool begins(const LuaToken& token) {
+    return token.kind == Kind::kName ||
+           (token.kind == Kind::kKeyword && !token.is("and") && !token.is("or") && !token.is("not"));
+}
+
+std::string text_of(std::string_view source, Tokens tokens) {
+    if (tokens.empty()) return {};
+    return std::string(source.substr(tokens.front().begin, tokens.back().end() - tokens.front().begin));
+}
+
+/// The parts between commas (and semicolons, in a table) outside of brackets.
+std::vector<Tokens> parts_of(Tokens tokens) {
+    std::vector<Tokens> parts;
+    int depth = 0;
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < tokens.size(); ++i) {
+        depth += opens(tokens[i]) + block_change(tokens[i]) - closes(tokens[i]);
+        if (depth != 0 || !(tokens[i].is(",") || tokens[i].is(";"))) continue;
+        parts.push_back(tokens.subspan(first, i - first));
+        first = i + 1;
+    }
+    if (first < tokens.size()) parts.push_back(tokens.subspan(first));
+    return parts;
+}
+
+/// Place of the bracket that closes the one at `from`.
+std::optional<std::size_t> closing_of(Tokens tokens, std::size_t from) {
+    int depth = 0;
+    for (std::size_t i = from; i < tokens.size(); ++i) {
+        depth += opens(tokens[i]) - closes(tokens[i]);
+        if (depth == 0) return i;
+    }
+    return {};
+}
+
+/// The fields of a table in braces that has names for all of them.
+std::optional<std::vector<StepOption>> options_in(std::string_view source, Tokens table) {
+    if (table.size() < 2 || !table.front().is("{") || closing_of(table, 0) != table.size() - 1) return {};
+    std::vector<StepOption> options;
+    for (const Tokens field : parts_of(table.subspan(1, table.size() - 2))) {
+        if (field.size() < 3 || field[0].kind != Kind::kName || !field[1].is("=")) return {};
+        options.push_back({std::string(field[0].text), text_of(source, field.subspan(2))});
+    }
+    return options;
+}
+
+/// Reads `tokens` as one call and nothing more.
+bool read_call(std::string_view source, Tokens tokens, SessionStep& step) {
+    std::size_t i = 0;
+    std::string name;
+    while (i < tokens.size() && tokens[i].kind == Kind::kName) {
+        name += tokens[i].text;
+        if (++i == tokens.size()) return false;
+        if (tokens[i].is(":") && step.receiver.empty())
+            step.receiver = std::exchange(name, "");
+        else if (tokens[i].is("."))
+            name += ".";
+        else
+            break;
+        ++i;
+    }
+    if (name.empty() || name.back() == '.') return false;
+    step.function = name;
+    if (tokens[i].kind == Kind::kString) {
+        step.arguments = {std::string(tokens[i].text)};
+        return i + 1 == tokens.size();
+    }
+    if (!(tokens[i].is("(") || tokens[i].is("{")) || closing_of(tokens, i) != tokens.size() - 1) return false;
+    step.braces = tokens[i].is("{");
+    if (step.braces) {
+        const auto options = options_in(source, tokens.subspan(i));
+        if (options) step.options = *options;
+        return options.has_value();
+    }
+    std::vector<Tokens> arguments = parts_of(tokens.subspan(i + 1, tokens.size() - i - 2));
+    if (!arguments.empty() && arguments.back().size() > 2)
+        if (const auto options = options_in(source, arguments.back())) {
+            step.options = *options;
+            arguments.pop_back();
+        }
+    for (const Tokens argument : arguments) step.arguments.push_back(text_of(source, argument));
+    return true;
+}
+
+std::optional<SessionStep> step_of(std::string_view source, Tokens tokens) {
+    if (!tokens.empty() && tokens.back().is(";")) tokens = tokens.first(tokens.size() - 1);
+    if (tokens.empty()) return {};
+    SessionStep step;
+    step.local = tokens[0].is("local");
+    if (step.local) tokens = tokens.subspan(1);
+    std::size_t i = 0;
+    while (i + 1 < tokens.size() && tokens[i].kind == Kind::kName && tokens[i + 1].is(",")) i += 2;
+    const bool gives = i + 2 < tokens.size() && tokens[i].kind == Kind::kName && tokens[i + 1].is("=");
+    if (gives) {
+        for (std::size_t k = 0; k <= i; k += 2) step.names.emplace_back(tokens[k].text);
+        tokens = tokens.subspan(i + 2);
+    } else if (step.local) {
+        return {};
+    }
+    SessionStep called = step;
+    if (read_call(source, tokens, called)) return called;
+    if (!gives || parts_of(tokens).size() != 1) return {};
+    step.arguments = {text_of(source, tokens)};
+    return step;
+}
+
+/// Lines from 1 on at which offsets lie.
+class Lines {
+  public:
+    explicit Lines(std::string_view source) {
+        for (std::size_t i = 0; i < source.size(); ++i)
+            if (source[i] == '\n') ends_.push_back(i);
+    }
+    int at(std::size_t offset) const {
+        return 1 + static_cast<int>(std::lower_bound(ends_.begin(), ends_.end(), offset) - ends_.begin());
+    }
+
+  private:
+    std::vector<std::size_t> ends_;
+};
+
+void add_running_steps(const std::string& source, std::vector<SessionStep>& steps) {
+    const std::vector<LuaToken> all = lua_tokens(source);
+    const Lines lines(source);
+    int blocks = 0, brackets = 0;
+    for (std::size_t i = 0; i < all.size();) {
+        const std::size_t first = i;
+        const bool outside = blocks == 0;
+        bool whole = true;
+        do {
+            blocks += block_change(all[i]);
+            brackets = std::max(0, brackets + opens(all[i]) - closes(all[i]));
+            whole = whole && all[i].kind != Kind::kUnfinished;
+            ++i;
+        } while (i < all.size() && !(blocks == 0 && brackets == 0 && !goes_on(all[i - 1]) && begins(all[i]) &&
+                                     lines.at(all[i].begin) > lines.at(all[i - 1].end() - 1)));
+        if (!outside || blocks != 0 || brackets != 0 || !whole) continue;
+        std::optional<SessionStep> step = step_of(source, Tokens(all).subspan(first, i - first));
+        if (!step) continue;
+        step->first_line = lines.at(all[first].begin);
+        step->last_line = lines.at(all[i - 1].end() - 1);
+        steps.push_back(*std::move(step));
+    }
+}
+
+void add_steps_switched_off(const std::string& source, std::vector<SessionStep>& steps) {
+    int number = 0;
+    for (const std::string& line : lines_of(source)) {
+        ++number;
+        if (!line.starts_with(kOff)) continue;
+        const std::string statement = line.substr(kOff.size());
+        const std::vector<LuaToken> tokens = lua_tokens(statement);
+        std::optional<SessionStep> step = step_of(statement, Tokens(tokens));
+        if (!step) continue;
+        step->first_line = step->last_line = number;
+        step->on = false;
+        steps.push_back(*std::move(step));
+    }
+}
+
+}  // namespace
+
+std::vector<SessionStep> session_steps(const std::string& source) {
+    std::vector<SessionStep> steps;
+    add_running_steps(source, steps);
+    add_steps_switched_off(source, steps);
+    std::stable_sort(steps.begin(), steps.end(),
+                     [](const SessionStep& a, const SessionStep& b) { return a.first_line < b.first_line; });
+    return steps;
+}
+
+std::string with_edits(const std::string& source, std::vector<LineEdit> edits) {
+    std::vector<std::string> lines = lines_of(source);
+    const int count = static_cast<int>(lines.size());
+    std::stable_sort(edits.begin(), edits.end(),
+                     [](const LineEdit& a, const LineEdit& b) { return a.first < b.first; });
+    std::string text;
+    int next = 1;  // line of the source that has not been seen to
+    const auto copy_until = [&](int line) {
+        for (; next < line; ++next) text += lines[static_cast<std::size_t>(next - 1)] + "\n";
+    };
+    for (const LineEdit& edit : edits) {
+        if (edit.first < next || edit.first > count + 1 || edit.last > count || edit.last < edit.first - 1)
+            throw ValueError(
+                fmt::format("lines {} to {} cannot be changed in a script of {} lines", edit.first, edit.last, count));
+        copy_until(edit.first);
+        if (!edit.text.empty()) text += edit.text + "\n";
+        next = edit.last + 1;
+    }
+    copy_until(count + 1);
+    return text;
+}
+
+}  // namespace dynlab::inline app

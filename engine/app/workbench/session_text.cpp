@@ -1,0 +1,71 @@
+#include "app/workbench/session_text.h"
+
+#include "documents/text_lines.h"
+#include "platform/atomic_file.h"
+#include "platform/error.h"
+
+namespace dynlab::inline app {
+namespace {
+
+constexpr std::size_t kMostSteps = 500;
+
+}  // namespace
+
+SessionText::SessionText(std::filesystem::path file) : file_(std::move(file)) {
+    if (std::filesystem::exists(file_)) text_ = saved_ = text_of_source(file_);
+}
+
+bool SessionText::obey(const ScriptOrder& order) {
+    if (order.revision != revision_) return false;
+    change(order.whole ? order.text : with_edits(text_, order.edits), order.goes_on);
+    if (!order.unsaved) save();
+    return true;
+}
+
+void SessionText::put(const std::string& text) {
+    change(text, false);
+    save();
+}
+
+void SessionText::undo() {
+    if (past_.empty()) return;
+    future_.push_back(std::exchange(text_, past_.back()));
+    past_.pop_back();
+    ++revision_;
+    save();
+}
+
+void SessionText::redo() {
+    if (future_.empty()) return;
+    past_.push_back(std::exchange(text_, future_.back()));
+    future_.pop_back();
+    ++revision_;
+    save();
+}
+
+bool SessionText::look_at_file() {
+    if (!std::filesystem::exists(file_)) return false;
+    const std::string now = text_of_source(file_);
+    if (now == saved_) return false;
+    saved_ = now;
+    if (now == text_) return false;
+    change(now, false);
+    return true;
+}
+
+void SessionText::change(std::string text, bool goes_on) {
+    if (text == text_) return;
+    if (!goes_on) past_.push_back(text_);
+    if (past_.size() > kMostSteps) past_.erase(past_.begin());
+    future_.clear();
+    text_ = std::move(text);
+    ++revision_;
+}
+
+void SessionText::save() {
+    if (text_ == saved_) return;
+    write_file_atomically(file_, text_);
+    saved_ = text_;
+}
+
+}  // namespace dynlab::inline app

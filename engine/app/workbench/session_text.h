@@ -1,0 +1,54 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/workbench/session_script.h"
+
+namespace dynlab::inline app {
+
+/// What a page asks to be done with a session's script.
+struct ScriptOrder {
+    std::size_t revision = 0;     ///< that the page shows
+    std::vector<LineEdit> edits;  ///< of that revision
+    bool whole = false;           ///< `text` is the whole script, instead of edits
+    std::string text;
+    bool goes_on = false;  ///< with what the order before did, a slider that is dragged: one step of the history
+    bool unsaved = false;  ///< the slider is still held: the file follows when it is let go
+};
+DYNLAB_DESCRIBE(ScriptOrder, revision, edits, whole, text, goes_on, unsaved)
+
+/// The text of a session's script, its file and its history. For one thread at a time.
+class SessionText {
+  public:
+    /// Of a file that is there, or comes with the first text that is put. Throws EnvironmentError where it cannot be
+    /// read.
+    explicit SessionText(std::filesystem::path file);
+
+    const std::filesystem::path& file() const { return file_; }
+    const std::string& text() const { return text_; }
+    std::size_t revision() const { return revision_; }
+    bool can_undo() const { return !past_.empty(); }
+    bool can_redo() const { return !future_.empty(); }
+
+    /// False when the order was made from another revision: nothing is done then. Throws ValueError (with_edits()), and
+    /// EnvironmentError where the file cannot be written; the text has changed then all the same.
+    bool obey(const ScriptOrder& order);
+    void put(const std::string& text);  ///< as a step of the history
+    void undo();
+    void redo();
+    /// Takes what another program wrote into the file; true when that is another text.
+    bool look_at_file();
+
+  private:
+    void change(std::string text, bool goes_on);
+    void save();
+
+    std::filesystem::path file_;
+    std::string text_, saved_;
+    std::vector<std::string> past_, future_;
+    std::size_t revision_ = 1;
+};
+
+}  // namespace dynlab::inline app

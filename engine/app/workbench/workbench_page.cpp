@@ -1,0 +1,190 @@
+#include "app/workbench/workbench_page.h"
+
+#include <fmt/format.h>
+
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <thread>
+
+#include "app/live/background_work.h"
+#include "app/page/page_routes.h"
+#include "app/server/web_server.h"
+#include "app/workbench/record_choice.h"
+#include "app/workbench/workbench_session.h"
+#include "data_io/dataset_index.h"
+#include "data_io/values/json_values.h"
+#include "platform/atomic_file.h"
+#include "platform/error.h"
+#include "platform/text_file.h"
+#include "scripting/runtime/help.h"
+#include "workflow/lesson_catalogue.h"
+
+namespace dynlab::inline app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kJson = "application/json";
+constexpr std::size_t kLargestUpload = std::size_t{256} << 20;
+
+/// What a session is of: its script, and the record where it is a new one.
+struct Subject {
+    fs::path script;
+    std::string data, title;
+};
+
+/// The first record that a lesson loads.
+std::string record_of_lesson(const Lesson& lesson) {
+    static const std::regex kLoad(R"(\bload\("([^"]+)\"\))");
+    const std::string source = read_text(lesson.script());
+    std::smatch found;
+    if (!std::regex_search(source, found, kLoad))
+        throw EnvironmentError(fmt::format("lesson {} loads no record; name a data file or a data set", lesson.slug));
+    return found[1];
+}
+
+fs::path session_of(const std::string& name) {
+    return fs::path(name).stem().string() + "_session.lua";
+}
+
+Subject subject_of(const std::string& words) {
+    if (words.empty()) return {"session.lua", "", "Session"};
+    if (words.ends_with(".lua")) {
+        if (!fs::exists(words)) throw EnvironmentError("there is no file " + words);
+        return {words, "", ""};
+    }
+    if (is_data_file(words) && !fs::exists(words)) throw EnvironmentError("there is no file " + words);
+    const std::vector<std::string> sets = dataset_names();
+    const bool is_record = fs::exists(words) || std::find(sets.begin(), sets.end(), words) != sets.end();
+    if (is_record) return {session_of(words), words, "Identification from " + fs::path(words).filename().string()};
+    const Lesson lesson = find_lesson(words);
+    const std::string record = record_of_lesson(lesson);
+    return {session_of(lesson.slug), record, "Identification from " + fs::path(record).stem().string()};
+}
+
+/// The script that a session begins with, where there is none yet.
+std::string first_script(const Subject& subject) {
+    if (subject.data.empty()) return new_session(subject.title, "", "en");
+    return new_session(subject.title, record_lines(suggested_order(look_at_record(subject.data))), "en");
+}
+
+PageReply done() {
+    return {"", kPlainText, 204};
+}
+
+void take_script_orders(WebServer& server, WorkbenchSession& bench) {
+    server.on_post("/script", [&](const PageRequest& asked) {
+        constexpr int kConflict = 409;
+        const auto revision = bench.change(from_json<ScriptOrder>(asked.body));
+        return revision ? PageReply{std::to_string(*revision), kJson}
+                        : PageReply{"The script has changed meanwhile.", kPlainText, kConflict};
+    });
+    server.on_post("/look",
+                   [&](const PageRequest& asked) { return bench.look(from_json<ViewOrder>(asked.body)), done(); });
+    server.on_post("/undo", [&](const PageRequest&) { return bench.undo(), done(); });
+    server.on_post("/redo", [&](const PageRequest&) { return bench.redo(), done(); });
+    server.on_post("/stop", [&](const PageRequest&) { return bench.stop(), done(); });
+}
+
+/// The name under which a file that was dropped on the page is kept: no folder, no file of that name before.
+fs::path free_name(const std::string& wanted) {
+    const fs::path name = fs::path(wanted).filename();
+    if (!is_data_file(name))
+        throw EnvironmentError(name.string() + " is no data file: wanted .csv, .txt, .dat, .tsv, .xlsx or .mat");
+    fs::path file = name;
+    for (int k = 2; fs::exists(file); ++k)
+        file = fmt::format("{}-{}{}", name.stem().string(), k, name.extension().string());
+    return file;
+}
+
+void serve_records(WebServer& server, WorkbenchSession& bench) {
+    server.on_get("/datasets", [](const PageRequest&) {
+        nlohmann::json list = dataset_names();
+        for (const auto& entry : fs::directory_iterator(".", fs::directory_options::skip_permission_denied))
+            if (is_data_file(entry.path())) list.push_back(entry.path().filename().string());
+        return PageReply{list.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), kJson};
+    });
+    server.on_get("/columns", [](const PageRequest& asked) {
+        return PageReply{json_of(look_at_record(asked.parameters.at("data"))), kJson};
+    });
+    server.on_post("/upload", [](const PageRequest& asked) {
+        const fs::path file = free_name(asked.parameters.at("name"));
+        write_file_atomically(file, asked.body);
+        return PageReply{json_of(look_at_record(file.string())), kJson};
+    });
+    server.on_post("/record", [&](const PageRequest& asked) {
+        const RecordOrder order = from_json<RecordOrder>(asked.body);
+        const std::string lines = record_lines(order), before = bench.script();
+        if (order.name == "data")
+            bench.put(new_session("Identification from " + fs::path(order.data).stem().string(), lines, "en"));
+        else
+            bench.put(before + fmt::format("\n-- %% id={}\n{}", order.name, lines));
+        return done();
+    });
+}
+
+/// Help pages as the terminal shows them.
+void serve_help(WebServer& server) {
+    server.on_get("/help", [](const PageRequest& asked) {
+        const auto page = find_help_page(asked.parameters.at("name"));
+        constexpr int kMissing = 404;
+        if (!page) return PageReply{"There is no help page of this name.", kPlainText, kMissing};
+        return PageReply{std::string(page->text), kPlainText};
+    });
+}
+
+/// Replies that wait for the work must come while the server still is.
+struct StopsBeforeServer {
+    BackgroundWork& work;
+    ~StopsBeforeServer() { work.stop(); }
+};
+
+void serve_documents(WebServer& server, WorkbenchSession& bench, BackgroundWork& background) {
+    server.on_get("/document.pdf", [&](const PageRequest&) {
+        constexpr int kFailed = 500;
+        background.document_changed({});
+        const BackgroundWork::Pdf pdf = background.pdf();
+        return pdf.bytes.empty() ? PageReply{pdf.error, kPlainText, kFailed} : PageReply{pdf.bytes, "application/pdf"};
+    });
+    server.on_get("/script.lua", [&](const PageRequest&) { return PageReply{bench.script(), kPlainText}; });
+}
+
+}  // namespace
+
+void serve_workbench(const WorkbenchOptions& options) {
+    ScriptRunner runner({.prelude = workbench_prelude(), .draws_figures = false});  // before any thread
+    Subject subject = subject_of(options.subject);
+    if (const fs::path folder = subject.script.parent_path(); !folder.empty()) {
+        fs::current_path(folder);
+        subject.script = subject.script.filename();
+    }
+    const bool fresh = !fs::exists(subject.script);
+    if (fresh) write_file_atomically(subject.script, first_script(subject));
+    WorkbenchSession bench(subject.script, runner);
+
+    BackgroundWork background(subject.script.string());
+    WebServer server({.port = options.port, .largest_body = kLargestUpload});
+    const StopsBeforeServer stops{background};
+    serve_page_files(server, "workbench.html");
+    take_script_orders(server, bench);
+    serve_records(server, bench);
+    serve_help(server);
+    serve_documents(server, bench, background);
+    background.start([] {});
+    server.on_stream([&] { return bench.whole(); });
+    bench.on_change([&] {
+        if (const auto changes = bench.changes()) server.send("page", *changes);
+    });
+    server.start();
+    options.opened(server.address(), fs::absolute(subject.script));
+    try {
+        bench.work();
+    } catch (...) {
+        server.send("over", "{}");
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));  // so that tabs hear of it
+        throw;
+    }
+}
+
+}  // namespace dynlab::inline app

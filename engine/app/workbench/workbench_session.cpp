@@ -1,0 +1,326 @@
+#include "app/workbench/workbench_session.h"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "app/page/page_files.h"
+#include "app/workbench/estimator_forms.h"
+#include "data_io/values/json_values.h"
+#include "data_io/values/value_limits.h"
+#include "documents/error.h"
+#include "documents/text_lines.h"
+#include "platform/error.h"
+#include "platform/interrupt.h"
+#include "scripting/runtime/lua_text.h"
+
+namespace dynlab::inline app {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr const char* kViewCell = "workbench-views";
+constexpr const char* kViewsOfRecords[] = {"record", "spectrum"};
+constexpr std::size_t kMostPrinted = 4000;  // bytes of a cell that are shown
+constexpr int kLookForInterrupt = 1000;     // ms
+
+/// A value of JSON as Lua writes it.
+std::string lua_of(const json& value) {
+    if (value.is_string()) return lua_text(value.get<std::string>());
+    if (value.is_null()) return "nil";
+    if (!value.is_structured()) return value.dump();
+    std::string text = "{";
+    for (const auto& [key, item] : value.items()) {
+        if (value.is_object()) text += "[" + lua_text(key) + "] = ";
+        text += lua_of(item) + ", ";
+    }
+    return text + "}";
+}
+
+std::string printed_by(const RunRecord& record, const std::string& cell) {
+    const auto outputs = record.outputs.find(cell);
+    std::string text;
+    if (outputs == record.outputs.end()) return text;
+    for (const CellOutput& output : outputs->second) text += output.printed;
+    if (text.size() > kMostPrinted) text.resize(kMostPrinted);
+    return text;
+}
+
+}  // namespace
+
+std::string workbench_prelude() {
+    for (const PageFile& file : page_files())
+        if (file.name == std::string_view("views.lua")) return std::string(file.text);
+    throw EnvironmentError("the program was built without views.lua");
+}
+
+std::string view_cell(const ViewOrder& order) {
+    if (!json::accept(order.settings)) throw ValueError("the settings of the views are no JSON");
+    std::string variables;
+    for (const std::string& name : order.variables) {
+        if (!is_name(name) || name.find('-') != std::string::npos) throw ValueError("'" + name + "' is no name");
+        variables += fmt::format("{0} = {0}, ", name);
+    }
+    return fmt::format("\n-- %% id={}\ndraw_workbench({}, {{{}}})\n", kViewCell, lua_of(json::parse(order.settings)),
+                       variables);
+}
+
+WorkbenchSession::WorkbenchSession(fs::path file, ScriptRunner& runner)
+    : runner_(runner), wake_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)), text_(std::move(file)) {
+    looked_at_.settings = "{}";
+    const fs::path folder = text_.file().parent_path();
+    watch_.add(folder.empty() ? "." : folder);
+}
+
+void WorkbenchSession::wake() {
+    const std::uint64_t one = 1;
+    write_all(wake_.get(), reinterpret_cast<const char*>(&one), sizeof one);
+}
+
+std::optional<std::size_t> WorkbenchSession::change(const ScriptOrder& order) {
+    const std::lock_guard lock(mutex_);
+    if (!text_.obey(order)) return {};
+    wake();
+    return text_.revision();
+}
+
+void WorkbenchSession::put(const std::string& text) {
+    const std::lock_guard lock(mutex_);
+    text_.put(text);
+    wake();
+}
+
+void WorkbenchSession::undo() {
+    const std::lock_guard lock(mutex_);
+    text_.undo();
+    wake();
+}
+
+void WorkbenchSession::redo() {
+    const std::lock_guard lock(mutex_);
+    text_.redo();
+    wake();
+}
+
+void WorkbenchSession::look(const ViewOrder& order) {
+    view_cell(order);  // refuses what it cannot write
+    const std::lock_guard lock(mutex_);
+    if (order.settings == looked_at_.settings && order.variables == looked_at_.variables &&
+        order.data_until == looked_at_.data_until)
+        return;
+    looked_at_ = order;
+    old_ = true;
+    wake();
+}
+
+void WorkbenchSession::stop() {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+    wake();
+}
+
+void WorkbenchSession::end() {
+    end_ = true;
+    wake();
+}
+
+std::string WorkbenchSession::script() const {
+    const std::lock_guard lock(mutex_);
+    return text_.text();
+}
+
+fs::path WorkbenchSession::file() const {
+    const std::lock_guard lock(mutex_);
+    return text_.file();
+}
+
+void WorkbenchSession::work() {
+    while (!end_) {
+        take_orders();
+        pollfd waiting[3] = {
+            {watch_.descriptor(), POLLIN, 0}, {wake_.get(), POLLIN, 0}, {runner_.descriptor(), POLLIN, 0}};
+        ::poll(waiting, 3, kLookForInterrupt);
+        throw_if_interrupted();
+        if (waiting[0].revents != 0)
+            for (const fs::path& file : watch_.changes()) {
+                const std::lock_guard lock(mutex_);
+                if (file.filename() == text_.file().filename())
+                    changed_ = text_.look_at_file() || changed_;
+                else if (data_.contains(fs::weakly_canonical(file)))
+                    changed_data_.insert(file);
+            }
+        while (runner_.running()) {
+            pollfd news{runner_.descriptor(), POLLIN, 0};
+            if (::poll(&news, 1, 0) <= 0) break;
+            take(runner_.next());
+        }
+    }
+}
+
+void WorkbenchSession::take_orders() {
+    std::uint64_t count = 0;
+    while (::read(wake_.get(), &count, sizeof count) > 0) {
+    }
+    bool must_run = false;
+    {
+        const std::lock_guard lock(mutex_);
+        if (std::exchange(stop_, false) && runner_.running()) {
+            runner_.stop();
+            for (auto& [cell, state] : states_)
+                if (state.state != "done") state = {"waiting", 0, 0};
+            changed_ = true;
+        }
+        must_run = old_ || !changed_data_.empty() || run_revision_ != text_.revision();
+    }
+    if (must_run) run();
+    tell_();
+}
+
+/// Without the views of records alone, where neither these nor what is wanted of them have changed: advice takes longer
+/// than all the rest.
+ViewOrder WorkbenchSession::wanted_views() {
+    ViewOrder order = looked_at_;
+    ::nlohmann::json settings = ::nlohmann::json::parse(order.settings);
+    if (!settings.is_object()) return order;
+    const std::vector<std::string> lines = lines_of(text_.text());
+    const std::size_t until = std::min(lines.size(), static_cast<std::size_t>(std::max(0, order.data_until)));
+    data_under_way_ = fmt::format("{}\n", fmt::join(lines.begin(), lines.begin() + static_cast<long>(until), "\n"));
+    for (const char* name : {"raw", "prepared", "range", "sizes", "advice"})
+        if (const auto setting = settings.find(name); setting != settings.end()) data_under_way_ += setting->dump();
+    if (const auto views = settings.find("views"); views != settings.end() && views->is_array()) {
+        ::nlohmann::json left = ::nlohmann::json::array();
+        for (const auto& view : *views) {
+            const bool of_records =
+                std::find(std::begin(kViewsOfRecords), std::end(kViewsOfRecords), view) != std::end(kViewsOfRecords);
+            if (of_records) data_under_way_ += view.dump();
+            if (!of_records) left.push_back(view);
+        }
+        if (data_under_way_ == data_seen_ && changed_data_.empty()) *views = left;
+    }
+    if (data_under_way_ == data_seen_ && changed_data_.empty()) settings["advice"] = false;
+    order.settings = settings.dump();
+    return order;
+}
+
+void WorkbenchSession::run() {
+    const std::lock_guard lock(mutex_);
+    old_ = without_failed_ = false;
+    if (run_revision_ != text_.revision()) error_.reset();
+    run_revision_ = text_.revision();
+    changed_ = true;
+    try {
+        const PercentScript script = parse_percent_script(text_.text() + view_cell(wanted_views()), text_.file());
+        const std::size_t first =
+            runner_.run(report_of_script(script, "session.html"), figures_.path(), std::exchange(changed_data_, {}));
+        for (std::size_t i = first; i < runner_.parts().size(); ++i)
+            for (const std::string& cell : runner_.parts()[i].cells) states_[cell] = {"waiting", 0, 0};
+    } catch (const DocumentError& error) {
+        error_ = RecordedError{error.what(), 0};
+    } catch (const EnvironmentError& error) {
+        error_ = RecordedError{error.what(), 0};
+    }
+}
+
+/// Views of what was computed before a mistake.
+void WorkbenchSession::run_without_failed_part(std::size_t failed) {
+    std::vector<std::string> lines = lines_of(text_.text());
+    const std::size_t first = static_cast<std::size_t>(runner_.parts()[failed].first_line - 1);
+    if (first > lines.size()) return;
+    std::string before;
+    for (std::size_t i = 0; i < first; ++i) before += lines[i] + "\n";
+    without_failed_ = true;
+    try {
+        const PercentScript script = parse_percent_script(before + view_cell(looked_at_), text_.file());
+        runner_.run(report_of_script(script, "session.html"), figures_.path(), {});
+    } catch (const DocumentError&) {  // its beginning alone is no script
+    }
+}
+
+void WorkbenchSession::take(RunnerNews news) {
+    const std::lock_guard lock(mutex_);
+    const std::vector<ScriptPart>& parts = runner_.parts();
+    changed_ = true;
+    const auto set_state = [&](const CellState& state) {
+        if (news.part >= parts.size()) return;
+        for (const std::string& cell : parts[news.part].cells) states_[cell] = state;
+    };
+    for (auto& [name, value] : news.shown)
+        if (View& view = views_[name]; view.json != value) view = {std::move(value), true};
+    if (news.kind == "begun" || news.kind == "progress") {
+        set_state({"running", 0, news.progress});
+    } else if (news.kind == "done" || (news.kind == "ended" && news.record.error)) {
+        set_state({news.record.error ? "failed" : "done", news.seconds, 0});
+        take_record(news);
+        const bool whole = news.part + 1 == parts.size() && !news.record.error;
+        if (whole) data_seen_ = data_under_way_;
+        if (!news.record.error || without_failed_) return;
+        error_ = news.record.error;
+    } else if (news.kind == "ended" && error_ && !without_failed_ && run_revision_ == text_.revision()) {
+        run_without_failed_part(news.part);
+    }
+}
+
+void WorkbenchSession::take_record(const RunnerNews& news) {
+    for (std::size_t i = 0; i <= news.part && i < runner_.parts().size(); ++i)
+        for (const std::string& cell : runner_.parts()[i].cells)
+            if (cell != kViewCell) printed_[cell] = printed_by(news.record, cell);
+    for (const fs::path& file : news.record.files_read) {
+        const fs::path place = fs::weakly_canonical(fs::absolute(file));
+        if (data_.insert(place).second) watch_.add(place.parent_path());
+    }
+}
+
+std::string WorkbenchSession::json(bool all) const {
+    ::nlohmann::json page = {{"all", all},
+                             {"revision", text_.revision()},
+                             {"shown", run_revision_},
+                             {"running", runner_.running()},
+                             {"undo", text_.can_undo()},
+                             {"redo", text_.can_redo()},
+                             {"states", ::nlohmann::json::object()}};
+    for (const auto& [cell, state] : states_)
+        page["states"][cell] = {{"state", state.state}, {"seconds", state.seconds}, {"progress", state.progress}};
+    if (error_) page["error"] = {{"message", error_->message}, {"line", error_->line}};
+    if (all) {
+        page["file"] = fs::absolute(text_.file()).string();
+        page["forms"] = ::nlohmann::json::parse(json_of(estimator_forms()));
+    }
+    if (all || sent_revision_ != text_.revision()) {
+        page["source"] = text_.text();
+        page["steps"] = ::nlohmann::json::parse(json_of(session_steps(text_.text())));
+        ::nlohmann::json& cells = page["cells"] = ::nlohmann::json::array();
+        try {
+            const PercentScript script = parse_percent_script(text_.text(), text_.file());
+            for (const Cell& cell : script.cells)
+                cells.push_back({{"id", cell.id}, {"line", cell.first_line}, {"code", cell.kind == Cell::Kind::kCode}});
+        } catch (const DocumentError&) {  // told as the run's mistake
+        }
+    }
+    page["printed"] = printed_;
+    ::nlohmann::json& views = page["views"] = ::nlohmann::json::object();
+    for (const auto& [name, view] : views_)
+        if (all || view.fresh) views[name] = ::nlohmann::json::parse(view.json);
+    return page.dump(-1, ' ', false, ::nlohmann::json::error_handler_t::replace);
+}
+
+std::string WorkbenchSession::whole() const {
+    const std::lock_guard lock(mutex_);
+    return json(true);
+}
+
+std::optional<std::string> WorkbenchSession::changes() {
+    const std::lock_guard lock(mutex_);
+    if (!changed_ && sent_revision_ == text_.revision()) return {};
+    std::string text = json(false);
+    changed_ = false;
+    sent_revision_ = text_.revision();
+    for (auto& [name, view] : views_) view.fresh = false;
+    return text;
+}
+
+}  // namespace dynlab::inline app

@@ -1,0 +1,92 @@
+// The controls of estimators follow from catalogue, signatures and help pages. Oracle: the functions themselves, which
+// refuse options that they do not know.
+#include "app/workbench/estimator_forms.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "figures/gnuplot_renderer.h"
+#include "scripting/runtime/function_entry.h"
+#include "scripting/runtime/runtime.h"
+
+namespace test_estimator_forms {
+using namespace dynlab;
+using testing::HasSubstr;
+using testing::Not;
+
+const EstimatorForm& form(const std::string& name) {
+    for (const EstimatorForm& one : estimator_forms())
+        if (one.name == name) return one;
+    throw std::runtime_error("no form of " + name);
+}
+const FormField& option(const std::string& function, const std::string& name) {
+    for (const FormField& field : form(function).options)
+        if (field.name == name) return field;
+    throw std::runtime_error("no option " + name);
+}
+
+std::string call_of(const EstimatorForm& form, const std::string& options) {
+    std::string call = form.name + "(data";
+    for (const FormField& argument : form.arguments) {
+        const std::string initial = argument.initial.empty() ? "3" : argument.initial;
+        call += argument.kind == "orders" ? ", {" + initial + "}" : ", " + initial;
+    }
+    return call + (options.empty() ? "" : ", {" + options + "}") + ")";
+}
+
+std::string error_of(const std::string& code) {
+    GnuplotRenderer renderer;
+    const RunRecord record = Runtime({}, renderer)
+                                 .run_code(
+                                     "local u = prbs(6, 8)\nlocal data = iddata(lsim(tf({2}, {1, 4, 3}), u, 0.05) + "
+                                     "0.05*randn(#u), u, 0.05)\n" +
+                                         code,
+                                     "t.lua");
+    return record.error ? record.error->message : "";
+}
+
+TEST(estimator_forms, every_function_that_makes_a_model_of_a_record_is_there) {
+    std::set<std::string> wanted, there;
+    for (const FunctionEntry& entry : catalogue_of_functions()) {
+        const std::string signature = entry.signature, area = entry.area;
+        const bool estimates = area == "continuous time" || area == "discrete time" || area == "step tests";
+        if (estimates && signature.starts_with(entry.name + std::string("(data")) && signature.ends_with("-> G"))
+            wanted.insert(entry.name);
+    }
+    for (const EstimatorForm& one : estimator_forms()) there.insert(one.name);
+    EXPECT_EQ(there, wanted);
+    EXPECT_GE(there.size(), 20u);
+}
+
+TEST(estimator_forms, what_a_new_step_is_given_works) {
+    for (const EstimatorForm& one : estimator_forms()) {
+        if (one.name.starts_with("step_")) continue;  // they want a step
+        EXPECT_EQ(error_of("local G = " + call_of(one, "")), "") << one.name;
+    }
+}
+
+TEST(estimator_forms, functions_know_all_options_that_are_offered) {
+    for (const EstimatorForm& one : estimator_forms())
+        for (const FormField& field : one.options) {
+            // A function in the place of a value: refused for its kind, if the name is known.
+            const std::string error = error_of("local G = " + call_of(one, field.name + " = print"));
+            EXPECT_THAT(error, Not(HasSubstr("no option"))) << one.name << " " << field.name;
+            EXPECT_THAT(error, HasSubstr(field.name)) << one.name << " " << field.name;
+        }
+}
+
+TEST(estimator_forms, choices_flags_and_numbers_are_told_apart) {
+    EXPECT_EQ(option("srivc", "InitialState").kind, "choice");
+    EXPECT_THAT(option("srivc", "InitialState").parts,
+                testing::ElementsAre("\"zero\"", "\"steady\"", "\"estimate\"", "\"auto\""));
+    EXPECT_EQ(option("srivc", "InitialState").initial, "\"zero\"");
+    EXPECT_EQ(option("tfsrivc", "hold_y").kind, "choice") << "said on the page of srivc";
+    EXPECT_EQ(option("srivc", "Stable").kind, "flag");
+    EXPECT_EQ(option("srivc", "lambda").kind, "number");
+    EXPECT_EQ(option("tfsrivc", "TdMax").kind, "number");
+    EXPECT_EQ(option("n4sid", "Weighting").parts.size(), 3u);
+    EXPECT_EQ(form("procsrivc").arguments.at(0).kind, "process");
+    EXPECT_THAT(form("bj").arguments.at(0).parts, testing::ElementsAre("nb", "nc", "nd", "nf", "nk"));
+}
+
+}  // namespace test_estimator_forms

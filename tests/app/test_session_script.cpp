@@ -1,0 +1,88 @@
+// The steps that the workbench sees in a script, and edits of its lines. Oracle: what the lines say, by eye.
+#include "app/workbench/session_script.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "data_io/values/value_limits.h"
+
+namespace test_session_script {
+using namespace dynlab;
+using testing::ElementsAre;
+
+SessionStep only_step(const std::string& source) {
+    const std::vector<SessionStep> steps = session_steps(source);
+    EXPECT_EQ(steps.size(), 1u) << source;
+    return steps.empty() ? SessionStep() : steps.front();
+}
+
+TEST(session_script, reads_a_call_with_its_options) {
+    const SessionStep step = only_step("G = srivc(data, {1, 2, 0}, {lambda = 3, Fixed = {a2 = 4}})\n");
+    EXPECT_THAT(step.names, ElementsAre("G"));
+    EXPECT_EQ(step.function, "srivc");
+    EXPECT_THAT(step.arguments, ElementsAre("data", "{1, 2, 0}"));
+    ASSERT_EQ(step.options.size(), 2u);
+    EXPECT_EQ(step.options[0].key + step.options[0].text, "lambda3");
+    EXPECT_EQ(step.options[1].text, "{a2 = 4}");
+    EXPECT_FALSE(step.local || step.braces);
+}
+
+TEST(session_script, reads_methods_values_braces_and_texts) {
+    EXPECT_EQ(only_step("ze = z:range(1, 200)").receiver, "z");
+    EXPECT_EQ(only_step("ze = z:range(1, 200)").function, "range");
+    EXPECT_THAT(only_step("local G0 = 2/(s^2 + 4*s + 3)").arguments, ElementsAre("2/(s^2 + 4*s + 3)"));
+    EXPECT_TRUE(only_step("local G0 = 2/(s^2 + 4*s + 3)").local);
+    EXPECT_THAT(only_step("a, b = z:split(0.6)").names, ElementsAre("a", "b"));
+    const SessionStep study = only_step("M = montecarlo{system = G0, runs = 100}");
+    EXPECT_TRUE(study.braces);
+    EXPECT_EQ(study.options.at(1).text, "100");
+    EXPECT_THAT(only_step("h = load \"crane\"").arguments, ElementsAre("\"crane\""));
+    EXPECT_EQ(only_step("report.value(\"fit\", 3)").function, "report.value");
+    EXPECT_THAT(only_step("G = tf({1, 2}, {1, 2, 3})").arguments, ElementsAre("{1, 2}", "{1, 2, 3}"));
+    EXPECT_EQ(only_step("y = f(x) + 1").function, "");
+}
+
+TEST(session_script, leaves_alone_what_controls_cannot_show) {
+    EXPECT_TRUE(session_steps("for i = 1, 3 do G = srivc(data, {1, 2, 0}) end\n").empty());
+    EXPECT_TRUE(session_steps("local function f()\n  G = srivc(d, {1, 2, 0})\nend\n").empty());
+    EXPECT_TRUE(session_steps("if a then\n  G = f(1)\nend\nrepeat\n  x = g(2)\nuntil x\n").empty());
+    EXPECT_TRUE(session_steps("-- G = srivc(data, {1, 2, 0})\n").empty());
+    EXPECT_TRUE(session_steps("local x\nx.y = f(3)\n").empty());
+    EXPECT_TRUE(session_steps("G = srivc(data, {1, 2\n").empty());
+    EXPECT_TRUE(session_steps("").empty());
+    EXPECT_TRUE(session_steps("s = \"never closed\n").empty());
+    EXPECT_TRUE(session_steps(")}]end end x").empty());
+}
+
+TEST(session_script, knows_the_lines_of_steps_over_several) {
+    const std::vector<SessionStep> steps = session_steps(
+        "-- %% id=one\na = f(1)\n\nb = g(a,\n  {x = 1,\n   y = 2})\nfor i = 1, 2 do\n  c = h(i)\nend\nd = k(b)\n");
+    ASSERT_EQ(steps.size(), 3u);
+    EXPECT_EQ(steps[0].first_line, 2);
+    EXPECT_EQ(steps[1].first_line, 4);
+    EXPECT_EQ(steps[1].last_line, 6);
+    EXPECT_EQ(steps[2].first_line, 10);
+}
+
+TEST(session_script, reads_steps_that_were_switched_off) {
+    const std::vector<SessionStep> steps =
+        session_steps("z = data\n-- off: z = detrend(z, \"mean\")\nG = srivc(z, {1, 2, 0})\n");
+    ASSERT_EQ(steps.size(), 3u);
+    EXPECT_FALSE(steps[1].on);
+    EXPECT_EQ(steps[1].function, "detrend");
+    EXPECT_TRUE(steps[2].on);
+}
+
+TEST(session_script, edits_replace_remove_and_insert_lines) {
+    const std::string source = "one\ntwo\nthree\n";
+    EXPECT_EQ(with_edits(source, {{2, 2, "TWO\nand"}}), "one\nTWO\nand\nthree\n");
+    EXPECT_EQ(with_edits(source, {{2, 2, ""}}), "one\nthree\n");
+    EXPECT_EQ(with_edits(source, {{4, 3, "four"}}), "one\ntwo\nthree\nfour\n");
+    EXPECT_EQ(with_edits(source, {{3, 3, "3"}, {1, 1, "1"}}), "1\ntwo\n3\n");
+    EXPECT_EQ(with_edits("no end", {{2, 1, "x"}}), "no end\nx\n");
+    EXPECT_THROW(with_edits(source, {{5, 5, "x"}}), ValueError);
+    EXPECT_THROW(with_edits(source, {{1, 2, "x"}, {2, 2, "y"}}), ValueError);
+    EXPECT_THROW(with_edits(source, {{0, 0, "x"}}), ValueError);
+}
+
+}  // namespace test_session_script

@@ -1,0 +1,51 @@
+#pragma once
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "platform/temporary_folder.h"
+#include "platform/text_file.h"
+#include "support/browser.h"
+#include "support/preview_program.h"
+
+namespace dynlab::test {
+
+/// A session of `dynlab app` in a folder of its own, and what hands do on its page.
+class workbench_page : public testing::Test {
+  protected:
+    std::filesystem::path file(const std::string& name) const { return folder.path() / name; }
+    void write(const std::string& name, const std::string& text) const { std::ofstream(file(name)) << text; }
+    std::string text_of(const std::string& name) const { return read_text(file(name)); }
+    std::unique_ptr<PageProgram> app(const std::string& subject, std::vector<std::string> options = {}) const {
+        std::vector<std::string> words = {"app"};
+        if (!subject.empty()) words.push_back(subject);
+        words.insert(words.end(), options.begin(), options.end());
+        return std::make_unique<PageProgram>(words, std::filesystem::path(), folder.path());
+    }
+    static bool is_ready(Browser& browser) {
+        return browser.comes(
+            "['up to date', 'à jour', 'stopped at a mistake'].includes(document.getElementById('state').textContent)");
+    }
+    /// Clicks the button with these words that is to be seen; false where there is none.
+    static bool press(Browser& browser, const std::string& words) {
+        return browser.comes(
+            "(() => { const found = [...document.querySelectorAll('button')].find((one) => one.textContent.trim() === "
+            "`" +
+                words + "` && one.offsetParent && !one.disabled); found?.click(); return found; })()",
+            10);
+    }
+    static bool script_has(Browser& browser, const std::string& text) {
+        return browser.comes("document.querySelector('.CodeMirror')?.CodeMirror.getValue().includes(`" + text + "`)");
+    }
+    static bool view_comes(Browser& browser, const std::string& view) {
+        return browser.comes("document.querySelector('.tile[data-view=" + view + "] canvas')");
+    }
+    static bool says(Browser& browser, const std::string& text) {
+        return browser.comes("document.body.innerText.includes(`" + text + "`)");
+    }
+    TemporaryFolder folder;
+};
+
+}  // namespace dynlab::test
