@@ -38,6 +38,8 @@ void add_app(CLI::App& app, Action& action) {
                         "A data file, a data set, a lesson (its record), or a script; none: an empty session");
     command->add_option("--port", words->options.port, "The port of the page's address (default: any free one)")
         ->check(CLI::Range(1, 65535));
+    command->add_flag("--run", words->options.run_at_once,
+                      "Run the scripts of this folder without being asked on the page, now and later");
     command->add_flag("--no-browser", words->no_browser, "Only print the address");
     command->footer(
         "The session is a Lua script in the current folder, NAME_session.lua, written with every step: dynlab run, "

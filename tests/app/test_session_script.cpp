@@ -64,6 +64,13 @@ TEST(session_script, knows_the_lines_of_steps_over_several) {
     EXPECT_EQ(steps[2].first_line, 10);
 }
 
+TEST(session_script, remarks_behind_a_step_stay_and_those_inside_make_it_none) {
+    EXPECT_EQ(only_step("G = f(1) -- a remark\n").rest, " -- a remark");
+    EXPECT_EQ(only_step("G = f(1);\n").rest, "");
+    EXPECT_TRUE(session_steps("G = f(1, -- why\n  2)\n").empty());
+    EXPECT_EQ(session_steps("G = f(\"--\", 2)\n").size(), 1u);
+}
+
 TEST(session_script, reads_steps_that_were_switched_off) {
     const std::vector<SessionStep> steps =
         session_steps("z = data\n-- off: z = detrend(z, \"mean\")\nG = srivc(z, {1, 2, 0})\n");

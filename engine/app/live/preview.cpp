@@ -6,6 +6,7 @@
 
 #include "app/live/background_work.h"
 #include "app/live/live_document.h"
+#include "app/live/permissions.h"
 #include "app/live/source_files.h"
 #include "app/page/page_routes.h"
 #include "app/server/web_server.h"
@@ -33,24 +34,6 @@ std::function<ReportRequest()> reader_of(const std::string& document) {
         return [document] { return report_of_script(read_percent_script(document), "preview.html"); };
     return [document] { return report_of(document, "preview.html", ""); };
 }
-
-/// Which folders' scripts may be run: those that somebody allowed, and the lessons.
-class Permissions {
-  public:
-    explicit Permissions(const fs::path& script) : folder_(fs::weakly_canonical(fs::absolute(script).parent_path())) {}
-    bool granted() const {
-        const fs::path lessons = fs::weakly_canonical(shared_folder() / "lessons");
-        const bool is_lesson =
-            std::mismatch(lessons.begin(), lessons.end(), folder_.begin(), folder_.end()).first == lessons.end();
-        return is_lesson || cache_.recall(name()).has_value();
-    }
-    void grant() const { cache_.remember(name(), "allowed"); }
-
-  private:
-    std::string name() const { return EntryName("allowed_folders", "1").add(folder_.string()).text(); }
-    fs::path folder_;
-    Cache cache_;
-};
 
 void serve_page(WebServer& server, LivePage& page) {
     server.on_get("/picture/*", [&page](const PageRequest& asked) {

@@ -22,6 +22,7 @@ struct RunOrder {
 struct RunnerWorld {
     std::string prelude;        ///< Lua that runs before every script, with workbench.show (page_values.h); none: empty
     bool draws_figures = true;  ///< those of a record, for documents; else records come without them
+    bool keeps_end = true;      ///< the state behind the last part, for what may be written there
 };
 
 /// What it tells.

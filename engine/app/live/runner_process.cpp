@@ -127,10 +127,12 @@ class RunnerProcess {
             const Clock::time_point start = Clock::now();
             RunRecord record = world_->runtime.run_part(script, parts[i]);
             const double seconds = seconds_since(start);
-            if (wanted_.draws_figures)
+            if (wanted_.draws_figures) {
                 draw(record, order.figure_folder, i + 1 == parts.size());
-            else
+            } else {
+                world_->renderer.finish();  // what the script saved itself
                 record.figures.clear();
+            }
             const bool failed = record.error.has_value();
             tell({.kind = "done",
                   .part = i,

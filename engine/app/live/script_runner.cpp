@@ -29,7 +29,7 @@ bool is_same(const ScriptPart& a, const ScriptPart& b) {
 
 }  // namespace
 
-ScriptRunner::ScriptRunner(RunnerWorld world) {
+ScriptRunner::ScriptRunner(RunnerWorld world) : keeps_end_(world.keeps_end) {
     auto [here, there] = Channel::pair();
     const pid_t self = ::getpid();
     const pid_t first = ::fork();
@@ -133,7 +133,7 @@ RunnerNews ScriptRunner::next() {
     } else if (news.kind == "ended") {
         running_ = false;
         kept_.back().parts = done_;
-        if (done_ < parts_.size()) end_last();  // a part failed: nothing goes on from there
+        if (done_ < parts_.size() || !keeps_end_) end_last();  // a part failed: nothing goes on from there
     }
     return news;
 }

@@ -64,6 +64,7 @@ class ScriptRunner {
     std::map<std::string, double> slider_values_;  ///< of the run
     std::size_t done_ = 0;                         ///< parts that are over
     std::size_t under_way_ = 0;
+    bool keeps_end_ = true;
     bool running_ = false, split_ = false;  ///< split: the process that got the order has made the one that runs
 };
 

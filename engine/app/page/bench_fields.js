@@ -166,7 +166,7 @@ export function stepControls(key, step, { open = false } = {}) {
 
 /// The line of a new step of this form.
 export function firstCall(form, data) {
-  const args = form.arguments.map((field) => (field.kind === "orders" ? `{${field.initial}}` : field.initial || "1"));
+  const args = form.arguments.map((field) => (field.kind === "orders" ? `{${field.initial}}` : field.initial || "3"));
   return `${form.name}(${[data, ...args].join(", ")})`;
 }
 export { labelled, choice, numberField, textField, isNumber };

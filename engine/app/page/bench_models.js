@@ -1,6 +1,6 @@
-// Estimating, the table of models, reading by hand, and studies of a known system.
+// Estimating, and the table of models.
 import { change, session } from "/bench_session.js";
-import { button, choice, element, firstCall, help, labelled, numberField, rewrite, stepControls, textField, why, withOption } from "/bench_fields.js";
+import { button, element, firstCall, help, labelled, rewrite, stepControls, textField, why } from "/bench_fields.js";
 import { freeName, keyOf, modelSteps, newCell, roles, stepOf, variables, written } from "/bench_steps.js";
 import { isHidden, setHidden } from "/bench_views.js";
 import { say, shortNumber } from "/bench_words.js";
@@ -22,12 +22,7 @@ function methodList(act, now) {
 }
 
 function estimateNew(method) {
-  const form = session.forms.find((one) => one.name === method), { estimation } = roles();
-  change(() => {
-    const name = freeName("G"), line = firstCall(form, estimation);
-    chosen = `${name}#0`;
-    return [newCell(name, `${name} = ${method === "lssvf" || method === "ivsvf" ? line.replace(", 1)", ", 3)") : line}`)];
-  });
+  addModel(firstCall(session.forms.find((one) => one.name === method), roles().estimation));
 }
 
 /// Another method for a step: what the new one does not know is left out.
@@ -76,6 +71,15 @@ export function estimatePanel() {
 }
 function why2(name) {
   return button(say("why"), () => help(name()), { className: "why" });
+}
+
+/// A new cell with a model; its controls are shown.
+export function addModel(call) {
+  change(() => {
+    const name = freeName("G");
+    chosen = `${name}#0`;
+    return [newCell(name, `${name} = ${call}`)];
+  });
 }
 
 const COLUMNS = [
@@ -145,42 +149,4 @@ export function modelsPanel() {
     return line;
   });
   return element("section", { className: "models" }, element("h2", { textContent: say("models") }), element("table", {}, element("thead", {}, head), element("tbody", {}, ...body)));
-}
-
-/// Tutorial 1: what a step response tells without a search.
-export function readingPanel() {
-  const { raw, estimation } = roles();
-  if (!raw) return "";
-  const node = element("details", { className: "panel" }, element("summary", { textContent: say("reading") }));
-  for (const name of ["step_first_order", "step_second_order", "step_delayed"])
-    node.append(button(name, () => estimateNew(name)), why(name));
-  node.append(element("p", { className: "faint", textContent: `${say("readHere")}: ${estimation}` }));
-  return node;
-}
-
-/// Tutorial 4: a system that is known, an input, noise, and what estimators make of it.
-export function knownPanel() {
-  const study = session.steps.find((step) => step.on && step.function === "montecarlo");
-  const node = element("details", { className: "panel", open: Boolean(study) }, element("summary", { textContent: say("known") }));
-  if (!study) {
-    node.append(button(say("begin"), () => change(() => [newCell("study", [
-      "s = tf(\"s\")", "G0 = 2/(s^2 + 4*s + 3)", "u0 = prbs(6, 8)",
-      "study = montecarlo{system = G0, input = u0, Ts = 0.05, sigma = 0.1, runs = 100, estimators = {srivc = {{1, 2, 0}, {lambda = 3}}}}"].join("\n"))])), why("montecarlo"));
-    return node;
-  }
-  const key = keyOf(study), value = (name) => study.options.find(({ key }) => key === name)?.text ?? "";
-  const option = (name, words, slider = true) => labelled(words, numberField(value(name), (text, how) => rewrite(key, (step) => withOption(step, name, text), how), { slider }));
-  const defined = (name, words) => {
-    const step = session.steps.find((one) => one.on && one.names[0] === value(name));
-    if (!step) return labelled(words, textField(value(name), (text) => rewrite(key, (now) => withOption(now, name, text))));
-    const right = step.function ? written(step).replace(/^[^=]*= /, "") : step.arguments[0];
-    const place = keyOf(step);
-    return labelled(words, textField(right, (text) => change(() => {
-      const now = stepOf(place);
-      return now ? [{ first: now.first_line, last: now.last_line, text: `${now.names[0]} = ${text}` }] : null;
-    })));
-  };
-  node.append(defined("system", say("system")), defined("input", say("inputSignal")), option("Ts", "Ts (s)"), option("sigma", say("noise")), option("runs", say("runs"), false),
-              labelled("estimators", textField(value("estimators"), (text) => rewrite(key, (step) => withOption(step, "estimators", text)))), why("montecarlo"));
-  return node;
 }

@@ -1,5 +1,5 @@
 // The record: where it comes from, which column is what, what advice says of it, and the steps that prepare it.
-import { change, post, session, trouble } from "/bench_session.js";
+import { change, post, session, settled, trouble } from "/bench_session.js";
 import { button, choice, element, labelled, numberField, rewrite, textField, why, withOption } from "/bench_fields.js";
 import { freeName, insertedBehind, keyOf, luaText, newCell, preparingSteps, removed, replaced, roles, variables } from "/bench_steps.js";
 import { divide, showSamples } from "/bench_views.js";
@@ -24,6 +24,13 @@ document.addEventListener("drop", (event) => {
   upload(file);
 });
 
+/// What the program was started with and could not decide alone.
+export async function openFirst() {
+  const { data, words } = await (await fetch("/opening")).json();
+  if (data && !roles().raw) await offer(await fetch(`/columns?data=${encodeURIComponent(data)}`));
+  if (words) trouble(words);
+}
+
 let sets = null;
 async function fillSets(list) {
   sets ??= await (await fetch("/datasets")).json();
@@ -47,14 +54,14 @@ function columnsTable() {
       event.preventDefault();
       event.stopPropagation();
       const column = offered.columns.find(({ name }) => name === event.dataTransfer.getData("text/plain"));
-      if (column && (!column.trouble || role === "")) { column.role = role; document.dispatchEvent(new Event("benchdraw")); }
+      if (column && (column.usable || role === "")) { column.role = role; document.dispatchEvent(new Event("benchdraw")); }
     };
     for (const column of offered.columns.filter((one) => one.role === role)) {
       const list = choice(ROLES, column.role, (value) => { column.role = value; document.dispatchEvent(new Event("benchdraw")); }, ROLES.map((one) => say(one || "unused")));
-      list.disabled = column.trouble !== "";
+      list.disabled = !column.usable;
       list.ariaLabel = `${say("role")}: ${column.name}`;
       const about = column.trouble || `${shortNumber(column.smallest)} … ${shortNumber(column.largest)}${column.unit ? " " + column.unit : ""}`;
-      const chip = element("span", { className: "chip", draggable: column.trouble === "", title: about }, element("b", { textContent: column.name }), element("small", { textContent: about }), list);
+      const chip = element("span", { className: "chip", draggable: column.usable, title: about }, element("b", { textContent: column.name }), element("small", { textContent: about }), list);
       chip.ondragstart = (event) => event.dataTransfer.setData("text/plain", column.name);
       row.append(chip);
     }
@@ -90,6 +97,7 @@ function offeredRecord() {
 async function takeForValidation() {
   const name = freeName("second");
   await take(name);
+  await settled(() => session.steps.some((one) => one.names[0] === name), 3000);
   change(() => {
     const step = session.steps.find((one) => one.on && one.names.length === 1 && one.names[0] === "validation");
     const known = session.steps.some((one) => one.names[0] === name);

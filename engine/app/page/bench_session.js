@@ -8,14 +8,14 @@ let waiting = null, busy = false;
 export const onChange = (listen) => listeners.push(listen);
 const tell = (changed) => { for (const listen of listeners) listen(changed); };
 
-export async function post(path, body) {
-  const answer = await fetch(path, { method: "POST", body: JSON.stringify(body ?? {}), headers: { "Content-Type": "application/json" } });
+export async function post(path, body, written = false) {
+  const answer = await fetch(path, { method: "POST", body: written ? body : JSON.stringify(body ?? {}), headers: { "Content-Type": "application/json" } });
   if (!answer.ok && answer.status !== 409) throw new Error(await answer.text());
   return answer;
 }
 
 /// Until the session is as `holds` wants it, or so many milliseconds have gone by.
-function settled(holds, longest) {
+export function settled(holds, longest) {
   if (holds()) return Promise.resolve();
   return new Promise((yes) => {
     const timer = setTimeout(finish, longest);
@@ -65,20 +65,32 @@ export function trouble(words) {
   node.textContent = words ?? "";
 }
 
-let looked = "";
-/// Asks for views; the same order again is nothing.
-export function look(variables, settings, until) {
-  const order = JSON.stringify({ variables, settings: JSON.stringify(settings), data_until: until });
-  if (order === looked) return;
-  looked = order;
-  fetch("/look", { method: "POST", body: order, headers: { "Content-Type": "application/json" } });
+let looked = "", next = null, looking = false;
+/// Asks for views; the same order again is nothing. While one is being made the last that was asked for waits.
+export async function look(variables, settings, until) {
+  next = JSON.stringify({ variables, settings: JSON.stringify(settings), data_until: until });
+  if (looking) return;
+  looking = true;
+  try {
+    while (next && next !== looked) {
+      looked = next;
+      next = null;
+      const answer = await post("/look", looked, true);
+      const serial = Number(await answer.text());
+      await settled(() => session.looked >= serial && !session.running, kLongestFrame);
+    }
+  } catch (error) {
+    trouble(error.message);
+  } finally {
+    looking = false;
+  }
 }
 
 function take(page) {
   const changed = { source: page.source !== undefined, views: Object.keys(page.views ?? {}), whole: page.all };
   if (page.all) { looked = ""; session.views = {}; }
   Object.assign(session.views, page.views);
-  for (const key of ["revision", "shown", "running", "undo", "redo", "states", "printed"]) session[key] = page[key];
+  for (const key of ["asking", "stopped", "looked", "revision", "shown", "running", "undo", "redo", "states", "printed"]) session[key] = page[key];
   for (const key of ["source", "steps", "cells", "forms", "file"]) if (page[key] !== undefined) session[key] = page[key];
   session.error = page.error ?? null;
   if (told && changed.source) trouble(null);

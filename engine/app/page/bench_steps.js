@@ -4,16 +4,32 @@ import { session } from "/bench_session.js";
 
 const PREPARING = ["detrend", "idfilt", "resample", "fillmissing", "filloutliers", "remove_mean", "keep", "discard", "shift"];
 
-export function written(step) {
-  const options = step.options.map(({ key, text }) => `${key} = ${text}`).join(", ");
-  const call = (step.receiver ? step.receiver + ":" : "") + step.function;
-  const value = !step.function ? step.arguments[0]
-    : step.braces ? `${call}{${options}}`
-    : `${call}(${[...step.arguments, ...(options ? [`{${options}}`] : [])].join(", ")})`;
-  return (step.on ? "" : "-- off: ") + (step.local ? "local " : "") + (step.names.length ? step.names.join(", ") + " = " : "") + value;
+const kWidest = 88;  // characters of a line that a report prints unbroken
+
+/// Pieces behind a beginning, in as many lines as they need.
+function inLines(begin, pieces, end) {
+  const one = begin + pieces.join(", ") + end;
+  if (one.length <= kWidest) return one;
+  const lines = [begin.trimEnd()];
+  for (const [i, piece] of pieces.entries()) {
+    const text = piece + (i + 1 < pieces.length ? "," : end), last = lines.length - 1;
+    if (lines[last].length + text.length + 1 <= kWidest) lines[last] += (lines[last].endsWith("{") || lines[last].endsWith("(") ? "" : " ") + text;
+    else lines.push("  " + text);
+  }
+  return lines.join("\n");
 }
 
-export const replaced = (step, change) => ({ first: step.first_line, last: step.last_line, text: written({ ...structuredClone(step), ...change }) });
+export function written(step) {
+  const options = step.options.map(({ key, text }) => `${key} = ${text}`);
+  const before = (step.on ? "" : "-- off: ") + (step.local ? "local " : "") + (step.names.length ? step.names.join(", ") + " = " : "");
+  const call = (step.receiver ? step.receiver + ":" : "") + step.function;
+  if (!step.function) return before + step.arguments[0];
+  if (step.braces) return inLines(`${before}${call}{`, options, "}");
+  if (options.length === 0 || !step.on) return `${before}${call}(${[...step.arguments, ...(options.length > 0 ? [`{${options.join(", ")}}`] : [])].join(", ")})`;
+  return inLines(`${before}${call}(${step.arguments.map((text) => text + ", ").join("")}{`, options, "})");
+}
+
+export const replaced = (step, change) => ({ first: step.first_line, last: step.last_line, text: written({ ...structuredClone(step), ...change }) + step.rest });
 export const removed = (step) => ({ first: step.first_line, last: step.last_line, text: "" });
 export const insertedBehind = (line, text) => ({ first: line + 1, last: line, text });
 
@@ -39,7 +55,8 @@ export function roles() {
   const validation = named("validation", "zv", "val") ?? estimation;
   const orders = last(steps.filter((step) => step.function === "srivcstruc"))?.names[0];
   const study = last(steps.filter((step) => step.function === "montecarlo"))?.names[0];
-  return { raw, prepared, estimation, validation, orders, study };
+  const reading = last(steps.filter((step) => !step.function && /^\{\s*kind = "(first|second|delayed)"/.test(step.arguments[0])))?.names[0];
+  return { raw, prepared, estimation, validation, orders, study, reading };
 }
 
 /// Models that were estimated or written down; not the true system of a study.

@@ -1,13 +1,14 @@
 // The pictures of a session, as many at once as wanted, and what is told with them.
-import { change, look, session } from "/bench_session.js";
+import { change, look, session, trouble } from "/bench_session.js";
 import { Brushes } from "/bench_brushes.js";
 import { button, element, why } from "/bench_fields.js";
 import { endOfScript, freeName, insertedBehind, modelSteps, newCell, replaced, roles, variables } from "/bench_steps.js";
 import { say, shortNumber, viewName, viewNames } from "/bench_words.js";
 
 const HELP = { record: "idplot", spectrum: "fft", compare: "compare", residuals: "resid", step: "step", impulse: "impulse", bode: "bode", nyquist: "nyquist",
-               poles: "pzmap", parameters: "present", correlation: "impulseest", delay: "delayest", orders: "srivcstruc", study: "montecarlo" };
-const WIDE = ["record", "study"];
+               poles: "pzmap", parameters: "present", correlation: "impulseest", delay: "delayest", reading: "step_delayed", orders: "srivcstruc", study: "montecarlo" };
+const WIDE = ["record", "study", "reading"];
+const OVER_TIME = [["record", "compare"], ["step", "impulse", "correlation"]];  // pictures whose cursors go together
 const tiles = new Map();  // name -> {node, body, words, plot}
 const hidden = new Set();  // models that are not drawn
 let chosen = null;         // names of views; until somebody chooses, what there is decides
@@ -15,12 +16,13 @@ let range = null;          // of the record, where it was zoomed
 let timer = 0;
 
 function defaultViews() {
-  const { raw, orders, study } = roles(), models = modelSteps().length > 0;
+  const { raw, orders, study, reading } = roles(), models = modelSteps().length > 0;
   const names = raw ? ["record"] : [];
   if (models) names.push("compare", "residuals", "step", "bode");
   else if (raw) names.push("correlation", "spectrum");
   if (orders) names.push("orders");
   if (study) names.push("study");
+  if (reading) names.push("reading");
   return names;
 }
 export const shownViews = () => chosen ?? defaultViews();
@@ -34,6 +36,40 @@ export function toggleView(name, on = !shownViews().includes(name)) {
   arrange();
 }
 
+/// The instant under the cursor, in the other pictures of the same time.
+function linkCursor(name, body, group) {
+  const show = (instant) => { for (const other of group) if (other !== name) tiles.get(other)?.plot?.showMoment(instant); };
+  body.addEventListener("pointermove", (event) => {
+    const { plot } = tiles.get(name) ?? {};
+    if (!plot) return;
+    const [panel, only] = plot.panelAt(plot.place(event));
+    show(panel && !only ? panel.x.value(plot.within(panel, plot.place(event))[0]) : undefined);
+  });
+  body.addEventListener("pointerleave", () => show(undefined));
+}
+
+let wanted = null, saves = 0;  // what is to be saved with the next run
+export function save(order) {
+  wanted = { ...order, number: ++saves };
+  ask();
+}
+/// What a run has saved goes to whoever asked.
+export async function takeSaved() {
+  const { saved } = session.views;
+  if (!wanted || saved?.number !== wanted.number) return;
+  wanted = null;
+  ask();
+  if (saved.error) return trouble(saved.error);
+  const answer = await fetch(`/saved/${encodeURIComponent(saved.file)}`);
+  if (!answer.ok) return trouble(await answer.text());
+  download(saved.file.replace(/-\d+(\.\w+)$/, "$1"), await answer.blob());
+}
+export function download(name, blob) {
+  const link = element("a", { href: URL.createObjectURL(blob), download: name });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+}
+
 /// Tells the server what is to be seen, at which size.
 export function ask() {
   clearTimeout(timer);
@@ -45,7 +81,7 @@ export function ask() {
     for (const [name, { body }] of tiles) sizes[name] = [body.clientWidth - 8, body.clientHeight - (name === "record" ? 40 : 4)];
     const of = [part.raw, part.prepared];
     const until = Math.max(0, ...session.steps.filter((step) => step.names.some((name) => of.includes(name))).map((step) => step.last_line));
-    look(every, { ...part, views: shownViews(), models: all.filter((name) => !hidden.has(name)).slice(-8), all_models: all, sizes, range, advice: true }, until);
+    look(every, { ...part, views: ["variables", "models", ...shownViews(), "advice"], models: all.filter((name) => !hidden.has(name)).slice(-8), all_models: all, sizes, range, ...(wanted ? { save: wanted } : {}) }, until);
   }, 0);
 }
 
@@ -57,7 +93,11 @@ function makeTile(name) {
   const into = button(say("intoScript"), () => intoScript(name), { className: "into" });
   const body = element("div", { className: "body" }), words = element("p", { className: "told" });
   const title = element("h2", { textContent: viewName(name) });
-  node.append(element("header", {}, title, why(HELP[name]), ...(LINES[name] ? [into] : []), close), body, words);
+  const saved = element("select", { className: "save", ariaLabel: `${say("saveAs")}: ${viewName(name)}` });
+  saved.append(...["↓", "PDF", "SVG", "PNG"].map((text) => element("option", { value: text.toLowerCase(), textContent: text })));
+  saved.onchange = () => { if (saved.selectedIndex > 0) save({ what: "figure", view: name, format: saved.value }); saved.selectedIndex = 0; };
+  node.append(element("header", {}, title, why(HELP[name]), ...(TABLES[name] ? [] : [saved]), ...(LINES[name] ? [into] : []), close), body, words);
+  for (const group of OVER_TIME) if (group.includes(name)) linkCursor(name, body, group);
   return { node, body, words, title };
 }
 
@@ -81,6 +121,7 @@ const LINES = {
   bode: (_, models) => `bode(${models.join(", ")})`, nyquist: (_, models) => `nyquist(${models.join(", ")})`, poles: (_, models) => `pzmap(${models.join(", ")})`,
   parameters: (_, models) => models.map((model) => `present(${model})`).join("\n"),
   correlation: ({ estimation }, models) => `impulseest(${[estimation, ...models].join(", ")})`,
+  reading: ({ raw, reading }) => `compare(${raw}, ${reading}_model)`,
   study: ({ study }) => `print(${study})\n${study}:histograms()`, orders: ({ orders }) => `print(${orders})`,
 };
 function intoScript(name) {
@@ -210,7 +251,7 @@ const TABLES = {
 const studyTable = (seen) => table(["", say("parameter"), say("truth"), say("meanOf"), say("scatter"), say("bound"), say("reported")], seen.rows);
 
 function drawTile(name) {
-  const tile = tiles.get(name), seen = session.views["view " + name] ?? {};
+  const tile = tiles.get(name), seen = session.views[name] ?? {};
   const older = session.error !== null && session.shown === session.revision;
   tile.node.classList.toggle("older", older);
   tile.words.textContent = seen.error ?? seen.words ?? (older ? say("older") : "");

@@ -22,7 +22,7 @@ const WORDS = {
   copy: ["Copy", "Copier"], rename: ["Rename", "Renommer"], intoScript: ["+ report", "+ rapport"], failed: ["failed", "échec"],
   older: ["of the script before the mistake", "du script avant l'erreur"], ended: ["dynlab has ended; this is its last state", "dynlab est terminé ; voici son dernier état"],
   noAnswer: ["no answer from dynlab; waiting for it", "pas de réponse de dynlab ; en attente"], running: ["computing", "calcul"],
-  ready: ["up to date", "à jour"], mistake: ["stopped at a mistake", "arrêté par une erreur"], line: ["line", "ligne"],
+  ready: ["up to date", "à jour"], stopped: ["stopped; what stands before is shown", "arrêté ; ce qui précède est montré"], again: ["Run again", "Relancer"], mistake: ["stopped at a mistake", "arrêté par une erreur"], line: ["line", "ligne"],
   system: ["system", "système"], inputSignal: ["input", "entrée"], noise: ["noise, sigma", "bruit, sigma"], runs: ["runs", "répétitions"],
   begin: ["Begin a study", "Commencer une étude"], parameter: ["parameter", "paramètre"], truth: ["truth", "vrai"], meanOf: ["mean", "moyenne"],
   scatter: ["std", "écart type"], bound: ["Cramér–Rao", "Cramér–Rao"], reported: ["reported std", "écart type annoncé"], value: ["estimate", "estimation"], error: ["std. error", "erreur type"],
@@ -31,13 +31,17 @@ const WORDS = {
   saveAs: ["Save as", "Enregistrer"], bands: ["bands", "bandes"], help: ["Help page of", "Page d'aide de"], step: ["step", "pas"],
   readHere: ["Read it off this record", "Lire sur cet enregistrement"], estimateHere: ["Estimate from here", "Estimer à partir d'ici"],
   tooFew: ["There are no two signals in this file.", "Ce fichier n'a pas deux signaux."], loading: ["reading", "lecture"],
+  asked: ["This script runs programs. Run it? Say yes only if you know where it comes from.", "Ce script exécute des programmes. L'exécuter ? Dites oui seulement si vous savez d'où il vient."],
+  allow: ["Run it", "L'exécuter"], shapeFirst: ["First order", "Premier ordre"], shapeSecond: ["Second order", "Second ordre"], shapeDelayed: ["First order with dead time", "Premier ordre avec retard pur"],
+  noStep: ["The input of this record is no single step, or the response has not settled.", "L'entrée n'est pas un échelon unique, ou la réponse n'est pas établie."],
+  exports: ["Exports", "Exportations"], exportModels: ["Models", "Modèles"], exportData: ["Prepared record", "Enregistrement préparé"], exportScript: ["Script", "Script"],
 };
 const VIEWS = {
   record: ["Record", "Enregistrement"], spectrum: ["Spectrum", "Spectre"], compare: ["Simulated and measured output", "Sorties simulée et mesurée"],
   residuals: ["Residuals of the simulation", "Résidus de la simulation"], step: ["Step response", "Réponse indicielle"], impulse: ["Impulse response", "Réponse impulsionnelle"],
   bode: ["Bode", "Bode"], nyquist: ["Nyquist", "Nyquist"], poles: ["Poles and zeros", "Pôles et zéros"], parameters: ["Parameters", "Paramètres"],
   correlation: ["Impulse response of the record", "Réponse impulsionnelle de l'enregistrement"], delay: ["Loss over the delay", "Critère selon le retard"],
-  orders: ["Orders", "Ordres"], study: ["Monte Carlo study", "Étude de Monte Carlo"],
+  reading: ["Read by hand", "Lecture à la main"], orders: ["Orders", "Ordres"], study: ["Monte Carlo study", "Étude de Monte Carlo"],
 };
 let place = navigator.language?.startsWith("fr") ? 1 : 0;
 

@@ -1,8 +1,11 @@
 // The workbench: a record, its preparation, models and views, and beside them the script that all of it is.
 import { connect, onChange, post, session, trouble } from "/bench_session.js";
-import { partsPanel, preparationPanel, recordPanel } from "/bench_record.js";
-import { estimatePanel, knownPanel, modelsPanel, readingPanel } from "/bench_models.js";
-import { arrange, drawTiles, redrawBrushes, shownViews, toggleView, ask } from "/bench_views.js";
+import { openFirst, partsPanel, preparationPanel, recordPanel } from "/bench_record.js";
+import { estimatePanel, modelsPanel } from "/bench_models.js";
+import { readingPanel } from "/bench_reading.js";
+import { knownPanel } from "/bench_known.js";
+import { arrange, ask, drawTiles, redrawBrushes, shownViews, takeSaved, toggleView } from "/bench_views.js";
+import { exportsPanel } from "/bench_exports.js";
 import { openScript, showMistake, showScript } from "/bench_script.js";
 import { button, element } from "/bench_fields.js";
 import { say, useLanguage, viewName, viewNames } from "/bench_words.js";
@@ -13,7 +16,7 @@ let connection = "here", opened = false, viewsBefore = "";
 function label() {
   const header = /^-- language:\s*(\w+)/m.exec(session.source)?.[1];
   useLanguage(header ?? (navigator.language?.startsWith("fr") ? "fr" : "en"));
-  const words = { undo: "undo", redo: "redo", stop: "stop", "make-pdf": "pdf", "show-script": "script", "close-help": "close" };
+  const words = { undo: "undo", redo: "redo", stop: "stop", again: "again", "make-pdf": "pdf", "show-script": "script", "close-help": "close", asked: "asked", allow: "allow" };
   for (const [id, key] of Object.entries(words)) $(id).textContent = say(key);
   $("steps").setAttribute("aria-label", say("estimate"));
   $("views").setAttribute("aria-label", say("views"));
@@ -25,11 +28,13 @@ function showState() {
   $("undo").disabled = !session.undo;
   $("redo").disabled = !session.redo;
   $("stop").hidden = !session.running;
+  $("again").hidden = !session.stopped || session.running;
   const running = Object.values(session.states).find(({ state }) => state === "running");
   const share = running?.progress > 0 ? ` ${Math.floor(100 * running.progress)} %` : "";
   $("state").textContent = connection === "over" ? say("ended") : connection === "away" ? say("noAnswer")
-    : session.running ? say("running") + share : session.error ? say("mistake") : say("ready");
+    : session.running ? say("running") + share : session.error ? say("mistake") : session.stopped ? say("stopped") : say("ready");
   $("state").classList.toggle("broken", Boolean(session.error));
+  $("question").hidden = !session.asking;
   if (session.error) trouble(session.error.message);
   else if ($("trouble").dataset.mistake) trouble(null);
   $("trouble").dataset.mistake = session.error ? "1" : "";
@@ -49,7 +54,7 @@ function drawPanels() {
   const typedText = path && active.type === "text" && active.value !== active.defaultValue ? active.value : null;
   const views = element("section", { className: "panel" }, element("h2", { textContent: say("views") }),
     element("div", { className: "adding" }, ...viewNames().map((name) => button(viewName(name), () => toggleView(name), { ariaPressed: String(shownViews().includes(name)) }))));
-  steps.replaceChildren(...[recordPanel(), preparationPanel(), partsPanel(), readingPanel(), estimatePanel(), knownPanel(), views].filter(Boolean));
+  steps.replaceChildren(...[recordPanel(), preparationPanel(), partsPanel(), readingPanel(), estimatePanel(), knownPanel(), views, exportsPanel()].filter(Boolean));
   const details = [...steps.querySelectorAll("details")];
   if (details.length === open.length) details.forEach((node, i) => { node.open = open[i]; });
   steps.scrollTop = scrolled;
@@ -75,19 +80,20 @@ const nodeAt = (root, path) => path.reduce((node, i) => node?.children[i], root)
 function draw(changed) {
   if (changed.source) label();
   showState();
-  if (changed.source || changed.whole || changed.views.some((name) => !name.startsWith("view "))) drawPanels();
+  if (changed.source || changed.whole || changed.views.some((name) => ["variables", "models", "advice"].includes(name))) drawPanels();
   const names = shownViews().join();
   if (names !== viewsBefore || changed.whole) {
     viewsBefore = names;
     arrange();
   } else {
-    drawTiles(changed.views.filter((name) => name.startsWith("view ")).map((name) => name.slice(5)));
+    drawTiles(changed.views);
     if (changed.source || changed.views.includes("variables")) ask();
   }
   if (changed.views.includes("variables")) redrawBrushes();
+  if (changed.views.includes("saved")) takeSaved();
   if (changed.source && opened) showScript();
   else if (opened) showMistake();
-  if (!opened && session.source !== undefined) { opened = true; openScript(); }
+  if (!opened && session.source !== undefined) { opened = true; openScript(); openFirst(); }
 }
 onChange(draw);
 document.addEventListener("benchdraw", drawPanels);
@@ -100,6 +106,8 @@ connect((state) => {
 $("undo").onclick = () => post("/undo");
 $("redo").onclick = () => post("/redo");
 $("stop").onclick = () => post("/stop");
+$("again").onclick = () => post("/again");
+$("allow").onclick = () => post("/allow");
 $("show-script").onclick = () => {
   const hidden = document.body.classList.toggle("without-script");
   $("show-script").setAttribute("aria-pressed", String(!hidden));

@@ -39,13 +39,14 @@ bool sounds_like(const std::string& name, const Words& words) {
 }
 
 RecordColumn column_of(const std::string& name, const std::string& unit, const Vector& numbers, Index samples) {
-    RecordColumn column{name, unit, "", 0, 0, ""};
+    RecordColumn column{name, unit, "", 0, 0, "", true};
     const auto finite = numbers.array().isFinite();
     if (numbers.size() != samples)
         column.trouble = fmt::format("{} of {} values", numbers.size(), samples);
     else if (!finite.any())
         column.trouble = "no numbers";
-    if (!column.trouble.empty()) return column;
+    column.usable = column.trouble.empty();
+    if (!column.usable) return column;
     column.smallest = finite.select(numbers.array(), std::numeric_limits<double>::infinity()).minCoeff();
     column.largest = finite.select(numbers.array(), -std::numeric_limits<double>::infinity()).maxCoeff();
     if (column.smallest == column.largest) column.trouble = "constant";
@@ -76,12 +77,12 @@ class Columns {
             RecordColumn& column = columns.back();
             if (time && time->name == name)
                 column.role = "time";
-            else if (column.trouble.empty() && sounds_like(name, kInputs))
+            else if (column.usable && sounds_like(name, kInputs))
                 column.role = "input";
             else if (column.trouble.empty() && sounds_like(name, kOutputs))
                 column.role = "output";
         }
-        for (const std::string& name : texts_) columns.push_back({name, "", "", 0, 0, "text"});
+        for (const std::string& name : texts_) columns.push_back({name, "", "", 0, 0, "text", false});
         guess_rest(columns);
         return columns;
     }
@@ -118,9 +119,9 @@ class Columns {
 
 }  // namespace
 
-RecordChoice look_at_record(const std::string& data) {
+RecordChoice look_at_record(const std::string& data, bool tells) {
     const LoadedData loaded = load_data(data, ".");
-    return {data, Columns(loaded).offered(), look_at_data(data, {}).text};
+    return {data, Columns(loaded).offered(), tells ? look_at_data(data, {}).text : ""};
 }
 
 std::string record_lines(const RecordOrder& order) {

@@ -11,9 +11,10 @@ struct RecordColumn {
     std::string name, unit;
     std::string role;  ///< what it probably is: "input", "output", "time" or ""
     double smallest = 0, largest = 0;
-    std::string trouble;  ///< why it cannot be a signal: "text", "constant", "3 of 200 values"; else empty
+    std::string trouble;  ///< "text", "constant", "3 of 200 values"; else empty
+    bool usable = true;   ///< as a signal: a constant input may be a step from zero
 };
-DYNLAB_DESCRIBE(RecordColumn, name, unit, role, smallest, largest, trouble)
+DYNLAB_DESCRIBE(RecordColumn, name, unit, role, smallest, largest, trouble, usable)
 
 /// A data file as it is offered: which column is what, how it is sampled.
 struct RecordChoice {
@@ -23,8 +24,8 @@ struct RecordChoice {
 };
 DYNLAB_DESCRIBE(RecordChoice, data, columns, look)
 
-/// `data`: a file or a data set. Throws EnvironmentError as load_data().
-RecordChoice look_at_record(const std::string& data);
+/// `data`: a file or a data set; without `look` unless it `tells`. Throws EnvironmentError as load_data().
+RecordChoice look_at_record(const std::string& data, bool tells = true);
 
 /// What was chosen of it.
 struct RecordOrder {

@@ -123,7 +123,16 @@ bool read_call(std::string_view source, Tokens tokens, SessionStep& step) {
     return true;
 }
 
+bool has_remark_inside(std::string_view source, Tokens tokens) {
+    for (std::size_t i = 1; i < tokens.size(); ++i) {
+        const std::string_view between = source.substr(tokens[i - 1].end(), tokens[i].begin - tokens[i - 1].end());
+        if (between.find("--") != std::string_view::npos) return true;
+    }
+    return false;
+}
+
 std::optional<SessionStep> step_of(std::string_view source, Tokens tokens) {
+    if (has_remark_inside(source, tokens)) return {};
     if (!tokens.empty() && tokens.back().is(";")) tokens = tokens.first(tokens.size() - 1);
     if (tokens.empty()) return {};
     SessionStep step;
@@ -180,6 +189,8 @@ void add_running_steps(const std::string& source, std::vector<SessionStep>& step
         if (!step) continue;
         step->first_line = lines.at(all[first].begin);
         step->last_line = lines.at(all[i - 1].end() - 1);
+        const std::size_t end = all[i - 1].end();
+        step->rest = source.substr(end, source.find('\n', end) - end);
         steps.push_back(*std::move(step));
     }
 }

@@ -24,12 +24,14 @@ struct SessionStep {
     bool braces = false;                 ///< f{...}: the table is the only argument
     std::vector<std::string> arguments;  ///< as they are written, without the table of options at the end
     std::vector<StepOption> options;
+    std::string rest;  ///< what stands behind it in its last line: a remark
     bool on = true;
 };
-DYNLAB_DESCRIBE(SessionStep, first_line, last_line, names, local, receiver, function, braces, arguments, options, on)
+DYNLAB_DESCRIBE(SessionStep, first_line, last_line, names, local, receiver, function, braces, arguments, options, rest,
+                on)
 
 /// The steps of a script, in order: statements outside of functions, loops and conditions that begin a line and end
-/// one. What is written in another way is no step, and stays as it is.
+/// one, without remarks inside. What is written in another way is no step, and stays as it is.
 std::vector<SessionStep> session_steps(const std::string& source);
 
 /// Lines of a script that are replaced.

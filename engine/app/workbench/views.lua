@@ -4,7 +4,9 @@ local compare, resid, step, impulse, bode, nyquist, pzmap = compare, resid, step
 local idplot, impulseest, fit, fit_measures, advice, spa = idplot, impulseest, fit, fit_measures, advice, spa
 local figure, plot, delayest, selcstruc, stable = figure, plot, delayest, selcstruc, stable
 local pcall, type, ipairs, pairs, tostring, math, string, table = pcall, type, ipairs, pairs, tostring, math, string, table
-local sqrt, mean, std, vector = math.sqrt, mean, std, vector
+local mean, std, vector, exp, sqrt, cos, sin, abs, fft = mean, std, vector, exp, math.sqrt, cos, sin, abs, fft
+local range, slider, save, save_mat, save_csv = range, slider, save, save_mat, save_csv
+local step_first_order, step_second_order, step_delayed = step_first_order, step_second_order, step_delayed
 local show = workbench.show
 
 local CM_PER_PIXEL = 2.54/96
@@ -69,25 +71,29 @@ function views.prepared(settings, values)
 end
 
 
+--- Power over frequency (rad/s) of a signal, of long ones the mean over stretches.
+local function power_of(x, Ts)
+  local length = math.min(#x, 8192)
+  local half, stretches, sum = math.floor(length/2), math.floor(#x/length), nil
+  for k = 0, stretches - 1 do
+    local part = x:range(k*length + 1, (k + 1)*length)
+    local size = fft(part - mean(part)).abs:range(2, half + 1)
+    sum = sum and sum + size^2 or size^2
+  end
+  return range(1, 1, half)*(2*math.pi/(length*Ts)), sum*(Ts/(length*stretches))
+end
+
 function views.spectrum(settings, values)
   local raw, prepared = values[settings.raw], values[settings.prepared]
-  if not is_data(raw) then return end
+  if not is_data(raw) or raw.N < 8 then return end
   local curves = {}
   local function add(data, label, colour)
-    local x = data.y:col(1)
-    local X = fft(x - mean(x))
-    local half = math.floor(#x/2)
-    local power, w = vector(half), vector(half)
-    for k = 1, half do
-      power[k] = (X[k + 1]:abs())^2/#x*data.Ts
-      w[k] = 2*math.pi*k/(#x*data.Ts)
-    end
+    local w, power = power_of(data.ny > 1 and data.y:col(1) or data.y, data.Ts)
     curves[#curves + 1] = {x = w, y = power, label = label, colour = colour}
   end
   add(raw, settings.raw, 8)
-  if prepared ~= raw and is_data(prepared) then add(prepared, settings.prepared, 0) end
-  return {figure = figure{curves = curves, x_log = true, y_log = true, xlabel = "frequency (rad/s)",
-                          ylabel = "power of the output"}}
+  if settings.prepared ~= settings.raw and is_data(prepared) then add(prepared, settings.prepared, 0) end
+  return {figure = figure{curves = curves, x_log = true, y_log = true, xlabel = "frequency (rad/s)", ylabel = "power of the output"}}
 end
 
 function views.compare(settings, values)
@@ -151,11 +157,11 @@ end
 function views.orders(settings, values)
   local found = values[settings.orders]
   if found == nil or not field(found, "rows") then return end
-  local rows = {}
+  local rows, best = {}, found.best
   for i, row in ipairs(found.rows) do
     rows[i] = {poles = row.poles, zeros = row.zeros, delay = row.delay, fit = row.fit_percent,
                validation = row.validation_fit, yic = row.yic, bic = row.bic, failure = row.failure,
-               best = row == found.best, doubt = row.cancellation and true or (#(row.undetermined or {}) > 0)}
+               best = best and row.poles == best.poles and row.zeros == best.zeros and row.delay == best.delay, doubt = row.cancellation and true or (#(row.undetermined or {}) > 0)}
   end
   return {rows = rows, words = found.recommendation}
 end
@@ -181,6 +187,94 @@ function views.study(settings, values)
   local fig
   if up then fig = study:scatter(across, up) else fig = study:histograms() end
   return {figure = fig, rows = rows, runs = field(study, "runs")}
+end
+
+--- What a table of readings says of the response: its curve, its handles and the formulas with their numbers.
+local shapes = {}
+
+function shapes.first(r)
+  return function(since) return r.K*(1 - exp(-since/r.T)) end,
+    {{parameter = "K", x = "end", y = function(K) return K end, text = "final level"},
+     {parameter = "T", x = function(T) return T end, y = 0.632*r.K, text = "63 %"}},
+    string.format("K = change of y/change of u = %.4g/%.4g = %.4g.  T: 63 %% of the change after %.4g.  Within 5 %% after 3 T = %.4g.",
+                  r.K*r.change, r.change, r.K, r.T, 3*r.T)
+end
+
+function shapes.delayed(r)
+  local function curve(since)
+    local t = since - r.Td
+    return r.K*(1 - exp(-(t + abs(t))/(2*r.T)))
+  end
+  local t28, t63 = r.Td + r.T/3, r.Td + r.T
+  return curve,
+    {{parameter = "K", x = "end", y = function(K) return K end, text = "final level"},
+     {parameter = "Td", x = function(Td) return Td + r.T/3 end, y = 0.283*r.K, text = "28 %"},
+     {parameter = "T", x = function(T) return r.Td + T end, y = 0.632*r.K, text = "63 %"}},
+    string.format("28 %% after %.4g, 63 %% after %.4g:  T = 1.5 (t63 - t28) = %.4g,  Td = t63 - T = %.4g.  K = %.4g.", t28, t63, r.T, r.Td, r.K)
+end
+
+function shapes.second(r)
+  local root = sqrt(1 - r.z^2)
+  local function overshoot(z) return math.exp(-math.pi*z/sqrt(1 - z^2)) end
+  local D, T1 = overshoot(r.z), math.pi/(r.w0*root)
+  return function(since)
+      return r.K*(1 - exp(-r.z*r.w0*since)*(cos(r.w0*root*since) + r.z/root*sin(r.w0*root*since)))
+    end,
+    {{parameter = "K", x = "end", y = function(K) return K end, text = "final level"},
+     {parameter = "w0", x = function(w0) return math.pi/(w0*root) end, other = "z", y = function(z) return r.K*(1 + overshoot(z)) end, text = "first peak"}},
+    string.format("Overshoot D = %.3g %% after T1 = %.4g:  z = sqrt(ln(D)^2/(ln(D)^2 + pi^2)) = %.4g,  w0 = pi/(T1 sqrt(1 - z^2)) = %.4g rad/s.  K = %.4g.  Within 5 %% after about 3/(z w0) = %.4g.",
+                  100*D, T1, r.z, r.w0, r.K, 3/(r.z*r.w0))
+end
+
+local function ranged(name, value)
+  local low, high = value/4, value*4
+  if name == "z" then low, high = math.min(0.02, value), math.max(0.95, value) end
+  if value == 0 then low, high = -1, 1 end
+  if low > high then low, high = high, low end
+  return slider("reading-" .. name, value, low, high)
+end
+
+function views.reading(settings, values)
+  local r, data = values[settings.reading], values[settings.raw]
+  if type(r) ~= "table" or not is_data(data) or not shapes[r.kind] then return end
+  local curve, handles, words = shapes[r.kind](r)
+  local t = data.t
+  local since = t - r.start
+  local y = r.rest + r.change*curve((since + abs(since))/2)
+  local fig = plot(t, data.y, "measured", t, y, "by hand", {style = {"points", "line"}, marker = 0, colour = {8, 0}, xlabel = "time (s)"})
+  for _, name in ipairs{"K", "T", "Td", "z", "w0"} do
+    if r[name] then ranged(name, r[name]) end
+  end
+  for _, handle in ipairs(handles) do
+    local at = handle.x
+    if at == "end" then
+      fig:handle{x = t[#t] - 0.03*(t[#t] - t[1]), y = function(K) return r.rest + r.change*K end, y_slider = "reading-K", text = handle.text}
+    elseif handle.other then
+      fig:handle{x = function(v) return r.start + at(v) end, x_slider = "reading-" .. handle.parameter,
+                 y = function(v) return r.rest + r.change*handle.y(v) end, y_slider = "reading-" .. handle.other, text = handle.text}
+    else
+      fig:handle{x = function(v) return r.start + at(v) end, x_slider = "reading-" .. handle.parameter, y = r.rest + r.change*handle.y, text = handle.text}
+    end
+  end
+  local error = data.y - y
+  return {figure = fig, words = string.format("%s  Fit %.1f %%.", words, 100*(1 - std(error)/std(data.y)))}
+end
+
+--- What the functions for step tests read off a record, to begin with.
+local function readings(data)
+  local list = {}
+  for kind, read in pairs{first = step_first_order, second = step_second_order, delayed = step_delayed} do
+    local done, G = pcall(read, data)
+    if done then
+      local u, y, t, at = data.u, data.y, data.t, 1  -- the step comes behind sample `at`
+      while at < #u and u[at + 1] == u[1] do at = at + 1 end
+      local from_first = at == #u
+      list[kind] = {K = G.K, T = field(G, "T"), Td = field(G, "D"), z = field(G, "z"), w0 = field(G, "w0"),
+                    start = from_first and t[1] or t[at + 1], rest = from_first and 0 or mean(y:range(1, at)),
+                    change = from_first and u[1] or u[#u] - u[1]}
+    end
+  end
+  return list
 end
 
 --- Of which kind each variable is, and what controls ask about it.
@@ -241,27 +335,70 @@ local function measured(name, model, settings, values)
   return row
 end
 
-local function findings(settings, values)
+function views.advice(settings, values)
   local data = values[settings.prepared] or values[settings.raw]
-  if not is_data(data) then return end
+  if not is_data(data) then return {list = {}} end
   local list = {}
   for i, one in ipairs(advice(data)) do
     list[i] = {code = one.code, warning = one.warning, message = one.message, sections = one.sections}
   end
-  return list
+  local read, kinds = pcall(readings, values[settings.raw])
+  return {list = list, readings = read and kinds or {}}
 end
 
-function draw_workbench(settings, values)
-  show("variables", describe(values))
-  if settings.advice then
-    local done, list = pcall(findings, settings, values)
-    show("advice", {list = done and list or {}, of = settings.prepared})
-  end
+function views.variables(settings, values) return describe(values) end
+
+function views.models(settings, values)
   local rows = {}
   for _, name in ipairs(settings.all_models or {}) do
     if is_model(values[name]) then rows[#rows + 1] = measured(name, values[name], settings, values) end
   end
-  show("models", {rows = rows})
+  return {rows = rows}
+end
+
+--- Files for whoever wants to go on elsewhere, by what is saved.
+local saving = {}
+
+function saving.figure(order, settings, values, file)
+  local name = order.view
+  save(sized(views[name](settings, values).figure, settings, name), file)
+end
+
+function saving.models(order, settings, values, file)
+  local structs, columns = {}, {model = {}, parameter = {}, value = {}, std = {}}
+  for _, name in ipairs(settings.all_models) do
+    local model = values[name]
+    if is_model(model) then
+      structs[name] = {num = field(model, "num"), den = field(model, "den"), IODelay = field(model, "IODelay"), Ts = field(model, "Ts")}
+      local names, param, errors = field(model, "names"), field(model, "param"), field(model, "std")
+      for i, parameter in ipairs(names or {}) do
+        local n = #columns.model + 1
+        columns.model[n], columns.parameter[n], columns.value[n] = name, parameter, param[i]
+        columns.std[n] = errors and errors[i] or math.huge
+      end
+    end
+  end
+  if order.format == "mat" then save_mat(file, structs) else save_csv(file, columns, {columns = {"model", "parameter", "value", "std"}, digits = 17}) end
+end
+
+function saving.data(order, settings, values, file)
+  local data = values[order.name]
+  if order.format == "mat" then save_mat(file, {t = data.t, y = data.y, u = data.u, Ts = data.Ts}) else save_csv(file, data, {digits = 17}) end
+end
+
+--- Of a variable that the script may not have come to.
+function value_or_nil(read)
+  local there, value = pcall(read)
+  if there then return value end
+end
+
+function draw_workbench(settings, values)
+  local order = settings.save
+  if order then
+    local file = string.format("%s-%d.%s", order.name or order.view or order.what, order.number, order.format)
+    local done, message = pcall(saving[order.what], order, settings, values, file)
+    show("saved", {number = order.number, file = file, error = not done and tostring(message) or nil})
+  end
   for _, name in ipairs(settings.views or {}) do
     local view = views[name]
     if view then
@@ -269,7 +406,7 @@ function draw_workbench(settings, values)
       if not done then seen = {error = tostring(seen)} end
       seen = seen or {}
       if seen.figure then sized(seen.figure, settings, name) end
-      show("view " .. name, seen)
+      show(name, seen)
     end
   end
 end

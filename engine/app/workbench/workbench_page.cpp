@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "app/live/background_work.h"
+#include "app/live/permissions.h"
 #include "app/page/page_routes.h"
 #include "app/server/web_server.h"
 #include "app/workbench/record_choice.h"
@@ -16,6 +17,7 @@
 #include "data_io/values/json_values.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
+#include "platform/memory.h"
 #include "platform/text_file.h"
 #include "scripting/runtime/help.h"
 #include "workflow/lesson_catalogue.h"
@@ -63,10 +65,24 @@ Subject subject_of(const std::string& words) {
     return {session_of(lesson.slug), record, "Identification from " + fs::path(record).stem().string()};
 }
 
+/// A record that the page has to ask about, and why.
+struct Opening {
+    std::string data, words;
+};
+DYNLAB_DESCRIBE(Opening, data, words)
+
 /// The script that a session begins with, where there is none yet.
-std::string first_script(const Subject& subject) {
-    if (subject.data.empty()) return new_session(subject.title, "", "en");
-    return new_session(subject.title, record_lines(suggested_order(look_at_record(subject.data))), "en");
+std::string first_script(const Subject& subject, Opening& opening) {
+    std::string lines;
+    if (!subject.data.empty()) {
+        const RecordChoice choice = look_at_record(subject.data, false);
+        try {
+            lines = record_lines(suggested_order(choice));
+        } catch (const EnvironmentError& error) {
+            opening = {subject.data, error.what()};
+        }
+    }
+    return new_session(subject.title, lines, "en");
 }
 
 PageReply done() {
@@ -80,10 +96,12 @@ void take_script_orders(WebServer& server, WorkbenchSession& bench) {
         return revision ? PageReply{std::to_string(*revision), kJson}
                         : PageReply{"The script has changed meanwhile.", kPlainText, kConflict};
     });
-    server.on_post("/look",
-                   [&](const PageRequest& asked) { return bench.look(from_json<ViewOrder>(asked.body)), done(); });
+    server.on_post("/look", [&](const PageRequest& asked) {
+        return PageReply{std::to_string(bench.look(from_json<ViewOrder>(asked.body))), kJson};
+    });
     server.on_post("/undo", [&](const PageRequest&) { return bench.undo(), done(); });
     server.on_post("/redo", [&](const PageRequest&) { return bench.redo(), done(); });
+    server.on_post("/again", [&](const PageRequest&) { return bench.again(), done(); });
     server.on_post("/stop", [&](const PageRequest&) { return bench.stop(), done(); });
 }
 
@@ -140,12 +158,18 @@ struct StopsBeforeServer {
     ~StopsBeforeServer() { work.stop(); }
 };
 
-void serve_documents(WebServer& server, WorkbenchSession& bench, BackgroundWork& background) {
+void serve_documents(WebServer& server, WorkbenchSession& bench, BackgroundWork& background,
+                     const Permissions& permissions) {
     server.on_get("/document.pdf", [&](const PageRequest&) {
-        constexpr int kFailed = 500;
+        constexpr int kFailed = 500, kForbidden = 403;
+        if (!permissions.granted())
+            return PageReply{"This script has not been allowed to run.", kPlainText, kForbidden};
         background.document_changed({});
         const BackgroundWork::Pdf pdf = background.pdf();
         return pdf.bytes.empty() ? PageReply{pdf.error, kPlainText, kFailed} : PageReply{pdf.bytes, "application/pdf"};
+    });
+    server.on_get("/saved/*", [&](const PageRequest& asked) {
+        return PageReply{bench.saved(fs::path(asked.path).filename().string()), "application/octet-stream"};
     });
     server.on_get("/script.lua", [&](const PageRequest&) { return PageReply{bench.script(), kPlainText}; });
 }
@@ -153,15 +177,22 @@ void serve_documents(WebServer& server, WorkbenchSession& bench, BackgroundWork&
 }  // namespace
 
 void serve_workbench(const WorkbenchOptions& options) {
-    ScriptRunner runner({.prelude = workbench_prelude(), .draws_figures = false});  // before any thread
+    ScriptRunner runner(
+        {.prelude = workbench_prelude(), .draws_figures = false, .keeps_end = false});  // before any thread
     Subject subject = subject_of(options.subject);
     if (const fs::path folder = subject.script.parent_path(); !folder.empty()) {
         fs::current_path(folder);
         subject.script = subject.script.filename();
     }
     const bool fresh = !fs::exists(subject.script);
-    if (fresh) write_file_atomically(subject.script, first_script(subject));
+    Opening opening;
+    if (fresh) write_file_atomically(subject.script, first_script(subject, opening));
+    return_freed_memory();  // of the record's file
     WorkbenchSession bench(subject.script, runner);
+    const Permissions permissions(subject.script);
+    if (fresh) permissions.grant_script();
+    if (options.run_at_once) permissions.grant();
+    if (permissions.granted()) bench.allow_runs();
 
     BackgroundWork background(subject.script.string());
     WebServer server({.port = options.port, .largest_body = kLargestUpload});
@@ -170,7 +201,12 @@ void serve_workbench(const WorkbenchOptions& options) {
     take_script_orders(server, bench);
     serve_records(server, bench);
     serve_help(server);
-    serve_documents(server, bench, background);
+    serve_documents(server, bench, background, permissions);
+    server.on_post("/allow", [&](const PageRequest&) {
+        permissions.grant();
+        return bench.allow_runs(), done();
+    });
+    server.on_get("/opening", [&](const PageRequest&) { return PageReply{json_of(opening), kJson}; });
     background.start([] {});
     server.on_stream([&] { return bench.whole(); });
     bench.on_change([&] {

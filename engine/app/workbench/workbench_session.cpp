@@ -14,6 +14,7 @@
 #include "data_io/values/value_limits.h"
 #include "documents/error.h"
 #include "documents/text_lines.h"
+#include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/interrupt.h"
 #include "scripting/runtime/lua_text.h"
@@ -25,9 +26,16 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr const char* kViewCell = "workbench-views";
-constexpr const char* kViewsOfRecords[] = {"record", "spectrum"};
+constexpr const char* kSlowViewCell = "workbench-slow-views";
+constexpr const char* kViewsOfRecords[] = {"record", "spectrum", "advice"};
+constexpr const char* kSlowViews[] = {"spectrum", "correlation", "advice"};
 constexpr std::size_t kMostPrinted = 4000;  // bytes of a cell that are shown
 constexpr int kLookForInterrupt = 1000;     // ms
+
+template <class Names>
+bool is_one_of(const json& name, const Names& names) {
+    return std::any_of(std::begin(names), std::end(names), [&](const char* one) { return name == one; });
+}
 
 /// A value of JSON as Lua writes it.
 std::string lua_of(const json& value) {
@@ -59,15 +67,24 @@ std::string workbench_prelude() {
     throw EnvironmentError("the program was built without views.lua");
 }
 
-std::string view_cell(const ViewOrder& order) {
+std::string view_cells(const ViewOrder& order) {
     if (!json::accept(order.settings)) throw ValueError("the settings of the views are no JSON");
     std::string variables;
     for (const std::string& name : order.variables) {
         if (!is_name(name) || name.find('-') != std::string::npos) throw ValueError("'" + name + "' is no name");
-        variables += fmt::format("{0} = {0}, ", name);
+        variables += fmt::format("{0} = value_or_nil(function() return {0} end), ", name);
     }
-    return fmt::format("\n-- %% id={}\ndraw_workbench({}, {{{}}})\n", kViewCell, lua_of(json::parse(order.settings)),
-                       variables);
+    json quick = json::parse(order.settings);
+    if (!quick.is_object()) throw ValueError("the settings of the views are no object");
+    json slow = quick;
+    quick["views"] = slow["views"] = json::array();
+    for (const json& view : json::parse(order.settings).value("views", json::array()))
+        (is_one_of(view, kSlowViews) ? slow : quick)["views"].push_back(view);
+    slow.erase("save");
+    const auto cell = [&](const char* id, const json& settings) {
+        return fmt::format("\n-- %% id={}\ndraw_workbench({}, {{{}}})\n", id, lua_of(settings), variables);
+    };
+    return cell(kViewCell, quick) + (slow["views"].empty() ? "" : cell(kSlowViewCell, slow));
 }
 
 WorkbenchSession::WorkbenchSession(fs::path file, ScriptRunner& runner)
@@ -107,21 +124,38 @@ void WorkbenchSession::redo() {
     wake();
 }
 
-void WorkbenchSession::look(const ViewOrder& order) {
-    view_cell(order);  // refuses what it cannot write
+std::size_t WorkbenchSession::look(const ViewOrder& order) {
+    view_cells(order);  // refuses what it cannot write
     const std::lock_guard lock(mutex_);
-    if (order.settings == looked_at_.settings && order.variables == looked_at_.variables &&
-        order.data_until == looked_at_.data_until)
-        return;
     looked_at_ = order;
     old_ = true;
     wake();
+    return ++looks_;
 }
 
 void WorkbenchSession::stop() {
     const std::lock_guard lock(mutex_);
     stop_ = true;
     wake();
+}
+
+void WorkbenchSession::again() {
+    const std::lock_guard lock(mutex_);
+    lines_to_run_.reset();
+    stopped_ = false;
+    old_ = true;
+    seen_.clear();
+    wake();
+}
+
+void WorkbenchSession::allow_runs() {
+    const std::lock_guard lock(mutex_);
+    may_run_ = old_ = true;
+    wake();
+}
+
+std::string WorkbenchSession::saved(const std::string& name) const {
+    return read_file(figures_.path() / fs::path(name).filename());
 }
 
 void WorkbenchSession::end() {
@@ -171,74 +205,95 @@ void WorkbenchSession::take_orders() {
         const std::lock_guard lock(mutex_);
         if (std::exchange(stop_, false) && runner_.running()) {
             runner_.stop();
+            stopped_ = changed_ = true;
+            for (std::size_t i = 0; i < runner_.parts().size(); ++i)
+                if (states_[runner_.parts()[i].cells.front()].state != "done") {
+                    leave_out(i);
+                    break;
+                }
             for (auto& [cell, state] : states_)
                 if (state.state != "done") state = {"waiting", 0, 0};
-            changed_ = true;
         }
-        must_run = old_ || !changed_data_.empty() || run_revision_ != text_.revision();
+        must_run = may_run_ && (old_ || !changed_data_.empty() || run_revision_ != text_.revision());
     }
     if (must_run) run();
     tell_();
 }
 
-/// Without the views of records alone, where neither these nor what is wanted of them have changed: advice takes longer
-/// than all the rest.
-ViewOrder WorkbenchSession::wanted_views() {
+/// Those alone whose text or settings are other than when they were made; nothing where all stand: advice takes longer
+/// than all the rest, and a hand that pans a record wants its picture only.
+std::optional<ViewOrder> WorkbenchSession::stale_views() {
     ViewOrder order = looked_at_;
-    ::nlohmann::json settings = ::nlohmann::json::parse(order.settings);
-    if (!settings.is_object()) return order;
+    ::nlohmann::json settings = ::nlohmann::json::parse(order.settings), common = settings;
+    for (const char* name : {"views", "sizes", "range", "save"}) common.erase(name);
     const std::vector<std::string> lines = lines_of(text_.text());
     const std::size_t until = std::min(lines.size(), static_cast<std::size_t>(std::max(0, order.data_until)));
-    data_under_way_ = fmt::format("{}\n", fmt::join(lines.begin(), lines.begin() + static_cast<long>(until), "\n"));
-    for (const char* name : {"raw", "prepared", "range", "sizes", "advice"})
-        if (const auto setting = settings.find(name); setting != settings.end()) data_under_way_ += setting->dump();
-    if (const auto views = settings.find("views"); views != settings.end() && views->is_array()) {
-        ::nlohmann::json left = ::nlohmann::json::array();
-        for (const auto& view : *views) {
-            const bool of_records =
-                std::find(std::begin(kViewsOfRecords), std::end(kViewsOfRecords), view) != std::end(kViewsOfRecords);
-            if (of_records) data_under_way_ += view.dump();
-            if (!of_records) left.push_back(view);
-        }
-        if (data_under_way_ == data_seen_ && changed_data_.empty()) *views = left;
-    }
-    if (data_under_way_ == data_seen_ && changed_data_.empty()) settings["advice"] = false;
+    const std::string of_records =
+        fmt::format("{}", fmt::join(lines.begin(), lines.begin() + static_cast<long>(until), "\n"));
+    under_way_.clear();
+    const auto part = [](const ::nlohmann::json& from, const std::string& name) {
+        return from.is_object() && from.contains(name) ? from[name].dump() : "";
+    };
+    const auto is_stale = [&](const std::string& view) {
+        std::string& key = under_way_[view];
+        key = is_one_of(view, kViewsOfRecords) ? of_records + part(settings, "raw") + part(settings, "prepared")
+                                               : text_.text() + common.dump();
+        if (settings.contains("sizes")) key += part(settings["sizes"], view);
+        if (view == "record") key += part(settings, "range");
+        const auto seen = seen_.find(view);
+        return !changed_data_.empty() || seen == seen_.end() || seen->second != key;
+    };
+    ::nlohmann::json views = ::nlohmann::json::array();
+    for (const auto& view : settings.value("views", ::nlohmann::json::array()))
+        if (view.is_string() && is_stale(view)) views.push_back(view);
+    settings["views"] = views;
     order.settings = settings.dump();
-    return order;
+    return views.empty() && !settings.contains("save") ? std::nullopt : std::optional(order);
 }
 
 void WorkbenchSession::run() {
     const std::lock_guard lock(mutex_);
-    old_ = without_failed_ = false;
-    if (run_revision_ != text_.revision()) error_.reset();
+    old_ = false;
+    changed_ = changed_ || run_looks_ != looks_;
+    run_looks_ = looks_;
+    const bool other = run_revision_ != text_.revision() || !changed_data_.empty();
+    if (other) {
+        lines_to_run_.reset();
+        error_.reset();
+        stopped_ = false;
+    }
+    const std::optional<ViewOrder> views = stale_views();
+    if (!views && !other) return;
     run_revision_ = text_.revision();
     changed_ = true;
     try {
-        const PercentScript script = parse_percent_script(text_.text() + view_cell(wanted_views()), text_.file());
+        const std::string cells = views ? view_cells(*views) : "";
+        const PercentScript script = parse_percent_script(text_to_run() + cells, text_.file());
         const std::size_t first =
             runner_.run(report_of_script(script, "session.html"), figures_.path(), std::exchange(changed_data_, {}));
         for (std::size_t i = first; i < runner_.parts().size(); ++i)
             for (const std::string& cell : runner_.parts()[i].cells) states_[cell] = {"waiting", 0, 0};
     } catch (const DocumentError& error) {
-        error_ = RecordedError{error.what(), 0};
+        if (!lines_to_run_) error_ = RecordedError{error.what(), 0};  // else its beginning alone is no script
     } catch (const EnvironmentError& error) {
         error_ = RecordedError{error.what(), 0};
     }
 }
 
-/// Views of what was computed before a mistake.
-void WorkbenchSession::run_without_failed_part(std::size_t failed) {
-    std::vector<std::string> lines = lines_of(text_.text());
-    const std::size_t first = static_cast<std::size_t>(runner_.parts()[failed].first_line - 1);
-    if (first > lines.size()) return;
-    std::string before;
-    for (std::size_t i = 0; i < first; ++i) before += lines[i] + "\n";
-    without_failed_ = true;
-    try {
-        const PercentScript script = parse_percent_script(before + view_cell(looked_at_), text_.file());
-        runner_.run(report_of_script(script, "session.html"), figures_.path(), {});
-    } catch (const DocumentError&) {  // its beginning alone is no script
-    }
+/// From now on only what stands before this part is run and looked at, until the script changes.
+void WorkbenchSession::leave_out(std::size_t part) {
+    const auto before = static_cast<std::size_t>(runner_.parts()[part].first_line - 1);
+    if (before > lines_of(text_.text()).size()) return;  // a view
+    lines_to_run_ = before;
+    old_ = true;
+}
+
+std::string WorkbenchSession::text_to_run() const {
+    if (!lines_to_run_) return text_.text();
+    const std::vector<std::string> lines = lines_of(text_.text());
+    std::string text;
+    for (std::size_t i = 0; i < *lines_to_run_ && i < lines.size(); ++i) text += lines[i] + "\n";
+    return text;
 }
 
 void WorkbenchSession::take(RunnerNews news) {
@@ -256,19 +311,19 @@ void WorkbenchSession::take(RunnerNews news) {
     } else if (news.kind == "done" || (news.kind == "ended" && news.record.error)) {
         set_state({news.record.error ? "failed" : "done", news.seconds, 0});
         take_record(news);
-        const bool whole = news.part + 1 == parts.size() && !news.record.error;
-        if (whole) data_seen_ = data_under_way_;
-        if (!news.record.error || without_failed_) return;
+        const bool whole = news.part + 1 == parts.size() && !news.record.error && !lines_to_run_;
+        if (whole)
+            for (const auto& [view, made_from] : under_way_) seen_[view] = made_from;
+        if (!news.record.error || lines_to_run_) return;
         error_ = news.record.error;
-    } else if (news.kind == "ended" && error_ && !without_failed_ && run_revision_ == text_.revision()) {
-        run_without_failed_part(news.part);
+        if (run_revision_ == text_.revision()) leave_out(news.part);
     }
 }
 
 void WorkbenchSession::take_record(const RunnerNews& news) {
     for (std::size_t i = 0; i <= news.part && i < runner_.parts().size(); ++i)
         for (const std::string& cell : runner_.parts()[i].cells)
-            if (cell != kViewCell) printed_[cell] = printed_by(news.record, cell);
+            if (cell != kViewCell && cell != kSlowViewCell) printed_[cell] = printed_by(news.record, cell);
     for (const fs::path& file : news.record.files_read) {
         const fs::path place = fs::weakly_canonical(fs::absolute(file));
         if (data_.insert(place).second) watch_.add(place.parent_path());
@@ -279,7 +334,10 @@ std::string WorkbenchSession::json(bool all) const {
     ::nlohmann::json page = {{"all", all},
                              {"revision", text_.revision()},
                              {"shown", run_revision_},
+                             {"looked", run_looks_},
                              {"running", runner_.running()},
+                             {"asking", !may_run_},
+                             {"stopped", stopped_},
                              {"undo", text_.can_undo()},
                              {"redo", text_.can_redo()},
                              {"states", ::nlohmann::json::object()}};

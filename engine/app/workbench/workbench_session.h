@@ -24,9 +24,9 @@ DYNLAB_DESCRIBE(ViewOrder, variables, settings, data_until)
 
 /// The Lua that runs before a session's script: the functions that look at its variables.
 std::string workbench_prelude();
-/// A cell that stands behind a session's script: hands its variables and the settings to the prelude. Throws ValueError
-/// for names that are none and for settings that are no JSON.
-std::string view_cell(const ViewOrder& order);
+/// Cells that stand behind a session's script: they hand its variables and the settings to the prelude, what is quick
+/// first. Throws ValueError for names that are none and for settings that are no JSON.
+std::string view_cells(const ViewOrder& order);
 
 /// A session: a script that is run as it is changed, and views of what it computed. One thread works (`work`); orders
 /// come from any.
@@ -42,9 +42,13 @@ class WorkbenchSession {
     void put(const std::string& text);
     void undo();
     void redo();
-    void look(const ViewOrder& order);
-    void stop();
+    std::size_t look(const ViewOrder& order);  ///< the number of the order
+    void stop();                               ///< the part that runs; what stands before it is still looked at
+    void again();                              ///< runs what was stopped
+    void allow_runs();                         ///< nothing is run before
     void end();
+    /// What a run saved (workbench.show "saved"), by its name. Throws EnvironmentError where there is none.
+    std::string saved(const std::string& name) const;
 
     std::string script() const;
     std::filesystem::path file() const;
@@ -55,8 +59,9 @@ class WorkbenchSession {
     void wake();
     void take_orders();
     void run();
-    ViewOrder wanted_views();
-    void run_without_failed_part(std::size_t failed);
+    std::optional<ViewOrder> stale_views();
+    void leave_out(std::size_t part);
+    std::string text_to_run() const;
     void take(RunnerNews news);
     void take_record(const RunnerNews& news);
     std::string json(bool all) const;
@@ -72,12 +77,14 @@ class WorkbenchSession {
     mutable std::mutex mutex_;
     SessionText text_;
     ViewOrder looked_at_;
-    std::string data_seen_, data_under_way_;  ///< what views of records alone were made from, or are being made from
-    bool old_ = true, stop_ = false;
+    std::size_t looks_ = 0, run_looks_ = 0;  ///< orders of views; those that the run knows
+    using MadeFrom = std::map<std::string, std::string>;
+    MadeFrom seen_, under_way_;  ///< by view: the text and the settings that it was made from, or is being made from
+    bool old_ = true, stop_ = false, may_run_ = false, stopped_ = false;
     std::atomic<bool> end_ = false;
 
-    std::size_t run_revision_ = 0;  ///< of the text that runs, or ran last
-    bool without_failed_ = false;   ///< what runs is the script up to a part that failed
+    std::size_t run_revision_ = 0;             ///< of the text that runs, or ran last
+    std::optional<std::size_t> lines_to_run_;  ///< those before a part that failed or was stopped; all when empty
     std::map<std::string, CellState> states_;
     std::map<std::string, std::string> printed_;  ///< by cell
     std::optional<RecordedError> error_;

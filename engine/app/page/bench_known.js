@@ -1,0 +1,72 @@
+// A system that is known, an input, noise, and what estimators make of it: the cloud of their estimates grows while one looks.
+import { change, session } from "/bench_session.js";
+import { button, element, hold, labelled, numberField, rewrite, textField, why, withOption } from "/bench_fields.js";
+import { freeName, keyOf, newCell, stepOf, written } from "/bench_steps.js";
+import { say } from "/bench_words.js";
+
+const kFew = 25;  // runs while a hand is at a control
+const optionOf = (step, name) => step.options.find(({ key }) => key === name)?.text ?? "";
+
+/// A number of the study: few runs while it is dragged, then more and more until all are made.
+function dragged(key, make) {
+  let runs = null;
+  return (text, how = {}) => {
+    const step = stepOf(key);
+    if (!step) return;
+    runs ??= Number(optionOf(step, "runs"));
+    const few = (step, count) => ({ ...step, ...withOption({ ...step, ...make(step, text) }, "runs", String(Math.min(count, runs))) });
+    const all = runs;
+    if (how.held) return rewrite(key, (step) => few(step, kFew), how);
+    runs = null;
+    const grow = async () => {
+      for (let count = kFew; ; count *= 2) {
+        await rewrite(key, (step) => ({ ...step, ...make(step, text), options: withOption({ ...step, ...make(step, text) }, "runs", String(Math.min(count, all))).options }), { goesOn: how.goesOn || count > kFew });
+        if (count >= all) return;
+        await new Promise((yes) => setTimeout(yes, 60));
+      }
+    };
+    return grow();
+  };
+}
+
+/// The expression that a name of the study stands for, in its own line.
+function defined(study, name, words) {
+  const value = optionOf(study, name), step = session.steps.find((one) => one.on && one.names[0] === value);
+  if (!step) return labelled(words, textField(value, (text) => rewrite(keyOf(study), (now) => withOption(now, name, text))));
+  const place = keyOf(step), right = step.function ? written(step).replace(/^[^=]*= /, "") : step.arguments[0];
+  return labelled(words, textField(right, (text) => change(() => {
+    const now = stepOf(place);
+    return now ? [{ first: now.first_line, last: now.last_line, text: `${now.names[0]} = ${text}` }] : null;
+  })));
+}
+
+/// The first lambda of the estimators, where one stands there.
+function lambdaControl(key, study) {
+  const found = /(lambda = )([\d.eE+-]+)/.exec(optionOf(study, "estimators"));
+  if (!found) return "";
+  const make = (step, text) => withOption(step, "estimators", optionOf(step, "estimators").replace(/(lambda = )[\d.eE+-]+/, `$1${text}`));
+  return labelled("lambda (rad/s)", numberField(found[2], dragged(key, make)));
+}
+
+function begin() {
+  change(() => {
+    const name = freeName("study"), k = name.slice(5);
+    return [newCell(name, [`s = tf("s")`, `system${k} = 2/(s^2 + 4*s + 3)`, `input${k} = prbs(6, 8)`,
+      `${name} = montecarlo{system = system${k}, input = input${k}, Ts = 0.05, sigma = 0.1, runs = 200,`, "  estimators = {srivc = {{1, 2, 0}, {lambda = 3}}}}"].join("\n"))];
+  });
+}
+
+export function knownPanel() {
+  const study = [...session.steps].reverse().find((step) => step.on && step.function === "montecarlo");
+  const node = element("details", { className: "panel", open: Boolean(study) }, element("summary", { textContent: say("known") }));
+  if (!study) {
+    node.append(button(say("begin"), begin), why("montecarlo"));
+    return node;
+  }
+  const key = keyOf(study);
+  const number = (name, words) => labelled(words, numberField(optionOf(study, name), dragged(key, (step, text) => withOption(step, name, text))));
+  const plain = (name, words, field = textField) => labelled(words, field(optionOf(study, name), (text) => rewrite(key, (step) => withOption(step, name, text)), { slider: false }));
+  node.append(defined(study, "system", say("system")), defined(study, "input", say("inputSignal")), number("Ts", "Ts (s)"), number("sigma", say("noise")),
+              lambdaControl(key, study), plain("runs", say("runs"), numberField), plain("estimators", "estimators"), why("montecarlo"));
+  return node;
+}
