@@ -14,11 +14,14 @@ using Words = std::pair<std::string_view, std::string_view>;
 constexpr std::array kTexts = {
     Words{"best model at each delay", "meilleur modèle à chaque retard"},
     Words{"beyond the bound", "hors de la borne"},
+    Words{"by hand", "à la main"},
     Words{"chosen", "retenu"},
     Words{"delay", "retard"},
     Words{"estimate", "estimation"},
     Words{"estimation data", "données d'estimation"},
+    Words{"final level", "niveau final"},
     Words{"final value", "valeur finale"},
+    Words{"first peak", "premier pic"},
     Words{"fit", "adéquation"},
     Words{"fit of the simulation", "adéquation de la simulation"},
     Words{"forecast", "prévision"},
@@ -39,6 +42,7 @@ constexpr std::array kTexts = {
     Words{"output", "sortie"},
     Words{"part left out", "partie écartée"},
     Words{"poles", "pôles"},
+    Words{"power of the output", "puissance de la sortie"},
     Words{"real axis", "axe réel"},
     Words{"real part", "partie réelle"},
     Words{"simulation", "simulation"},
@@ -55,11 +59,22 @@ constexpr std::array kTexts = {
 
 /// How texts begin that go on with the name of a channel or a number.
 constexpr std::array kBeginnings = {
+    Words{"Cramér–Rao ellipse, ", "ellipse de Cramér–Rao, "},
     Words{"autocorrelation of the error in ", "autocorrélation de l'erreur de "},
     Words{"correlation with ", "corrélation avec "},
+    Words{"dead time ", "retard pur "},
     Words{"estimate, ", "estimation, "},
     Words{"experiment ", "expérience "},
     Words{"nearly as good, ", "presque aussi bon, "},
+};
+
+/// How texts end that begin with a percentage, and what stands before it in French.
+constexpr std::array kEndings = {
+    Words{" % bound", "borne à "},
+    Words{" % confidence", "confiance à "},
+    Words{" % confidence band", "bande de confiance à "},
+    Words{" % of chance", "part du hasard à "},
+    Words{" % prediction band", "bande de prévision à "},
 };
 
 constexpr std::array kUnits = {Words{" (samples)", " (échantillons)"}, Words{" (per s)", " (par s)"}};
@@ -76,6 +91,9 @@ std::string french(const std::string& text) {
     }
     for (const auto& [english, other] : kBeginnings)
         if (text.starts_with(english)) return std::string(other) + with_decimal_commas(text.substr(english.size()));
+    for (const auto& [english, other] : kEndings)
+        if (text.ends_with(english) && std::isdigit(static_cast<unsigned char>(text.front())))
+            return std::string(other) + with_decimal_commas(text.substr(0, text.size() - english.size())) + " %";
     return with_decimal_commas(text);
 }
 

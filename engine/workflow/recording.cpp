@@ -43,6 +43,7 @@ void Recording::find_sampling(std::optional<double> given, const std::string& ti
     const Index samples = signal(inputs_.front()).numbers.size();
     if (time.empty()) {
         time_ = time_column(loaded_, samples);
+        if (!time_) time_ = time_of_struct();
     } else {
         const Signal instants = signal(time);
         if (instants.numbers.size() != samples)
@@ -108,6 +109,7 @@ Recording::Signal Recording::signal(const std::string& name) const {
     const Vector* numbers = found == loaded_.variables.end() ? nullptr : std::get_if<Vector>(&found->second.value);
     if (numbers != nullptr) return {*numbers, "[" + lua_text(key) + "]", key};
     if (auto column = matrix_column(name)) return *std::move(column);
+    if (auto member = struct_member(name)) return *std::move(member);
     if (signals().empty())
         throw EnvironmentError(fmt::format(
             "{} holds no columns of numbers, so no '{}'; what it holds are tables or texts, which a script reads: "
@@ -130,12 +132,37 @@ std::optional<Recording::Signal> Recording::matrix_column(const std::string& nam
     return Signal{matrix->col(column - 1), fmt::format("[{}]:col({})", lua_text(found->first), column), name};
 }
 
+std::optional<Recording::Signal> Recording::struct_member(const std::string& name) const {
+    const std::size_t dot = name.find('.');
+    const auto found = loaded_.variables.find(name.substr(0, dot));
+    if (dot == std::string::npos || found == loaded_.variables.end()) return std::nullopt;
+    const auto* table = std::get_if<std::shared_ptr<VariableTable>>(&found->second.value);
+    if (table == nullptr) return std::nullopt;
+    const auto member = (*table)->find(name.substr(dot + 1));
+    if (member == (*table)->end() || !std::holds_alternative<Vector>(member->second.value)) return std::nullopt;
+    return Signal{std::get<Vector>(member->second.value),
+                  fmt::format("[{}][{}]", lua_text(found->first), lua_text(member->first)), name};
+}
+
+/// The time that stands in the struct of the first input.
+std::optional<TimeColumn> Recording::time_of_struct() const {
+    const std::size_t dot = inputs_.front().find('.');
+    if (dot == std::string::npos) return std::nullopt;
+    for (const char* name : {".t", ".time"})
+        if (const std::string time = inputs_.front().substr(0, dot) + name; struct_member(time))
+            return TimeColumn{time};
+    return std::nullopt;
+}
+
 std::vector<std::string> Recording::signals() const {
     std::vector<std::string> names;
     for (const auto& [name, variable] : loaded_.variables) {
         if (std::holds_alternative<Vector>(variable.value)) names.push_back(name);
         if (const Matrix* matrix = std::get_if<Matrix>(&variable.value))
             for (Index j = 0; j < matrix->cols(); ++j) names.push_back(fmt::format("{}{}", name, j + 1));
+        if (const auto* table = std::get_if<std::shared_ptr<VariableTable>>(&variable.value))
+            for (const auto& [member, value] : **table)
+                if (std::holds_alternative<Vector>(value.value)) names.push_back(name + "." + member);
     }
     return names;
 }

@@ -11,10 +11,11 @@ namespace dynlab::inline workflow {
 class Recording {
   public:
     /// `name`: a data file or a data set. Signals are columns or variables by name, also by the header of a table's
-    /// file, or columns of a matrix: y2 is the second of y. `Ts`: sampling time in seconds instead of what the file
-    /// says; without it the file's own, or the column `time`, or the one that is most likely the time (time_column()).
-    /// Throws EnvironmentError for a name that is not a column of numbers there (listing those there are), signals of
-    /// different lengths, unknown sampling, a time that does not increase.
+    /// file, columns of a matrix: y2 is the second of y, or members of a struct: steps.y, whose time is steps.t. `Ts`:
+    /// sampling time in seconds instead of what the file says; without it the file's own, or the column `time`, or the
+    /// one that is most likely the time (time_column()). Throws EnvironmentError for a name that is not a column of
+    /// numbers there (listing those there are), signals of different lengths, unknown sampling, a time that does not
+    /// increase.
     Recording(const std::string& name, const std::vector<std::string>& inputs, const std::vector<std::string>& outputs,
               std::optional<double> Ts, const std::string& time);
 
@@ -31,6 +32,8 @@ class Recording {
     };
     Signal signal(const std::string& name) const;
     std::optional<Signal> matrix_column(const std::string& name) const;
+    std::optional<Signal> struct_member(const std::string& name) const;
+    std::optional<TimeColumn> time_of_struct() const;
     std::vector<std::string> signals() const;
     void find_sampling(std::optional<double> Ts, const std::string& time);
     void look_at_instants();

@@ -59,6 +59,8 @@ void fill_lesson(const fs::path& folder, const Lesson& lesson, const std::option
     write_file_atomically(folder / "report.md", report_for(script.header, template_file(form, language), language));
     if (const fs::path literature = bibliography_of(script); !literature.empty())
         write_file_atomically(folder / literature.filename(), read_text(literature));
+    for (const auto& entry : fs::directory_iterator(lesson.folder))
+        if (entry.path().extension() == ".png") fs::copy_file(entry.path(), folder / entry.path().filename());
     write_file_atomically(folder / "group.toml",
                           group_file(group_seed.value_or(script.header.seed), script.header.language));
     const std::vector<std::string> own = group_seed ? simulated_data_of(lesson) : std::vector<std::string>();

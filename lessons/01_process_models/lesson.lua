@@ -222,6 +222,16 @@ report.value("K_any_ratio", G1_free.std[1]/G1.std[1], "%.1f")
 -- END SOLUTION
 
 -- %% [markdown]
+-- ## The same without typing
+--
+-- `dynlab app heat_exchanger` opens the record in a workbench in the browser (@fig:workbench). Under **Read by hand** press **First order**: a model lies over
+-- the response, and its two marked points can be dragged; the formulas below the picture hold the numbers of the moment. Then choose `procsrivc` as **Method** and
+-- press **New model**; leave one pole, `P1`, take the delay `D` out, and under **Options** choose `steady` for `InitialState`. Each click writes
+-- or changes a line of `heat_exchanger_session.lua`, which stands beside the pictures: `dynlab run` and `dynlab report` take it as it is.
+--
+-- ![The workbench after these clicks: the controls, the pictures, and the script that they have written](workbench.png){#fig:workbench}
+
+-- %% [markdown]
 -- # A mechanical suspension
 --
 -- ## The record
@@ -345,7 +355,8 @@ report.figure("suspension_test", test_figure(reading2, data2, 0, "position (mm)"
 -- The simulated response follows every oscillation (@fig:suspension_test). What is left is hardly more than the noise of the sensor.
 -- END SOLUTION
 --
--- **Question 8.** Estimate the parameters from all the samples and compare.
+-- **Question 8.** Estimate the parameters from all the samples and compare. (In the workbench, `dynlab app suspension`: **Second order** to read by hand, `P2` with `U` for
+-- an under-damped pair to estimate.)
 
 -- %% id=suspension_estimate
 -- BEGIN SOLUTION

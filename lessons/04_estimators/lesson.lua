@@ -823,6 +823,16 @@ end
 -- ![For the $\lambda$ of the cell above: left, the magnitude $|A/E|$ by which the filter colours the equation error; right, $\hat b_0$ over $\hat a_1$ from sixty records, and the ellipse that would hold 95 % of the estimates of the best unbiased method](figure:lambda_by_hand){#fig:lambda_by_hand}
 
 -- %% [markdown]
+-- ## Without typing
+--
+-- `dynlab app` begins an empty session in a workbench in the browser (@fig:workbench). Under **Known system** press **Begin a study**: it has the system of @eq:system, an
+-- input, noise, and SRIVC. Drag **noise** and watch the cloud and the ellipse grow together; add `lssvf = {{2, 1, 0}, 3}` to the list of
+-- **estimators** and drag again: its cloud leaves the truth. The table below the picture compares the scatter with the bound. What you did stands in
+-- `session.lua`. With `dynlab app crane` you can identify the crane's record in the same way.
+--
+-- ![A study of the known system in the workbench: controls, the cloud of estimates with the ellipse, and the script](workbench.png){#fig:workbench}
+
+-- %% [markdown]
 -- # What was learnt
 --
 -- BEGIN SOLUTION

@@ -6,6 +6,7 @@ import { isHidden, setHidden } from "/bench_views.js";
 import { say, shortNumber } from "/bench_words.js";
 
 let chosen = null;  // key of the step whose controls are shown
+let method = "tfsrivc";  // that a new model will have
 let sorting = { key: null, way: 1 };
 
 const chosenStep = () => (chosen && stepOf(chosen)) ?? [...modelSteps()].reverse().find((step) => session.forms.some((form) => form.name === step.function)) ?? null;
@@ -49,7 +50,7 @@ export function estimatePanel() {
   if (!raw) return "";
   const node = element("section", { className: "panel" }, element("h2", { textContent: say("estimate") }));
   const quick = element("div", { className: "adding" });
-  const list = methodList(() => {}, "tfsrivc");
+  const list = methodList((name) => { method = name; }, method);
   quick.append(labelled(say("method"), list), button(say("newModel"), () => estimateNew(list.value), { className: "main" }), why2(() => list.value));
   const seen = variables()[estimation];
   quick.append(button(say("search"), () => change(() => {

@@ -7,7 +7,7 @@ import { say, shortNumber, viewName, viewNames } from "/bench_words.js";
 
 const HELP = { record: "idplot", spectrum: "fft", compare: "compare", residuals: "resid", step: "step", impulse: "impulse", bode: "bode", nyquist: "nyquist",
                poles: "pzmap", parameters: "present", correlation: "impulseest", delay: "delayest", reading: "step_delayed", orders: "srivcstruc", study: "montecarlo" };
-const WIDE = ["record", "study", "reading"];
+const WIDE = ["record", "study", "reading", "orders"];
 const OVER_TIME = [["record", "compare"], ["step", "impulse", "correlation"]];  // pictures whose cursors go together
 const tiles = new Map();  // name -> {node, body, words, plot}
 const hidden = new Set();  // models that are not drawn
@@ -92,7 +92,7 @@ function makeTile(name) {
   const close = button("×", () => toggleView(name, false), { className: "close", ariaLabel: `${say("close")}: ${viewName(name)}` });
   const into = button(say("intoScript"), () => intoScript(name), { className: "into" });
   const body = element("div", { className: "body" }), words = element("p", { className: "told" });
-  const title = element("h2", { textContent: viewName(name) });
+  const title = element("h2", { textContent: viewName(name), title: viewName(name) });
   const saved = element("select", { className: "save", ariaLabel: `${say("saveAs")}: ${viewName(name)}` });
   saved.append(...["↓", "PDF", "SVG", "PNG"].map((text) => element("option", { value: text.toLowerCase(), textContent: text })));
   saved.onchange = () => { if (saved.selectedIndex > 0) save({ what: "figure", view: name, format: saved.value }); saved.selectedIndex = 0; };

@@ -37,10 +37,10 @@ const WORDS = {
   exports: ["Exports", "Exportations"], exportModels: ["Models", "Modèles"], exportData: ["Prepared record", "Enregistrement préparé"], exportScript: ["Script", "Script"],
 };
 const VIEWS = {
-  record: ["Record", "Enregistrement"], spectrum: ["Spectrum", "Spectre"], compare: ["Simulated and measured output", "Sorties simulée et mesurée"],
-  residuals: ["Residuals of the simulation", "Résidus de la simulation"], step: ["Step response", "Réponse indicielle"], impulse: ["Impulse response", "Réponse impulsionnelle"],
+  record: ["Record", "Enregistrement"], spectrum: ["Spectrum", "Spectre"], compare: ["Simulation and record", "Simulation et mesure"],
+  residuals: ["Simulation residuals", "Résidus de simulation"], step: ["Step response", "Réponse indicielle"], impulse: ["Impulse response", "Réponse impulsionnelle"],
   bode: ["Bode", "Bode"], nyquist: ["Nyquist", "Nyquist"], poles: ["Poles and zeros", "Pôles et zéros"], parameters: ["Parameters", "Paramètres"],
-  correlation: ["Impulse response of the record", "Réponse impulsionnelle de l'enregistrement"], delay: ["Loss over the delay", "Critère selon le retard"],
+  correlation: ["Impulse response by correlation", "Réponse par corrélation"], delay: ["Loss over the delay", "Critère selon le retard"],
   reading: ["Read by hand", "Lecture à la main"], orders: ["Orders", "Ordres"], study: ["Monte Carlo study", "Étude de Monte Carlo"],
 };
 let place = navigator.language?.startsWith("fr") ? 1 : 0;

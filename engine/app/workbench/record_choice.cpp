@@ -53,47 +53,69 @@ RecordColumn column_of(const std::string& name, const std::string& unit, const V
     return column;
 }
 
-/// The signals of a file in its order, matrices column by column.
+/// The signals of a file in its order, matrices column by column, structs member by member.
 class Columns {
   public:
     explicit Columns(const LoadedData& loaded) : loaded_(loaded) {
         std::vector<std::string> names = loaded.columns;
         for (const auto& [name, variable] : loaded.variables)
             if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-        for (const std::string& name : names) collect(name, loaded.variables.at(name));
-        std::map<Index, int> times;
-        for (const auto& [name, numbers] : signals_) ++times[numbers.size()];
-        int most = 0;
-        for (const auto& [length, count] : times)
-            if (count >= most && length > 1) most = count, samples_ = length;
+        for (const std::string& name : names) collect(name, "", loaded.variables.at(name));
     }
 
     std::vector<RecordColumn> offered() const {
         std::vector<RecordColumn> columns;
-        const auto time = time_column(loaded_, samples_);
-        for (const auto& [name, numbers] : signals_) {
-            const auto unit = loaded_.units.find(name);
-            columns.push_back(column_of(name, unit == loaded_.units.end() ? "" : unit->second, numbers, samples_));
+        std::string guessed = signals_.empty() ? "" : signals_.front().group;  // the struct whose signals get roles
+        for (const Signal& signal : signals_) {
+            const Index samples = samples_of(signal.group);
+            const auto time = time_column(loaded_, samples);
+            const auto unit = loaded_.units.find(signal.name);
+            columns.push_back(
+                column_of(signal.name, unit == loaded_.units.end() ? "" : unit->second, signal.numbers, samples));
             RecordColumn& column = columns.back();
-            if (time && time->name == name)
+            if (signal.group != guessed) continue;
+            const std::string own = signal.group.empty() ? signal.name : signal.name.substr(signal.group.size() + 1);
+            const bool first_output = std::none_of(columns.begin(), columns.end(),
+                                                   [](const RecordColumn& one) { return one.role == "output"; });
+            if (signal.group.empty() ? time && time->name == own : own == "t" || own == "time")
                 column.role = "time";
-            else if (column.usable && sounds_like(name, kInputs))
+            else if (column.usable && sounds_like(own, kInputs))
                 column.role = "input";
-            else if (column.trouble.empty() && sounds_like(name, kOutputs))
+            else if (column.usable && first_output && sounds_like(own, kOutputs))
                 column.role = "output";
         }
         for (const std::string& name : texts_) columns.push_back({name, "", "", 0, 0, "text", false});
-        guess_rest(columns);
+        if (guessed.empty()) guess_rest(columns);
         return columns;
     }
 
   private:
-    void collect(const std::string& name, const Variable& variable) {
-        if (const auto* vector = std::get_if<Vector>(&variable.value)) signals_.emplace_back(name, *vector);
-        if (const auto* matrix = std::get_if<Matrix>(&variable.value))
+    struct Signal {
+        std::string name, group;
+        Vector numbers;
+    };
+
+    void collect(const std::string& name, const std::string& group, const Variable& variable) {
+        if (const auto* vector = std::get_if<Vector>(&variable.value)) signals_.push_back({name, group, *vector});
+        if (const auto* matrix = std::get_if<Matrix>(&variable.value); matrix != nullptr && group.empty())
             for (Index j = 0; j < matrix->cols(); ++j)
-                signals_.emplace_back(fmt::format("{}{}", name, j + 1), matrix->col(j));
+                signals_.push_back({fmt::format("{}{}", name, j + 1), group, matrix->col(j)});
         if (std::holds_alternative<std::shared_ptr<VariableList>>(variable.value)) texts_.push_back(name);
+        if (const auto* table = std::get_if<std::shared_ptr<VariableTable>>(&variable.value);
+            table != nullptr && group.empty())
+            for (const auto& [member, value] : **table) collect(name + "." + member, name, value);
+    }
+
+    /// As most signals of the group have.
+    Index samples_of(const std::string& group) const {
+        std::map<Index, int> times;
+        for (const Signal& signal : signals_)
+            if (signal.group == group && signal.numbers.size() > 1) ++times[signal.numbers.size()];
+        Index samples = 0;
+        int most = 0;
+        for (const auto& [length, count] : times)
+            if (count >= most) most = count, samples = length;
+        return samples;
     }
 
     /// Where names tell nothing the input is the first, the output the last.
@@ -102,7 +124,7 @@ class Columns {
             return std::none_of(columns.begin(), columns.end(),
                                 [&](const RecordColumn& column) { return column.role == role; });
         };
-        const auto free = [](const RecordColumn& column) { return column.role.empty() && column.trouble.empty(); };
+        const auto free = [](const RecordColumn& column) { return column.role.empty() && column.usable; };
         if (none("output"))
             if (const auto last = std::find_if(columns.rbegin(), columns.rend(), free); last != columns.rend())
                 last->role = "output";
@@ -112,9 +134,8 @@ class Columns {
     }
 
     const LoadedData& loaded_;
-    std::vector<std::pair<std::string, Vector>> signals_;
+    std::vector<Signal> signals_;
     std::vector<std::string> texts_;
-    Index samples_ = 0;
 };
 
 }  // namespace

@@ -59,4 +59,12 @@ TEST(french_texts, numbers_beside_the_axes_have_commas_where_asked_for) {
 }
 
 }  // namespace test_french_texts
+TEST(french_texts, percentages_stand_behind_what_they_are_of) {
+    EXPECT_EQ(in_french(picture("time (s)", "99.5 % confidence")).panels[0].curves[0].label, "confiance à 99,5 %");
+    EXPECT_EQ(in_french(picture("time (s)", "99 % bound")).panels[0].curves[0].label, "borne à 99 %");
+    EXPECT_EQ(in_french(picture("time (s)", "95 % prediction band")).panels[0].curves[0].label,
+              "bande de prévision à 95 %");
+    EXPECT_EQ(in_french(picture("time (s)", "my own % bound")).panels[0].curves[0].label, "my own % bound");
+}
+
 }  // namespace dynlab::test
