@@ -264,6 +264,17 @@ TEST(architecture, only_the_renderer_knows_gnuplot_iostream) {
     EXPECT_THAT(users, testing::ElementsAre("engine/figures/gnuplot_renderer.cpp"));
 }
 
+// tests/fuzz is compiled by clang, and clang 14 cannot read the views of GCC 12's library.
+TEST(architecture, sources_need_no_views_which_clang_cannot_read) {
+    std::vector<std::string> users;
+    for (const fs::path& file : sources_below(kRoot / "engine")) {
+        const std::string text = text_of(file);
+        if (text.find("#include <ranges>") != std::string::npos || text.find("std::views::") != std::string::npos)
+            users.push_back(place_of(file));
+    }
+    EXPECT_THAT(users, IsEmpty());
+}
+
 /// The text between the quotes of a source, piece by piece.
 std::vector<std::string> literals_of(const std::string& source) {
     const std::string code = std::regex_replace(source, std::regex("#include[^\n]*|//[^\n]*"), "");

@@ -2,8 +2,11 @@
 #include <gtest/gtest.h>
 
 #include "course/course_bench.h"
+#include "course/store/database.h"
 #include "course/store/receipts.h"
 #include "numerics/error.h"
+#include "platform/error.h"
+#include "platform/temporary_folder.h"
 
 namespace dynlab::test {
 namespace test_course_store {
@@ -218,6 +221,39 @@ TEST(course_store, refuses_other_versions_of_the_store) {
     EXPECT_THAT(bench.bench().dynlab({"course", "--course", "y", "status"}).error_output, HasSubstr("not a database"));
     EXPECT_THAT(bench.bench().dynlab({"course", "init", "k"}).error_output, HasSubstr("newer dynlab"));
     EXPECT_THAT(bench.bench().dynlab({"course", "status"}).error_output, HasSubstr("there is no course in"));
+}
+
+// oracle: what SQL says of each query alone
+TEST(course_store, queries_of_the_same_words_know_nothing_of_each_other) {
+    const TemporaryFolder folder;
+    Database db(folder.path() / "any.db", Database::Opening::kNew);
+    db.execute("CREATE TABLE t (a PRIMARY KEY); INSERT INTO t VALUES (1), (2), (3)");
+    constexpr const char* kBoth = "SELECT ?1, ?2";
+    {
+        Rows both = db.query(kBoth, 5, 6);
+        ASSERT_TRUE(both.next());
+        EXPECT_EQ(both.integer(0) + both.integer(1), 11);
+    }
+    Rows first_only = db.query(kBoth, 7);
+    ASSERT_TRUE(first_only.next());
+    EXPECT_EQ(first_only.integer(0), 7);
+    EXPECT_FALSE(first_only.optional_integer(1)) << "the value of before";
+    EXPECT_FALSE(first_only.next());
+
+    constexpr const char* kAll = "SELECT a FROM t ORDER BY a";
+    std::vector<std::int64_t> pairs;
+    for (Rows outer = db.query(kAll); outer.next();)
+        for (Rows inner = db.query(kAll); inner.next();) pairs.push_back(10 * outer.integer(0) + inner.integer(0));
+    EXPECT_THAT(pairs, ::testing::ElementsAre(11, 12, 13, 21, 22, 23, 31, 32, 33));
+
+    constexpr const char* kAdd = "INSERT INTO t VALUES (?)";
+    EXPECT_THROW(db.run(kAdd, 3), EnvironmentError);
+    db.run(kAdd, 4);
+    {
+        Rows left_at_the_first = db.query(kAll);
+        ASSERT_TRUE(left_at_the_first.next());
+    }
+    EXPECT_NO_THROW(db.execute("DROP TABLE t")) << "held by a query that nobody asks any more";
 }
 
 }  // namespace test_course_store

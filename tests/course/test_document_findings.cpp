@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "check_fixture.h"
+#include "course/findings/findings_report.h"
 #include "course/findings/leftover_findings.h"
 #include "platform/atomic_file.h"
 #include "support/pdf_inspection.h"
@@ -169,10 +170,22 @@ TEST_F(document_findings, what_was_left_unfilled_is_quoted_with_its_page) {
 TEST_F(document_findings, guidance_of_the_template_must_not_be_printed) {
     standard_ = DocumentStandard{
         "mine", {}, guidance_of("# A\n\n<!-- What moves the process, and what is measured on it? Be brief. -->\n"), {}};
-    const CheckResult result =
-        check_latex("", std::string(kProse) + "What moves the process, and what is measured on it?\n");
-    EXPECT_THAT(only(result, "guidance-left").what, HasSubstr("What moves the process"));
-    EXPECT_THAT(ids(check_latex("", std::string(kProse) + "Be brief. What moves it is measured.\n")), IsEmpty());
+    const std::string sentence = "What moves the process, and what is measured on it?\n";
+    const Finding finding = only(check_latex("", kProse + ("\\newpage\n" + sentence)), "guidance-left");
+    EXPECT_THAT(finding.what, HasSubstr("What moves the process"));
+    EXPECT_EQ(finding.page, 2);
+    for (const std::string& other : {std::string("Be brief. What moves it is measured.\n"), "Some" + sentence})
+        EXPECT_THAT(ids(check_latex("", kProse + other)), IsEmpty()) << other;
+}
+
+// oracle: the same document, read before
+TEST_F(document_findings, a_process_that_is_prepared_for_many_documents_finds_the_same) {
+    const auto found = [&] { return check_latex("", std::string(kProse) + "See figure ?? of \\textbf{all}.\n"); };
+    const std::string before = findings_as_json(found());
+    EXPECT_THAT(before, HasSubstr("reference-unresolved"));
+    prepare_to_read_pdfs();
+    prepare_to_read_pdfs();
+    EXPECT_EQ(findings_as_json(found()), before);
 }
 
 TEST_F(document_findings, guidance_of_the_french_template_must_not_be_printed_either) {

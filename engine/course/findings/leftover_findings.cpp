@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
+#include <iterator>
 #include <set>
 
 #include "course/names/plain_words.h"
@@ -72,17 +74,19 @@ std::string spaced(const std::vector<std::string>& words) {
 
 void check_guidance(const DocumentText& text, const std::vector<std::string>& guidance, Findings& findings) {
     std::string all = " ";
-    std::vector<std::pair<std::size_t, int>> page_starts;
+    std::vector<std::pair<std::ptrdiff_t, int>> page_starts;
     for (const TextWord& word : text.words) {
         if (page_starts.empty() || page_starts.back().second != word.page)
-            page_starts.emplace_back(all.size(), word.page);
+            page_starts.emplace_back(std::ssize(all), word.page);
         for (const std::string& plain : plain_words(word.text)) all += plain + " ";
     }
     for (const std::string& sentence : guidance) {
-        const std::size_t at = all.find(spaced(plain_words(sentence)));
-        if (at == std::string::npos) continue;
+        const std::string words = spaced(plain_words(sentence));
+        const auto found =
+            std::search(all.begin(), all.end(), std::boyer_moore_horspool_searcher(words.begin(), words.end()));
+        if (found == all.end()) continue;
         int page = 1;
-        for (const auto& [start, number] : page_starts) page = start <= at + 1 ? number : page;
+        for (const auto& [start, number] : page_starts) page = start <= found - all.begin() + 1 ? number : page;
         findings.push_back(
             leftover("guidance-left", page,
                      fmt::format("Guidance of the template is left in the text: \"{}\".", printable(sentence, 60)),

@@ -8,13 +8,17 @@
 namespace dynlab::inline course {
 namespace {
 
+bool is_ascii(char c) {
+    return static_cast<unsigned char>(c) < 0x80;
+}
+
+/// Of one beyond ASCII.
 std::string folded_character(char32_t c) {
-    if (c < 0x80) return {static_cast<char>(std::isalpha(static_cast<int>(c)) ? std::tolower(static_cast<int>(c)) : c)};
     if (c == 0x2018 || c == 0x2019) return "'";
     if (c >= 0x2010 && c <= 0x2015) return "-";
     if (c == 0xAD || (c >= 0x300 && c < 0x370)) return "";  // soft hyphen, combining accents
     const std::string letters = folded_letter(c);
-    if (!letters.empty() && static_cast<unsigned char>(letters.front()) < 0x80) return letters;
+    if (!letters.empty() && is_ascii(letters.front())) return letters;
     return " ";
 }
 
@@ -22,7 +26,14 @@ std::string folded_character(char32_t c) {
 
 std::string folded(std::string_view utf8) {
     std::string result;
-    while (!utf8.empty()) result += folded_character(next_character(utf8));
+    while (!utf8.empty()) {
+        if (!is_ascii(utf8.front())) {
+            result += folded_character(next_character(utf8));
+            continue;
+        }
+        result += static_cast<char>(std::tolower(utf8.front()));
+        utf8.remove_prefix(1);
+    }
     return result;
 }
 

@@ -253,8 +253,8 @@ std::vector<Criterion> usual_criteria(const std::string& kind) {
 Costs costs_of(const std::string& text) {
     Costs costs;
     for (const auto& [name, points] : named_numbers(text)) {
-        const auto known =
-            std::find_if(std::begin(kCosts), std::end(kCosts), [&](const auto& cost) { return cost.first == name; });
+        const auto is_named = [&wanted = name](const auto& cost) { return cost.first == wanted; };
+        const auto known = std::find_if(std::begin(kCosts), std::end(kCosts), is_named);
         const auto value = number_in(points);
         if (known == std::end(kCosts) || !value || !(*value >= 0 && *value <= 100))
             throw InvalidArgument(fmt::format(

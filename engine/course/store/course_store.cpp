@@ -164,15 +164,15 @@ std::string Course::keep(std::string_view content) const {
     return keep(std::vector<std::string>{std::string(content)}).front();
 }
 
-std::vector<std::string> Course::keep(const std::vector<std::string>& contents) const {
+std::vector<std::string> Course::keep(std::vector<std::string> contents) const {
     std::vector<std::string> hashes;
     std::map<fs::path, std::string> fresh;
-    for (const std::string& content : contents) {
+    for (std::string& content : contents) {
         hashes.push_back(sha256_of(content));
         const fs::path kept = file(hashes.back());
         if (fresh.contains(kept) || (fs::exists(kept) && sha256_of_file(kept) == hashes.back())) continue;
         make_folder(kept.parent_path());
-        fresh.emplace(kept, content);
+        fresh.emplace(kept, std::move(content));
     }
     std::vector<NewFile> files;
     for (auto& [kept, content] : fresh) files.push_back({kept, std::move(content)});
@@ -219,10 +219,11 @@ void Course::keep_files(const std::vector<fs::path>& files,
     settle(hashes);
 }
 
-/// So many at a time that they wait for the disk together.
+/// So many at a time that they wait for the disk together, and so few that the first is soon there and that little
+/// memory is copied with each process that looks at one.
 void Course::keep_in_batches(const std::vector<fs::path>& files, std::vector<KeptFile>& kept,
                              const std::function<void(std::size_t)>& tell, const std::stop_token& stop) const {
-    constexpr std::int64_t kMostTogether = 8 << 20;
+    constexpr std::int64_t kMostTogether = 2 << 20;
     std::vector<std::string> contents;
     std::int64_t bytes = 0;
     for (std::size_t i = 0; i < files.size() && !stop.stop_requested(); ++i) {

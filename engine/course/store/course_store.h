@@ -44,7 +44,7 @@ class Course {
     /// Stores the content of a file, before a transaction; returns its hash. Several threads may do so at once.
     std::string keep(std::string_view content) const;
     /// The same for several, of which each has its hash; they wait for the disk together.
-    std::vector<std::string> keep(const std::vector<std::string>& contents) const;
+    std::vector<std::string> keep(std::vector<std::string> contents) const;
     /// Once all are kept, before the transaction: they are there after a power cut too.
     void settle(const std::vector<std::string>& hashes) const;
     /// Stores files and settles them. look(i, kept) hears of each as soon as it is stored, on all cores, while the disk

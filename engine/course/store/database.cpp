@@ -5,6 +5,7 @@
 #include <sqlite3.h>
 
 #include <cerrno>
+#include <utility>
 
 #include "platform/error.h"
 
@@ -12,6 +13,7 @@ namespace dynlab::inline course {
 namespace {
 
 constexpr int kMillisecondsToWait = 5000;
+constexpr std::size_t kMostIdle = 64;
 
 /// What SQLite's code means to whoever works with a course; its own words for the others.
 std::string reason_of(int code, const char* words) {
@@ -63,9 +65,23 @@ SQLite::Database opened(const std::filesystem::path& file, int flags) {
 
 }  // namespace
 
-Rows::Rows(const SQLite::Database& database, const std::string& sql)
-    : SQLite::Statement(with_plain_errors(database, [&] { return SQLite::Statement(database, sql); })),
+Rows::Rows(Database& database, const std::string& sql)
+    : SQLite::Statement(with_plain_errors(database,
+                                          [&] {
+                                              auto idle = database.idle_.extract(sql);
+                                              return idle ? std::move(idle.mapped()) : SQLite::Statement(database, sql);
+                                          })),
       database_(&database) {}
+
+Rows::Rows(Rows&& other) noexcept
+    : SQLite::Statement(std::move(other)), database_(std::exchange(other.database_, nullptr)) {}
+
+Rows::~Rows() {
+    if (!database_ || database_->idle_.size() >= kMostIdle) return;
+    tryReset();
+    clearBindings();
+    database_->idle_.emplace(getQuery(), std::move(*this));
+}
 
 bool Rows::next() {
     return with_plain_errors(*database_, [this] { return executeStep(); });

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -14,10 +15,15 @@ namespace dynlab::inline course {
 // SQLiteCpp's classes; what SQLite refuses becomes an EnvironmentError that names the file and says what to do: no such
 // file, not a database, locked by another, disk full, not writable.
 
+class Database;
+
 /// A statement with its values; walks over the rows of its answer: while (rows.next()) rows.text(0).
 class Rows : public SQLite::Statement {
   public:
-    Rows(const SQLite::Database& database, const std::string& sql);
+    Rows(Database& database, const std::string& sql);
+    Rows(Rows&& other) noexcept;
+    Rows& operator=(Rows&&) = delete;
+    ~Rows();
 
     bool next();
     std::int64_t integer(int column) const { return getColumn(column).getInt64(); }
@@ -36,7 +42,7 @@ class Rows : public SQLite::Statement {
     }
 
   private:
-    const SQLite::Database* database_;
+    Database* database_;
 };
 
 /// An SQLite database: write-ahead log, foreign keys enforced, every commit on disk, waits five seconds for another
@@ -66,7 +72,10 @@ class Database : public SQLite::Database {
 
   private:
     friend class Transaction;
+    friend class Rows;
     std::function<void(Database&)> before_commits_;
+    /// Statements of queries that are over, by their words: to read those takes longer than to do what they say.
+    std::multimap<std::string, SQLite::Statement> idle_;
 };
 
 /// All or nothing: what is not committed when this object goes is undone. Holds the only right to write from its

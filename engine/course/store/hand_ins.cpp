@@ -18,6 +18,7 @@
 #include "course/store/packed_document.h"
 #include "course/store/receipts.h"
 #include "course/store/senders.h"
+#include "documents/pdf/pdf_layout.h"
 #include "numerics/error.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
@@ -279,6 +280,7 @@ class HandInReceiver {
     void keep_all() {
         std::optional<Inspector> inspector;
         if (request_.checks) inspector.emplace(request_.stage == "review" ? everybody() : nullptr);
+        if (inspector && candidates_.size() > 1) prepare_to_read_pdfs();
         std::vector<fs::path> files;
         for (const Candidate& candidate : candidates_) files.push_back(candidate.file->file);
         const auto look = [&](std::size_t i, const KeptFile& kept) {

@@ -4,6 +4,7 @@
 #include <poppler/cpp/poppler-document.h>
 #include <poppler/cpp/poppler-global.h>
 #include <poppler/cpp/poppler-page.h>
+#include <qpdf/QPDF.hh>
 
 #include <algorithm>
 #include <cmath>
@@ -12,9 +13,11 @@
 
 #include "data_io/values/cbor_values.h"
 #include "documents/pdf/guarded_pdf.h"
+#include "documents/pdf/pdf_objects.h"
 #include "documents/pdf/plain_streams.h"
 #include "documents/work_file.h"
 #include "platform/text/small_letters.h"
+#include "platform/utf8.h"
 
 namespace dynlab::inline documents {
 
@@ -67,7 +70,7 @@ bool contains_any(const std::string& text, std::initializer_list<const char*> pa
 
 PdfWord word_of(const poppler::text_box& box) {
     const poppler::rectf at = box.bbox();
-    const poppler::byte_array bytes = box.text().to_utf8();
+    const poppler::ustring text = box.text();  // its own conversion looks for tables of characters each time
     const std::string font = in_small_letters(box.get_font_name());
     return {at.left(),
             at.top(),
@@ -78,7 +81,7 @@ PdfWord word_of(const poppler::text_box& box) {
             contains_any(font, {"mono", "courier", "cmtt", "consol", "typewriter"}),
             box.rotation() != 0,
             box.has_space_after(),
-            std::string(bytes.begin(), bytes.end())};
+            utf8_of(std::u16string(text.begin(), text.end()))};
 }
 
 [[noreturn]] void refuse(PdfFault fault, const std::string& sentence) {
@@ -87,12 +90,15 @@ PdfWord word_of(const poppler::text_box& box) {
 
 void ignore_message(const std::string&, void*) {}
 
-/// Runs in the guarded copy.
-PdfLayout read_all(const fs::path& file, const PdfLimits& limits) {
+using Document = std::unique_ptr<poppler::document>;
+
+/// The bytes must outlive it.
+Document document_of(const std::string& pdf) {
     poppler::set_debug_error_function(ignore_message, nullptr);
-    const std::string pdf = with_plain_streams(read_work_file(file));
-    const std::unique_ptr<poppler::document> document(
-        poppler::document::load_from_raw_data(pdf.data(), static_cast<int>(pdf.size())));
+    return Document(poppler::document::load_from_raw_data(pdf.data(), static_cast<int>(pdf.size())));
+}
+
+PdfLayout layout_of(poppler::document* document, const PdfLimits& limits) {
     if (!document) refuse(PdfFault::kDamaged, "The file is damaged: no page can be found in it.");
     if (document->is_locked()) refuse(PdfFault::kEncrypted, "The file is encrypted: it opens only with a password.");
     const int count = document->pages();
@@ -119,6 +125,25 @@ PdfLayout read_all(const fs::path& file, const PdfLimits& limits) {
     return layout;
 }
 
+/// Runs in the guarded copy.
+PdfLayout read_all(const fs::path& file, const PdfLimits& limits) {
+    const std::string pdf = with_plain_streams(read_work_file(file));
+    return layout_of(document_of(pdf).get(), limits);
+}
+
+/// A page with a letter of a font that has no file.
+std::string smallest_pdf() {
+    QPDF pdf;
+    pdf.emptyPDF();
+    QPDFObjectHandle page = pdf.makeIndirectObject(QPDFObjectHandle::parse(
+        "<< /Type /Page /MediaBox [0 0 9 9] /Resources << /Font << /F << /Type /Font /Subtype /Type3 /FontBBox "
+        "[0 0 1 1] /FontMatrix [1 0 0 1 0 0] /CharProcs << >> /FirstChar 97 /LastChar 97 /Widths [1] /Encoding "
+        "<< /Differences [97 /a] >> >> >> >> >>"));
+    page.replaceKey("/Contents", pdf.newStream("BT /F 1 Tf 1 1 Td (a) Tj ET"));
+    pdf.addPage(page, false);
+    return written_pdf(pdf, 1u << 20);
+}
+
 bool is_placed(const PdfWord& word) {
     const double numbers[] = {word.left, word.top, word.right, word.bottom, word.size};
     return std::all_of(std::begin(numbers), std::end(numbers), [](double x) { return std::abs(x) < 1e6; });
@@ -139,6 +164,12 @@ PdfLayout read_pdf_layout(const fs::path& file, const PdfLimits& limits) {
     } catch (const ValueError&) {
         refuse(PdfFault::kDamaged, "The file is damaged: what is read in it makes no pages.");
     }
+}
+
+void prepare_to_read_pdfs() {
+    static const std::string pdf = with_plain_streams(smallest_pdf());
+    static const Document kept = document_of(pdf);  // with it poppler keeps its tables
+    layout_of(kept.get(), {});
 }
 
 }  // namespace dynlab::inline documents

@@ -39,4 +39,8 @@ struct PdfLimits {
 /// hostile one can neither crash nor hang the caller. Throws PdfRefusal.
 PdfLayout read_pdf_layout(const std::filesystem::path& file, const PdfLimits& limits = {});
 
+/// Before many are read, while no other thread runs: has the libraries do once here what they do for the first PDF in a
+/// process, so that no copy needs to.
+void prepare_to_read_pdfs();
+
 }  // namespace dynlab::inline documents

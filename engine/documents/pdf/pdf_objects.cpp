@@ -7,6 +7,8 @@
 #include <qpdf/QPDFExc.hh>
 #include <qpdf/QPDFWriter.hh>
 
+#include <algorithm>
+
 #include "documents/pdf/guarded_pdf.h"
 #include "documents/work_file.h"
 #include "platform/confinement.h"
@@ -25,6 +27,9 @@ class Collector : public Pipeline {
         bytes_.append(reinterpret_cast<const char*>(data), count);
     }
     void finish() override {}
+
+    /// Takes memory for a usual report at once, rather than moving from place to place; what is not used costs nothing.
+    void expect_whole_file() { bytes_.reserve(std::min<std::uint64_t>(most_, 1u << 20)); }
 
     std::string take() {
         if (full_)
@@ -92,6 +97,7 @@ std::string stored_bytes(QPDFObjectHandle stream) {
 
 std::string written_pdf(QPDF& pdf, std::uint64_t most, const std::function<void(QPDFWriter&)>& choose) {
     Collector collector(most);
+    collector.expect_whole_file();
     QPDFWriter writer(pdf);
     writer.setOutputPipeline(&collector);
     writer.setDeterministicID(true);

@@ -1,17 +1,21 @@
 #include "documents/pdf/plain_streams.h"
 
 #include <algorithm>
+#include <memory>
 #include <qpdf/QPDF.hh>
 #include <qpdf/QPDFWriter.hh>
 #include <set>
 
 #include "documents/pdf/content_paths.h"
 #include "documents/pdf/pdf_objects.h"
+#include "platform/guarded_call.h"
 
 namespace dynlab::inline documents {
 namespace {
 
 constexpr std::uint64_t kMostInside = 64u << 20;
+/// Of a file whose objects may be left in memory when all is said of them.
+constexpr std::size_t kSmallFile = 4u << 20;
 /// Types of streams that poppler does not read for the text.
 constexpr const char* kUnread[] = {"/EmbeddedFile", "/Metadata", "/ObjStm", "/XRef"};
 
@@ -64,18 +68,21 @@ void write_out_streams(QPDF& pdf) {
 
 std::string with_plain_streams(std::string bytes) {
     try {
-        QPDF pdf;
-        read_pdf(pdf, bytes);
-        if (pdf.isEncrypted()) return bytes;
-        write_out_streams(pdf);
-        std::string plain = written_pdf(pdf, bytes.size() + 2 * kMostInside, [](QPDFWriter& writer) {
+        auto pdf = std::make_unique<QPDF>();
+        read_pdf(*pdf, bytes);
+        if (pdf->isEncrypted()) return bytes;
+        write_out_streams(*pdf);
+        std::string plain = written_pdf(*pdf, bytes.size() + 2 * kMostInside, [](QPDFWriter& writer) {
             writer.setStreamDataMode(qpdf_s_preserve);
             writer.setObjectStreamMode(qpdf_o_disable);
             writer.setNewlineBeforeEndstream(true);
             writer.setDeterministicID(false);  // which would be computed from all that is written
             writer.setStaticID(true);
         });
-        return pdf.anyWarnings() ? bytes : plain;
+        if (pdf->anyWarnings()) return bytes;
+        // A copy of the process ends soon, without taking thousands of objects apart one by one.
+        if (is_guarded_copy() && bytes.size() < kSmallFile) static_cast<void>(pdf.release());
+        return plain;
     } catch (const std::exception&) {
         return bytes;
     }

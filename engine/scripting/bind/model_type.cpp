@@ -2,7 +2,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <ranges>
 #include <span>
 
 #include "scripting/arguments/table_fields.h"
@@ -76,12 +75,14 @@ int field_input_polynomials(Call& call) {
 int field_channels(Call& call) {
     const Model& model = model_self(call);
     const std::vector<TransferFunction> channels = channels_of(model);
-    const auto of_output = [&](std::size_t output) {
-        return give_list(call, std::span(channels).subspan(output * model.inputs(), model.inputs()),
-                         [&](const TransferFunction& channel) { give_model(call, channel); });
+    const auto give_channels = [&](std::span<const TransferFunction> row) {
+        return give_list(call, row, [&](const TransferFunction& channel) { give_model(call, channel); });
     };
-    if (model.outputs == 1) return of_output(0);
-    return give_list(call, std::views::iota(std::size_t{0}, model.outputs), of_output);
+    if (model.outputs == 1) return give_channels(channels);
+    std::vector<std::span<const TransferFunction>> rows;
+    for (std::size_t output = 0; output < model.outputs; ++output)
+        rows.push_back(std::span(channels).subspan(output * model.inputs(), model.inputs()));
+    return give_list(call, rows, give_channels);
 }
 
 double noise_variance_of(const Model& model) {
