@@ -5,6 +5,7 @@
 #include "cli/terminal_colour.h"
 #include "course/findings/findings_report.h"
 #include "course/findings/folder_check.h"
+#include "course/findings/french_sentences.h"
 #include "course/hand_ins/work_language.h"
 #include "platform/error.h"
 #include "platform/program_lookup.h"

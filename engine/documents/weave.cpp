@@ -4,6 +4,7 @@
 
 #include "documents/solutions.h"
 #include "documents/text_lines.h"
+#include "documents/words/sentence_catalogue.h"
 
 namespace dynlab::inline documents {
 namespace {
@@ -28,7 +29,10 @@ std::string fenced(const std::string& text, const std::string& block_class) {
     return fence + "{." + block_class + "}\n" + text + (text.ends_with('\n') ? "" : "\n") + fence + "\n\n";
 }
 
-const std::string kStopped = "\nThe script stopped here; nothing below was run.";
+std::string stopped_here(const std::string& language) {
+    return language == "fr" ? "\nLe script s'est arrêté ici ; rien de ce qui suit n'a été exécuté."
+                            : "\nThe script stopped here; nothing below was run.";
+}
 
 class Weaver {
   public:
@@ -44,9 +48,9 @@ class Weaver {
                 if (!option_is_off(cell, "echo")) add_code(cell);
                 if (!option_is_off(cell, "output")) add_outputs(cell);
             }
-            if (&cell == failed) add_block(record_.error->message + kStopped, "error", cell.last_line());
+            if (&cell == failed) add_error(stopped_here(script_.header.language), cell.last_line());
         }
-        if (record_.error && !failed) add_block(record_.error->message, "error", 1);
+        if (record_.error && !failed) add_error("", 1);
         return std::move(text_);
     }
 
@@ -79,11 +83,16 @@ class Weaver {
         for (const std::string& line : lines_of(fenced(text, block_class))) add(line, number);
     }
 
+    void add_error(const std::string& more, int number) {
+        add_block(told_error(record_.error->message, script_.header.language) + more, "error", number);
+    }
+
     void add_outputs(const Cell& cell) {
         const auto outputs = record_.outputs.find(cell.id);
         if (outputs == record_.outputs.end()) return;
         for (const CellOutput& output : outputs->second) {
-            if (!is_blank(output.printed)) add_block(output.printed, "output", cell.last_line());
+            const std::string printed = output.printed.substr(0, output.printed.find_last_not_of('\n') + 1);
+            if (!is_blank(printed)) add_block(printed, "output", cell.last_line());
             if (output.figure) add_figure(*output.figure, cell.last_line());
         }
     }
@@ -117,6 +126,10 @@ SourceLine MarkdownText::origin_of(int line) const {
 
 std::string error_block(const std::string& message) {
     return fenced(message, "error");
+}
+
+std::string told_error(const std::string& message, const std::string& language) {
+    return language == "fr" ? shared_french_sentences().translated(message) : message;
 }
 
 MarkdownText weave_cells(const PercentScript& script, const RunRecord& record) {

@@ -28,4 +28,7 @@ MarkdownText weave_cells(const PercentScript& script, const RunRecord& record);
 /// A block that shows an error's message.
 std::string error_block(const std::string& message);
 
+/// The message of a script in the language of its document, "en" or "fr".
+std::string told_error(const std::string& message, const std::string& language);
+
 }  // namespace dynlab::inline documents

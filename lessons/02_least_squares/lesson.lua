@@ -188,7 +188,7 @@ report.value("rmse_later", sqrt(mean(residuals:range(2, N)^2)), "%.3f")
 -- $$ \hat a x_0 + \hat b \;\pm\; t_{0.975,\,N-2}\; s\,\sqrt{1 + \frac{1}{N} + \frac{x_0^2}{\sum_i x_i^2}} \; , \qquad
 --    s^2 = \frac{1}{N-2}\sum_{i=1}^{N} \varepsilon_i^2 , $$ {#eq:interval}
 --
--- where $t_{0.975,\,N-2}$ is the quantile of Student's distribution. Compare it with what happened.
+-- where $t_{0.975,\,N-2}$ is the quantile of Student's distribution, `tinv(0.975, N - 2)`. Compare it with what happened.
 --
 -- Guess first: how far from the forecast are the ends of that interval? `outcome` prints the guess beside what you find.
 
@@ -378,7 +378,7 @@ report.table("noisy", {
 -- END SOLUTION
 --
 -- **Question 8.** One noisy record cannot distinguish bad luck from a method that is wrong on average. Make many: first the same four samples, five thousand times with
--- fresh noise; then a longer record of the same system, 400 samples with the input `prbs(7, 4)` and white noise of standard deviation 0.3 on the output,
+-- fresh noise; then a longer record of the same system, simulated by the model of question 6: 400 samples with the input `prbs(7, 4)` and white noise of standard deviation 0.3 on the output,
 -- and repeat the discrete-time fit a thousand times. Where is the mean of the estimates of $a_1$, compared with the truth and with the
 -- scatter of the single estimates? How do both depend on the noise $\sigma$ and on the number of samples $N$?
 

@@ -364,7 +364,8 @@ end
 -- %% id=motion
 -- BEGIN SOLUTION
 -- STARTER: -- motion{rig = "crane", t = crane.validation.t,
--- STARTER: --        measured = {position = crane.validation.x, angle = crane.validation.theta},
+-- STARTER: --        measured = {position = crane.validation.x,
+-- STARTER: --                    angle = crane.validation.theta},
 -- STARTER: --        simulated = {position = ..., angle = ...}}
 do
     local x, theta = response(against)

@@ -42,7 +42,7 @@
 -- with $B_o(p) = 2$ and $F_o(p) = p^2 + 4p + 3$, where $p$ stands for $\mathrm{d}/\mathrm{d}t$ and the $e(t_k)$ are independent, Gaussian,
 -- of mean zero and standard deviation $\sigma$.
 --
--- **Question 1.** Which model structure does @eq:system have: CARX, COE or CBJ?
+-- **Question 1.** Which model structure does @eq:system have: CARX, COE or CBJ? (CARX: $A\,y = B\,u + e$; COE: $y = \frac{B}{F}\,u + e$; CBJ: $y = \frac{B}{F}\,u + \frac{C}{D}\,e$.)
 --
 -- BEGIN SOLUTION
 -- COE, a continuous-time output-error structure. The disturbance is added to the output behind the system; it passes neither through
@@ -142,8 +142,8 @@ print(string.format("signal-to-noise ratio: %.1f dB", snr))
 --
 -- ## Your own estimator
 --
--- **Question 4.** Write your own LSSVF. `svf(x, 2, lambda, {Ts = Ts})` gives a matrix with the columns $p^2 x_f$, $p\,x_f$ and $x_f$,
--- and `solve(Phi, Y)` the least-squares solution. Between the samples the input is held, `hold = "zoh"`; the measured output runs in
+-- **Question 4.** Write your own LSSVF. `svf(x, 2, lambda, {Ts = Ts})` gives a matrix `X` with the columns $p^2 x_f$, $p\,x_f$ and $x_f$
+-- (`X:col(1)` is the first), and `solve(Phi, Y)` the least-squares solution. Between the samples the input is held, `hold = "zoh"`; the measured output runs in
 -- straight lines, `hold = "foh"`, which is the default of `svf`. Set $\lambda = 3$ rad/s and try it on the record without noise.
 
 -- %% id=own_lssvf
@@ -630,7 +630,7 @@ report.table("holds", hold_rows)
 -- and `c2d` and `d2c` convert between the two forms.
 --
 -- **Question 14.** Estimate the difference equation by `arx(data, {2, 2, 1})`, two poles, two coefficients of the input and one sample of
--- delay, as @eq:sampled has, from the noise-free and from the noisy record. Which of them can be converted by `d2c`? (`pcall(d2c, G)` goes on after an error
+-- delay, as @eq:sampled has, from the noise-free and from the noisy record. Which of them can be converted by `d2c`? (`print(pcall(d2c, G))` goes on after an error
 -- and says whether there was none.) Compare with `oe(data, {2, 2, 1})`, which minimises the error of the simulated output.
 
 -- %% id=discrete
@@ -695,7 +695,7 @@ local function arx_a1(period, snr)
     end
     local bit = math.floor(1/period + 0.5)
     montecarlo{system = Go, input = prbs(4, bit), Ts = period, snr = snr,
-               runs = 100, estimators = {{"arx", estimate}}}
+               runs = 100, estimators = {{"arx", estimate}}};
     return found
 end
 -- END SOLUTION

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "course/findings/folder_check.h"
-#include "course/findings/sentence_catalogue.h"
+#include "course/findings/french_sentences.h"
 #include "course/grading/feedback.h"
 #include "documents/text_lines.h"
 #include "platform/error.h"

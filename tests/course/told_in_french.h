@@ -5,7 +5,7 @@
 #include <string>
 
 #include "course/findings/document_findings.h"
-#include "course/findings/sentence_catalogue.h"
+#include "course/findings/french_sentences.h"
 
 namespace dynlab {
 

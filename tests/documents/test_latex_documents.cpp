@@ -206,6 +206,24 @@ TEST_F(latex_documents, short_blocks_stay_on_one_page) {
     }
 }
 
+// Oracle: as above. A page of code has no white to spread, so that every place where it may end is taken.
+TEST_F(latex_documents, headings_that_follow_each_other_stay_on_one_page) {
+    std::string headings = "\n# FIRST\n\n## LAST\n\n";
+    for (int i = 0; i < 40; ++i) headings += "prose ";
+    int documents = 0, begun_on_the_second = 0;
+    for (int lines = 42; lines <= 52; ++lines) {
+        std::string code = "```{.lua}\n";
+        for (int i = 0; i < lines; ++i) code += "x = 1\n";
+        const PdfContent content = pdf(code + "```\n" + headings + "\n");
+        for (const std::string& page : content.pages)
+            EXPECT_EQ(page.find("FIRST") == page.npos, page.find("LAST") == page.npos) << lines;
+        ++documents;
+        begun_on_the_second += content.pages.size() == 2 && content.pages[1].find("FIRST") != std::string::npos;
+    }
+    EXPECT_GT(begun_on_the_second, 0);
+    EXPECT_LT(begun_on_the_second, documents);
+}
+
 // Oracle: bounding boxes of the words against the margins of A4.
 TEST_F(latex_documents, long_code_and_output_lines_stay_inside_the_text) {
     std::string spaces, solid;

@@ -73,6 +73,23 @@ TEST_P(lesson_pages, have_no_code_that_wraps) {
     }
 }
 
+// The same for the code that stands in students' copies in place of the solution.
+TEST(lesson_sheets, have_no_starter_that_wraps) {
+    const std::string mark = "-- STARTER: ";
+    for (const std::string& lesson : lesson_slugs()) {
+        std::ifstream file(script_of(lesson));
+        bool code = false;
+        int number = 0;
+        for (std::string line; std::getline(file, line);) {
+            ++number;
+            if (line.starts_with("-- %%"))
+                code = line.find("[markdown]") == line.npos && line.find("echo=false") == line.npos;
+            EXPECT_TRUE(!code || !line.starts_with(mark) || characters(line) <= 84 + mark.size())
+                << lesson << ":" << number << ": " << line;
+        }
+    }
+}
+
 // The same for what students are given of the lessons that end with a report of their own form.
 TEST(lesson_sheets, have_no_code_that_wraps) {
     for (const std::string& lesson : lesson_slugs(true)) {

@@ -179,7 +179,7 @@ TEST_F(memoized_calls, any_difference_of_the_arguments_is_another_call) {
 TEST_F(memoized_calls, functions_of_the_script_are_called_every_time) {
     const std::string code =
         "local n = 0\nmontecarlo{system = G0, input = u, Ts = 0.01, sigma = 0.2, runs = 100, estimators = {own = "
-        "function(e) n = n + 1 return lssvf(e, {2, 1, 0}, 3) end}}\nprint(n)\n";
+        "function(e) n = n + 1 return lssvf(e, {2, 1, 0}, 3) end}};\nprint(n)\n";
     for (int i = 0; i < 2; ++i) {
         const Use use = run_with_cache(code);
         EXPECT_EQ(use.printed, "100\n");

@@ -99,6 +99,15 @@ TEST(script_course, fits_lines) {
               "true\ttrue\ntrue\ntrue\ttrue\n");
 }
 
+// Oracle: with one degree of freedom Student's distribution is Cauchy's; tables say 2.0518 for 97.5 % and 27 degrees.
+TEST(script_course, gives_student_s_quantile_which_forecast_has_in_its_interval) {
+    EXPECT_EQ(printed("print(abs(tinv(0.8, 1) - math.tan(math.pi*0.3)) < 1e-12, round(1e4*tinv(0.975, 27)))\n"
+                      "local f = forecast(polyfit_report({0, 1, 2, 3}, {1, 3, 5, 7.1}, 1), 4)\n"
+                      "print(abs(f.high - f.value - tinv(0.975, 2)*f.std) < 1e-12)"),
+              "true\t20518\ntrue\n");
+    EXPECT_THAT(error_of("tinv(1, 3)"), testing::HasSubstr("tinv: "));
+}
+
 TEST(script_course, has_every_function_in_help) {
     std::string text = printed("help()");
     for (const FunctionEntry& entry : catalogue_of_functions()) {

@@ -108,6 +108,8 @@ TEST(script_errors, put_what_lua_says_into_plain_words) {
         {"string.rep()", "lesson.lua:1: rep: argument 1 must be a string, but no value was given"},
         {"for i = 1, 'x' do end", "lesson.lua:1: the limit of a for loop must be a number, but a text was given"},
         {"for i = 1, 2, 0 do end", "lesson.lua:1: the step of a for loop must not be zero"},
+        {"local y = 1//0", "lesson.lua:1: a whole number cannot be divided by zero with //"},
+        {"local y = 1%0", "lesson.lua:1: the remainder of a division by zero does not exist"},
         {"local t = {}\nt[nil] = 1", "lesson.lua:2: the key of the table is nil (it has no value)"},
         {"local function f() return 1 + f() end\nf()",
          "lesson.lua:1: functions call each other without end (stack overflow)"},

@@ -7,6 +7,7 @@
 
 #include "platform/temporary_folder.h"
 #include "script_run.h"
+#include "scripting/runtime/shown_calls.h"
 #include "scripting/runtime/shown_expressions.h"
 
 namespace test_shown_expressions {
@@ -51,9 +52,42 @@ TEST(shown_expressions, calls_that_only_compute_are_shown_with_the_names_of_thei
               "{T = [0.5], wn = [2], zeta = [1]}\n[-2]\n");
     EXPECT_EQ(printed("for k = 1, 2 do\n  mean({k, k + 2})\nend\nlocal m =\n  mean({5})\nprint(\n  m)"), "2\n3\n5\n");
     const char* unchanged[] = {
-        "local x =\n  mean({1})", "f{\n  mean({1}),\n  2}", "return\n  mean({1})", "mean({1}).x = 2", "mean {1, 2}",
+        "local x =\n  mean({1})", "f{\n  mean({1}),\n  2}", "return\n  mean({1})", "mean({1}).x = 2", "fit = {1}",
         "local p = pole(G)",      "x = y +\n  mean({1})"};
     for (const char* code : unchanged) EXPECT_EQ(with_shown_calls(code), code);
+}
+
+TEST(shown_expressions, every_call_that_gives_a_value_is_shown_as_at_the_prompt) {
+    const std::string before = "local s = tf('s')\nlocal G = 2/(s^2 + 4*s + 3)\nlocal t = range(0, 3)\n";
+    const char* calls[] = {"lsq(matrix{t, ones(4)}, {1, 3, 5, 7})",
+                           "d2c(c2d(G, 0.1))",
+                           "max({3, 1, 2})",
+                           "step(G, {0, 1, 2})",
+                           "iddata({1, 2}, {3, 4}, 0.1)",
+                           "vector{1, 2}",
+                           "tf('s')",
+                           "tf's'",
+                           "math.max(2, 3)",
+                           "string.format('%d', 3)",
+                           "polyval({1, 2}, 3)"};
+    for (const char* call : calls) {
+        const std::string shown = printed(before + call);
+        EXPECT_EQ(shown, printed(before + "show(" + call + ")")) << call;
+        EXPECT_FALSE(shown.empty()) << call;
+        EXPECT_EQ(printed(before + call + ";"), "") << call;
+    }
+    EXPECT_EQ(printed("sort({3, 1, 2})"), "{places = [2 3 1], sorted = [1 2 3]}\n");
+    EXPECT_THAT(printed("lqr({{0, 1}, {0, 0}}, {0, 1}, eye(2), 1)"), testing::StartsWith("{K = 1  1.7321, poles = ["));
+}
+
+TEST(shown_expressions, calls_that_draw_or_print_what_they_give_show_it_once) {
+    const std::string data = "local u = prbs(4, 10)\nlocal d = iddata(lsim(tf({1}, {1, 1}), u, 0.1), u, 0.1)\n";
+    for (const char* call :
+         {"idplot(d)", "delayest(d)", "plot({1, 2})", "resid(d, tf({1}, {1, 2}))", "step(tf({1}, {1, 1}))"})
+        EXPECT_EQ(run(data + call).figures.size(), 1u) << call;
+    for (const char* code : {"advice(d)", "slider('a', 1, 0, 2)", "require('x')", "present(G)", "plot({1})", "print(1)",
+                             "math.randomseed(1)", "selcstruc(V)"})
+        EXPECT_EQ(with_shown_calls(code), code);
 }
 
 TEST(shown_expressions, functions_of_the_script_s_own_are_not_taken_for_those_that_only_compute) {

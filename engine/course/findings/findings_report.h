@@ -2,7 +2,7 @@
 #include <string>
 
 #include "course/findings/document_findings.h"
-#include "course/findings/sentence_catalogue.h"
+#include "documents/words/sentence_catalogue.h"
 
 namespace dynlab::inline course {
 

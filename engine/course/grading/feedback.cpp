@@ -6,7 +6,7 @@
 #include <cctype>
 #include <string_view>
 
-#include "course/findings/sentence_catalogue.h"
+#include "course/findings/french_sentences.h"
 #include "course/grading/feedback_words.h"
 #include "documents/run_record.h"
 #include "documents/text_lines.h"

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
-#include "course/findings/sentence_catalogue.h"
+#include "course/findings/french_sentences.h"
 #include "course/grading/feedback.h"
 #include "course/grading/feedback_words.h"
 #include "course/grading/grade.h"

@@ -3,6 +3,7 @@
 #include "figures/plots/regression_plot.h"
 #include "numerics/estimators/gradient_descent.h"
 #include "numerics/estimators/linear_regression.h"
+#include "numerics/statistics/student_t.h"
 #include "scripting/arguments/table_fields.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/figure_object.h"
@@ -84,6 +85,12 @@ int polyfit(Call& call) {
     call.at_most(3);
     const VectorMap x = call.vector(1, "x"), y = call.vector(2, "y");
     return call.give_vector(fit_polynomial(x, y, static_cast<int>(call.size(3, "degree"))).coefficients);
+}
+
+int quantile_of_student(Call& call) {
+    call.at_most(2);
+    lua_pushnumber(call.state(), student_t_quantile(call.number(1, "p"), call.number(2, "degrees")));
+    return 1;
 }
 
 Forecast forecast_at(const RegressionFit& fit, double x, double level) {
@@ -182,6 +189,8 @@ constexpr std::array kRegressionFunctions = {
                   "polynomial by least squares with its standard errors", guarded<polynomial>},
     FunctionEntry{"forecast", kRegressionArea, "forecast(fit, x, level) -> {value, low, high, ...}",
                   "forecast with its prediction interval", guarded<predict>},
+    FunctionEntry{"tinv", kRegressionArea, "tinv(p, degrees) -> t",
+                  "quantile of Student's distribution, for intervals by hand", guarded<quantile_of_student>},
     FunctionEntry{"regression_plot", kRegressionArea,
                   "regression_plot(x, y, fit, {forecast =, level =, xlabel =, ylabel =}) -> fig",
                   "data, fitted polynomial and its bands", guarded<draw_regression>},

@@ -1,13 +1,13 @@
 #include "scripting/prompt/prompt_statement.h"
 
 #include <algorithm>
-#include <lua.hpp>
-#include <memory>
 #include <optional>
 #include <regex>
 #include <string_view>
 
+#include "scripting/runtime/lua_reader.h"
 #include "scripting/runtime/lua_tokens.h"
+#include "scripting/runtime/shown_calls.h"
 #include "scripting/runtime/shown_expressions.h"
 
 namespace dynlab::inline scripting {
@@ -17,16 +17,12 @@ using Tokens = std::vector<LuaToken>;
 
 enum class Syntax { kRight, kIncomplete, kWrong };
 
-/// Asks Lua itself, in a state of its own, whether it can read the text and whether only its end is missing.
+/// Asks Lua itself whether it can read the text and whether only its end is missing.
 Syntax syntax_of(std::string code) {
     code += '\n';  // so that a quote left open is wrong at the end of its line
-    const std::unique_ptr<lua_State, void (*)(lua_State*)> state(luaL_newstate(), lua_close);
-    if (!state) return Syntax::kWrong;
-    lua_State* L = state.get();
-    if (luaL_loadbufferx(L, code.data(), code.size(), "=", "t") == LUA_OK) return Syntax::kRight;
-    std::size_t length = 0;
-    const char* text = lua_tolstring(L, -1, &length);
-    return std::string_view(text, length).ends_with("<eof>") ? Syntax::kIncomplete : Syntax::kWrong;
+    const std::optional<std::string> error = LuaReader().error_of(code);
+    if (!error) return Syntax::kRight;
+    return error->ends_with("<eof>") ? Syntax::kIncomplete : Syntax::kWrong;
 }
 
 int depth_change(const LuaToken& token) {

@@ -125,7 +125,6 @@ constexpr std::array kNames = {
     NameHint{"optimset", "give the options to the function: srivc(data, {1, 2, 0}, {MaxIter = 50})"},
     NameHint{"prctile", "write sort(v)[ceil(#v*p/100)]"},
     NameHint{"quantile", "write sort(v)[ceil(#v*p)]"},
-    NameHint{"tinv", "forecast(polyfit_report(x, y, 1), x0, 0.95) gives an interval with Student's quantile in it"},
     NameHint{"pinv", "write lsq(Phi, y) for least squares"},
     NameHint{"pwelch", "write spa(data) or etfe(data): they give frequency responses"},
     NameHint{"qr", "write lsq(Phi, y) for least squares, solve(A, b) for equations"},

@@ -125,6 +125,12 @@ std::vector<LuaToken> lua_tokens(std::string_view text) {
     return Scanner(text).scan();
 }
 
+bool begins_line(std::string_view code, const std::vector<LuaToken>& tokens, std::size_t i) {
+    if (i == 0) return true;
+    const std::string_view between = code.substr(tokens[i - 1].end(), tokens[i].begin - tokens[i - 1].end());
+    return between.find('\n') != std::string_view::npos;
+}
+
 const std::vector<std::string_view>& lua_keywords() {
     static const std::vector<std::string_view> words = {
         "and", "break", "do",  "else", "elseif", "end",    "false",  "for",  "function", "goto",  "if",

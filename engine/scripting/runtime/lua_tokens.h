@@ -18,6 +18,9 @@ struct LuaToken {
 /// at the end of its line, a long one at the end of the text, is of kind kUnfinished.
 std::vector<LuaToken> lua_tokens(std::string_view text);
 
+/// Whether the token i of `code` is the first of its line.
+bool begins_line(std::string_view code, const std::vector<LuaToken>& tokens, std::size_t i);
+
 /// The reserved words, sorted.
 const std::vector<std::string_view>& lua_keywords();
 

@@ -1,15 +1,14 @@
 #include "scripting/runtime/shown_expressions.h"
 
 #include <algorithm>
-#include <lua.hpp>
-#include <map>
-#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "scripting/runtime/errors.h"
+#include "scripting/runtime/lua_reader.h"
 #include "scripting/runtime/lua_tokens.h"
+#include "scripting/runtime/shown_calls.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -23,26 +22,6 @@ struct Stop {
     std::size_t offset = 0;
 };
 
-/// Reads Lua text in a state of its own, which runs nothing.
-class LuaReader {
-  public:
-    LuaReader() : state_(luaL_newstate(), lua_close) {}
-
-    /// The message of a syntax error, nothing for text that is Lua.
-    std::optional<std::string> error_of(const std::string& code) {
-        if (!state_) return "no memory";
-        lua_State* L = state_.get();
-        lua_settop(L, 0);
-        if (luaL_loadbufferx(L, code.data(), code.size(), "=s", "t") == LUA_OK) return std::nullopt;
-        std::size_t length = 0;
-        const char* text = lua_tolstring(L, -1, &length);
-        return std::string(text, length);
-    }
-
-  private:
-    std::unique_ptr<lua_State, void (*)(lua_State*)> state_;
-};
-
 std::size_t line_start(const std::string& code, int line) {
     std::size_t start = 0;
     for (int i = 1; i < line; ++i) {
@@ -51,13 +30,6 @@ std::size_t line_start(const std::string& code, int line) {
         ++start;
     }
     return start;
-}
-
-bool begins_line(const std::string& code, const std::vector<LuaToken>& tokens, std::size_t i) {
-    if (i == 0) return true;
-    const std::string_view between =
-        std::string_view(code).substr(tokens[i - 1].end(), tokens[i].begin - tokens[i - 1].end());
-    return between.find('\n') != std::string_view::npos;
 }
 
 /// The tokens where Lua may have stopped: those of the line that read like the one it names.
@@ -137,122 +109,7 @@ std::string with_shown_values(const std::string& source) {
     return source;
 }
 
-/// Functions that only compute, and the names of what they give where that is more than one value.
-const std::map<std::string_view, std::string_view> kShownCalls = {{"damp", "wn, zeta, T"},
-                                                                  {"margin", "Gm, Pm, Wcg, Wcp, Dm"},
-                                                                  {"pole", ""},
-                                                                  {"zero", ""},
-                                                                  {"dcgain", ""},
-                                                                  {"bandwidth", ""},
-                                                                  {"stable", ""},
-                                                                  {"fit", ""},
-                                                                  {"mean", ""},
-                                                                  {"median", ""},
-                                                                  {"std", ""},
-                                                                  {"var", ""},
-                                                                  {"sum", ""},
-                                                                  {"norm", ""},
-                                                                  {"det", ""},
-                                                                  {"eig", ""},
-                                                                  {"inv", ""},
-                                                                  {"polyfit", ""}};
-
-std::vector<std::string> listed_names(const std::string& list) {
-    std::vector<std::string> names;
-    for (const LuaToken& token : lua_tokens(list))
-        if (token.kind == LuaToken::Kind::kName) names.emplace_back(token.text);
-    return names;
-}
-
-/// Whether what stands before can be the end of a statement, or the beginning of a block.
-bool begins_statement(const std::string& code, const std::vector<LuaToken>& tokens, std::size_t i) {
-    if (!begins_line(code, tokens, i)) return false;
-    if (i == 0) return true;
-    const LuaToken& before = tokens[i - 1];
-    for (const std::string_view word :
-         {")", "]", "}", ";", "end", "then", "do", "else", "repeat", "nil", "true", "false"})
-        if (before.is(word)) return true;
-    return before.kind == LuaToken::Kind::kName || before.kind == LuaToken::Kind::kNumber ||
-           before.kind == LuaToken::Kind::kString;
-}
-
-/// The bracket that closes NAME(...).
-std::optional<std::size_t> end_of_call(const std::vector<LuaToken>& tokens, std::size_t name) {
-    if (name + 1 >= tokens.size() || !tokens[name + 1].is("(")) return std::nullopt;
-    int depth = 0;
-    for (std::size_t i = name + 1; i < tokens.size(); ++i) {
-        if (tokens[i].is("(") || tokens[i].is("{") || tokens[i].is("[")) ++depth;
-        if ((tokens[i].is(")") || tokens[i].is("}") || tokens[i].is("]")) && --depth == 0) return i;
-    }
-    return std::nullopt;
-}
-
-bool next_begins_statement(const std::string& code, const std::vector<LuaToken>& tokens, std::size_t next) {
-    if (next >= tokens.size()) return true;
-    for (const std::string_view word : {"end", "else", "elseif", "until"})
-        if (tokens[next].is(word)) return true;
-    const bool word = tokens[next].kind == LuaToken::Kind::kName || tokens[next].kind == LuaToken::Kind::kKeyword;
-    return word && begins_line(code, tokens, next) && !tokens[next].is("and") && !tokens[next].is("or");
-}
-
-/// Whether the script has given this name a meaning of its own that holds at the token `place`: a local, a loop's
-/// variable or a parameter in a block that is still open there, or a global before it.
-bool has_own_meaning(const std::string& code, const std::vector<LuaToken>& tokens, std::string_view name,
-                     std::size_t place) {
-    std::vector<bool> blocks = {false};  // the open ones: whether they define the name
-    bool global = false, of_loop = false, in_parameters = false;
-    const auto close = [&] {
-        if (blocks.size() > 1) blocks.pop_back();
-    };
-    for (std::size_t i = 0; i < place; ++i) {
-        const LuaToken& token = tokens[i];
-        if (token.is("end") || token.is("until") || token.is("else") || token.is("elseif")) close();
-        if (token.is("do") || token.is("then") || token.is("repeat") || token.is("else") || token.is("function"))
-            blocks.push_back(std::exchange(of_loop, false));
-        if (token.is("function")) in_parameters = true;
-        if (token.is(")")) in_parameters = false;
-        if (token.text != name) continue;
-        std::size_t first = i;  // of a list of names
-        while (first > 1 && tokens[first - 1].is(",") && tokens[first - 2].kind == LuaToken::Kind::kName) first -= 2;
-        const auto behind = [&](const char* word) { return first > 0 && tokens[first - 1].is(word); };
-        const bool assigned = i + 1 < tokens.size() && (tokens[i + 1].is("=") || tokens[i + 1].is(","));
-        if (behind("function")) {
-            if (first > 1 && tokens[first - 2].is("local"))
-                blocks[blocks.size() - 2] = true;
-            else
-                global = true;
-        } else if (in_parameters || behind("local")) {
-            blocks.back() = true;
-        } else if (behind("for")) {
-            of_loop = true;
-        } else if (assigned && begins_statement(code, tokens, first)) {
-            global = true;
-        }
-    }
-    return global || std::find(blocks.begin(), blocks.end(), true) != blocks.end();
-}
-
 }  // namespace
-
-std::string with_shown_calls(const std::string& source) {
-    const std::vector<LuaToken> tokens = lua_tokens(source);
-    std::string code = source;
-    for (std::size_t first = tokens.size(); first-- > 0;) {
-        const auto names = kShownCalls.find(tokens[first].text);
-        if (names == kShownCalls.end() || !begins_statement(source, tokens, first)) continue;
-        if (has_own_meaning(source, tokens, names->first, first)) continue;
-        const std::optional<std::size_t> last = end_of_call(tokens, first);
-        if (!last || !next_begins_statement(source, tokens, *last + 1)) continue;
-        const std::size_t begin = tokens[first].begin, length = tokens[*last].end() - begin;
-        const std::string call = code.substr(begin, length), all(names->second);
-        std::string fields;
-        for (const std::string& name : listed_names(all)) fields += name + " = " + name + ", ";
-        code.replace(begin, length,
-                     all.empty() ? "dynlab.show(" + call + ")"
-                                 : "do local " + all + " = " + call + " dynlab.show({" + fields + "}) end");
-    }
-    return LuaReader().error_of(code) ? source : code;
-}
 
 std::string with_shown_expressions(const std::string& source) {
     return with_shown_calls(with_shown_values(source));

@@ -13,11 +13,6 @@ namespace dynlab::inline scripting {
 /// stays wrong.
 std::string with_shown_expressions(const std::string& source);
 
-/// The source with every call, alone in its lines, of a function that only computes made into one that shows what it
-/// gives, several results with their names: "damp(G)" as MATLAB shows it. One with a semicolon behind it stays, and so
-/// does the call of a name that the script itself has defined before it, in a block that is open there or for all.
-std::string with_shown_calls(const std::string& source);
-
 /// The line in which the rows of matrix{...} are set apart by semicolons, as MATLAB writes them: Lua takes a semicolon
 /// for a comma, so that one long row would come of it.
 std::optional<int> line_with_semicolon_rows(const std::string& source);

@@ -70,6 +70,14 @@ TEST(weave, no_output_can_close_its_block) {
     EXPECT_THAT(weave("-- %%\nx = 1\n", record).text, HasSubstr("`````{.output}\n```\n# not a heading\n````\n`````\n"));
 }
 
+TEST(weave, empty_lines_at_the_end_of_an_output_are_not_shown) {
+    RunRecord record;
+    record.outputs["cell-1"] = {{"a\n\nb\n\n", std::nullopt}, {"\n\n", std::nullopt}};
+    const std::string text = weave("-- %%\nx = 1\n", record).text;
+    EXPECT_THAT(text, HasSubstr("```{.output}\na\n\nb\n```\n"));
+    EXPECT_EQ(text.find("{.output}"), text.rfind("{.output}"));
+}
+
 TEST(weave, a_recorded_error_stands_at_its_cell) {
     RunRecord record;
     record.error = RecordedError{"lesson.lua:2: x is nil", 2};

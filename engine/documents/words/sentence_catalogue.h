@@ -5,11 +5,11 @@
 #include <string_view>
 #include <vector>
 
-namespace dynlab::inline course {
+namespace dynlab::inline documents {
 
-/// Sentences of another language for those that are told to students. Its files hold pairs of lines: a sentence as
-/// the program or a lesson's checks.lua writes it, with {} for what changes, and below it, indented, the other
-/// language's, with as many {} in the same order. Lines that begin with # are remarks.
+/// Sentences of another language for those that are told to students and printed in documents. Its files hold pairs of
+/// lines: a sentence as the program or a lesson's checks.lua writes it, with {} for what changes, and below it,
+/// indented, the other language's, with as many {} in the same order. Lines that begin with # are remarks.
 class SentenceCatalogue {
   public:
     /// Adds the pairs of a file. Throws EnvironmentError with file and line for what is no pair.
@@ -17,7 +17,8 @@ class SentenceCatalogue {
 
     /// The text, sentence by sentence, in the other language: of several entries that fit, the one with most letters
     /// of its own; a sentence that none fits stays. What stands for {} is looked up as well; where it begins with a
-    /// number, such as "15.9 %" or "-1.5e-05", its point becomes a comma, but for what stands in quotation marks.
+    /// number, such as "15.9 %" or "-1.5e-05", its point becomes a comma, but for what stands in quotation marks. File
+    /// and line before the message of a script, and the function that says it, stay: "analysis.lua:3: fit: ...".
     std::string translated(std::string_view text) const;
 
     /// Whether an entry is this sentence.
@@ -33,6 +34,7 @@ class SentenceCatalogue {
         std::vector<std::string_view> between;
         std::size_t end;
     };
+    std::string told_line(std::string_view message) const;
     static std::optional<Fit> fit(const Entry& entry, std::string_view text);
     std::optional<Fit> fitting(std::string_view text) const;
     std::string written(const Fit& found) const;
@@ -40,7 +42,7 @@ class SentenceCatalogue {
     std::vector<Entry> entries_;
 };
 
-/// French: report_templates/sentences.fr.txt, and checks.fr.txt of the lesson where it is installed and has one.
-SentenceCatalogue french_sentences(const std::string& lesson = "");
+/// French: report_templates/sentences.fr.txt and script_errors.fr.txt.
+SentenceCatalogue shared_french_sentences();
 
-}  // namespace dynlab::inline course
+}  // namespace dynlab::inline documents

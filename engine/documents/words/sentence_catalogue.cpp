@@ -1,16 +1,16 @@
-#include "course/findings/sentence_catalogue.h"
+#include "documents/words/sentence_catalogue.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <regex>
 
 #include "documents/text_lines.h"
 #include "platform/error.h"
 #include "platform/program_lookup.h"
 #include "platform/text_file.h"
-#include "workflow/lesson_catalogue.h"
 
-namespace dynlab::inline course {
+namespace dynlab::inline documents {
 namespace {
 
 std::vector<std::string> pieces_between_slots(const std::string& sentence) {
@@ -22,8 +22,27 @@ std::vector<std::string> pieces_between_slots(const std::string& sentence) {
     return pieces;
 }
 
+/// A name in quotation marks is the script's, even where a word of the program is the same.
+bool is_script_name(std::string_view text) {
+    return text.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") == text.npos;
+}
+
+/// Words that stand for themselves only, such as "a vector", are no beginning of a sentence.
+bool ends_with_sign(std::string_view text) {
+    return text.find_last_of(".?!:;") == text.size() - 1;
+}
+
 bool ends_sentence(std::string_view text, std::size_t at) {
     return at == text.size() || text[at] == ' ';
+}
+
+/// How much of a text is file, line and function of a script's message; 0 for other texts.
+std::size_t place_in_script(std::string_view text) {
+    static const std::regex place(R"(^[^\s:]+:\d+: (?:[A-Za-z_][\w.]*: )?)");
+    std::cmatch found;
+    return std::regex_search(text.data(), text.data() + text.size(), found, place)
+               ? static_cast<std::size_t>(found.length())
+               : 0;
 }
 
 /// The number that a text begins with gets a comma; what follows it, a unit or an exponent, stays.
@@ -96,13 +115,25 @@ bool SentenceCatalogue::knows(std::string_view sentence) const {
     return found && found->end == sentence.size();
 }
 
+std::string SentenceCatalogue::told_line(std::string_view message) const {
+    const std::size_t place = place_in_script(message);
+    const std::string_view sentence = message.substr(place);
+    const std::optional<Fit> found = fitting(sentence);
+    const bool known = found && found->end == sentence.size();
+    return std::string(message.substr(0, place)) + (known ? written(*found) : std::string(sentence));
+}
+
 std::string SentenceCatalogue::written(const Fit& found) const {
     std::string text = found.entry->to.front();
     for (std::size_t i = 0; i < found.between.size(); ++i) {
         const std::string_view between = found.between[i];
-        const bool quoted = found.entry->from[i].ends_with('"');
-        const std::optional<Fit> known = fitting(between);
-        if (known && known->end == between.size())
+        const std::string& before = found.entry->from[i];
+        const bool quoted = before.ends_with('"') || before.ends_with('\'');
+        const bool of_script = place_in_script(between) > 0;
+        const std::optional<Fit> known = of_script ? std::nullopt : fitting(between);
+        if (of_script)
+            text += translated(between);
+        else if (known && known->end == between.size() && !(quoted && is_script_name(between)))
             text += written(*known);
         else
             text += quoted ? std::string(between) : with_comma(std::string(between));
@@ -113,9 +144,14 @@ std::string SentenceCatalogue::written(const Fit& found) const {
 
 std::string SentenceCatalogue::translated(std::string_view text) const {
     std::string result;
+    if (place_in_script(text) > 0) {
+        for (const std::string& line : lines_of(text)) result += (result.empty() ? "" : "\n") + told_line(line);
+        return result;
+    }
     while (!text.empty()) {
         std::size_t end = 0;
-        if (const std::optional<Fit> found = fitting(text)) {
+        const std::optional<Fit> found = fitting(text);
+        if (found && (found->end == text.size() || ends_with_sign(text.substr(0, found->end)))) {
             result += written(*found);
             end = found->end;
         } else {
@@ -128,14 +164,11 @@ std::string SentenceCatalogue::translated(std::string_view text) const {
     return result;
 }
 
-SentenceCatalogue french_sentences(const std::string& lesson) {
+SentenceCatalogue shared_french_sentences() {
     SentenceCatalogue sentences;
-    sentences.add(shared_folder() / "report_templates" / "sentences.fr.txt");
-    for (const Lesson& one : lessons()) {
-        const std::filesystem::path file = one.folder / "checks.fr.txt";
-        if (one.slug == lesson && std::filesystem::is_regular_file(file)) sentences.add(file);
-    }
+    for (const char* file : {"sentences.fr.txt", "script_errors.fr.txt"})
+        sentences.add(shared_folder() / "report_templates" / file);
     return sentences;
 }
 
-}  // namespace dynlab::inline course
+}  // namespace dynlab::inline documents
