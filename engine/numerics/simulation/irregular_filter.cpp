@@ -15,7 +15,7 @@ constexpr Index kSideBySide = 8;
 /// 4e-17 of the state.
 constexpr double kReach[] = {1.3e-3, 0.015, 0.062, 0.15, 0.3, 0.5};
 constexpr Index kFirstTerms = 4, kLastTerm = 14;
-constexpr double kUnit = 16;            // times 1/|A|
+constexpr double kUnit = 64;            // times 1/|A|
 constexpr std::int64_t kBase = 64;      // of the digits of longer steps
 constexpr double kMostUnits = 1 << 24;  // longer steps are made one by one
 constexpr Index kBesideF = 2;           // columns: G and R
@@ -193,7 +193,7 @@ double IrregularFilter::slope_behind(const VectorView& u, const VectorView& t, I
 std::vector<IrregularFilter::Step> IrregularFilter::steps(const VectorView& u, const VectorView& t,
                                                           Vector& input) const {
     const Index N = u.size();
-    std::vector<Step> steps(static_cast<std::size_t>(2 * N));
+    std::vector<Step> steps(static_cast<std::size_t>(delay_ > 0 ? 2 * N : N));  // without delay all changes are samples
     auto step = steps.begin();
     input.resize(N);
     double since = t(0), until = t(0) + delay_, value = 0, slope = 0;
