@@ -40,7 +40,8 @@ bool outputs_share_a_denominator(const TransferStructure& structure) {
 SrivcSolution solve(const IdData& data, const TransferStructure& structure, const FitOptions& options) {
     SrivcExtras extras;
     extras.with_gram = structure.outputs == 1 && options.tolerance <= kGramTolerance;
-    SrivcSolution solution = iterate_srivc(data, structure, start_from_rest(data, structure, options), options, extras);
+    const Vector start = start_from_rest(data, structure, options, CutoffTrials::kValleys);
+    SrivcSolution solution = iterate_srivc(data, structure, start, options, extras);
     for (int i = 0; outputs_share_a_denominator(structure) && i < kReweightings; ++i) {
         extras.weights.resize(structure.outputs);
         for (Index output = 0; output < structure.outputs; ++output)

@@ -15,7 +15,9 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr Index kScannedSamples = 50'000;  // of a longer record, its beginning
+constexpr Index kScannedSamples = 50'000;   // of a longer record, its beginning
+constexpr Index kScannedIrregular = 1'500;  // of one sampled irregularly, whose filters take several times as long
+constexpr double kAsLively = 0.5;           // inputs of a beginning that tells of the whole, by their deviations
 constexpr double kScanTolerance = 1e-4;
 constexpr int kScanPasses = 5, kScanIterations = 10;  // at each delay
 constexpr Index kFreshStart = 8;                      // so many delays apart the cut-off frequencies are tried anew
@@ -301,17 +303,46 @@ double likely_largest_delay(const IdData& data) {
     return std::min(std::ceil(steps) * data.mean_step(), std::max(quarter, data.mean_step()));
 }
 
+namespace {
+
+/// Whether the inputs of the beginning move about as much as those of the whole record.
+bool is_as_lively(const IdData& beginning, const IdData& data) {
+    const auto deviation = [](const VectorView& u) { return std::sqrt((u.array() - u.mean()).square().mean()); };
+    for (std::size_t e = 0; e < data.experiments.size(); ++e)
+        for (Index input = 0; input < data.input_count(); ++input)
+            if (deviation(beginning.experiments[e].u.col(input)) <
+                kAsLively * deviation(data.experiments[e].u.col(input)))
+                return false;
+    return true;
+}
+
+/// With delays up to `likely` at first (s).
+DelayScan scan_growing_range(const IdData& data, const TransferStructure& structure, double likely,
+                             const FitOptions& options) {
+    const double quarter = std::max(options.least_delay, shortest_record(data) / 4);
+    DelayRange range{options.least_delay, std::clamp(likely, options.least_delay, quarter)};
+    DelayScan scan = scan_range(data, structure, range, options);
+    while (range.largest < quarter && lowest_at_the_end(scan) && !(options.cancel && options.cancel())) {
+        range.largest = std::min(quarter, 2 * range.largest);
+        scan = scan_range(data, structure, range, options);
+    }
+    return scan;
+}
+
+}  // namespace
+
 DelayScan scan_delays(const IdData& data, const TransferStructure& structure, const FitOptions& options) {
     const IdData beginning = beginning_of(data, kScannedSamples);
     if (options.largest_delay) return scan_range(beginning, structure, delay_range(data, options), options);
-    const double quarter = std::max(options.least_delay, shortest_record(beginning) / 4);
-    DelayRange range{options.least_delay, std::clamp(likely_largest_delay(beginning), options.least_delay, quarter)};
-    DelayScan scan = scan_range(beginning, structure, range, options);
-    while (range.largest < quarter && lowest_at_the_end(scan) && !(options.cancel && options.cancel())) {
-        range.largest = std::min(quarter, 2 * range.largest);
-        scan = scan_range(beginning, structure, range, options);
+    const double likely = likely_largest_delay(beginning);
+    if (!data.regular() && data.sample_count() > 2 * kScannedIrregular) {
+        const IdData part = beginning_of(data, kScannedIrregular);
+        if (likely <= shortest_record(part) / 4 && is_as_lively(part, beginning)) {
+            DelayScan scan = scan_growing_range(part, structure, likely, options);
+            if (!lowest_at_the_end(scan)) return scan;
+        }
     }
-    return scan;
+    return scan_growing_range(beginning, structure, likely, options);
 }
 
 }  // namespace dynlab::inline numerics

@@ -33,7 +33,8 @@ TransferStructure with_delays_of(const TransferStructure& structure, const Vecto
 /// Every delay is fitted from its neighbours' solutions on both sides, some from filtered starts too, so that the curve
 /// is the lower envelope of what was found. Unless the options give the largest delay, the range grows while the curve
 /// is lowest at its end, up to a quarter of the shortest record. Of longer records the first 50,000 samples are looked
-/// at. The curve is the last channel's.
+/// at, of those sampled irregularly 1,500 where they tell of the whole: the inputs move as much as later, and the
+/// delays are shorter than a quarter of them. The curve is the last channel's.
 DelayScan scan_delays(const IdData& data, const TransferStructure& structure, const FitOptions& options);
 
 }  // namespace dynlab::inline numerics

@@ -12,7 +12,8 @@ namespace dynlab::inline numerics {
 namespace {
 
 constexpr int kCutoffs = 8;              // frequencies that best_cutoff_start tries
-constexpr int kTrialPasses = 4;          // passes after each of them
+constexpr int kTrialPasses = 4;          // passes after those that are followed
+constexpr double kFarOff = 3;            // times the smallest loss found: such starts are not followed
 constexpr Index kTrialSamples = 50'000;  // the start for a longer record is found on its beginning
 constexpr double kTrialTolerance = 1e-4;
 constexpr int kMostHalvings = 3;  // of a pass that raises the loss
@@ -157,6 +158,23 @@ void start_channels(const IdData& data, const TransferStructure& structure, Inde
     }
 }
 
+/// What the first estimate at a cut-off frequency leads to.
+struct CutoffStart {
+    Vector theta;
+    double loss;
+};
+
+/// Of starts in rising order of the cut-off frequency those of smaller loss than their neighbours.
+std::vector<CutoffStart> valleys_over_the_cutoff(const std::vector<CutoffStart>& starts) {
+    std::vector<CutoffStart> valleys;
+    for (std::size_t i = 0; i < starts.size(); ++i) {
+        const bool left = i == 0 || starts[i].loss <= starts[i - 1].loss;
+        const bool right = i + 1 == starts.size() || starts[i].loss < starts[i + 1].loss;
+        if (left && right) valleys.push_back(starts[i]);
+    }
+    return valleys;
+}
+
 bool shares_denominators(const TransferStructure& structure, Index output) {
     for (Index input = 1; input < structure.inputs; ++input)
         if (structure.channel(output, input).denominator != structure.channel(output, 0).denominator) return false;
@@ -287,24 +305,35 @@ Vector lssvf_start(const IdData& data, const TransferStructure& structure, doubl
     return theta;
 }
 
-Vector best_cutoff_start(const IdData& data, const TransferStructure& structure, const FitOptions& options) {
+Vector best_cutoff_start(const IdData& data, const TransferStructure& structure, const FitOptions& options,
+                         CutoffTrials trials) {
     const double Ts = data.mean_step();
     const double slowest = 4 / (longest_record(data) + Ts), fastest = 0.6 * std::numbers::pi / Ts;
     const double ratio = std::pow(fastest / slowest, 1.0 / (kCutoffs - 1));
-    Vector best = Vector::Constant(structure.parameter_count(), std::numeric_limits<double>::quiet_NaN());
-    double best_loss = kInfinity;
+    std::vector<CutoffStart> starts;
     double lambda = slowest;
     for (int i = 0; i < kCutoffs; ++i, lambda *= ratio) {
-        if (options.cancel && options.cancel() && best.allFinite()) break;
-        const Vector start = lssvf_start(data, structure, lambda, options.hold_y);
+        if (!starts.empty() && options.cancel && options.cancel()) break;
+        Vector start = lssvf_start(data, structure, lambda, options.hold_y);
         if (!start.allFinite()) continue;
-        const SrivcSolution trial = iterate_srivc(data, structure, start, options.limited(kTrialPasses, 1e-3));
+        const double loss = simulation_loss(data, structure, start);
+        starts.push_back({std::move(start), loss});
+    }
+    Vector best = Vector::Constant(structure.parameter_count(), std::numeric_limits<double>::quiet_NaN());
+    double best_loss = kInfinity;
+    const bool all = trials == CutoffTrials::kAll;
+    if (!all) starts = valleys_over_the_cutoff(starts);
+    std::stable_sort(starts.begin(), starts.end(),
+                     [](const CutoffStart& a, const CutoffStart& b) { return a.loss < b.loss; });
+    for (const CutoffStart& start : starts) {
+        if (!all && start.loss > kFarOff * best_loss) break;
         const auto consider = [&](const Vector& theta, double loss) {
             if (!(loss < best_loss)) return;
             best_loss = loss;
             best = theta;
         };
-        consider(start, simulation_loss(data, structure, start));
+        consider(start.theta, start.loss);
+        const SrivcSolution trial = iterate_srivc(data, structure, start.theta, options.limited(kTrialPasses, 1e-3));
         consider(trial.theta, simulation_loss(data, structure, trial));
     }
     if (!best.allFinite())
@@ -313,15 +342,17 @@ Vector best_cutoff_start(const IdData& data, const TransferStructure& structure,
     return best;
 }
 
-Vector first_estimate(const IdData& data, const TransferStructure& structure, const FitOptions& options) {
-    if (!options.lambda) return best_cutoff_start(data, structure, options);
+Vector first_estimate(const IdData& data, const TransferStructure& structure, const FitOptions& options,
+                      CutoffTrials trials) {
+    if (!options.lambda) return best_cutoff_start(data, structure, options, trials);
     return lssvf_start(data, structure, *options.lambda, options.hold_y);
 }
 
-Vector start_from_rest(const IdData& data, const TransferStructure& structure, const FitOptions& options) {
+Vector start_from_rest(const IdData& data, const TransferStructure& structure, const FitOptions& options,
+                       CutoffTrials trials) {
     const auto start_of = [&](const IdData& record) {
-        const Vector theta = first_estimate(record, structure, options);
-        return theta.allFinite() ? theta : best_cutoff_start(record, structure, options);
+        const Vector theta = first_estimate(record, structure, options, trials);
+        return theta.allFinite() ? theta : best_cutoff_start(record, structure, options, trials);
     };
     if (data.sample_count() <= 2 * kTrialSamples) return start_of(data);
     const IdData beginning = beginning_of(data, kTrialSamples);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "numerics/fit/transfer_search.h"
 #include "support/transfer_cases.h"
@@ -55,6 +56,30 @@ TEST(delay_scan, delays_stay_within_the_part_of_a_long_record_that_is_scanned) {
     const DelayScan scan = scan_delays(IdData{Matrix(y), Matrix(u), 0.1}, structure, {});
     EXPECT_LE(scan.largest, 50'000 * 0.1 / 4);
     EXPECT_NEAR(scan.starts.front()[2], 2.3, 0.3);
+}
+
+/// A pole and a delay (s) behind a binary input that rests up to a sample, at irregular instants.
+IdData irregular_record(double delay, Index rest) {
+    const Index N = 3100;
+    RandomStream random(9);
+    Vector t = Vector::Zero(N), u = prbs(12, 5).head(N);
+    for (Index k = 1; k < N; ++k) t[k] = t[k - 1] + 0.01 + 0.08 * random.uniform();
+    u.head(rest).setZero();
+    const Vector x = lsim(TransferFunction(values({1}), values({1, 0.5}), 0, delay), u, t);
+    return {x + 0.02 * random.normal(N), u, t};
+}
+
+// Oracle: the delays of the records. The beginning tells of the first; the second is longer than a quarter of it, and
+// nothing moves there in the third.
+TEST(delay_scan, the_beginning_of_an_irregular_record_is_scanned_where_it_tells_of_the_whole) {
+    TransferStructure structure = TransferStructure::single(1, 0);
+    structure.free_delays = true;
+    for (const auto& [delay, rest] : {std::pair{1.3, 0}, std::pair{27.0, 0}, std::pair{1.3, 1600}}) {
+        const IdData data = irregular_record(delay, rest);
+        const DelayScan scan = scan_delays(data, structure, {});
+        EXPECT_NEAR(scan.starts.front()[2], delay, 0.1) << rest;
+        EXPECT_NEAR(search_transfer("test", data, structure, {}).theta[2], delay, 0.02) << rest;
+    }
 }
 
 }  // namespace test_delay_scan

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "numerics/linalg/polynomial.h"
 #include "numerics/signals/random.h"
@@ -38,30 +39,50 @@ TEST(irregular_filter, equals_the_regular_filter_on_regular_instants) {  // orac
         }
 }
 
-// Oracle: a matrix exponential for every step. Steps from a thousandth to a hundred times the fastest time constant,
-// and from one to eleven states, twice the same poles among them.
-TEST(irregular_filter, equals_the_matrix_exponential_of_every_step) {
+/// Two systems of the same poles one behind the other, as the sensitivities of an output have them.
+Matrix cascade(const Matrix& A) {
+    const Index n = A.rows();
+    Matrix both = Matrix::Zero(2 * n, 2 * n);
+    both.topLeftCorner(n, n) = both.bottomRightCorner(n, n) = A;
+    both(n, n - 1) = 1;
+    return both;
+}
+
+std::vector<Matrix> systems_of_all_sizes() {
+    std::vector<Matrix> all;
     for (const Vector& den :
-         {Vector{{1, 3}}, Vector{{1, 20.2, 104.01, 20.8, 1.02}}, Vector{{1, 100, 4e4}}, Vector{{1, 8, 24, 32, 16}},
-          Vector{{1, 11, 55, 165, 330, 462, 462, 330, 165, 55, 11, 1}}}) {
-        const Matrix A = companion(den);
+         {Vector{{1, 3}}, Vector{{1, 100, 4e4}}, Vector{{1, 4, 5, 2}}, Vector{{1, 20.2, 104.01, 20.8, 1.02}},
+          Vector{{1, 8, 24, 32, 16}}, Vector{{1, 5, 10, 10, 5, 1}}, Vector{{1, 0, 0, 0}}}) {
+        all.push_back(companion(den));
+        all.push_back(cascade(all.back()));
+    }
+    all.push_back(companion(Vector{{1, 11, 55, 165, 330, 462, 462, 330, 165, 55, 11, 1}}));
+    return all;
+}
+
+// Oracle: a matrix exponential for every step. Steps from a thousandth to a hundred times the fastest time constant,
+// and from one to eleven states, several times the same poles among them, and integrators.
+TEST(irregular_filter, equals_the_matrix_exponential_of_every_step) {
+    for (const Matrix& A : systems_of_all_sizes()) {
         const Index n = A.rows(), N = 300;
         const Vector B = Vector::Unit(n, 0), u = RandomStream(7).normal(N);
         RandomStream random(8);
         Vector t(N);
         for (Index k = 0; k < N; ++k) t[k] = k == 0 ? 1 : t[k - 1] + 1e-4 * std::pow(10, 4 * random.uniform());
-        Vector x = 0.1 * Vector::Ones(n);
-        Matrix expected(N, n);
-        for (Index k = 0; k < N; ++k) {
-            expected.row(k) = x;
-            if (k + 1 == N) break;
-            const StepMatrices step = exact_step(A, B, t[k + 1] - t[k]);
-            x = step.F * x + step.H0.col(0) * u[k] + step.H1.col(0) * u[k + 1];
+        for (const Hold hold : {Hold::kZoh, Hold::kFoh}) {
+            Vector x = 0.1 * Vector::Ones(n);
+            Matrix expected(N, n);
+            for (Index k = 0; k < N; ++k) {
+                expected.row(k) = x;
+                if (k + 1 == N) break;
+                const StepMatrices step = exact_step(A, B, t[k + 1] - t[k]);
+                x = step.F * x + step.H0.col(0) * u[k] + step.H1.col(0) * u[hold == Hold::kFoh ? k + 1 : k];
+            }
+            IrregularFilter filter(A, B, Matrix::Identity(n, n), Vector::Zero(n), hold);
+            const Matrix found = filter.run(u, t, 0.1 * Vector::Ones(n));
+            for (Index i = 0; i < n; ++i)
+                EXPECT_LT((found.col(i) - expected.col(i)).norm(), 1e-11 * expected.col(i).norm()) << n << ", " << i;
         }
-        IrregularFilter filter(A, B, Matrix::Identity(n, n), Vector::Zero(n), Hold::kFoh);
-        const Matrix found = filter.run(u, t, 0.1 * Vector::Ones(n));
-        for (Index i = 0; i < n; ++i)
-            EXPECT_LT((found.col(i) - expected.col(i)).norm(), 1e-11 * expected.col(i).norm()) << n << ", " << i;
     }
 }
 
