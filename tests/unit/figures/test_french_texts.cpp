@@ -58,7 +58,6 @@ TEST(french_texts, numbers_beside_the_axes_have_commas_where_asked_for) {
     EXPECT_THAT(commas, Not(HasSubstr("'0.5'")));
 }
 
-}  // namespace test_french_texts
 TEST(french_texts, percentages_stand_behind_what_they_are_of) {
     EXPECT_EQ(in_french(picture("time (s)", "99.5 % confidence")).panels[0].curves[0].label, "confiance à 99,5 %");
     EXPECT_EQ(in_french(picture("time (s)", "99 % bound")).panels[0].curves[0].label, "borne à 99 %");
@@ -66,5 +65,7 @@ TEST(french_texts, percentages_stand_behind_what_they_are_of) {
               "bande de prévision à 95 %");
     EXPECT_EQ(in_french(picture("time (s)", "my own % bound")).panels[0].curves[0].label, "my own % bound");
 }
+
+}  // namespace test_french_texts
 
 }  // namespace dynlab::test
