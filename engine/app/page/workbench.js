@@ -50,13 +50,14 @@ function drawPanels() {
   const steps = $("steps"), active = document.activeElement;
   panelsAreOld = held;
   if (held) return drawModels();
-  const path = steps.contains(active) ? placeOf(steps, active) : null, open = [...steps.querySelectorAll("details")].map((node) => node.open), scrolled = steps.scrollTop;
+  const path = steps.contains(active) ? placeOf(steps, active) : null, chosen = chosenDetails(steps), scrolled = steps.scrollTop;
   const typedText = path && active.type === "text" && active.value !== active.defaultValue ? active.value : null;
   const views = element("section", { className: "panel" }, element("h2", { textContent: say("views") }),
     element("div", { className: "adding" }, ...viewNames().map((name) => button(viewName(name), () => toggleView(name), { ariaPressed: String(shownViews().includes(name)) }))));
   steps.replaceChildren(...[recordPanel(), preparationPanel(), partsPanel(), readingPanel(), estimatePanel(), knownPanel(), views, exportsPanel()].filter(Boolean));
-  const details = [...steps.querySelectorAll("details")];
-  if (details.length === open.length) details.forEach((node, i) => { node.open = open[i]; });
+  for (const [key, node] of namedDetails(steps)) {
+    if (chosen.has(key)) Object.assign(node, { open: chosen.get(key) }).dataset.chosen = "1";
+  }
   steps.scrollTop = scrolled;
   const again = path && nodeAt(steps, path);
   if (again && again.tagName === active.tagName) {
@@ -70,6 +71,21 @@ function drawModels() {
   document.querySelector("#views > .models")?.remove();
   if (models) $("views").prepend(models);
 }
+/// What folds, by its title without the number behind it and its place among those of that title.
+function namedDetails(root) {
+  const seen = {};
+  return [...root.querySelectorAll("details")].map((node) => {
+    const title = node.querySelector("summary").textContent.replace(/ \(\d+\)$/, "");
+    seen[title] = (seen[title] ?? 0) + 1;
+    return [`${title} ${seen[title]}`, node];
+  });
+}
+/// Which the user opened or closed: these stay as they are, the others follow what they hold.
+const chosenDetails = (root) => new Map(namedDetails(root).filter(([, node]) => node.dataset.chosen).map(([key, node]) => [key, node.open]));
+$("steps").addEventListener("click", ({ target }) => {
+  const node = target.closest("summary")?.parentNode;
+  if (node) node.dataset.chosen = "1";
+});
 function placeOf(root, node) {
   const path = [];
   for (; node !== root; node = node.parentNode) path.unshift([...node.parentNode.children].indexOf(node));

@@ -1,4 +1,5 @@
 #pragma once
+#include <chrono>
 #include <optional>
 #include <string>
 
@@ -10,7 +11,14 @@ namespace dynlab::inline scripting {
 /// with its large arguments by size), so that where nothing is kept no content is looked at.
 class CallCache {
   public:
-    explicit CallCache(const Cache& cache) : cache_(cache) {}  ///< `cache` must outlive it
+    using Duration = std::chrono::steady_clock::duration;
+    /// Far more than it takes to read a result back.
+    static constexpr Duration kShortest = std::chrono::milliseconds(10);
+
+    /// Calls that take less than `shortest` are not kept. `cache` must outlive it.
+    explicit CallCache(const Cache& cache, Duration shortest = kShortest) : cache_(cache), shortest_(shortest) {}
+
+    bool worth_keeping(Duration taken) const { return taken >= shortest_; }
 
     bool lasting() const { return cache_.lasting(); }
     /// Whether a call of this shape took long once and was kept.
@@ -30,6 +38,7 @@ class CallCache {
 
   private:
     const Cache& cache_;
+    Duration shortest_;
     CacheUse use_;
 };
 

@@ -10,9 +10,6 @@ namespace dynlab::inline scripting {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using namespace std::chrono_literals;
-
-constexpr auto kShortestKeptCall = 10ms;  // far more than it takes to read a result back
 
 /// Pushes the values of an archived result, prints its text and returns their number. Nothing, and nothing is done, for
 /// bytes that hold no result.
@@ -108,8 +105,8 @@ class WatchedCall {
         std::optional<KeptArguments> arguments;
         if (shape && !text) arguments.emplace(call_);
         const int count = compute(body);
-        if (taken_ < kShortestKeptCall && known) cache_.forget(*shape);
-        if (taken_ < kShortestKeptCall || call_.cancel()()) return count;
+        if (!cache_.worth_keeping(taken_) && known) cache_.forget(*shape);
+        if (!cache_.worth_keeping(taken_) || call_.cancel()()) return count;
         if (arguments) text = arguments->text(function);
         if (text || !cache_.lasting()) cache_.count_computed();
         if (text) keep(*shape, *text, count);
