@@ -11,7 +11,8 @@ void keep_freed_memory() {
 }
 
 void return_freed_memory() {
-    malloc_trim(0);
+    constexpr std::size_t kWorthIt = 8 << 20;
+    if (mallinfo2().fordblks > kWorthIt) malloc_trim(0);
 }
 
 }  // namespace dynlab::inline platform

@@ -1,4 +1,3 @@
-#include <malloc.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -14,6 +13,7 @@
 #include "numerics/signals/prbs.h"
 #include "numerics/signals/random.h"
 #include "numerics/simulation/lsim.h"
+#include "support/peak_memory.h"
 
 namespace dynlab::bench {
 namespace {
@@ -148,23 +148,10 @@ void measure_growth(const std::string& what, Method method, const Record& ten_mi
     report.results.push_back({what + ", N = 1e7 (s)", "ten records of N = 1e6 (s)", measured, reference, 1.2, 0});
 }
 
-/// Most memory in use while the work is done, MB; not what was freed before.
-double peak_memory(const std::function<void()>& work) {
-    malloc_trim(0);
-    std::ofstream("/proc/self/clear_refs") << 5;  // starts the peak anew
-    work();
-    std::ifstream status("/proc/self/status");
-    for (std::string word; status >> word;) {
-        double kilobytes = 0;
-        if (word == "VmHWM:" && status >> kilobytes) return kilobytes / 1024;
-    }
-    throw std::runtime_error("/proc/self/status does not tell VmHWM");
-}
-
 void measure_memory(const std::string& what, Method method, Report& report) {
     const IdData data = std::move(Record(kVeryLong).data);
     const double megabytes = 2.0 * static_cast<double>(kVeryLong) * sizeof(double) / (1 << 20);
-    const double peak = peak_memory([&] { method(data); });
+    const double peak = test::peak_memory([&] { method(data); });
     report.results.push_back(
         {"peak memory of " + what + ", N = 1e7 (MB)", "the data and 64 MB", peak, megabytes + 64, 1, 0});
 }

@@ -64,11 +64,8 @@ class PageProgram {
     }
     const std::string& address() const { return address_; }
     pid_t process() const { return process_; }
-    TemporaryFolder out;
-
-  private:
-    /// All that come from the program's process, the eldest first.
-    std::vector<pid_t> runners() const {
+    /// The program's process and all that come from it, the eldest first.
+    std::vector<pid_t> processes() const {
         std::vector<pid_t> all = {process_};
         for (std::size_t i = 0; i < all.size(); ++i) {
             std::error_code gone;
@@ -78,6 +75,13 @@ class PageProgram {
                 for (pid_t child = 0; children >> child;) all.push_back(child);
             }
         }
+        return all;
+    }
+    TemporaryFolder out;
+
+  private:
+    std::vector<pid_t> runners() const {
+        std::vector<pid_t> all = processes();
         all.erase(all.begin());
         return all;
     }

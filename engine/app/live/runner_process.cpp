@@ -20,6 +20,7 @@
 #include "figures/gnuplot_renderer.h"
 #include "platform/cache.h"
 #include "platform/error.h"
+#include "platform/memory.h"
 #include "platform/terminal/progress.h"
 #include "scripting/memoized_calls/call_cache.h"
 #include "scripting/runtime/report_language.h"
@@ -144,9 +145,11 @@ class RunnerProcess {
                 ::_exit(0);
             }
             const bool keep = i + 1 < parts.size() && seconds_since(kept_at_) >= kWorthKeeping;
+            if (keep) return_freed_memory();
             if (keep && split() == Side::kStays) return;
         }
         tell({.kind = "ended", .part = last});
+        return_freed_memory();
     }
 
     void begin(const RunOrder& order, const PercentScript& script) {

@@ -7,6 +7,7 @@
 #include "numerics/fit/spectral_estimate.h"
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/least_squares.h"
+#include "numerics/linalg/tall_gram.h"
 #include "numerics/number_text.h"
 #include "numerics/statistics/chi_squared.h"
 
@@ -16,36 +17,73 @@ namespace {
 
 constexpr Index kFewestSamplesOfImpulseest = 8, kMostLags = 400;
 
-/// Rows [u(k) u(k-1) .. u(k-n)] and y(k), both without their means over the experiment (which estimates c).
+/// Rows [u(k) u(k-1) .. u(k-n)] and y(k) of an experiment, without their means over it (which estimates c).
+class CentredRows {
+  public:
+    CentredRows(const Experiment& experiment, Index n)
+        : u_(experiment.u.col(0)), y_(experiment.y.col(0).tail(experiment.y.rows() - n)), means_(n + 1) {
+        for (Index i = 0; i <= n; ++i) means_[i] = u_.segment(n - i, y_.size()).mean();
+        mean_ = y_.mean();
+    }
+    Index count() const { return y_.size(); }
+    void put(Index first, Eigen::Ref<Matrix> Phi, Eigen::Ref<Vector> y) const {
+        const Index n = means_.size() - 1;
+        for (Index i = 0; i <= n; ++i) Phi.col(i) = u_.segment(first + n - i, Phi.rows()).array() - means_[i];
+        y = y_.segment(first, y.size()).array() - mean_;
+    }
+
+  private:
+    VectorView u_, y_;
+    Vector means_;
+    double mean_ = 0;
+};
+
 struct Regression {
     Matrix Phi;
     Vector y;
-    Index offsets;  ///< parameters c that were taken out
 };
-
 Regression regression_of(const IdData& data, Index n) {
-    Index rows = 0;
+    Index rows = 0, at = 0;
     for (const Experiment& experiment : data.experiments) rows += experiment.y.rows() - n;
-    Regression regression{Matrix(rows, n + 1), Vector(rows), static_cast<Index>(data.experiments.size())};
-    Index at = 0;
+    Regression regression{Matrix(rows, n + 1), Vector(rows)};
     for (const Experiment& experiment : data.experiments) {
-        const Index count = experiment.y.rows() - n;
-        auto block = regression.Phi.middleRows(at, count);
-        for (Index i = 0; i <= n; ++i) block.col(i) = experiment.u.col(0).segment(n - i, count);
-        const Eigen::RowVectorXd mean = block.colwise().mean();
-        block.rowwise() -= mean;
-        const auto y = experiment.y.col(0).tail(count);
-        regression.y.segment(at, count) = y.array() - y.mean();
-        at += count;
+        const CentredRows of(experiment, n);
+        of.put(0, regression.Phi.middleRows(at, of.count()), regression.y.segment(at, of.count()));
+        at += of.count();
     }
     return regression;
 }
 
-double degrees_of(const Regression& regression) {
-    return static_cast<double>(std::max<Index>(regression.y.size() - regression.Phi.cols() - regression.offsets, 1));
+/// Phi' Phi, Phi' y and y' y, from few rows at a time: a long record needs no memory for the rest of Phi.
+struct Sums {
+    Matrix gram;
+    Vector projection;
+    double energy = 0;
+};
+Sums sums_of(const IdData& data, Index n) {
+    constexpr Index kRows = 4096;
+    Matrix joint = Matrix::Zero(n + 2, n + 2), Phi(kRows, n + 1);
+    Vector y(kRows);
+    for (const Experiment& experiment : data.experiments) {
+        const CentredRows of(experiment, n);
+        for (Index first = 0; first < of.count(); first += kRows) {
+            const Index rows = std::min(kRows, of.count() - first);
+            of.put(first, Phi.topRows(rows), y.head(rows));
+            joint += tall_gram(Phi.topRows(rows), y.head(rows));
+        }
+    }
+    return {joint.topLeftCorner(n + 1, n + 1), joint.col(n + 1).head(n + 1), joint(n + 1, n + 1)};
 }
 
-void fit_plainly(const Regression& regression, ImpulseEstimate& estimate) {
+/// Samples that are fitted, without those which the experiments' c take.
+double free_samples(const IdData& data, Index n) {
+    Index count = 0;
+    for (const Experiment& experiment : data.experiments) count += experiment.y.rows() - n - 1;
+    return static_cast<double>(count);
+}
+
+void fit_plainly(const IdData& data, Index n, ImpulseEstimate& estimate) {
+    const Regression regression = regression_of(data, n);
     const LeastSquares fit = solve_least_squares(regression.Phi, regression.y);
     if (fit.rank < regression.Phi.cols() || fit.condition_number > 1e8)
         throw InvalidArgument(
@@ -54,7 +92,8 @@ void fit_plainly(const Regression& regression, ImpulseEstimate& estimate) {
             " samples of the impulse response; use the smooth estimate, fewer lags, or resample the data to a "
             "lower rate first");
     estimate.response = fit.solution;
-    estimate.noise_variance = fit.residuals.squaredNorm() / degrees_of(regression);
+    estimate.noise_variance =
+        fit.residuals.squaredNorm() / std::max(free_samples(data, n) - static_cast<double>(n + 1), 1.0);
     estimate.std = (estimate.noise_variance * fit.inverse_gram.diagonal().array()).sqrt();
     estimate.null_std = estimate.std;
 }
@@ -110,31 +149,27 @@ void choose_scale(Choice& choice) {
     choice.loss = evidence.loss(choice.kappa);
 }
 
-Choice choice_for(const Matrix& gram, const Vector& projection, double energy, double count, double lambda) {
-    const Matrix L = kernel_root(gram.rows(), lambda);
-    const auto [values, vectors] = symmetric_eigen(L.transpose() * gram * L);
+Choice choice_for(const Sums& sums, double count, double lambda) {
+    const Matrix L = kernel_root(sums.gram.rows(), lambda);
+    const auto [values, vectors] = symmetric_eigen(L.transpose() * sums.gram * L);
     Choice choice;
     choice.evidence.LU = L * vectors;
     choice.evidence.d = values.cwiseMax(0);
-    choice.evidence.b = choice.evidence.LU.transpose() * projection;
-    choice.evidence.energy = energy;
+    choice.evidence.b = choice.evidence.LU.transpose() * sums.projection;
+    choice.evidence.energy = sums.energy;
     choice.evidence.count = count;
     choose_scale(choice);
     return choice;
 }
 
 /// Decays are tried so that the prior falls to a thousandth within 3 % to 300 % of the lags.
-void fit_smoothly(const Regression& regression, ImpulseEstimate& estimate) {
-    const Matrix gram = regression.Phi.transpose() * regression.Phi;
-    const Vector projection = regression.Phi.transpose() * regression.y;
-    const double energy = regression.y.squaredNorm(),
-                 count = static_cast<double>(regression.y.size() - regression.offsets);
+void fit_smoothly(const Sums& sums, double count, ImpulseEstimate& estimate) {
     constexpr int kDecays = 16;
     Choice best;
     for (int i = 0; i < kDecays; ++i) {
         const double span = std::pow(100.0, static_cast<double>(i) / (kDecays - 1) - 0.75) * 3;
-        const double lambda = std::exp(std::log(1e-3) / (span * static_cast<double>(gram.rows())));
-        Choice choice = choice_for(gram, projection, energy, count, lambda);
+        const double lambda = std::exp(std::log(1e-3) / (span * static_cast<double>(sums.gram.rows())));
+        Choice choice = choice_for(sums, count, lambda);
         if (choice.loss < best.loss) best = std::move(choice);
     }
     const Evidence& e = best.evidence;
@@ -163,13 +198,13 @@ ImpulseEstimate impulseest(const IdData& data, const ImpulseestOptions& options)
     Index shortest = record.sample_count();
     for (const Experiment& experiment : record.experiments) shortest = std::min(shortest, experiment.y.rows());
     const Index n = lags_or_default("impulseest", options.lags, shortest);
-    const Regression regression = regression_of(record, n);
-    if (!(regression.Phi.cwiseAbs().maxCoeff() > 0) || !(regression.y.cwiseAbs().maxCoeff() > 0))
+    const Sums sums = sums_of(record, n);
+    if (!(sums.gram.diagonal().maxCoeff() > 0) || !(sums.energy > 0))
         throw InvalidArgument("impulseest: after the first " + std::to_string(n) +
                               " samples nothing changes any more; use fewer lags");
     ImpulseEstimate estimate;
     estimate.t = Vector::LinSpaced(n + 1, 0, static_cast<double>(n)) * data.Ts;
-    options.smooth ? fit_smoothly(regression, estimate) : fit_plainly(regression, estimate);
+    options.smooth ? fit_smoothly(sums, free_samples(record, n), estimate) : fit_plainly(record, n, estimate);
     estimate.message = "Impulse response over " + std::to_string(n) + " lags by " +
                        (options.smooth ? "regularised" : "plain") + " least squares.";
     read_dead_time(estimate, data.Ts, normal_half_width(options.confidence));

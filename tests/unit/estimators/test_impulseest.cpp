@@ -8,6 +8,7 @@
 #include "numerics/error.h"
 #include "numerics/signals/random.h"
 #include "support/difference_equation.h"
+#include "support/peak_memory.h"
 #include "support/thrown_message.h"
 
 namespace test_impulseest {
@@ -45,6 +46,12 @@ TEST(impulseest, is_exact_for_noise_free_finite_responses) {  // oracle: the res
     EXPECT_LT((estimate.response - g).cwiseAbs().maxCoeff(), 1e-12);
     EXPECT_LT(estimate.noise_variance, 1e-24);
     EXPECT_EQ(estimate.t[20], 2);
+}
+
+TEST(impulseest, a_long_record_takes_little_more_than_itself) {  // oracle: the size of all its equations
+    const IdData data = record(response_with(3, 21), RandomStream(2).normal(300000), 0.1, 1);
+    const double before = peak_memory([] {}), equations = 300000.0 * 71 * sizeof(double) / (1 << 20);
+    EXPECT_LT(peak_memory([&] { impulseest(data); }) - before, equations / 5);
 }
 
 TEST(impulseest, plain_errors_are_those_it_states) {  // oracle: statistics over 300 seeds
