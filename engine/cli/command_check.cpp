@@ -7,8 +7,11 @@
 #include "course/findings/folder_check.h"
 #include "course/findings/french_sentences.h"
 #include "course/hand_ins/work_language.h"
+#include "documents/text_lines.h"
 #include "platform/error.h"
 #include "platform/program_lookup.h"
+#include "platform/temporary_folder.h"
+#include "workflow/script_folder.h"
 
 namespace dynlab::inline cli {
 namespace {
@@ -29,9 +32,28 @@ std::shared_ptr<const SoughtNames> sought_by(const CheckArguments& words) {
     return names;
 }
 
+/// A script that stands alone is held to what its folder would be.
+CheckResult check_script(const fs::path& script, const CheckOptions& wishes) {
+    const TemporaryFolder folder;
+    make_script_folder(script, folder.path());
+    CheckResult result = check_folder(folder.path(), running_program(), wishes);
+    result.subject = script.string();
+    const std::string name = script.filename().string(), pdf = fs::path(name).replace_extension(".pdf").string();
+    for (Finding& finding : result.findings)
+        for (std::string* text : {&finding.place, &finding.what, &finding.remedy})
+            *text = replaced(replaced(replaced(*text, "analysis.lua", name), "report.pdf", pdf), "FOLDER", name);
+    return result;
+}
+
+bool is_script(const fs::path& subject) {
+    return fs::is_regular_file(subject) && subject.extension() == ".lua";
+}
+
 /// Findings of French work are told in French.
 SentenceCatalogue sentences_for(const fs::path& subject, const CheckResult& result) {
-    const std::string language = fs::is_directory(subject) ? language_of_work(subject) : result.language;
+    std::string language = result.language;
+    if (fs::is_directory(subject)) language = language_of_work(subject);
+    if (is_script(subject)) language = read_percent_script(subject).header.language;
     return language == "fr" ? french_sentences(result.lesson) : SentenceCatalogue();
 }
 
@@ -53,6 +75,8 @@ int check(const CheckArguments& words) {
     if (!fs::exists(words.subject)) return misuse("there is no file or folder '" + words.subject + "'");
     if (fs::is_directory(words.subject))
         result = check_folder(words.subject, running_program(), wishes);
+    else if (is_script(words.subject))
+        result = check_script(words.subject, wishes);
     else
         result = check_pdf(words.subject, wishes);
     std::cout << (words.as_json ? findings_as_json(result)
@@ -66,7 +90,9 @@ void add_check(CLI::App& app, Action& action) {
     auto words = std::make_shared<CheckArguments>();
     CLI::App* command =
         app.add_subcommand("check", "Look at a report as an instructor does first: what must be mended");
-    command->add_option("FOLDER|FILE.pdf", words->subject, "A folder made by dynlab new, or a PDF from anywhere")
+    command
+        ->add_option("FOLDER|FILE.lua|FILE.pdf", words->subject,
+                     "A folder made by dynlab new, a script that stands alone, or a PDF from anywhere")
         ->required();
     command
         ->add_option("--template", words->template_name, "Hold it against this template, such as lab_report or slides")
@@ -79,7 +105,8 @@ void add_check(CLI::App& app, Action& action) {
     command->add_flag("--document-only", words->document_only, "Leave out the lesson's checks of the answers");
     command->add_flag("--json", words->as_json, "Print the findings as JSON, for programs");
     command->footer(
-        "A folder is copied and its analysis run in the clean copy; nothing is written into it.\n"
+        "A folder is copied and its analysis run in the clean copy; nothing is written into it. A script, such as a\n"
+        "session of dynlab app, is taken as a folder with the files that it names.\n"
         "What is demanded comes from the template that analysis.lua names; of a PDF alone, wide pages are slides, the\n"
         "headings of a review make it a peer_review, and others are a lab_report. Pages, sections, figures that the\n"
         "text never mentions, unfilled slots, languages, text size and margins are looked at. The members in\n"

@@ -12,7 +12,9 @@
 #include "documents/pdf/pdf_layout.h"
 #include "numerics/number_text.h"
 #include "platform/error.h"
+#include "platform/temporary_folder.h"
 #include "platform/terminal/terminal_text.h"
+#include "workflow/script_folder.h"
 
 namespace dynlab::inline cli {
 namespace {
@@ -62,7 +64,13 @@ void tell_of_report(const fs::path& folder, const std::string& subject) {
 int pack(const PackArguments& words) {
     fs::path folder = fs::absolute(words.subject).lexically_normal();
     if (!folder.has_filename()) folder = folder.parent_path();
-    const fs::path file = words.output.empty() ? fs::path(folder.filename().string() + ".zip") : fs::path(words.output);
+    const std::string own_name = (fs::is_directory(folder) ? folder.filename() : folder.stem()).string();
+    const fs::path file = words.output.empty() ? fs::path(own_name + ".zip") : fs::path(words.output);
+    const TemporaryFolder made;
+    if (!fs::is_directory(folder)) {
+        make_script_folder(folder, made.path());
+        folder = made.path();
+    }
     const Pack pack = pack_folder(folder, file);
     for (const std::string& name : pack.files) std::cout << terminal_text(name) << '\n';
     for (const std::string& name : pack.left_out)
@@ -110,10 +118,12 @@ int bundle(const PackArguments& words) {
 void add_pack(CLI::App& app, Action& action) {
     auto words = std::make_shared<PackArguments>();
     CLI::App* command = app.add_subcommand("pack", "Make one file of your folder, to hand in");
-    command->add_option("DIR", words->subject, "The folder that dynlab new made")
+    command
+        ->add_option("DIR|FILE.lua", words->subject,
+                     "The folder that dynlab new made, or a script, which becomes analysis.lua of such a folder")
         ->required()
-        ->check(CLI::ExistingDirectory);
-    command->add_option("-o,--output", words->output, "The zip to make; DIR.zip here unless given")
+        ->check(CLI::ExistingPath);
+    command->add_option("-o,--output", words->output, "The zip to make; DIR.zip or FILE.zip here unless given")
         ->type_name("FILE.zip");
     command->footer(
         "The data link and the figures that dynlab run saved (analysis_out) are left out. Equal folders give equal "

@@ -26,12 +26,15 @@ int report(const ReportArguments& words) {
 
 void add_report(CLI::App& app, Action& action) {
     auto words = std::make_shared<ReportArguments>();
-    CLI::App* command = app.add_subcommand("report", "Make the PDF of a lesson, or of your own folder");
-    command->add_option("LESSON|FOLDER", words->subject, "A lesson's number or name, or a folder made by dynlab new")
+    CLI::App* command = app.add_subcommand("report", "Make the PDF of a lesson, or of your own folder or script");
+    command
+        ->add_option("LESSON|FOLDER|FILE.lua", words->subject,
+                     "A lesson's number or name, a folder made by dynlab new, or a script")
         ->required();
     command
-        ->add_option("-o,--output", words->output,
-                     "Where to write it (.pdf, .html or .md); else a folder's into it, a lesson's here")
+        ->add_option(
+            "-o,--output", words->output,
+            "Where to write it (.pdf, .html or .md); else a folder's into it, a script's beside it, a lesson's here")
         ->type_name("FILE");
     command->add_option("--record", words->record, "Where to write what the script gave, too (.json)")
         ->type_name("FILE");

@@ -220,14 +220,14 @@ std::string identification_script(const IdentifyRequest& request) {
     for (std::size_t i = 0; i < request.outputs.size(); ++i) {
         const std::string& output = request.outputs[i];
         const std::string suffix = request.outputs.size() == 1 ? "" : fmt::format("_{}", i + 1);
-        script +=
-            fmt::format(kData, "s"_a = suffix, "data"_a = record.data("record", output), "output"_a = lua_text(output));
+        script += fmt::format(kData, "s"_a = suffix, "data"_a = record.data("record", {output}),
+                              "output"_a = lua_text(output));
         if (!request.poles) script += search_of(request, suffix);
         script += fmt::format(kModel, "s"_a = suffix, "structure"_a = structure_of(request),
                               "estimate"_a = estimating_call(request, suffix));
         script += fmt::format(kFit, "s"_a = suffix, "remark"_a = unseen ? "" : kNoValidation);
         script += unseen
-                      ? fmt::format(kCompareBoth, "s"_a = suffix, "validation"_a = unseen->data("validation", output))
+                      ? fmt::format(kCompareBoth, "s"_a = suffix, "validation"_a = unseen->data("validation", {output}))
                       : fmt::format(kCompare, "s"_a = suffix);
         script +=
             fmt::format(kRest, "s"_a = suffix, "tested"_a = unseen ? "unseen" : "data",

@@ -172,13 +172,19 @@ ReportRequest report_of_script(const PercentScript& script, const fs::path& outp
     return request;
 }
 
-ReportRequest report_of(const std::string& lesson_or_folder, const fs::path& output, const std::string& language) {
-    const fs::path folder = lesson_or_folder;
+ReportRequest report_of(const std::string& subject, const fs::path& output, const std::string& language) {
+    const fs::path folder = subject;
+    if (fs::is_regular_file(folder)) {
+        if (!language.empty())
+            throw EnvironmentError("the language of " + subject + " stands in its header, behind \"language:\"");
+        return report_of_script(read_percent_script(folder),
+                                output.empty() ? fs::path(folder).replace_extension(".pdf") : output);
+    }
     if (!fs::is_directory(folder) || (lesson_in(folder) && !fs::exists(folder / "analysis.lua")))
-        return report_of_lesson(find_lesson(lesson_or_folder), output, language);
+        return report_of_lesson(find_lesson(subject), output, language);
     if (!language.empty())
-        throw EnvironmentError("the language of " + lesson_or_folder + " stands in its report.md, behind \"lang:\"");
-    return report_of_folder(lesson_or_folder, output);
+        throw EnvironmentError("the language of " + subject + " stands in its report.md, behind \"lang:\"");
+    return report_of_folder(subject, output);
 }
 
 DocumentSource document_source(const ReportRequest& request, const RunRecord& record) {

@@ -52,12 +52,13 @@ struct ReportResult {
     std::optional<CacheUse> long_calls, figures;          ///< of the script, when it was run
 };
 
-/// The report of a lesson (`name`, any unique beginning: its worked solution) or of a student's folder (analysis.lua
-/// and report.md; the group's seed from group.toml). A lesson is woven, or fills the report.LANGUAGE.md beside it.
-/// Without `output` a lesson's goes to the current folder (02_least_squares.pdf), a folder's into it (report.pdf).
-/// `language` is the script's unless given; a folder's stands in its report.md. Throws EnvironmentError for a folder
-/// without these files, a lesson without a report in the language asked for, a language asked of a folder.
-ReportRequest report_of(const std::string& lesson_or_folder, const std::filesystem::path& output = {},
+/// The report of a lesson (`name`, any unique beginning: its worked solution), of a student's folder (analysis.lua
+/// and report.md; the group's seed from group.toml) or of a script. A lesson is woven, or fills the report.LANGUAGE.md
+/// beside it. Without `output` a lesson's goes to the current folder (02_least_squares.pdf), a folder's into it
+/// (report.pdf), a script's beside it (FILE.pdf). `language` is the script's unless given; a folder's stands in its
+/// report.md. Throws EnvironmentError for a folder without these files, a lesson without a report in the language asked
+/// for, a language asked of a folder or script.
+ReportRequest report_of(const std::string& subject, const std::filesystem::path& output = {},
                         const std::string& language = {});
 /// The task sheet of a lesson: its text, data and code without the solutions, as students get it, with the places for
 /// their answers, in `language` unless empty. Without `output` it goes to the current folder:

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <regex>
+#include <set>
 
 #include "data_io/tables/unit_text.h"
 #include "platform/error.h"
@@ -17,6 +20,22 @@ std::string lua_texts(const std::vector<std::string>& texts) {
     std::vector<std::string> quoted;
     for (const std::string& text : texts) quoted.push_back(lua_text(text));
     return quoted.size() == 1 ? quoted.front() : fmt::format("{{{}}}", fmt::join(quoted, ", "));
+}
+
+/// What stands behind a table to give its field: .y, or ["water level"].
+std::string field_of(const std::string& name) {
+    static const std::regex kName("[A-Za-z_][A-Za-z0-9_]*");
+    static const std::set<std::string> kReserved = {
+        "and", "break", "do",  "else", "elseif", "end",    "false",  "for",  "function", "goto",  "if",
+        "in",  "local", "nil", "not",  "or",     "repeat", "return", "then", "true",     "until", "while"};
+    return std::regex_match(name, kName) && !kReserved.contains(name) ? "." + name : "[" + lua_text(name) + "]";
+}
+
+/// The even spacing of the instants as one writes it, where that leads no sample astray by a hundredth of a spacing.
+std::optional<double> short_spacing(const Vector& t) {
+    const double gaps = static_cast<double>(t.size() - 1), spacing = (t[t.size() - 1] - t[0]) / gaps;
+    const double written = std::stod(fmt::format("{:.6g}", spacing));
+    return std::abs(written - spacing) * gaps < 0.01 * spacing ? std::optional(written) : std::nullopt;
 }
 
 }  // namespace
@@ -58,7 +77,7 @@ void Recording::find_sampling(std::optional<double> given, const std::string& ti
     if (even_ && states_Ts && time.empty()) {
         time_.reset();
         sampling_ = "{0}.Ts";
-    } else if (!time_) {
+    } else if (sampling_.empty()) {
         throw EnvironmentError(
             name_ +
             " states no sampling time and has no column t or time, nor one whose header has a unit of "
@@ -77,6 +96,10 @@ void Recording::look_at_instants() {
                                            t[*spacing.disorder + 1]));
     even_ = spacing.even;
     sampling_ = even_ ? "({0}_t[#{0}_t] - {0}_t[1])/(#{0}_t - 1)" : "nil";
+    if (const auto written = even_ ? short_spacing(t * time_->seconds) : std::nullopt) {
+        sampling_ = fmt::format("{}", *written);
+        time_.reset();
+    }
 }
 
 std::string Recording::loading(const std::string& variable) const {
@@ -94,11 +117,17 @@ std::string Recording::samples(const std::string& variable, const std::string& n
     return fmt::format("(fillmissing({}{}))", read, even_ ? "" : fmt::format(", {{t = {}_t}}", variable));
 }
 
-std::string Recording::data(const std::string& variable, const std::string& output) const {
-    std::string options = fmt::format("InputName = {}, OutputName = {}{}{}", lua_texts(inputs_), lua_text(output),
-                                      input_units(), unit("OutputUnit", output));
+std::string Recording::data(const std::string& variable, const std::vector<std::string>& outputs) const {
+    const auto titles = [this](const std::vector<std::string>& names) {
+        std::vector<std::string> shown;
+        for (const std::string& name : names)
+            shown.push_back(struct_member(name) ? name.substr(name.find('.') + 1) : name);
+        return lua_texts(shown);
+    };
+    std::string options = fmt::format("InputName = {}, OutputName = {}{}{}", titles(inputs_), titles(outputs),
+                                      units("InputUnit", inputs_), units("OutputUnit", outputs));
     if (!even_) options = fmt::format("SamplingInstants = {}_t, {}", variable, options);
-    return fmt::format("iddata({}, {}, {},\n  {{{}}})", samples(variable, output), input_samples(variable),
+    return fmt::format("iddata({}, {}, {},\n  {{{}}})", channels(variable, outputs), channels(variable, inputs_),
                        fmt::format(fmt::runtime(sampling_), variable), options);
 }
 
@@ -107,7 +136,7 @@ Recording::Signal Recording::signal(const std::string& name) const {
     const std::string& key = header == loaded_.headers.end() ? name : header->second;
     const auto found = loaded_.variables.find(key);
     const Vector* numbers = found == loaded_.variables.end() ? nullptr : std::get_if<Vector>(&found->second.value);
-    if (numbers != nullptr) return {*numbers, "[" + lua_text(key) + "]", key};
+    if (numbers != nullptr) return {*numbers, field_of(key), key};
     if (auto column = matrix_column(name)) return *std::move(column);
     if (auto member = struct_member(name)) return *std::move(member);
     if (signals().empty())
@@ -129,7 +158,7 @@ std::optional<Recording::Signal> Recording::matrix_column(const std::string& nam
     const Matrix* matrix = found == loaded_.variables.end() ? nullptr : std::get_if<Matrix>(&found->second.value);
     const int column = std::stoi(name.substr(last + 1));
     if (matrix == nullptr || column < 1 || column > matrix->cols()) return std::nullopt;
-    return Signal{matrix->col(column - 1), fmt::format("[{}]:col({})", lua_text(found->first), column), name};
+    return Signal{matrix->col(column - 1), fmt::format("{}:col({})", field_of(found->first), column), name};
 }
 
 std::optional<Recording::Signal> Recording::struct_member(const std::string& name) const {
@@ -140,8 +169,7 @@ std::optional<Recording::Signal> Recording::struct_member(const std::string& nam
     if (table == nullptr) return std::nullopt;
     const auto member = (*table)->find(name.substr(dot + 1));
     if (member == (*table)->end() || !std::holds_alternative<Vector>(member->second.value)) return std::nullopt;
-    return Signal{std::get<Vector>(member->second.value),
-                  fmt::format("[{}][{}]", lua_text(found->first), lua_text(member->first)), name};
+    return Signal{std::get<Vector>(member->second.value), field_of(found->first) + field_of(member->first), name};
 }
 
 /// The time that stands in the struct of the first input.
@@ -168,25 +196,20 @@ std::vector<std::string> Recording::signals() const {
 }
 
 /// A vector, or a matrix of several.
-std::string Recording::input_samples(const std::string& variable) const {
+std::string Recording::channels(const std::string& variable, const std::vector<std::string>& names) const {
     std::vector<std::string> columns;
-    for (const std::string& input : inputs_) columns.push_back(samples(variable, input));
+    for (const std::string& name : names) columns.push_back(samples(variable, name));
     return columns.size() == 1 ? columns.front() : fmt::format("matrix{{{}}}", fmt::join(columns, ", "));
 }
 
-std::string Recording::input_units() const {
-    std::vector<std::string> units;
-    for (const std::string& input : inputs_) {
-        const auto found = loaded_.units.find(signal(input).name);
-        units.push_back(found == loaded_.units.end() ? "" : found->second);
+std::string Recording::units(const char* option, const std::vector<std::string>& names) const {
+    std::vector<std::string> texts;
+    for (const std::string& name : names) {
+        const auto found = loaded_.units.find(signal(name).name);
+        texts.push_back(found == loaded_.units.end() ? "" : found->second);
     }
-    const bool known = std::any_of(units.begin(), units.end(), [](const std::string& unit) { return !unit.empty(); });
-    return known ? ", InputUnit = " + lua_texts(units) : "";
-}
-
-std::string Recording::unit(const char* option, const std::string& column) const {
-    const auto found = loaded_.units.find(signal(column).name);
-    return found == loaded_.units.end() ? "" : fmt::format(", {} = {}", option, lua_text(found->second));
+    const bool known = std::any_of(texts.begin(), texts.end(), [](const std::string& text) { return !text.empty(); });
+    return known ? fmt::format(", {} = {}", option, lua_texts(texts)) : "";
 }
 
 }  // namespace dynlab::inline workflow

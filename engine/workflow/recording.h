@@ -21,11 +21,13 @@ class Recording {
 
     /// The lines that load the file into `variable`.
     std::string loading(const std::string& variable) const;
-    /// The call of iddata for one output of the file that was loaded into `variable`.
-    std::string data(const std::string& variable, const std::string& output) const;
+    /// The call of iddata for outputs of the file that was loaded into `variable`.
+    std::string data(const std::string& variable, const std::vector<std::string>& outputs) const;
+    /// A unit instead of the one that the file gives to the signal.
+    void set_unit(const std::string& name, const std::string& unit) { loaded_.units[signal(name).name] = unit; }
 
   private:
-    /// A signal's numbers, and what Lua reads it by behind the variable of the file: ["y"]:col(2).
+    /// A signal's numbers, and what Lua reads it by behind the variable of the file: .y:col(2).
     struct Signal {
         Vector numbers;
         std::string access, name;
@@ -38,10 +40,8 @@ class Recording {
     void find_sampling(std::optional<double> Ts, const std::string& time);
     void look_at_instants();
     std::string samples(const std::string& variable, const std::string& name) const;
-    std::string unit(const char* option, const std::string& column) const;
-
-    std::string input_samples(const std::string& variable) const;
-    std::string input_units() const;
+    std::string channels(const std::string& variable, const std::vector<std::string>& names) const;
+    std::string units(const char* option, const std::vector<std::string>& names) const;
 
     std::string name_;
     std::vector<std::string> inputs_;

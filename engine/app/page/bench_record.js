@@ -45,8 +45,26 @@ function opener() {
 }
 
 const ROLES = ["input", "output", "time", ""];
+const redraw = () => document.dispatchEvent(new Event("benchdraw"));
+
+/// The experiments of a file that holds several, as structs: one is looked at, and its signals have the roles.
+const groupOf = ({ name }) => (name.includes(".") ? name.slice(0, name.indexOf(".")) : "");
+const groups = () => [...new Set(offered.columns.map(groupOf))].filter(Boolean);
+const groupNow = () => offered.group ?? groupOf(offered.columns.find(({ role }) => role) ?? { name: groups()[0] ?? "" });
+function chooseGroup(group) {
+  const roleOf = {}, own = ({ name }) => name.slice(name.indexOf(".") + 1);
+  for (const column of offered.columns.filter((one) => groupOf(one) === groupNow())) {
+    roleOf[own(column)] = column.role;
+    column.role = "";
+  }
+  for (const column of offered.columns.filter((one) => groupOf(one) === group && one.usable)) column.role = roleOf[own(column)] ?? "";
+  offered.group = group;
+  redraw();
+}
+
 /// Columns with their roles: lists to choose from, or dragged from one role's row into another's.
 function columnsTable() {
+  const group = groupNow(), shown = offered.columns.filter((column) => groups().length < 2 || groupOf(column) === group);
   const chips = (role) => {
     const row = element("div", { className: "role", ariaLabel: say(role || "unused") }, element("b", { textContent: say(role || "unused") }));
     row.ondragover = (event) => event.preventDefault();
@@ -54,33 +72,43 @@ function columnsTable() {
       event.preventDefault();
       event.stopPropagation();
       const column = offered.columns.find(({ name }) => name === event.dataTransfer.getData("text/plain"));
-      if (column && (column.usable || role === "")) { column.role = role; document.dispatchEvent(new Event("benchdraw")); }
+      if (column && (column.usable || role === "")) { column.role = role; redraw(); }
     };
-    for (const column of offered.columns.filter((one) => one.role === role)) {
-      const list = choice(ROLES, column.role, (value) => { column.role = value; document.dispatchEvent(new Event("benchdraw")); }, ROLES.map((one) => say(one || "unused")));
+    for (const column of shown.filter((one) => one.role === role)) {
+      const list = choice(ROLES, column.role, (value) => { column.role = value; redraw(); }, ROLES.map((one) => say(one || "unused")));
       list.disabled = !column.usable;
       list.ariaLabel = `${say("role")}: ${column.name}`;
-      const about = column.trouble || `${shortNumber(column.smallest)} … ${shortNumber(column.largest)}${column.unit ? " " + column.unit : ""}`;
-      const chip = element("span", { className: "chip", draggable: column.usable, title: about }, element("b", { textContent: column.name }), element("small", { textContent: about }), list);
+      const about = column.trouble || `${shortNumber(column.smallest)} … ${shortNumber(column.largest)}`;
+      const chip = element("div", { className: "chip", draggable: column.usable, title: `${column.name}: ${about}` }, element("b", { textContent: groups().length > 1 ? column.name.slice(group.length + 1) : column.name }),
+        list, element("small", { textContent: about }));
+      if (role === "input" || role === "output")
+        chip.append(element("input", { className: "unit", value: column.unit, placeholder: say("unit"), ariaLabel: `${say("unit")}: ${column.name}`, oninput: ({ target }) => { column.unit = target.value; } }));
       chip.ondragstart = (event) => event.dataTransfer.setData("text/plain", column.name);
       row.append(chip);
     }
     return row;
   };
-  return element("div", { className: "roles" }, ...ROLES.map(chips));
+  const node = element("div", { className: "roles" });
+  if (groups().length > 1) node.append(labelled(say("experiment"), choice(groups(), group, chooseGroup)));
+  node.append(...ROLES.map(chips));
+  return node;
 }
 
+/// The record becomes a variable of this name; whether it did.
 async function take(name) {
-  const named = (role) => offered.columns.filter((column) => column.role === role).map((column) => column.name);
-  const [output] = named("output"), inputs = named("input");
-  if (!output || inputs.length === 0) return trouble(say("tooFew"));
+  const of = (role) => offered.columns.filter((column) => column.role === role), named = (role) => of(role).map((column) => column.name);
+  const outputs = named("output"), inputs = named("input");
+  if (outputs.length === 0 || inputs.length === 0) return trouble(say("tooFew")), false;
+  const units = Object.fromEntries([...of("input"), ...of("output")].filter(({ unit }) => unit).map((column) => [column.name, column.unit]));
   try {
-    await post("/record", { data: offered.data, inputs, output, time: named("time")[0] ?? "", Ts: Number(offered.Ts) || 0, name });
+    await post("/record", { data: offered.data, inputs, outputs, time: named("time")[0] ?? "", Ts: Number(offered.Ts) || 0, name, units });
     offered = null;
     trouble(null);
-    document.dispatchEvent(new Event("benchdraw"));
+    redraw();
+    return true;
   } catch (error) {
     trouble(error.message);
+    return false;
   }
 }
 
@@ -96,7 +124,7 @@ function offeredRecord() {
 /// A second record stands in for the part that validates.
 async function takeForValidation() {
   const name = freeName("second");
-  await take(name);
+  if (!await take(name)) return;
   await settled(() => session.steps.some((one) => one.names[0] === name), 3000);
   change(() => {
     const step = session.steps.find((one) => one.on && one.names.length === 1 && one.names[0] === "validation");
@@ -111,8 +139,7 @@ function remedies(finding) {
   const add = (line) => addPreparing(line);
   return { offset: [["detrend(…, \"mean\")", () => add((z) => `detrend(${z}, "mean")`)], ["detrend(…, \"start\")", () => add((z) => `detrend(${z}, "start")`)]],
            drift: [["detrend(…)", () => add((z) => `detrend(${z}, "linear")`)]], random_walk: [["detrend(…)", () => add((z) => `detrend(${z}, "linear")`)]],
-           outliers: [["filloutliers(…)", () => add((z) => `filloutliers(${z})`)]], fast_sampling: [["resample(…, 1, 10)", () => add((z) => `resample(${z}, 1, 10)`)]],
-           gaps: [["fillmissing(…)", () => add((z) => `fillmissing(${z})`)]] }[finding.code] ?? [];
+           outliers: [["filloutliers(…)", () => add((z) => `filloutliers(${z})`)]], fast_sampling: [["resample(…, 1, 10)", () => add((z) => `resample(${z}, 1, 10)`)]] }[finding.code] ?? [];
 }
 function findingsList() {
   const { list = [] } = session.views.advice ?? {};
@@ -142,10 +169,10 @@ export function addPreparing(call) {
 
 const NEW_STEPS = {
   level: (z) => `detrend(${z}, "mean")`, trend: (z) => `detrend(${z}, "linear")`, filter: (z) => `idfilt(${z}, {0, ${luaCut()}})`,
-  resample: (z) => `resample(${z}, 1, 2)`, outliers: (z) => `filloutliers(${z})`, missing: (z) => `fillmissing(${z})`, range: (z) => `${z}:range(1, ${variables()[z]?.N ?? 100})`,
+  resample: (z) => `resample(${z}, 1, 2)`, outliers: (z) => `filloutliers(${z})`, range: (z) => `${z}:range(1, ${variables()[z]?.N ?? 100})`,
 };
 const NEW_NAMES = { level: ["Level", "Niveau"], trend: ["Trend", "Tendance"], filter: ["Filter", "Filtrer"], resample: ["Resample", "Rééchantillonner"],
-                    outliers: ["Outliers", "Valeurs aberrantes"], missing: ["Missing samples", "Échantillons manquants"], range: ["Range", "Étendue"] };
+                    outliers: ["Outliers", "Valeurs aberrantes"], range: ["Range", "Étendue"] };
 /// A tenth of the highest frequency.
 function luaCut() {
   const data = variables()[roles().prepared];

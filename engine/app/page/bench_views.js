@@ -1,8 +1,9 @@
 // The pictures of a session, as many at once as wanted, and what is told with them.
 import { change, look, session, trouble } from "/bench_session.js";
 import { Brushes } from "/bench_brushes.js";
-import { button, element, why } from "/bench_fields.js";
+import { button, choice, element, labelled, why } from "/bench_fields.js";
 import { endOfScript, freeName, insertedBehind, modelSteps, newCell, replaced, roles, variables } from "/bench_steps.js";
+import { goesIntoReport, viewLines, wholeReport } from "/bench_report.js";
 import { say, shortNumber, viewName, viewNames } from "/bench_words.js";
 
 const HELP = { record: "idplot", spectrum: "fft", compare: "compare", residuals: "resid", step: "step", impulse: "impulse", bode: "bode", nyquist: "nyquist",
@@ -70,6 +71,16 @@ export function download(name, blob) {
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 }
 
+/// Of records and models with several channels: which one the views of a single channel show.
+let channel = { output: 1, input: 1 };
+export function channelChoice() {
+  const data = variables()[roles().estimation];
+  const lists = [["output", data?.output_names], ["input", data?.input_names]].filter(([, names]) => names?.length > 1);
+  if (lists.length === 0) return null;
+  return element("div", { className: "controls" }, ...lists.map(([kind, names]) => labelled(say(kind),
+    choice(names.map((_, i) => String(i + 1)), String(Math.min(channel[kind], names.length)), (value) => { channel = { ...channel, [kind]: Number(value) }; ask(); }, names))));
+}
+
 /// Tells the server what is to be seen, at which size.
 export function ask() {
   clearTimeout(timer);
@@ -81,7 +92,7 @@ export function ask() {
     for (const [name, { body }] of tiles) sizes[name] = [body.clientWidth - 8, body.clientHeight - (name === "record" ? 40 : 4)];
     const of = [part.raw, part.prepared];
     const until = Math.max(0, ...session.steps.filter((step) => step.names.some((name) => of.includes(name))).map((step) => step.last_line));
-    look(every, { ...part, views: ["variables", "models", ...shownViews(), "advice"], models: all.filter((name) => !hidden.has(name)).slice(-8), all_models: all, sizes, range, ...(wanted ? { save: wanted } : {}) }, until);
+    look(every, { ...part, views: ["variables", "models", ...shownViews(), "advice"], models: all.filter((name) => !hidden.has(name)).slice(-8), all_models: all, sizes, range, ...channel, ...(wanted ? { save: wanted } : {}) }, until);
   }, 0);
 }
 
@@ -96,7 +107,7 @@ function makeTile(name) {
   const saved = element("select", { className: "save", ariaLabel: `${say("saveAs")}: ${viewName(name)}` });
   saved.append(...["↓", "PDF", "SVG", "PNG"].map((text) => element("option", { value: text.toLowerCase(), textContent: text })));
   saved.onchange = () => { if (saved.selectedIndex > 0) save({ what: "figure", view: name, format: saved.value }); saved.selectedIndex = 0; };
-  node.append(element("header", {}, title, why(HELP[name]), ...(TABLES[name] ? [] : [saved]), ...(LINES[name] ? [into] : []), close), body, words);
+  node.append(element("header", {}, title, why(HELP[name]), ...(TABLES[name] ? [] : [saved]), ...(goesIntoReport(name) ? [into] : []), close), body, words);
   for (const group of OVER_TIME) if (group.includes(name)) linkCursor(name, body, group);
   return { node, body, words, title };
 }
@@ -112,24 +123,12 @@ export function arrange() {
   ask();
 }
 
-/// Lines that put a view into the report.
-const LINES = {
-  record: ({ raw }) => `idplot(${raw})`,
-  compare: ({ validation }, models) => `compare(${[validation, ...models].join(", ")})`,
-  residuals: ({ validation }, models) => `resid(${validation}, ${models[models.length - 1]})`,
-  step: (_, models) => `step(${models.join(", ")})`, impulse: (_, models) => `impulse(${models.join(", ")})`,
-  bode: (_, models) => `bode(${models.join(", ")})`, nyquist: (_, models) => `nyquist(${models.join(", ")})`, poles: (_, models) => `pzmap(${models.join(", ")})`,
-  parameters: (_, models) => models.map((model) => `present(${model})`).join("\n"),
-  correlation: ({ estimation }, models) => `impulseest(${[estimation, ...models].join(", ")})`,
-  reading: ({ raw, reading }) => `compare(${raw}, ${reading}_model)`,
-  study: ({ study }) => `print(${study})\n${study}:histograms()`, orders: ({ orders }) => `print(${orders})`,
-};
-function intoScript(name) {
-  const models = modelSteps().filter((step) => step.on && !hidden.has(step.names[0])).map((step) => step.names[0]);
-  let k = 1;
-  const id = () => `${name}${k > 1 ? k : ""}`;
-  while (session.cells.some((cell) => cell.id === id())) ++k;
-  change(() => [insertedBehind(endOfScript(), `\n-- %% [markdown]\n-- ## ${viewName(name)}\n\n-- %% id=${id()}\n${LINES[name](roles(), models)}`)]);
+const drawnModels = () => modelSteps().filter((step) => step.on && !hidden.has(step.names[0])).map((step) => step.names[0]);
+const intoScript = (name) => change(() => [insertedBehind(endOfScript(), viewLines(name, drawnModels()))]);
+/// A report that shows nothing yet gets what is on the page.
+export async function fillReport() {
+  const lines = wholeReport(shownViews(), drawnModels());
+  if (lines) await change(() => [insertedBehind(endOfScript(), lines)]);
 }
 
 const dataOf = (name) => variables()[name];

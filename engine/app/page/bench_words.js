@@ -9,6 +9,7 @@ const WORDS = {
   column: ["column", "colonne"], role: ["role", "rôle"], unit: ["unit", "unité"], input: ["input", "entrée"], output: ["output", "sortie"], time: ["time", "temps"],
   unused: ["not used", "non utilisée"], sampling: ["sampling time (s)", "période d'échantillonnage (s)"], asFile: ["as the file says", "celle du fichier"],
   take: ["Take this record", "Prendre cet enregistrement"], second: ["Use it for validation only", "Pour la validation seulement"],
+  experiment: ["Experiment", "Expérience"],
   advice: ["What advice says", "Ce que dit advice"], clean: ["Nothing speaks against fitting a model.", "Rien ne s'oppose à l'estimation d'un modèle."],
   show: ["show", "montrer"], add: ["Add", "Ajouter"], remove: ["Delete", "Supprimer"], off: ["on", "actif"], up: ["Earlier", "Plus tôt"], down: ["Later", "Plus tard"],
   divide: ["Divide 60 : 40", "Diviser 60 : 40"], whole: ["Whole record for both", "Tout pour les deux"],

@@ -4,7 +4,7 @@ import { openFirst, partsPanel, preparationPanel, recordPanel } from "/bench_rec
 import { estimatePanel, modelsPanel } from "/bench_models.js";
 import { readingPanel } from "/bench_reading.js";
 import { knownPanel } from "/bench_known.js";
-import { arrange, ask, drawTiles, redrawBrushes, shownViews, takeSaved, toggleView } from "/bench_views.js";
+import { arrange, ask, channelChoice, drawTiles, redrawBrushes, shownViews, takeSaved, toggleView, fillReport } from "/bench_views.js";
 import { exportsPanel } from "/bench_exports.js";
 import { openScript, showMistake, showScript } from "/bench_script.js";
 import { button, element } from "/bench_fields.js";
@@ -53,7 +53,7 @@ function drawPanels() {
   const path = steps.contains(active) ? placeOf(steps, active) : null, chosen = chosenDetails(steps), scrolled = steps.scrollTop;
   const typedText = path && active.type === "text" && active.value !== active.defaultValue ? active.value : null;
   const views = element("section", { className: "panel" }, element("h2", { textContent: say("views") }),
-    element("div", { className: "adding" }, ...viewNames().map((name) => button(viewName(name), () => toggleView(name), { ariaPressed: String(shownViews().includes(name)) }))));
+    element("div", { className: "adding" }, ...viewNames().map((name) => button(viewName(name), () => toggleView(name), { ariaPressed: String(shownViews().includes(name)) }))), channelChoice() ?? "");
   steps.replaceChildren(...[recordPanel(), preparationPanel(), partsPanel(), readingPanel(), estimatePanel(), knownPanel(), views, exportsPanel()].filter(Boolean));
   for (const [key, node] of namedDetails(steps)) {
     if (chosen.has(key)) Object.assign(node, { open: chosen.get(key) }).dataset.chosen = "1";
@@ -131,6 +131,7 @@ $("show-script").onclick = () => {
 $("make-pdf").onclick = async () => {
   $("make-pdf").disabled = true;
   try {
+    await fillReport();
     const answer = await fetch("/document.pdf");
     if (!answer.ok) return trouble(await answer.text());
     window.open(URL.createObjectURL(await answer.blob()), "_blank");

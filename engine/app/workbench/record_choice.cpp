@@ -4,16 +4,22 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 #include <limits>
 #include <map>
 
+#include "data_io/data_file.h"
 #include "data_io/dataset_index.h"
+#include "documents/percent_script.h"
+#include "documents/text_lines.h"
 #include "platform/error.h"
 #include "workflow/look.h"
 #include "workflow/recording.h"
 
 namespace dynlab::inline app {
 namespace {
+
+namespace fs = std::filesystem;
 
 /// Beginnings of names that people give to what drives a plant, and to what it does.
 constexpr std::string_view kInputs[] = {"u",     "in",     "force",   "voltage", "power",   "valve",  "heat",
@@ -50,6 +56,8 @@ RecordColumn column_of(const std::string& name, const std::string& unit, const V
     column.smallest = finite.select(numbers.array(), std::numeric_limits<double>::infinity()).minCoeff();
     column.largest = finite.select(numbers.array(), -std::numeric_limits<double>::infinity()).maxCoeff();
     if (column.smallest == column.largest) column.trouble = "constant";
+    if (const Index missing = numbers.size() - finite.count(); missing > 0)
+        column.trouble = fmt::format("{} missing", missing);
     return column;
 }
 
@@ -118,13 +126,27 @@ class Columns {
         return samples;
     }
 
-    /// Where names tell nothing the input is the first, the output the last.
-    static void guess_rest(std::vector<RecordColumn>& columns) {
+    /// Whether the numbers of a signal go up by equal steps, as a clock does.
+    bool counts_evenly(const std::string& name) const {
+        const auto found =
+            std::find_if(signals_.begin(), signals_.end(), [&](const Signal& signal) { return signal.name == name; });
+        constexpr Index kFewest = 5;
+        if (found->numbers.size() < kFewest || loaded_.variables.contains("Ts")) return false;
+        const InstantSpacing spacing = spacing_of(found->numbers);
+        return !spacing.disorder && spacing.even;
+    }
+
+    /// Where names tell nothing a clock may come first; of the rest the input is the first, the output the last.
+    void guess_rest(std::vector<RecordColumn>& columns) const {
         const auto none = [&](const char* role) {
             return std::none_of(columns.begin(), columns.end(),
                                 [&](const RecordColumn& column) { return column.role == role; });
         };
         const auto free = [](const RecordColumn& column) { return column.role.empty() && column.usable; };
+        if (none("time"))
+            if (const auto first = std::find_if(columns.begin(), columns.end(), free);
+                first != columns.end() && counts_evenly(first->name))
+                first->role = "time";
         if (none("output"))
             if (const auto last = std::find_if(columns.rbegin(), columns.rend(), free); last != columns.rend())
                 last->role = "output";
@@ -146,22 +168,44 @@ RecordChoice look_at_record(const std::string& data, bool tells) {
 }
 
 std::string record_lines(const RecordOrder& order) {
-    const Recording recording(order.data, order.inputs, {order.output},
-                              order.Ts > 0 ? std::optional(order.Ts) : std::nullopt, order.time);
+    Recording recording(order.data, order.inputs, order.outputs, order.Ts > 0 ? std::optional(order.Ts) : std::nullopt,
+                        order.time);
+    for (const auto& [name, unit] : order.units) recording.set_unit(name, unit);
     const std::string file = order.name + "_file";
-    return recording.loading(file) + fmt::format("{} = {}\n", order.name, recording.data(file, order.output));
+    return recording.loading(file) + fmt::format("{} = {}\n", order.name, recording.data(file, order.outputs));
 }
 
 RecordOrder suggested_order(const RecordChoice& choice) {
-    RecordOrder order{choice.data, {}, "", "", 0, "data"};
+    RecordOrder order{choice.data, {}, {}, "", 0, "data", {}};
     for (const RecordColumn& column : choice.columns) {
         if (column.role == "input") order.inputs.push_back(column.name);
-        if (column.role == "output" && order.output.empty()) order.output = column.name;
+        if (column.role == "output") order.outputs.push_back(column.name);
         if (column.role == "time") order.time = column.name;
     }
-    if (order.inputs.empty() || order.output.empty())
+    if (order.inputs.empty() || order.outputs.empty())
         throw EnvironmentError(choice.data + " has no two signals of the same length that change");
     return order;
+}
+
+std::string with_record(const std::string& source, const RecordOrder& order) {
+    const std::string lines = record_lines(order);
+    const PercentScript script = parse_percent_script(source, "session.lua");
+    if (std::none_of(script.cells.begin(), script.cells.end(),
+                     [](const Cell& cell) { return cell.kind == Cell::Kind::kCode; }))
+        return new_session("Identification from " + fs::path(order.data).stem().string(), lines,
+                           script.header.language);
+    for (const Cell& cell : script.cells) {
+        if (cell.id != "record" || cell.content.find(order.name + " = iddata(") == std::string::npos) continue;
+        const std::vector<std::string> all = lines_of(source);
+        std::string text;
+        for (int number = 1; number <= static_cast<int>(all.size()); ++number) {
+            if (number == cell.first_line) text += lines;
+            if (number < cell.first_line || number > cell.last_line())
+                text += all[static_cast<std::size_t>(number - 1)] + "\n";
+        }
+        return text;
+    }
+    return source + fmt::format("\n-- %% id={}\n{}", order.name, lines);
 }
 
 std::string new_session(const std::string& title, const std::string& lines, const std::string& language) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <map>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,7 @@ struct RecordColumn {
     std::string name, unit;
     std::string role;  ///< what it probably is: "input", "output", "time" or ""
     double smallest = 0, largest = 0;
-    std::string trouble;  ///< "text", "constant", "3 of 200 values"; else empty
+    std::string trouble;  ///< "text", "constant", "3 of 200 values", "3 missing"; else empty
     bool usable = true;   ///< as a signal: a constant input may be a step from zero
 };
 DYNLAB_DESCRIBE(RecordColumn, name, unit, role, smallest, largest, trouble, usable)
@@ -31,17 +32,24 @@ RecordChoice look_at_record(const std::string& data, bool tells = true);
 struct RecordOrder {
     std::string data;
     std::vector<std::string> inputs;
-    std::string output, time;  ///< time: none when empty
-    double Ts = 0;             ///< s; 0: as the file says
-    std::string name;          ///< of the variable that gets the record
+    std::vector<std::string> outputs;
+    std::string time;                          ///< none when empty
+    double Ts = 0;                             ///< s; 0: as the file says
+    std::string name;                          ///< of the variable that gets the record
+    std::map<std::string, std::string> units;  ///< of signals, instead of the file's
 };
-DYNLAB_DESCRIBE(RecordOrder, data, inputs, output, time, Ts, name)
+DYNLAB_DESCRIBE(RecordOrder, data, inputs, outputs, time, Ts, name, units)
 
 /// The lines that load it: `NAME_file = load(...)`, `NAME = iddata(...)`. Throws EnvironmentError as Recording.
 std::string record_lines(const RecordOrder& order);
 
 /// The order that the roles of a choice's columns suggest. Throws EnvironmentError where there are no two signals.
 RecordOrder suggested_order(const RecordChoice& choice);
+
+/// The script with the record of the order: in place of the lines of its cell "record" where that gives the record its
+/// name, else in a cell of its own at the end; a script without any code becomes that of a new session. Throws
+/// EnvironmentError as Recording.
+std::string with_record(const std::string& script, const RecordOrder& order);
 
 /// The script of a new session; `lines` of record_lines() for the record "data", or empty.
 std::string new_session(const std::string& title, const std::string& lines, const std::string& language);

@@ -20,6 +20,17 @@ end
 local function is_data(value) return type(value) == "userdata" and field(value, "experiments") ~= nil end
 local function is_model(value) return type(value) == "userdata" and field(value, "num") ~= nil or type(value) == "userdata" and field(value, "channels") ~= nil end
 
+--- How many inputs and outputs a model has, and its transfer function from the chosen input to the chosen output.
+local function seen_channel(model, settings)
+  local list = field(model, "channels")
+  if list == nil then return model, 1, 1 end
+  local several = type(list[1]) == "table"
+  local outputs, inputs = several and #list or 1, several and #list[1] or #list
+  if outputs*inputs == 1 then return model, 1, 1 end
+  local i, j = math.min(settings.output or 1, outputs), math.min(settings.input or 1, inputs)
+  return several and list[i][j] or list[j], outputs, inputs
+end
+
 --- At the size in which the page shows it, in the printed figure's type.
 local function sized(fig, settings, name)
   local size = settings.sizes and settings.sizes[name]
@@ -88,7 +99,7 @@ function views.spectrum(settings, values)
   if not is_data(raw) or raw.N < 8 then return end
   local curves = {}
   local function add(data, label, colour)
-    local w, power = power_of(data.ny > 1 and data.y:col(1) or data.y, data.Ts)
+    local w, power = power_of(data.ny > 1 and data.y:col(math.min(settings.output or 1, data.ny)) or data.y, data.Ts)
     curves[#curves + 1] = {x = w, y = power, label = label, colour = colour}
   end
   add(raw, settings.raw, 8)
@@ -100,8 +111,12 @@ function views.compare(settings, values)
   local models, labels = labelled(settings, values)
   local data = values[settings.validation] or values[settings.estimation]
   if not is_data(data) or #models == 0 then return end
-  local told = fit_measures(data, models[#models]).message
-  return {figure = with_models(compare, {data}, models, labels), words = told}
+  local told = {}
+  for k, model in ipairs(models) do
+    local done, measures = pcall(fit_measures, data, model)
+    if done then told[#told + 1] = labels[k] .. ": " .. measures.message end
+  end
+  return {figure = with_models(compare, {data}, models, labels), words = table.concat(told, "\n")}
 end
 
 function views.residuals(settings, values)
@@ -117,6 +132,7 @@ for name, f in pairs{step = step, impulse = impulse, bode = bode, nyquist = nyqu
     local models, labels = labelled(settings, values)
     local options = {}
     if settings.bands == false and name ~= "nyquist" and name ~= "impulse" then options.confidence = false end
+    for k, model in ipairs(models) do models[k] = seen_channel(model, settings) end
     if #models > 0 then return {figure = with_models(f, {}, models, labels, options)} end
   end
 end
@@ -125,6 +141,8 @@ function views.correlation(settings, values)
   local data = values[settings.estimation]
   if not is_data(data) then return end
   local models, labels = labelled(settings, values)
+  if data.ny*data.nu > 1 then data = data:select(math.min(settings.output or 1, data.ny), math.min(settings.input or 1, data.nu)) end
+  for k, model in ipairs(models) do models[k] = seen_channel(model, settings) end
   local fig, seen = with_models(impulseest, {data}, models, labels)
   return {figure = fig, words = seen.message}
 end
@@ -277,6 +295,16 @@ local function readings(data)
   return list
 end
 
+--- The names of a record's channels, u1, u2 ... where they have none.
+local function names_of(data, key, count, letter)
+  local given, names = field(data, key), {}
+  for i = 1, count do
+    local name = type(given) == "table" and given[i] or i == 1 and type(given) == "string" and given or ""
+    names[i] = name ~= "" and name or letter .. i
+  end
+  return names
+end
+
 --- Of which kind each variable is, and what controls ask about it.
 local function describe(values)
   local seen = {}
@@ -284,7 +312,8 @@ local function describe(values)
     if is_data(value) then
       local t = value.t
       seen[name] = {kind = "data", N = value.N, Ts = value.Ts, start = t[1], last = t[value.N], inputs = value.nu,
-                    outputs = value.ny, experiments = value.experiments, hold = value.InterSample}
+                    outputs = value.ny, experiments = value.experiments, hold = value.InterSample,
+                    input_names = names_of(value, "InputName", value.nu, "u"), output_names = names_of(value, "OutputName", value.ny, "y")}
     elseif is_model(value) then
       local num, den = field(value, "num"), field(value, "den")
       local proper = type(num) ~= "userdata" or type(den) ~= "userdata" or #num <= #den
@@ -318,12 +347,20 @@ local function measured(name, model, settings, values)
     if last == "IODelay" or last == "Td" or last == "delay" then row.delay_std = errors[#names] end
   end
   local poles, zeros = field(model, "den"), field(model, "num")
+  local channel, outputs, inputs = seen_channel(model, settings)
+  row.outputs, row.inputs = outputs, inputs
+  if outputs*inputs > 1 then poles, zeros, row.delay = field(channel, "den"), field(channel, "num"), field(channel, "IODelay") end
   if type(poles) == "userdata" and type(zeros) == "userdata" then row.poles, row.zeros = #poles - 1, #zeros - 1 end
   local function measure(part, key)
     local data = values[part]
     if not is_data(data) then return end
     local done, seen = pcall(fit_measures, data, model)
-    if done then row[key] = {fit = seen.fit_percent, r_squared = seen.r_squared_simulation, yic = seen.yic} end
+    if done then
+      row[key] = {fit = seen.fit_percent, r_squared = seen.r_squared_simulation, yic = seen.yic}
+      return
+    end
+    local fits = {pcall(fit, data, model)}
+    if fits[1] then row[key] = {fit = fits[1 + math.min(settings.output or 1, #fits - 1)]} end
   end
   measure(settings.estimation, "estimation")
   if settings.validation ~= settings.estimation then measure(settings.validation, "validation") end

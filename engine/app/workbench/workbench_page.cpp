@@ -133,11 +133,7 @@ void serve_records(WebServer& server, WorkbenchSession& bench) {
     });
     server.on_post("/record", [&](const PageRequest& asked) {
         const RecordOrder order = from_json<RecordOrder>(asked.body);
-        const std::string lines = record_lines(order), before = bench.script();
-        if (order.name == "data")
-            bench.put(new_session("Identification from " + fs::path(order.data).stem().string(), lines, "en"));
-        else
-            bench.put(before + fmt::format("\n-- %% id={}\n{}", order.name, lines));
+        bench.put(with_record(bench.script(), order));
         return done();
     });
 }

@@ -236,8 +236,9 @@ std::optional<ViewOrder> WorkbenchSession::stale_views() {
     };
     const auto is_stale = [&](const std::string& view) {
         std::string& key = under_way_[view];
-        key = is_one_of(view, kViewsOfRecords) ? of_records + part(settings, "raw") + part(settings, "prepared")
-                                               : text_.text() + common.dump();
+        key = is_one_of(view, kViewsOfRecords)
+                  ? of_records + part(settings, "raw") + part(settings, "prepared") + part(settings, "output")
+                  : text_.text() + common.dump();
         if (settings.contains("sizes")) key += part(settings["sizes"], view);
         if (view == "record") key += part(settings, "range");
         const auto seen = seen_.find(view);

@@ -82,6 +82,17 @@ int remove_outliers(Call& call) {
     OutlierOptions wanted;
     wanted.window = options.size("window", wanted.window);
     wanted.threshold = options.number("threshold", wanted.threshold);
+    if (const IdData* data = to_object<IdData>(call.state(), 1)) {
+        IdData cleaned = *data;
+        Index count = 0;
+        for (Experiment& experiment : cleaned.experiments)
+            for (Index output = 0; output < experiment.y.cols(); ++output) {
+                const RepairedSignal repaired = replace_outliers(experiment.y.col(output), wanted);
+                experiment.y.col(output) = repaired.signal;
+                count += static_cast<Index>(repaired.replaced.size());
+            }
+        return give_data(call, std::move(cleaned)) + call.give(static_cast<double>(count));
+    }
     return give_repaired(call, replace_outliers(call.vector(1, "x"), wanted));
 }
 
@@ -99,7 +110,7 @@ constexpr std::array kPreprocessFunctions = {
                   "several experiments in one data object", guarded<merge_data>},
     FunctionEntry{"fillmissing", kPreprocessArea, "fillmissing(x, {t =, longest =}) -> filled, places",
                   "straight lines over samples that are not numbers", guarded<fill_gaps>},
-    FunctionEntry{"filloutliers", kPreprocessArea, "filloutliers(x, {window =, threshold =}) -> cleaned, places",
+    FunctionEntry{"filloutliers", kPreprocessArea, "filloutliers(x | data, {window =, threshold =}) -> cleaned, places",
                   "straight lines over samples that stand out from their neighbours", guarded<remove_outliers>},
 };
 

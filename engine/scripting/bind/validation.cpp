@@ -101,9 +101,11 @@ int fit(Call& call) {
     const CompareOptions start = compare_options(options);
     IdData storage;
     const IdData& driven = driving_data(call, 2, data, storage);
-    if (const auto steps = steps_option(options, std::nullopt))
-        return call.give(predict(driven, noisy_model_argument(call, 2, "G"), {steps, start}).fit_percent[0]);
-    return call.give(compare_all(driven, channels_argument(call, 2, "G"), start).fit_percent[0]);
+    const auto steps = steps_option(options, std::nullopt);
+    const Vector percents = steps ? predict(driven, noisy_model_argument(call, 2, "G"), {steps, start}).fit_percent
+                                  : compare_all(driven, channels_argument(call, 2, "G"), start).fit_percent;
+    for (const double percent : percents) lua_pushnumber(call.state(), percent);
+    return static_cast<int>(percents.size());
 }
 
 int measure_fit(Call& call) {
