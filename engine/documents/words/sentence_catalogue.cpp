@@ -27,6 +27,11 @@ bool is_script_name(std::string_view text) {
     return text.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") == text.npos;
 }
 
+/// Whether what follows these words of a sentence stands in quotation marks.
+bool is_quoted(const std::string& before) {
+    return before.ends_with('"') || before.ends_with('\'');
+}
+
 /// Words that stand for themselves only, such as "a vector", are no beginning of a sentence.
 bool ends_with_sign(std::string_view text) {
     return text.find_last_of(".?!:;") == text.size() - 1;
@@ -56,6 +61,12 @@ std::string with_comma(std::string text) {
     const bool exponent = rest.size() > 1 && rest[0] == 'e' && rest.find_first_of("+-0123456789", 1) == 1;
     if (rest.empty() || rest[0] == ' ' || rest[0] == '%' || exponent) text[point] = ',';
     return text;
+}
+
+SentenceCatalogue sentences_of(std::initializer_list<const char*> files) {
+    SentenceCatalogue sentences;
+    for (const char* file : files) sentences.add(shared_folder() / "report_templates" / file);
+    return sentences;
 }
 
 }  // namespace
@@ -94,7 +105,10 @@ std::optional<SentenceCatalogue::Fit> SentenceCatalogue::fit(const Entry& entry,
         std::size_t at = last && piece.empty() ? text.size() : text.find(piece, found.end);
         while (last && at != text.npos && !ends_sentence(text, at + piece.size())) at = text.find(piece, at + 1);
         if (at == text.npos) return {};
-        found.between.push_back(text.substr(found.end, at - found.end));
+        const std::string_view between = text.substr(found.end, at - found.end);
+        const bool open_end = last && piece.empty();
+        if (!open_end && !is_quoted(entry.from[i - 1]) && between.find(". ") != between.npos) return {};
+        found.between.push_back(between);
         found.end = at + piece.size();
     }
     if (!ends_sentence(text, found.end)) return {};
@@ -128,7 +142,7 @@ std::string SentenceCatalogue::written(const Fit& found) const {
     for (std::size_t i = 0; i < found.between.size(); ++i) {
         const std::string_view between = found.between[i];
         const std::string& before = found.entry->from[i];
-        const bool quoted = before.ends_with('"') || before.ends_with('\'');
+        const bool quoted = is_quoted(before);
         const bool of_script = place_in_script(between) > 0;
         const std::optional<Fit> known = of_script ? std::nullopt : fitting(between);
         if (of_script)
@@ -165,9 +179,11 @@ std::string SentenceCatalogue::translated(std::string_view text) const {
 }
 
 SentenceCatalogue shared_french_sentences() {
-    SentenceCatalogue sentences;
-    for (const char* file : {"sentences.fr.txt", "script_errors.fr.txt"})
-        sentences.add(shared_folder() / "report_templates" / file);
+    return sentences_of({"sentences.fr.txt", "script_errors.fr.txt"});
+}
+
+const SentenceCatalogue& french_engine_sentences() {
+    static const SentenceCatalogue sentences = sentences_of({"engine_sentences.fr.txt"});
     return sentences;
 }
 
