@@ -32,6 +32,13 @@ bool is_quoted(const std::string& before) {
     return before.ends_with('"') || before.ends_with('\'');
 }
 
+/// Initials, as in "A. Martin", end none.
+bool holds_sentence_end(std::string_view text) {
+    for (std::size_t at = 0; (at = text.find(". ", at)) != text.npos; ++at)
+        if (at > 0 && (text[at - 1] < 'A' || text[at - 1] > 'Z')) return true;
+    return false;
+}
+
 /// Words that stand for themselves only, such as "a vector", are no beginning of a sentence.
 bool ends_with_sign(std::string_view text) {
     return text.find_last_of(".?!:;") == text.size() - 1;
@@ -107,7 +114,7 @@ std::optional<SentenceCatalogue::Fit> SentenceCatalogue::fit(const Entry& entry,
         if (at == text.npos) return {};
         const std::string_view between = text.substr(found.end, at - found.end);
         const bool open_end = last && piece.empty();
-        if (!open_end && !is_quoted(entry.from[i - 1]) && between.find(". ") != between.npos) return {};
+        if (!open_end && !is_quoted(entry.from[i - 1]) && holds_sentence_end(between)) return {};
         found.between.push_back(between);
         found.end = at + piece.size();
     }
@@ -115,26 +122,28 @@ std::optional<SentenceCatalogue::Fit> SentenceCatalogue::fit(const Entry& entry,
     return found;
 }
 
-std::optional<SentenceCatalogue::Fit> SentenceCatalogue::fitting(std::string_view text) const {
+std::optional<SentenceCatalogue::Fit> SentenceCatalogue::fitting(std::string_view text, Extent extent) const {
     std::optional<Fit> best;
     for (const Entry& entry : entries_) {
         if (best && entry.letters <= best->entry->letters) continue;
-        if (auto found = fit(entry, text)) best = std::move(found);
+        auto found = fit(entry, text);
+        if (!found) continue;
+        const bool is_all = found->end == text.size();
+        if (is_all || (extent == Extent::kFirstSentence && ends_with_sign(text.substr(0, found->end))))
+            best = std::move(found);
     }
     return best;
 }
 
 bool SentenceCatalogue::knows(std::string_view sentence) const {
-    const std::optional<Fit> found = fitting(sentence);
-    return found && found->end == sentence.size();
+    return fitting(sentence, Extent::kAll).has_value();
 }
 
 std::string SentenceCatalogue::told_line(std::string_view message) const {
     const std::size_t place = place_in_script(message);
     const std::string_view sentence = message.substr(place);
-    const std::optional<Fit> found = fitting(sentence);
-    const bool known = found && found->end == sentence.size();
-    return std::string(message.substr(0, place)) + (known ? written(*found) : std::string(sentence));
+    const std::optional<Fit> found = fitting(sentence, Extent::kAll);
+    return std::string(message.substr(0, place)) + (found ? written(*found) : std::string(sentence));
 }
 
 std::string SentenceCatalogue::written(const Fit& found) const {
@@ -144,10 +153,10 @@ std::string SentenceCatalogue::written(const Fit& found) const {
         const std::string& before = found.entry->from[i];
         const bool quoted = is_quoted(before);
         const bool of_script = place_in_script(between) > 0;
-        const std::optional<Fit> known = of_script ? std::nullopt : fitting(between);
+        const std::optional<Fit> known = of_script ? std::nullopt : fitting(between, Extent::kAll);
         if (of_script)
             text += translated(between);
-        else if (known && known->end == between.size() && !(quoted && is_script_name(between)))
+        else if (known && !(quoted && is_script_name(between)))
             text += written(*known);
         else
             text += quoted ? std::string(between) : with_comma(std::string(between));
@@ -164,8 +173,7 @@ std::string SentenceCatalogue::translated(std::string_view text) const {
     }
     while (!text.empty()) {
         std::size_t end = 0;
-        const std::optional<Fit> found = fitting(text);
-        if (found && (found->end == text.size() || ends_with_sign(text.substr(0, found->end)))) {
+        if (const std::optional<Fit> found = fitting(text, Extent::kFirstSentence)) {
             result += written(*found);
             end = found->end;
         } else {

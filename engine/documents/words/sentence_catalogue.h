@@ -35,9 +35,10 @@ class SentenceCatalogue {
         std::vector<std::string_view> between;
         std::size_t end;
     };
+    enum class Extent { kAll, kFirstSentence };  ///< of a text; the first sentence may be all
     std::string told_line(std::string_view message) const;
     static std::optional<Fit> fit(const Entry& entry, std::string_view text);
-    std::optional<Fit> fitting(std::string_view text) const;
+    std::optional<Fit> fitting(std::string_view text, Extent extent) const;
     std::string written(const Fit& found) const;
 
     std::vector<Entry> entries_;
