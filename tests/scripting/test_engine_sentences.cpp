@@ -12,7 +12,6 @@
 #include "numerics/validation/advice.h"
 #include "platform/text_file.h"
 #include "scripting/arguments/option_words.h"
-#include "scripting/runtime/report_language.h"
 #include "scripting/script_run.h"
 #include "support/advice_corpus.h"
 
@@ -23,15 +22,8 @@ using testing::HasSubstr;
 using testing::Not;
 
 std::string told_in(const std::string& language, const std::string& code) {
-    GnuplotRenderer renderer;
-    ReportLanguage report{language};
-    Runtime runtime({}, renderer);
-    runtime.set_service(&report);
-    const RunRecord record = runtime.run_code(code, "lesson.lua");
-    EXPECT_FALSE(record.error) << record.error->message << "\n" << code;
-    std::string text;
-    for (const auto& [cell, pieces] : record.outputs)
-        for (const CellOutput& piece : pieces) text += piece.printed;
+    const std::string text = printed(code, {}, language);
+    EXPECT_FALSE(text.starts_with("ERROR")) << text << "\n" << code;
     return text;
 }
 
