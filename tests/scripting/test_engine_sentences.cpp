@@ -225,7 +225,8 @@ TEST(engine_sentences, are_as_written_by_hand) {
     EXPECT_EQ(french.translated("u1 explains nothing more of it (p = 0.5). u2 explains nothing more of it (p = 0.6), "
                                 "but its later values go with the error (p < 0.001): the output seems to act back on "
                                 "the input."),
-              "u1 n'en explique plus rien (p = 0,5). u2 n'en explique plus rien (p = 0,6), mais ses valeurs "
+              "L'entrée u1 n'en explique plus rien (p = 0,5). L'entrée u2 n'en explique plus rien (p = 0,6), mais ses "
+              "valeurs "
               "ultérieures vont avec l'erreur (p < 0,001) : la sortie semble réagir sur l'entrée.");
 }
 
