@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <regex>
+
 #include "figures/gnuplot_renderer.h"
 #include "scripting/runtime/function_entry.h"
 #include "scripting/runtime/runtime.h"
@@ -87,6 +89,19 @@ TEST(estimator_forms, choices_flags_and_numbers_are_told_apart) {
     EXPECT_EQ(option("n4sid", "Weighting").parts.size(), 3u);
     EXPECT_EQ(form("procsrivc").arguments.at(0).kind, "process");
     EXPECT_THAT(form("bj").arguments.at(0).parts, testing::ElementsAre("nb", "nc", "nd", "nf", "nk"));
+}
+
+TEST(estimator_forms, are_french_for_french_sessions) {
+    const std::regex english("\\b(the|of|with|any|by|and|at|in|off|to)\\b");
+    const std::vector<EstimatorForm>& forms = estimator_forms();
+    const std::vector<EstimatorForm> french = estimator_forms_in_french();
+    ASSERT_EQ(french.size(), forms.size());
+    for (std::size_t i = 0; i < forms.size(); ++i) {
+        EXPECT_NE(french[i].summary, forms[i].summary);
+        EXPECT_NE(french[i].noise, forms[i].noise);
+        for (const std::string& text : {french[i].summary, french[i].structure, french[i].noise})
+            EXPECT_FALSE(std::regex_search(text, english)) << text;
+    }
 }
 
 }  // namespace test_estimator_forms

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <regex>
 
 #include "support/program.h"
 #include "support/workbench.h"
@@ -392,6 +393,15 @@ TEST_F(workbench, speaks_french_where_the_script_does) {
     EXPECT_TRUE(says(browser, "Estimation et validation"));
     EXPECT_TRUE(browser.comes("/^\\d+,\\d+$/.test(document.querySelectorAll('.models td.number')[4]?.textContent)"));
     EXPECT_EQ(browser.evaluate("return document.documentElement.lang"), "\"fr\"");
+    const std::string told =
+        "[...document.querySelectorAll('.told, .advice p, .chosen p')].map((one) => one.textContent).join(' ')";
+    for (const char* words : {"adéquation de", "l'erreur de sortie", "est assez riche pour des modèles à",
+                              "SRIVC a convergé en", "blanc en sortie"})
+        EXPECT_TRUE(browser.comes(told + ".includes(`" + words + "`)")) << words;
+    const std::string said = browser.evaluate("return " + told);
+    EXPECT_FALSE(std::regex_search(said, std::regex("\\b(the|is|of|error|with|samples|fit)\\b"))) << said;
+    write("mine.lua", french + "\nprint(yy)\n");
+    EXPECT_TRUE(says(browser, "il n'y a ni fonction ni variable"));
 }
 
 TEST_F(workbench, a_long_call_is_stopped_and_the_session_goes_on) {

@@ -2,19 +2,23 @@
 #include <string>
 
 #include "figures/gnuplot_renderer.h"
+#include "scripting/runtime/report_language.h"
 #include "scripting/runtime/runtime.h"
 
 namespace dynlab::test {
 
-inline RunRecord run(const std::string& code, RunOptions options = {}) {
+/// `language`: of the document that the script is of.
+inline RunRecord run(const std::string& code, RunOptions options = {}, const std::string& language = "en") {
     GnuplotRenderer renderer;
+    ReportLanguage report{language};
     Runtime runtime(std::move(options), renderer);
+    runtime.set_service(&report);
     return runtime.run_code(code, "lesson.lua");
 }
 
 /// All text that `code` prints; its error message when it stops with one.
-inline std::string printed(const std::string& code, RunOptions options = {}) {
-    const RunRecord record = run(code, std::move(options));
+inline std::string printed(const std::string& code, RunOptions options = {}, const std::string& language = "en") {
+    const RunRecord record = run(code, std::move(options), language);
     if (record.error) return "ERROR " + record.error->message;
     std::string text;
     for (const auto& [cell, pieces] : record.outputs)

@@ -46,12 +46,13 @@ class memoized_calls : public testing::Test {
     };
     /// Runs a script with what earlier ones left. How long calls take differs from machine to machine: where it does
     /// not matter, all are kept.
-    Use run_with_cache(const std::string& code, CallCache::Duration shortest = CallCache::Duration::zero()) {
+    Use run_with_cache(const std::string& code, CallCache::Duration shortest = CallCache::Duration::zero(),
+                       const std::string& language = "en") {
         const Cache cache;
         CallCache calls(cache, shortest);
         RunOptions options;
         options.call_cache = &calls;
-        const std::string printed = test::printed(kData + code, options);
+        const std::string printed = test::printed(kData + code, options, language);
         return {printed, calls.use().made, calls.use().recalled};
     }
     TemporaryFolder home_;
@@ -127,6 +128,20 @@ TEST_F(memoized_calls, what_has_no_lasting_content_is_refused) {
         EXPECT_EQ(lua_gettop(L), top) << value;
         lua_settop(L, 0);
     }
+}
+
+TEST_F(memoized_calls, in_another_language_a_call_is_made_again_and_says_so_in_it) {
+    const std::string code = "delayest(d, {poles = {1, 3}, TdMax = 0.2})";
+    const auto run_in = [&](const char* language) {
+        return run_with_cache(code, CallCache::Duration::zero(), language);
+    };
+    EXPECT_THAT(run_in("en").printed, HasSubstr("The delay is"));
+    EXPECT_THAT(run_in("fr").printed, HasSubstr("Le retard est"));
+    const Use english = run_in("en"), french = run_in("fr");
+    EXPECT_THAT(english.printed, HasSubstr("The delay is"));
+    EXPECT_THAT(french.printed, HasSubstr("Le retard est"));
+    EXPECT_EQ(english.recalled, 1u);
+    EXPECT_EQ(french.recalled, 1u);
 }
 
 TEST_F(memoized_calls, an_equal_call_gives_the_result_the_text_and_the_figure_of_the_first) {

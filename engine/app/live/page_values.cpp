@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "documents/html/plot_data.h"
+#include "documents/weave.h"
+#include "documents/words/sentence_catalogue.h"
 #include "figures/french_texts.h"
 #include "scripting/arguments/arguments.h"
 #include "scripting/objects/figure_object.h"
@@ -44,6 +46,13 @@ json figure_json(lua_State* L, ScriptFigure& shown) {
     return json::parse(plot_data(comma ? in_french(shown.figure) : shown.figure, comma));
 }
 
+/// What a view says to its reader, by the name under which it says it; other texts are names and code.
+std::string told_on_page(lua_State* L, const std::string& name, const std::string& text) {
+    if (!service<PageValues>(L).decimal_comma) return text;
+    if (name == "words") return french_engine_sentences().translated(text);
+    return name == "error" ? told_error(text, "fr") : text;
+}
+
 json value_json(lua_State* L, int index, int depth);
 
 /// A list where the keys are 1, 2, ...; else an object of those that are texts.
@@ -57,8 +66,12 @@ json table_json(lua_State* L, int index, int depth) {
         list.push_back(value_json(L, lua_gettop(L), depth + 1));
         lua_pop(L, 1);
     }
-    for (lua_pushnil(L); lua_next(L, index) != 0; lua_pop(L, 1))
-        if (lua_type(L, -2) == LUA_TSTRING) object[lua_tostring(L, -2)] = value_json(L, lua_gettop(L), depth + 1);
+    for (lua_pushnil(L); lua_next(L, index) != 0; lua_pop(L, 1)) {
+        if (lua_type(L, -2) != LUA_TSTRING) continue;
+        const std::string name = lua_tostring(L, -2);
+        object[name] = lua_type(L, -1) == LUA_TSTRING ? json(told_on_page(L, name, lua_tostring(L, -1)))
+                                                      : value_json(L, lua_gettop(L), depth + 1);
+    }
     return object.empty() ? list : object;
 }
 

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "documents/text_lines.h"
+#include "documents/words/sentence_catalogue.h"
 #include "numerics/estimators/catalogue.h"
 #include "scripting/runtime/help.h"
 
@@ -168,6 +169,14 @@ std::vector<EstimatorForm> make_forms() {
 const std::vector<EstimatorForm>& estimator_forms() {
     static const std::vector<EstimatorForm> kForms = make_forms();
     return kForms;
+}
+
+std::vector<EstimatorForm> estimator_forms_in_french() {
+    std::vector<EstimatorForm> forms = estimator_forms();
+    for (EstimatorForm& form : forms)
+        for (std::string* const text : {&form.summary, &form.structure, &form.noise})
+            *text = french_engine_sentences().translated(*text);
+    return forms;
 }
 
 }  // namespace dynlab::inline app

@@ -7,7 +7,7 @@ local pcall, type, ipairs, pairs, tostring, math, string, table = pcall, type, i
 local mean, std, vector, exp, sqrt, cos, sin, abs, fft = mean, std, vector, exp, math.sqrt, cos, sin, abs, fft
 local range, slider, save, save_mat, save_csv = range, slider, save, save_mat, save_csv
 local step_first_order, step_second_order, step_delayed = step_first_order, step_second_order, step_delayed
-local show = workbench.show
+local show, language = workbench.show, report.language
 
 local CM_PER_PIXEL = 2.54/96
 
@@ -124,7 +124,7 @@ function views.residuals(settings, values)
   local data = values[settings.validation] or values[settings.estimation]
   if not is_data(data) or #models == 0 then return end
   local fig, tests = resid(data, models[#models])
-  return {figure = fig, words = labels[#labels] .. ": " .. tests.verdict}
+  return {figure = fig, words = labels[#labels] .. (language() == "fr" and "\u{202F}: " or ": ") .. tests.verdict}
 end
 
 for name, f in pairs{step = step, impulse = impulse, bode = bode, nyquist = nyquist, poles = pzmap} do

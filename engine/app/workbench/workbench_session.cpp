@@ -14,6 +14,7 @@
 #include "data_io/values/value_limits.h"
 #include "documents/error.h"
 #include "documents/text_lines.h"
+#include "documents/weave.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/interrupt.h"
@@ -331,6 +332,14 @@ void WorkbenchSession::take_record(const RunnerNews& news) {
     }
 }
 
+std::string WorkbenchSession::language() const {
+    try {
+        return parse_percent_script(text_.text(), text_.file()).header.language;
+    } catch (const DocumentError&) {
+        return "en";  // no script yet
+    }
+}
+
 std::string WorkbenchSession::json(bool all) const {
     ::nlohmann::json page = {{"all", all},
                              {"revision", text_.revision()},
@@ -344,10 +353,11 @@ std::string WorkbenchSession::json(bool all) const {
                              {"states", ::nlohmann::json::object()}};
     for (const auto& [cell, state] : states_)
         page["states"][cell] = {{"state", state.state}, {"seconds", state.seconds}, {"progress", state.progress}};
-    if (error_) page["error"] = {{"message", error_->message}, {"line", error_->line}};
+    if (error_) page["error"] = {{"message", told_error(error_->message, language())}, {"line", error_->line}};
     if (all) {
         page["file"] = fs::absolute(text_.file()).string();
-        page["forms"] = ::nlohmann::json::parse(json_of(estimator_forms()));
+        page["forms"] =
+            ::nlohmann::json::parse(json_of(language() == "fr" ? estimator_forms_in_french() : estimator_forms()));
     }
     if (all || sent_revision_ != text_.revision()) {
         page["source"] = text_.text();

@@ -65,6 +65,7 @@ class WorkbenchSession {
     void take(RunnerNews news);
     void take_record(const RunnerNews& news);
     std::string json(bool all) const;
+    std::string language() const;  ///< that of the script, "en" or "fr"
 
     ScriptRunner& runner_;
     std::function<void()> tell_ = [] {};

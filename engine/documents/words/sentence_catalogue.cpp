@@ -27,6 +27,18 @@ bool is_script_name(std::string_view text) {
     return text.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") == text.npos;
 }
 
+/// Whether what follows these words of a sentence stands in quotation marks.
+bool is_quoted(const std::string& before) {
+    return before.ends_with('"') || before.ends_with('\'');
+}
+
+/// Initials, as in "A. Martin", end none.
+bool holds_sentence_end(std::string_view text) {
+    for (std::size_t at = 0; (at = text.find(". ", at)) != text.npos; ++at)
+        if (at > 0 && (text[at - 1] < 'A' || text[at - 1] > 'Z')) return true;
+    return false;
+}
+
 /// Words that stand for themselves only, such as "a vector", are no beginning of a sentence.
 bool ends_with_sign(std::string_view text) {
     return text.find_last_of(".?!:;") == text.size() - 1;
@@ -56,6 +68,12 @@ std::string with_comma(std::string text) {
     const bool exponent = rest.size() > 1 && rest[0] == 'e' && rest.find_first_of("+-0123456789", 1) == 1;
     if (rest.empty() || rest[0] == ' ' || rest[0] == '%' || exponent) text[point] = ',';
     return text;
+}
+
+SentenceCatalogue sentences_of(std::initializer_list<const char*> files) {
+    SentenceCatalogue sentences;
+    for (const char* file : files) sentences.add(shared_folder() / "report_templates" / file);
+    return sentences;
 }
 
 }  // namespace
@@ -94,33 +112,38 @@ std::optional<SentenceCatalogue::Fit> SentenceCatalogue::fit(const Entry& entry,
         std::size_t at = last && piece.empty() ? text.size() : text.find(piece, found.end);
         while (last && at != text.npos && !ends_sentence(text, at + piece.size())) at = text.find(piece, at + 1);
         if (at == text.npos) return {};
-        found.between.push_back(text.substr(found.end, at - found.end));
+        const std::string_view between = text.substr(found.end, at - found.end);
+        const bool open_end = last && piece.empty();
+        if (!open_end && !is_quoted(entry.from[i - 1]) && holds_sentence_end(between)) return {};
+        found.between.push_back(between);
         found.end = at + piece.size();
     }
     if (!ends_sentence(text, found.end)) return {};
     return found;
 }
 
-std::optional<SentenceCatalogue::Fit> SentenceCatalogue::fitting(std::string_view text) const {
+std::optional<SentenceCatalogue::Fit> SentenceCatalogue::fitting(std::string_view text, Extent extent) const {
     std::optional<Fit> best;
     for (const Entry& entry : entries_) {
         if (best && entry.letters <= best->entry->letters) continue;
-        if (auto found = fit(entry, text)) best = std::move(found);
+        auto found = fit(entry, text);
+        if (!found) continue;
+        const bool is_all = found->end == text.size();
+        if (is_all || (extent == Extent::kFirstSentence && ends_with_sign(text.substr(0, found->end))))
+            best = std::move(found);
     }
     return best;
 }
 
 bool SentenceCatalogue::knows(std::string_view sentence) const {
-    const std::optional<Fit> found = fitting(sentence);
-    return found && found->end == sentence.size();
+    return fitting(sentence, Extent::kAll).has_value();
 }
 
 std::string SentenceCatalogue::told_line(std::string_view message) const {
     const std::size_t place = place_in_script(message);
     const std::string_view sentence = message.substr(place);
-    const std::optional<Fit> found = fitting(sentence);
-    const bool known = found && found->end == sentence.size();
-    return std::string(message.substr(0, place)) + (known ? written(*found) : std::string(sentence));
+    const std::optional<Fit> found = fitting(sentence, Extent::kAll);
+    return std::string(message.substr(0, place)) + (found ? written(*found) : std::string(sentence));
 }
 
 std::string SentenceCatalogue::written(const Fit& found) const {
@@ -128,12 +151,12 @@ std::string SentenceCatalogue::written(const Fit& found) const {
     for (std::size_t i = 0; i < found.between.size(); ++i) {
         const std::string_view between = found.between[i];
         const std::string& before = found.entry->from[i];
-        const bool quoted = before.ends_with('"') || before.ends_with('\'');
+        const bool quoted = is_quoted(before);
         const bool of_script = place_in_script(between) > 0;
-        const std::optional<Fit> known = of_script ? std::nullopt : fitting(between);
+        const std::optional<Fit> known = of_script ? std::nullopt : fitting(between, Extent::kAll);
         if (of_script)
             text += translated(between);
-        else if (known && known->end == between.size() && !(quoted && is_script_name(between)))
+        else if (known && !(quoted && is_script_name(between)))
             text += written(*known);
         else
             text += quoted ? std::string(between) : with_comma(std::string(between));
@@ -150,8 +173,7 @@ std::string SentenceCatalogue::translated(std::string_view text) const {
     }
     while (!text.empty()) {
         std::size_t end = 0;
-        const std::optional<Fit> found = fitting(text);
-        if (found && (found->end == text.size() || ends_with_sign(text.substr(0, found->end)))) {
+        if (const std::optional<Fit> found = fitting(text, Extent::kFirstSentence)) {
             result += written(*found);
             end = found->end;
         } else {
@@ -165,9 +187,11 @@ std::string SentenceCatalogue::translated(std::string_view text) const {
 }
 
 SentenceCatalogue shared_french_sentences() {
-    SentenceCatalogue sentences;
-    for (const char* file : {"sentences.fr.txt", "script_errors.fr.txt"})
-        sentences.add(shared_folder() / "report_templates" / file);
+    return sentences_of({"sentences.fr.txt", "script_errors.fr.txt"});
+}
+
+const SentenceCatalogue& french_engine_sentences() {
+    static const SentenceCatalogue sentences = sentences_of({"engine_sentences.fr.txt"});
     return sentences;
 }
 

@@ -16,7 +16,8 @@ class SentenceCatalogue {
     void add(const std::filesystem::path& file);
 
     /// The text, sentence by sentence, in the other language: of several entries that fit, the one with most letters
-    /// of its own; a sentence that none fits stays. What stands for {} is looked up as well; where it begins with a
+    /// of its own; a sentence that none fits stays. For {} within a sentence stands no end of another, but in quotation
+    /// marks. What stands for {} is looked up as well; where it begins with a
     /// number, such as "15.9 %" or "-1.5e-05", its point becomes a comma, but for what stands in quotation marks. File
     /// and line before the message of a script, and the function that says it, stay: "analysis.lua:3: fit: ...".
     std::string translated(std::string_view text) const;
@@ -34,9 +35,10 @@ class SentenceCatalogue {
         std::vector<std::string_view> between;
         std::size_t end;
     };
+    enum class Extent { kAll, kFirstSentence };  ///< of a text; the first sentence may be all
     std::string told_line(std::string_view message) const;
     static std::optional<Fit> fit(const Entry& entry, std::string_view text);
-    std::optional<Fit> fitting(std::string_view text) const;
+    std::optional<Fit> fitting(std::string_view text, Extent extent) const;
     std::string written(const Fit& found) const;
 
     std::vector<Entry> entries_;
@@ -44,5 +46,8 @@ class SentenceCatalogue {
 
 /// French: report_templates/sentences.fr.txt and script_errors.fr.txt.
 SentenceCatalogue shared_french_sentences();
+
+/// What numerics says of records, models and errors: report_templates/engine_sentences.fr.txt, read once.
+const SentenceCatalogue& french_engine_sentences();
 
 }  // namespace dynlab::inline documents

@@ -3,8 +3,8 @@
 
 #include "numerics/number_text.h"
 #include "numerics/validation/advice.h"
-#include "scripting/arguments/option_words.h"
 #include "scripting/arguments/table_fields.h"
+#include "scripting/arguments/told_sentences.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/data_object.h"
 
@@ -24,19 +24,20 @@ void push_finding(const Call& call, const RecordFinding& finding) {
     set_field(call, "code", finding.code);
     set_field(call, "warning", finding.weight == Weight::kWarning);
     set_field(call, "channel", finding.channel);
-    set_field(call, "message", in_lua_words(finding.message));
+    set_field(call, "message", told(call, finding.message));
     set_field(call, "value", finding.value);
     set_field(call, "experiment", static_cast<Index>(finding.experiment + 1));
     set_segments(call, "sections", finding.sections);
 }
 
-std::string text_of(const Advice& advice, std::size_t experiments) {
+std::string text_of(const Call& call, const Advice& advice, std::size_t experiments) {
     std::string text;
     for (const RecordFinding& finding : advice.findings)
-        text += fmt::format("{} {}{}\n", finding.weight == Weight::kWarning ? "!" : "-",
-                            experiments > 1 ? fmt::format("Experiment {}: ", finding.experiment + 1) : "",
-                            in_lua_words(finding.message));
-    if (advice.clean()) text += "There is no objection to fitting a model to this record.\n";
+        text +=
+            fmt::format("{} {}{}\n", finding.weight == Weight::kWarning ? "!" : "-",
+                        experiments > 1 ? told(call, fmt::format("Experiment {}:", finding.experiment + 1)) + " " : "",
+                        told(call, finding.message));
+    if (advice.clean()) text += told(call, "There is no objection to fitting a model to this record.\n");
     return text;
 }
 
@@ -52,7 +53,7 @@ int give_advice(Call& call) {
     call.at_most(1);
     const IdData& data = object_argument<IdData>(call, 1, "data");
     const Advice advice = advise(data, call.cancel());
-    call.print(text_of(advice, data.experiments.size()));
+    call.print(text_of(call, advice, data.experiments.size()));
     give_list(call, advice.findings, [&](const RecordFinding& finding) { push_finding(call, finding); });
     set_field(call, "clean", advice.clean());
     set_segments(call, "discard", advice.discard);

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "scripting/arguments/table_fields.h"
+#include "scripting/arguments/told_sentences.h"
 #include "scripting/objects/model.h"
 #include "scripting/objects/present.h"
 #include "scripting/objects/process_structure.h"
@@ -103,16 +104,16 @@ int field_report(Call& call) {
     const Estimate& estimate = estimate_in(model_self(call));
     lua_newtable(call.state());
     set_field(call, "method", estimate.method);
-    set_field(call, "message", estimate.message);
+    set_field(call, "message", told(call, estimate.message));
     set_field(call, "converged", estimate.converged);
     for (const auto& [name, value] : estimate.numbers) set_field(call, name.c_str(), value);
     for (const auto& [name, values] : estimate.vectors) set_field(call, name.c_str(), values);
     for (const auto& [name, values] : estimate.matrices) set_field(call, name.c_str(), values);
     if (estimate.assessment) {
         set_field(call, "white", estimate.assessment->white);
-        set_field(call, "residual_verdict", estimate.assessment->verdict);
+        set_field(call, "residual_verdict", told(call, estimate.assessment->verdict));
     }
-    set_field(call, "warnings", estimate.warnings);
+    set_field(call, "warnings", told(call, estimate.warnings));
     return 1;
 }
 

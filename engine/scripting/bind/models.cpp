@@ -2,6 +2,7 @@
 
 #include "numerics/models/convert.h"
 #include "numerics/simulation/stability_margins.h"
+#include "scripting/arguments/told_sentences.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/model.h"
 #include "scripting/objects/present.h"
@@ -167,7 +168,7 @@ int present(Call& call) {
     if (call.count() == 0) wrong_argument(call.state(), 1, "G", "model");
     for (int i = 1; i <= call.count(); ++i) {
         const Model* model = to_object<Model>(call.state(), i);
-        call.print(presentation(model != nullptr ? *model : model_argument(call, i, "G")));
+        call.print(told(call, presentation(model != nullptr ? *model : model_argument(call, i, "G"))));
     }
     return 0;
 }

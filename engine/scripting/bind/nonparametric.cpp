@@ -8,6 +8,7 @@
 #include "numerics/estimators/spa.h"
 #include "numerics/simulation/frequency_response.h"
 #include "scripting/arguments/table_fields.h"
+#include "scripting/arguments/told_sentences.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/figure_object.h"
@@ -52,7 +53,7 @@ double confidence_of(const Options& options) {
 }
 
 void print_message(const Call& call, const std::string& message, const std::vector<std::string>& warnings) {
-    call.print(fmt::format("{}{}{}\n", message, warnings.empty() ? "" : " ", fmt::join(warnings, " ")));
+    call.print(told(call, fmt::format("{}{}{}\n", message, warnings.empty() ? "" : " ", fmt::join(warnings, " "))));
 }
 
 int give_spectral(const Call& call, const Options& options, SpectralModels& read, const SpectralEstimate& estimate,
@@ -70,8 +71,8 @@ int give_spectral(const Call& call, const Options& options, SpectralModels& read
         set_field(call, "coherence", estimate.coherence);
         set_field(call, "noise_spectrum", estimate.noise_spectrum);
     }
-    set_field(call, "message", estimate.message);
-    set_field(call, "warnings", estimate.warnings);
+    set_field(call, "message", told(call, estimate.message));
+    set_field(call, "warnings", told(call, estimate.warnings));
     return 2;
 }
 
@@ -89,8 +90,8 @@ int give_impulse(const Call& call, const Options& options, SpectralModels& read,
         set_field(call, "first", *estimate.first);
         set_field(call, "dead_time", static_cast<double>(std::max<Index>(*estimate.first - 1, 0)) * read.data.Ts);
     }
-    set_field(call, "message", estimate.message);
-    set_field(call, "warnings", estimate.warnings);
+    set_field(call, "message", told(call, estimate.message));
+    set_field(call, "warnings", told(call, estimate.warnings));
     return 2;
 }
 

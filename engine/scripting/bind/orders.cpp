@@ -8,9 +8,9 @@
 #include "numerics/validation/delay_search.h"
 #include "platform/terminal/progress.h"
 #include "scripting/arguments/estimation.h"
-#include "scripting/arguments/option_words.h"
 #include "scripting/arguments/order_vector.h"
 #include "scripting/arguments/table_fields.h"
+#include "scripting/arguments/told_sentences.h"
 #include "scripting/arguments/transfer_arguments.h"
 #include "scripting/bind/study_bindings.h"
 #include "scripting/memoized_calls/memoized_call.h"
@@ -157,7 +157,7 @@ int select_structure(Call& call) {
     const OrderTable& table = object_argument<OrderTable>(call, 1, "table");
     const OrderCriterion criterion = criterion_of(call);
     const OrderChoice choice = choose_order(table.selection, criterion);
-    call.print(order_table_text(table.selection, choice));
+    call.print(told(call, order_table_text(table.selection, choice)));
     const OrderCandidate& candidate = table.selection.candidates[choice.place];
     give_transfer_estimate(call, "srivc", candidate.estimate, !candidate.integrator);
     give_figure(call, order_plot(table.selection, criterion, choice));
@@ -192,7 +192,7 @@ int select_arx_structure(Call& call) {
     const ArxSelection& table = object_argument<ArxSelection>(call, 1, "what arxstruc gave");
     const ArxCriterion criterion = arx_criterion_of(call, table);
     const OrderChoice choice = choose_arx(table, criterion);
-    call.print(arx_table_text(table, choice));
+    call.print(told(call, arx_table_text(table, choice)));
     const ArxCandidate& chosen = table.candidates[choice.place];
     give_value(call, std::array{chosen.na, chosen.nb, chosen.nk});
     give_figure(call, arx_order_plot(table, criterion, choice));
@@ -211,7 +211,7 @@ void push_search(const Call& call, const IdData& data, const DelaySearch& search
     set_field(call, "losses", search.losses());
     set_field(call, "poles", search.candidate.poles);
     set_field(call, "zeros", search.candidate.zeros);
-    set_field(call, "message", in_lua_words(search.explanation));
+    set_field(call, "message", told(call, search.explanation));
     give_transfer_estimate(call, "srivc", search.candidate.estimate, true);
     lua_setfield(L, -2, "model");
 }
@@ -232,7 +232,7 @@ int estimate_delay(Call& call) {
     wanted.progress = [&bar](std::size_t done) { bar.advance(done); };
     const DelaySearch search = search_delay(data, wanted);
     poll_stop(call.state());
-    call.print(in_lua_words(search.explanation) + "\n");
+    call.print(told(call, search.explanation) + "\n");
     call.give(search.delay);
     give_figure(call, delay_plot(search));
     push_search(call, data, search);

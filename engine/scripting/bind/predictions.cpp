@@ -3,6 +3,7 @@
 #include "numerics/validation/prediction.h"
 #include "scripting/arguments/simulation_options.h"
 #include "scripting/arguments/table_fields.h"
+#include "scripting/arguments/told_sentences.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/data_object.h"
 
@@ -33,7 +34,7 @@ void push_report(const Call& call, const Predictions& all) {
     set_per_output(call, "fit_percent", all.fit_percent);
     set_per_output(call, "loss", all.loss);
     set_field(call, "first", all.results.front().front().first + 1);
-    set_field(call, "message", all.message);
+    set_field(call, "message", told(call, all.message));
 }
 
 /// predict(data, G, {k =, ...}) or predict(data, G, k); with kErrors what they leave of the output.

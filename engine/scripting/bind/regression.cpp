@@ -5,6 +5,7 @@
 #include "numerics/estimators/linear_regression.h"
 #include "numerics/statistics/student_t.h"
 #include "scripting/arguments/table_fields.h"
+#include "scripting/arguments/told_sentences.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/text_form.h"
@@ -38,6 +39,10 @@ double centre_of(const RegressionFit& fit) {
     return fit.polynomial ? fit.polynomial->centre : 0.0;
 }
 
+std::string message_of(const RegressionFit& fit) {
+    return fit.regression.message;
+}
+
 std::string regression_text(const RegressionFit& given) {
     const LinearRegression& fit = given.regression;
     return fmt::format("theta = {}\nstandard errors = {}\nRMSE = {}, condition number = {}\n{}", vector_text(fit.theta),
@@ -54,11 +59,11 @@ constexpr std::array kRegressionFields = {
     Member{"condition_number", regression_field<&LinearRegression::condition_number>},
     Member{"covariance", regression_field<&LinearRegression::covariance>},
     Member{"rank", regression_field<&LinearRegression::rank>},
-    Member{"message", regression_field<&LinearRegression::message>},
+    Member{"message", told_field<RegressionFit, message_of>},
     Member{"coefficients", field<RegressionFit, coefficients_of>},
     Member{"centre", field<RegressionFit, centre_of>},
 };
-constexpr std::array kRegressionOperators = {Member{"__tostring", field<RegressionFit, regression_text>}};
+constexpr std::array kRegressionOperators = {Member{"__tostring", told_field<RegressionFit, regression_text>}};
 
 int least_squares(Call& call) {
     call.at_most(3);
@@ -175,7 +180,7 @@ int descend(Call& call) {
     set_field(call, "condition_number", result.condition_number);
     set_field(call, "iterations", result.iterations);
     set_field(call, "converged", result.termination == Termination::kConverged);
-    set_field(call, "message", result.message);
+    set_field(call, "message", told(call, result.message));
     return 1;
 }
 

@@ -106,16 +106,9 @@ int report_text(Call& call) {
     return 0;
 }
 
-template <class T>
-T service_or_default(const Call& call) {
-    const auto& services = call.context().services;
-    const auto found = services.find(typeid(T).hash_code());
-    return found == services.end() ? T{} : *static_cast<const T*>(found->second);
-}
-
 int report_language(Call& call) {
     call.at_most(0);
-    return call.give(service_or_default<ReportLanguage>(call).code);
+    return call.give(service_or_default<ReportLanguage>(call.state()).code);
 }
 
 void check_range(const std::string& name, const RecordedSlider& slider) {
@@ -150,7 +143,7 @@ int slider(Call& call) {
     slider.label = options.text("label", name);
     if (slider.step && slider.logarithmic)
         throw InvalidArgument(fmt::format("the slider \"{}\" has log = true: it takes no step", name));
-    const auto values = service_or_default<SliderValues>(call);
+    const auto values = service_or_default<SliderValues>(call.state());
     const auto found = values.chosen.find(name);
     slider.value = found == values.chosen.end() ? slider.initial : found->second;
     if (values.clamped && slider.from < slider.to) slider.value = std::clamp(slider.value, slider.from, slider.to);
@@ -169,7 +162,7 @@ void push_guesses(lua_State* L) {
 }
 
 bool in_french(const Call& call) {
-    return service_or_default<ReportLanguage>(call).code == "fr";
+    return service_or_default<ReportLanguage>(call.state()).code == "fr";
 }
 
 std::string with_unit(double value, const std::string& unit) {

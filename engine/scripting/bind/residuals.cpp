@@ -8,6 +8,7 @@
 #include "numerics/validation/residual_tests.h"
 #include "scripting/arguments/simulation_options.h"
 #include "scripting/arguments/table_fields.h"
+#include "scripting/arguments/told_sentences.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/figure_object.h"
@@ -26,7 +27,7 @@ void push_independence(const Call& call, const IndependenceTest& test) {
     set_field(call, "p_value_future", test.p_value_future);
     set_field(call, "independent", test.independent);
     set_field(call, "without_feedback", test.without_feedback);
-    set_field(call, "verdict", test.verdict);
+    set_field(call, "verdict", told(call, test.verdict));
 }
 
 void push_output(const Call& call, const OutputResiduals& output) {
@@ -35,7 +36,7 @@ void push_output(const Call& call, const OutputResiduals& output) {
     set_field(call, "mean", output.mean);
     set_field(call, "variance", output.variance);
     set_field(call, "exact", output.exact);
-    set_field(call, "verdict", output.verdict);
+    set_field(call, "verdict", told(call, output.verdict));
     if (output.exact) return;
     set_field(call, "correlation", output.whiteness.correlation);
     set_field(call, "bound", output.whiteness.bound);
@@ -59,7 +60,7 @@ void push_tests(const Call& call, const ResidualTests& tests) {
     lua_setfield(L, -2, "outputs");
     give_list(call, tests.residuals, [&](const Matrix& residuals) { give_columns(call, residuals); });
     lua_setfield(L, -2, "residuals");
-    set_field(call, "verdict", tests.verdict);
+    set_field(call, "verdict", told(call, tests.verdict));
     set_field(call, "white", white);
     set_field(call, "independent", independent);
 }
@@ -87,7 +88,7 @@ int test_residuals(Call& call) {
         options.flag("prediction", false)
             ? prediction_error_tests(driven, predict(driven, noisy_model_argument(call, 2, "G"), {1, start}), wanted)
             : residual_tests(driven, channels_argument(call, 2, "G"), start, wanted, doubts_of(call, 2));
-    if (!quiet) call.print(tests.verdict + "\n");
+    if (!quiet) call.print(told(call, tests.verdict) + "\n");
     bool drawable = false;
     for (const OutputResiduals& output : tests.outputs) drawable = drawable || !output.exact;
     if (drawable && !quiet)
@@ -121,7 +122,7 @@ void push_cross_validation(const Call& call, const CrossValidation& result) {
     lua_setfield(L, -2, "fit_percent");
     set_field(call, "mean", result.mean);
     set_field(call, "std", result.spread);
-    set_field(call, "message", result.message);
+    set_field(call, "message", told(call, result.message));
     give_list(call, result.folds, [&](const CrossValidationFold& fold) {
         lua_createtable(L, 0, 4);
         set_field(call, "experiment", static_cast<double>(fold.experiment + 1));
@@ -146,7 +147,7 @@ int validate_across(Call& call) {
     lua_State* L = call.state();
     const CrossValidation result = cross_validate(
         data, [L](const IdData& training) { return call_fitter(L, training); }, wanted);
-    call.print(result.message + "\n");
+    call.print(told(call, result.message) + "\n");
     give_figure(call, cross_validation_plot(result, data.output_names));
     push_cross_validation(call, result);
     return 2;

@@ -2,8 +2,8 @@
 
 #include "figures/plots/monte_carlo_plot.h"
 #include "scripting/arguments/estimation.h"
-#include "scripting/arguments/option_words.h"
 #include "scripting/arguments/table_fields.h"
+#include "scripting/arguments/told_sentences.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/study_objects.h"
 #include "scripting/objects/study_text.h"
@@ -38,7 +38,7 @@ int push_result(const Call& call, const MonteCarloResult& result) {
     set_field(call, "estimated", result.estimated);
     set_field(call, "failed", result.failed);
     set_field(call, "not_converged", result.not_converged);
-    set_field(call, "first_failure", in_lua_words(result.first_failure));
+    set_field(call, "first_failure", told(call, result.first_failure));
     return 1;
 }
 
@@ -75,7 +75,7 @@ constexpr std::array kStudyFields = {
     Member{"sigma", field<MonteCarlo, &MonteCarlo::sigma>}, Member{"snr", field<MonteCarlo, &MonteCarlo::snr>}};
 constexpr std::array kStudyMethods = {Member{"histograms", guarded<draw_histograms>},
                                       Member{"scatter", guarded<draw_scatter>}};
-constexpr std::array kStudyOperators = {Member{"__tostring", field<MonteCarlo, monte_carlo_text>},
+constexpr std::array kStudyOperators = {Member{"__tostring", told_field<MonteCarlo, monte_carlo_text>},
                                         Member{"__named", guarded<study_named>}};
 
 // ---- order table
@@ -87,7 +87,7 @@ int push_candidate(const Call& call, const OrderCandidate& candidate) {
     set_field(call, "zeros", candidate.zeros);
     set_field(call, "delay", candidate.delay);
     if (!candidate.failure.empty()) {
-        set_field(call, "failure", in_lua_words(candidate.failure));
+        set_field(call, "failure", told(call, candidate.failure));
         return 1;
     }
     for (const auto& [name, value] :
@@ -114,15 +114,15 @@ int table_best(Call& call) {
     return push_candidate(call, table.selection.candidates[table.choice.place]);
 }
 std::string recommendation(const OrderTable& table) {
-    return in_lua_words(table.choice.explanation);
+    return table.choice.explanation;
 }
 std::string table_text(const OrderTable& table) {
     return order_table_text(table.selection, table.choice);
 }
 
 constexpr std::array kTableFields = {Member{"rows", guarded<table_rows>}, Member{"best", guarded<table_best>},
-                                     Member{"recommendation", field<OrderTable, recommendation>}};
-constexpr std::array kTableOperators = {Member{"__tostring", field<OrderTable, table_text>}};
+                                     Member{"recommendation", told_field<OrderTable, recommendation>}};
+constexpr std::array kTableOperators = {Member{"__tostring", told_field<OrderTable, table_text>}};
 
 // ---- table of ARX orders
 
@@ -158,8 +158,8 @@ std::string arx_text(const ArxSelection& table) {
 }
 
 constexpr std::array kArxTableFields = {Member{"rows", guarded<arx_rows>}, Member{"best", guarded<arx_best>},
-                                        Member{"recommendation", field<ArxSelection, arx_recommendation>}};
-constexpr std::array kArxTableOperators = {Member{"__tostring", field<ArxSelection, arx_text>}};
+                                        Member{"recommendation", told_field<ArxSelection, arx_recommendation>}};
+constexpr std::array kArxTableOperators = {Member{"__tostring", told_field<ArxSelection, arx_text>}};
 
 }  // namespace
 

@@ -6,6 +6,7 @@
 #include "numerics/validation/fit_measures.h"
 #include "scripting/arguments/simulation_options.h"
 #include "scripting/arguments/table_fields.h"
+#include "scripting/arguments/told_sentences.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/figure_object.h"
@@ -131,7 +132,7 @@ int measure_fit(Call& call) {
     if (model.estimate && model.estimate->covariance.size() > 0)
         set_field(call, "yic", yic(y, simulated, model.estimate->theta, model.estimate->covariance).value);
     set_field(call, "output", comparison.results.front().front().output);
-    set_field(call, "message", comparison.results.front().front().message);
+    set_field(call, "message", told(call, comparison.results.front().front().message));
     return 1;
 }
 

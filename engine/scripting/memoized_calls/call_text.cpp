@@ -8,6 +8,7 @@
 #include "scripting/memoized_calls/value_archive.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/numeric.h"
+#include "scripting/runtime/report_language.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -151,6 +152,8 @@ class CallWriter {
 std::optional<std::string> call_text(lua_State* L, const char* function, int first, int last, LargeArguments large) {
     CallWriter writer(L, large);
     writer.put_text(function);
+    if (const std::string language = service_or_default<ReportLanguage>(L).code; language != "en")
+        writer.put_text(language);  // its result holds sentences
     for (int i = first; i <= last; ++i)
         if (!writer.put_value_at(i)) return {};
     return std::move(writer).text();

@@ -53,6 +53,14 @@ T& service(lua_State* L) {
     return *static_cast<T*>(context_of(L).services.at(typeid(T).hash_code()));
 }
 
+/// Of a service that not every program gives its scripts.
+template <class T>
+T service_or_default(lua_State* L) {
+    const auto& services = context_of(L).services;
+    const auto found = services.find(typeid(T).hash_code());
+    return found == services.end() ? T{} : *static_cast<const T*>(found->second);
+}
+
 /// Line of the main chunk that runs now, 0 when none does.
 int main_chunk_line(RuntimeContext& context);
 /// "file:line" of the innermost script line, empty when no script is running.

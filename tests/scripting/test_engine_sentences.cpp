@@ -1,0 +1,282 @@
+// What numerics says, in French scripts. Oracles: no English word is left; both languages name the same numbers;
+// sentences written by hand; every sentence that stands in the sources of numerics has its entry.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <regex>
+#include <set>
+
+#include "documents/text_lines.h"
+#include "documents/words/sentence_catalogue.h"
+#include "numerics/validation/advice.h"
+#include "platform/text_file.h"
+#include "scripting/arguments/option_words.h"
+#include "scripting/script_run.h"
+#include "support/advice_corpus.h"
+
+namespace dynlab::test {
+namespace test_engine_sentences {
+
+using testing::HasSubstr;
+using testing::Not;
+
+std::string told_in(const std::string& language, const std::string& code) {
+    const std::string text = printed(code, {}, language);
+    EXPECT_FALSE(text.starts_with("ERROR")) << text << "\n" << code;
+    return text;
+}
+
+/// Sorted, with points.
+std::vector<std::string> numbers_in(const std::string& text) {
+    static const std::regex number(R"(\d+([.,]\d+)?(e[-+]?\d+)?)");
+    std::vector<std::string> numbers;
+    for (std::sregex_iterator found(text.begin(), text.end(), number), end; found != end; ++found) {
+        numbers.push_back(found->str());
+        std::replace(numbers.back().begin(), numbers.back().end(), ',', '.');
+    }
+    std::sort(numbers.begin(), numbers.end());
+    return numbers;
+}
+
+/// Nothing for French text.
+std::string english_words_in(const std::string& given) {
+    static const std::regex english(
+        "(^|[^A-Za-z'_:.-])(the|The|this|This|of|is|are|was|it|It|its|be|to|not|that|with|With|for|from|by|by|in|and|"
+        "or|"
+        "has|have|which|when|samples?|lags?|poles?|zeros?|fit|delay|input|output|model|noise|record|error)"
+        "($|[^A-Za-z'_:(=-])");
+    std::string text = given, words;
+    std::replace_if(
+        text.begin(), text.end(), [](unsigned char c) { return c >= 0x80; }, 'x');  // é is a letter
+    for (std::sregex_iterator found(text.begin(), text.end(), english), end; found != end; ++found)
+        words += found->str(2) + " ";
+    return words;
+}
+
+void expect_french(const std::string& english, const std::string& french) {
+    EXPECT_EQ(english_words_in(french), "") << english << "\nis told as\n" << french;
+    EXPECT_EQ(numbers_in(english), numbers_in(french)) << english << "\nis told as\n" << french;
+    EXPECT_FALSE(std::regex_search(french, std::regex(R"([a-zé)] [;:?!%]([ .,;)]|$))")))
+        << "a sign without its narrow blank in\n"
+        << french;
+}
+
+/// What a script prints in both languages. Tables keep their points, and a row may hold nothing to translate.
+void expect_told_in_french(const std::string& code) {
+    const std::vector<std::string> english = lines_of(told_in("en", code)), french = lines_of(told_in("fr", code));
+    ASSERT_EQ(english.size(), french.size()) << code;
+    for (std::size_t i = 0; i < english.size(); ++i) expect_french(english[i], french[i]);
+}
+
+/// A record of two poles and a delay with white noise at the output; `d`, and `s` with ten times the noise.
+const std::string kRecord = R"(rng(3)
+local u = prbs(6, 12)
+local t = range(0, 0.1, 0.1*(#u - 1))
+local G0 = tf({2}, {1, 1.2, 4}, {IODelay = 0.3})
+local x = lsim(G0, u, t)
+local d = iddata(x + 0.02*randn(#u), u, 0.1)
+local s = iddata(x + 0.2*randn(#u), u, 0.1)
+local function say(G) print(G.report.message) print(G.report.residual_verdict) present(G) end
+)";
+
+TEST(engine_sentences, of_estimators_are_french) {
+    const char* const calls[] = {"srivc(d, {1, 2, 3})",
+                                 "srivc(d, {4, 4, 0})",
+                                 "srivc(d, {1, 2, 3}, {MaxIter = 0})",
+                                 "srivc(s, {1, 2, 3}, {InitialState = 'estimate', Offset = 'estimate'})",
+                                 "srivc(d, {1, 2, 3}, {InitialState = 'steady'})",
+                                 "srivc(iddata(x + 3, u, 0.1), {1, 2, 3})",
+                                 "srivc(d:range(200, 700), {1, 2, 3})",
+                                 "tfsrivc(d, 2, 0)",
+                                 "tfsrivc(d, 2, 2)",
+                                 "tfsrivc(d, 2, 0, {TdMax = 0.1})",
+                                 "tfsrivc(d, 2, 0, {TdMin = 0.5, TdMax = 1})",
+                                 "tfsrivc(iddata(matrix{x, 2*x}, u, 0.1), {2, 2}, {0, 0})",
+                                 "coe(d, {1, 2, 3})",
+                                 "coe(s, {4, 4, 0}, {MaxIter = 2})",
+                                 "rivc(s, {1, 1, 1, 2, 3})",
+                                 "rivc(iddata(x, u, 0.1), {1, 1, 1, 2, 3})",
+                                 "lssvf(d, {2, 1, 3}, 0.01)",
+                                 "lssvf(s, {2, 1, 3}, 3)",
+                                 "ivsvf(d, {2, 1, 3}, 3)",
+                                 "procsrivc(d, 'P2UD')",
+                                 "procsrivc(d, 'P3')",
+                                 "procsrivc(d, 'P2Z')",
+                                 "procsrivc(d, 'P1DI')",
+                                 "hammerstein(d, 2, 0)",
+                                 "arx(d, {2, 2, 1})",
+                                 "arx(s, {6, 6, 1})",
+                                 "iv4(d, {2, 2, 3})",
+                                 "oe(d, {2, 2, 3})",
+                                 "oe(s, {4, 5, 1})",
+                                 "sriv(d, {2, 2, 3})",
+                                 "armax(d, {2, 2, 2, 3})",
+                                 "bj(s, {2, 1, 1, 2, 3})",
+                                 "n4sid(d, 3)"};
+    for (const char* call : calls) expect_told_in_french(kRecord + "say(" + call + ")");
+}
+
+TEST(engine_sentences, of_step_tests_and_regressions_are_french) {
+    expect_told_in_french(
+        "local t = range(0, 0.05, 20)\nlocal u = t*0 + 1\n"
+        "local d = iddata(step(tf({2}, {1.5, 1}), t), u, 0.05)\nlocal e = iddata(step(tf({2}, {1, 0.6, 4}), t), u, "
+        "0.05)\n"
+        "print(step_first_order(d).report.message)\nprint(step_delayed(d).report.message)\n"
+        "print(step_second_order(e).report.message)");
+    expect_told_in_french(
+        "local Phi = matrix{{1, 2}, {1, 3}, {1, 5}}\nprint(lsq(Phi, vector{1, 2, 4}).message)\n"
+        "print(lsq(matrix{{1, 1}, {2, 2}, {3, 3}}, vector{1, 2, 4}).message)\n"
+        "print(gradient_descent(Phi, vector{1, 2, 4}).message)\n"
+        "print(gradient_descent(Phi, vector{1, 2, 4}, {step = 100}).message)\n"
+        "print(gradient_descent(Phi, vector{1, 2, 4}, {MaxIter = 2}).message)");
+}
+
+TEST(engine_sentences, of_validation_are_french) {
+    expect_told_in_french(kRecord + R"(
+resid(d, G0)
+resid(d, tf({2}, {1, 1.2, 4}))
+resid(d, tf({2}, {1, 1}))
+resid(d, tf({-2}, {1, 1.2, 4}))
+resid(d, tf({2}, {1, 1.2, 4}, {IODelay = 0.6}))
+resid(iddata(x, u, 0.1), G0)
+resid(d, srivc(d, {3, 4, 3}))
+resid(iddata(matrix{x, x + 0.1*randn(#u)}, u, 0.1), tfsrivc(iddata(matrix{x, x}, u, 0.1), {2, 2}, {0, 0}))
+resid(d, arx(d, {2, 2, 1}), {prediction = true})
+resid(d:range(200, 700), G0, {InitialState = "zero", Offset = "none"})
+local walk = cumsum(randn(#u))
+resid(iddata(x + 0.2*walk/math.sqrt(#u), u, 0.1), G0)
+print(fit_measures(d, G0).message)
+print(fit_measures(d, G0, {InitialState = "estimate", Offset = "estimate"}).message)
+local f, told = predict(d, arx(d, {2, 2, 1}), {k = 3})
+print(type(told) == "table" and told.message or "")
+crossvalidate(d, function(part) return srivc(part, {1, 2, 3}) end, {folds = 3})
+)");
+}
+
+TEST(engine_sentences, of_searches_and_studies_are_french) {
+    expect_told_in_french(kRecord + R"(
+local V = srivcstruc(d, {poles = {1, 3}, zeros = {0, 1}})
+print(V.recommendation)
+for _, criterion in ipairs{"recommended", "RT2", "YIC", "AIC", "BIC", "FPE", "fit"} do selcstruc(V, criterion) end
+print(srivcstruc(d:range(1, 400), {poles = {2, 3}, zeros = {0, 1}, validate = d:range(401, 700)}))
+print(srivcstruc(d, {poles = {2, 3}, zeros = {0, 1}, delays = {0, 3}}).recommendation)
+print(srivcstruc(d, {poles = {1, 2}, zeros = {0, 0}, Integration = true}).recommendation)
+delayest(d)
+delayest(s, {poles = {1, 1}})
+local A = arxstruc(d, {na = {1, 2}, nb = {1, 2}, nk = {1, 3}})
+for _, criterion in ipairs{"loss", "AIC", "BIC"} do selstruc(A, criterion) end
+print(arxstruc(d:range(1, 400), {na = {1, 2}, nb = {1, 2}, nk = {1, 3}, validate = d:range(401, 700)}))
+)");
+}
+
+TEST(engine_sentences, of_responses_are_french) {
+    expect_told_in_french(kRecord + R"(
+impulseest(d)
+impulseest(d, {lags = 10, smooth = false})
+impulseest(iddata(randn(#u), u, 0.1))
+cra(d)
+cra(iddata(x, lsim(tf({1}, {5, 1}), u, t), 0.1))
+etfe(d)
+etfe(d, {smooth = 3})
+spa(d)
+spa(d:range(101, 160), {window = 30})
+)");
+}
+
+TEST(engine_sentences, of_advice_are_french) {
+    const auto expect_advice = [](const IdData& data) {
+        for (const RecordFinding& finding : advise(data).findings) {
+            const std::string english = in_lua_words(finding.message);
+            expect_french(english, french_engine_sentences().translated(english));
+        }
+    };
+    for (const CorpusKind& kind : faulty_kinds())
+        for (const std::uint32_t seed : {1u, 2u}) expect_advice(kind.record(seed));
+    expect_told_in_french(kRecord + R"(
+local function with(change) local y = vector(x + 0.02*randn(#u)) change(y) return y end
+advice(iddata(with(function(y) y[100] = 30 y[101] = 31 end), u, 0.1))
+advice(iddata(x, u*0 + 1, 0.1))
+advice(iddata(x*0, u, 0.1))
+advice(iddata(t, u, 0.1))
+advice(iddata(u, u, 0.1))
+advice(iddata(round(x*3)/3, u, 0.1, {OutputUnit = "V"}))
+advice(iddata(60*x, u, 0.1, {OutputUnit = "rad"}))
+advice(iddata(x, sin(t), 0.1))
+advice(d:range(1, 12))
+advice(merge(d, s))
+local late = vector(t)
+for k = 300, #late do late[k] = late[k] + 5 end
+advice(iddata(d.y, u, nil, {SamplingInstants = late}))
+for k = 300, #late do late[k] = t[300] + 0.25*(k - 300) end
+advice(iddata(d.y, u, nil, {SamplingInstants = late}))
+)");
+}
+
+TEST(engine_sentences, are_as_written_by_hand) {
+    const SentenceCatalogue& french = french_engine_sentences();
+    EXPECT_EQ(french.translated("Simulated from rest at zero input: fit 83.26 %."),
+              "Simulation depuis le repos à entrée nulle : adéquation de 83,26 %.");
+    EXPECT_EQ(french.translated("Recommended: 3 poles and no zero (R_T^2 = 0.972, YIC = -10.24). Check it on a second "
+                                "record before you trust it."),
+              "Structure recommandée : 3 pôles et aucun zéro (R_T^2 = 0,972, YIC = -10,24). Contrôlez-la sur un "
+              "second enregistrement avant de vous y fier.");
+    // The first sentence is not taken for the beginning of the second, longer one.
+    EXPECT_EQ(french.translated("u1 explains nothing more of it (p = 0.5). u2 explains nothing more of it (p = 0.6), "
+                                "but its later values go with the error (p < 0.001): the output seems to act back on "
+                                "the input."),
+              "L'entrée u1 n'en explique plus rien (p = 0,5). L'entrée u2 n'en explique plus rien (p = 0,6), mais ses "
+              "valeurs "
+              "ultérieures vont avec l'erreur (p < 0,001) : la sortie semble réagir sur l'entrée.");
+}
+
+TEST(engine_sentences, of_scripts_own_stay_and_english_scripts_are_english) {
+    EXPECT_EQ(told_in("fr", "print('The model is unstable.')"), "The model is unstable.\n");
+    EXPECT_THAT(told_in("en", kRecord + "resid(d, G0)"), HasSubstr("The output error is"));
+    EXPECT_THAT(told_in("fr", kRecord + "resid(d, G0)"), Not(HasSubstr("error")));
+}
+
+/// The string literals of a source, those that C++ joins joined, outside of statements that throw or refuse.
+std::vector<std::string> sentences_in(const std::filesystem::path& source) {
+    std::string text = std::regex_replace(read_text(source), std::regex("(^|[^:\"])//[^\n]*|#include[^\n]*"), "$1");
+    text = std::regex_replace(text, std::regex("\"\\s*\n\\s*\""), "");
+    static const std::regex refusal("throw |InvalidArgument|refuse|report_structure|check_\\w+\\(|entry\\(|text <<"),
+        literal("\"((?:[^\"\\\\]|\\\\.)*)\""), words("[A-Za-z']+ [A-Za-z']+ [A-Za-z']+");
+    std::vector<std::string> sentences;
+    std::string statement;
+    bool quoted = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '"' && (i == 0 || text[i - 1] != '\\')) quoted = !quoted;
+        statement += text[i];
+        if (quoted || (text[i] != ';' && text[i] != '{')) continue;
+        if (!std::regex_search(statement, refusal))
+            for (std::sregex_iterator found(statement.begin(), statement.end(), literal), end; found != end; ++found) {
+                const std::string sentence = std::regex_replace(found->str(1), std::regex("\\\\\""), "\"");
+                if (std::regex_search(sentence, words)) sentences.push_back(in_lua_words(sentence));
+            }
+        statement.clear();
+    }
+    return sentences;
+}
+
+TEST(engine_sentences, of_the_sources_have_entries) {
+    // What stands there is no sentence for whoever runs a script: tables of methods and rigs.
+    const std::set<std::string> tables = {"catalogue.cpp", "step_record.cpp", "output_error.cpp", "process_model.cpp"};
+    const std::filesystem::path root = DYNLAB_SOURCE_DIR;
+    std::string known;
+    for (const std::string& line : lines_of(read_text(root / "report_templates/engine_sentences.fr.txt")))
+        if (!line.starts_with(' ')) known += line + "\n";
+    int count = 0;
+    for (const char* room : {"criteria", "estimators", "fit", "models", "validation"})
+        for (const auto& entry : std::filesystem::directory_iterator(root / "engine/numerics" / room)) {
+            if (tables.contains(entry.path().filename().string()) || entry.path().extension() != ".cpp") continue;
+            for (const std::string& sentence : sentences_in(entry.path())) {
+                ++count;
+                EXPECT_NE(known.find(trimmed(sentence)), known.npos) << entry.path() << "\n" << sentence;
+            }
+        }
+    EXPECT_GT(count, 150);
+}
+
+}  // namespace test_engine_sentences
+}  // namespace dynlab::test
