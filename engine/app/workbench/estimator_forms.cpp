@@ -101,7 +101,8 @@ FormField option_field(const std::string& name, const std::string& words) {
 }
 
 /// What a new step begins with: two poles, no zero, no delay.
-std::string initial_order(const std::string& name) {
+std::string initial_order(const std::string& name, TimeDomain domain) {
+    if (name == "nk" && domain == TimeDomain::kDiscrete) return "1";  // of an input that is held between samples
     static const std::map<std::string, std::string> kOrders = {{"na", "2"}, {"nb", "1"}, {"nc", "1"},
                                                                {"nd", "1"}, {"nf", "2"}, {"nk", "0"},
                                                                {"np", "2"}, {"nz", "0"}, {"order", "2"}};
@@ -109,13 +110,14 @@ std::string initial_order(const std::string& name) {
     return found == kOrders.end() ? "1" : found->second;
 }
 
-FormField argument_field(const std::string& written) {
+FormField argument_field(const std::string& written, TimeDomain domain) {
     if (written.front() == '"') return {"structure", "process", {}, "\"P2D\"", ""};
-    if (written.front() != '{') return {written, "number", {}, written == "lambda" ? "" : initial_order(written), ""};
+    if (written.front() != '{')
+        return {written, "number", {}, written == "lambda" ? "" : initial_order(written, domain), ""};
     FormField field{"orders", "orders", {}, "", ""};
     for (const std::string& name : arguments_of("(" + written.substr(1, written.size() - 2) + ")")) {
         field.parts.push_back(name);
-        field.initial += (field.initial.empty() ? "" : ", ") + initial_order(name);
+        field.initial += (field.initial.empty() ? "" : ", ") + initial_order(name, domain);
     }
     return field;
 }
@@ -125,9 +127,10 @@ bool is_options(const std::string& written) {
 }
 
 EstimatorForm form_of(const MethodEntry& method, const FunctionEntry& function) {
+    const bool reading = std::string(function.name).starts_with("step_");  // each has another model
     EstimatorForm form{function.name,
                        function.summary,
-                       method.structure,
+                       reading ? function.summary : method.structure,
                        method.noise,
                        method.domain == TimeDomain::kContinuous ? "continuous" : "discrete",
                        {},
@@ -137,7 +140,7 @@ EstimatorForm form_of(const MethodEntry& method, const FunctionEntry& function) 
     bool takes_options = false;
     for (std::size_t i = 1; i < written.size(); ++i) {
         takes_options = takes_options || is_options(written[i]);
-        if (!is_options(written[i])) form.arguments.push_back(argument_field(written[i]));
+        if (!is_options(written[i])) form.arguments.push_back(argument_field(written[i], method.domain));
     }
     const auto described = described_options(function.name);
     for (FormField& argument : form.arguments) {
@@ -146,9 +149,18 @@ EstimatorForm form_of(const MethodEntry& method, const FunctionEntry& function) 
             if (name == argument.name) argument.words = words;
     }
     for (const auto& [name, words] : described)
-        if (takes_options && known.insert(name).second)
+        if (takes_options && find_function(name) == nullptr && known.insert(name).second)
             form.options.push_back(option_field(name, words_of(name, words)));
     return form;
+}
+
+/// Process models and transfer functions come first, readings of a step last.
+int rank_of(const EstimatorForm& form) {
+    if (form.name.starts_with("step_")) return 2;
+    const auto begins = [&](const char* name) {
+        return !form.arguments.empty() && form.arguments.front().name == name;
+    };
+    return begins("process") || begins("structure") || begins("np") ? 0 : 1;
 }
 
 std::vector<EstimatorForm> make_forms() {
@@ -161,6 +173,9 @@ std::vector<EstimatorForm> make_forms() {
             const bool from_record = arguments_of(signature).front() == "data" && signature.ends_with("-> G");
             if (from_record) forms.push_back(form_of(method, *function));
         }
+    std::stable_sort(forms.begin(), forms.end(), [](const EstimatorForm& one, const EstimatorForm& other) {
+        return rank_of(one) < rank_of(other);
+    });
     return forms;
 }
 

@@ -46,7 +46,8 @@ void describe(T& object, V& member) {
 }
 
 DYNLAB_DESCRIBE(OrderCandidate, poles, zeros, delay, failure, estimate, r_squared, yic, aic, bic, fpe, log_condition,
-                iterations, fit_percent, validation_fit, evidence, undetermined, cancellation, converged, integrator)
+                iterations, fit_percent, validation_fit, evidence, undetermined, cancellation, converged, integrator,
+                unstable)
 DYNLAB_DESCRIBE(OrderSelection, candidates, samples, validated, cancelled)
 DYNLAB_DESCRIBE(OrderChoice, place, explanation)
 DYNLAB_DESCRIBE(MonteCarloResult, label, names, theta, std, truth, mean, spread, median, low, high, reported, bias,

@@ -17,6 +17,7 @@ namespace dynlab::inline figures {
 namespace {
 
 constexpr double kShownShare = 0.99;     // of all estimates, in the middle
+constexpr double kFence = 6;             // quartile distances beside the quartiles, where still more lies far out
 constexpr double kRangeExtension = 0.5;  // times the range of those: what lies farther out would squeeze the picture
 constexpr double kTruthWidth = 2.5;
 constexpr int kTruthColour = 6;  // seen on top of any cloud
@@ -67,7 +68,9 @@ std::pair<double, double> range_of(const std::vector<Vector>& estimates, std::op
     const auto index_at = [&](double share) {
         return static_cast<std::size_t>(share * static_cast<double>(all.size() - 1));
     };
-    const double low = all[index_at((1 - kShownShare) / 2)], high = all[index_at((1 + kShownShare) / 2)];
+    const double lower = all[index_at(0.25)], upper = all[index_at(0.75)], fence = kFence * (upper - lower);
+    const double low = std::max(all[index_at((1 - kShownShare) / 2)], lower - fence),
+                 high = std::min(all[index_at((1 + kShownShare) / 2)], upper + fence);
     const double margin = kRangeExtension * (high - low);
     Extent extent(false);
     for (const double value : all)
@@ -213,6 +216,13 @@ Figure monte_carlo_scatter(const MonteCarlo& study, const std::string& x_name, c
     }
     panel.x_range = range_of(xs, true_x);
     panel.y_range = range_of(ys, true_y);
+    Index outside = 0, all = 0;
+    for (std::size_t j = 0; j < xs.size(); ++j)
+        for (Index k = 0; k < xs[j].size(); ++k, ++all)
+            if (xs[j][k] < panel.x_range->first || xs[j][k] > panel.x_range->second ||
+                ys[j][k] < panel.y_range->first || ys[j][k] > panel.y_range->second)
+                ++outside;
+    if (outside > 0) panel.title = fmt::format("{} of {} outside", outside, all);
     panel.x_label = symbol_of(x_name);
     panel.y_label = symbol_of(y_name);
     Figure figure(std::move(panel));

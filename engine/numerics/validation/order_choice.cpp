@@ -120,6 +120,7 @@ std::string passed_over(const OrderSelection& selection, const Places& estimated
     const std::string subject = " With " + structure_text(other) + " the " +
                                 (selection.validated ? "validation fit" : "BIC") + " would be better still, but ";
     if (!other.sound()) return subject + "that model has " + faults_of(other) + ", a sign of too many parameters.";
+    if (other.unstable && !taken.unstable) return subject + "that model is unstable.";
     if (other.parameters() > taken.parameters())
         return subject + "not by enough to pay for " +
                counted(other.parameters() - taken.parameters(), "more parameter") + ".";
@@ -140,7 +141,8 @@ std::string missed_by(const OrderCandidate& candidate) {
 }
 
 OrderChoice recommend(const OrderSelection& selection, const Places& estimated) {
-    const Places sound = places_where(selection, [](const OrderCandidate& candidate) { return candidate.sound(); });
+    Places sound = places_where(selection, [](const OrderCandidate& one) { return one.sound() && !one.unstable; });
+    if (sound.empty()) sound = places_where(selection, [](const OrderCandidate& one) { return one.sound(); });
     const std::size_t chosen = simplest_of(selection, sound.empty() ? estimated : sound);
     const OrderCandidate& taken = selection.candidates[chosen];
     OrderChoice choice{chosen, "Recommended: " + structure_text(taken) + " (" + measures_of(taken) + "). "};

@@ -113,6 +113,9 @@ void measure(OrderCandidate& candidate, const IdData& data, const OrderSelection
     candidate.undetermined = undetermined_parameters(estimate);
     candidate.cancellation = has_cancellation(estimate, options.integration);
     candidate.converged = estimate.termination == Termination::kConverged;
+    candidate.unstable =
+        !options.integration && std::any_of(estimate.models.begin(), estimate.models.end(),
+                                            [](const TransferFunction& model) { return !model.stable(); });
     if (options.validation == nullptr) return;
     candidate.validation_fit = options.integration ? validation_fit_with_integrator(*options.validation, estimate)
                                                    : validation_fit(*options.validation, estimate, offset);

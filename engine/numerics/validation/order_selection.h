@@ -27,6 +27,7 @@ struct OrderCandidate {
     bool cancellation = false;              ///< a zero lies on a pole within what the data can tell
     bool converged = true;
     bool integrator = false;  ///< besides the poles, which do not count it
+    bool unstable = false;    ///< the integrator aside
 
     /// An estimate without the three faults that tell of too high an order.
     bool sound() const { return failure.empty() && undetermined.empty() && !cancellation && converged; }
@@ -73,10 +74,11 @@ struct OrderChoice {
     std::size_t place = 0;    ///< among the candidates
     std::string explanation;  ///< plain sentences
 };
-/// kRecommended: among the sound candidates, with a second record the one with fewest parameters whose validation fit
-/// is within half a point of the best; otherwise the smallest BIC, or a candidate with fewer parameters that is behind
-/// by no more than 2 (Kass and Raftery 1995: not worth a mention). Without sound candidates all count. Other criteria:
-/// the best value among all estimates. Throws InvalidArgument for kValidationFit without a second record.
+/// kRecommended: among the sound candidates, the stable ones if there are any, with a second record the one with fewest
+/// parameters whose validation fit is within half a point of the best; otherwise the smallest BIC, or a candidate with
+/// fewer parameters that is behind by no more than 2 (Kass and Raftery 1995: not worth a mention). Without sound
+/// candidates all count. Other criteria: the best value among all estimates. Throws InvalidArgument for kValidationFit
+/// without a second record.
 OrderChoice choose_order(const OrderSelection& selection, OrderCriterion criterion = OrderCriterion::kRecommended);
 
 }  // namespace dynlab::inline numerics

@@ -65,6 +65,17 @@ TEST(monte_carlo_plot, far_estimates_do_not_squeeze_the_rest) {
     EXPECT_EQ(figure.panels[1].title, "");
 }
 
+/// Where a method diverges in a tenth of all runs the others are still to be seen, and what is not shown is counted.
+TEST(monte_carlo_plot, many_far_estimates_do_not_squeeze_the_rest) {  // oracle: counting
+    MonteCarlo all = study();
+    for (Index k = 0; k < 50; ++k) all.results.front().theta.row(k) << 1e5 + static_cast<double>(k), 1e6;
+    const Panel panel = monte_carlo_scatter(all, "a1", "b0").panels.front();
+    EXPECT_LT(panel.x_range->second, 20);
+    EXPECT_LT(panel.y_range->second, 10);
+    EXPECT_EQ(panel.title, "50 of 1000 outside");
+    EXPECT_EQ(monte_carlo_histograms(all).panels.front().title, "50 of 500 outside");
+}
+
 TEST(monte_carlo_plot, failed_runs_are_left_out) {
     MonteCarlo all = study();
     all.results.front().theta.row(3).setConstant(std::nan(""));

@@ -102,6 +102,25 @@ TEST(order_selection, structures_with_an_integrator_are_judged_with_it) {
     EXPECT_GT(fit, 90);
 }
 
+TEST(order_selection, an_unstable_model_is_recommended_only_where_all_are) {  // oracle: definition
+    OrderSelection selection;
+    for (const bool unstable : {false, true}) {
+        OrderCandidate candidate;
+        candidate.poles = unstable ? 3 : 2;
+        candidate.estimate.theta = Vector::Ones(unstable ? 5 : 3);
+        candidate.evidence = unstable ? -2000 : -1000;
+        candidate.unstable = unstable;
+        selection.candidates.push_back(candidate);
+    }
+    selection.samples = 500;
+    const OrderChoice choice = choose_order(selection);
+    EXPECT_EQ(choice.place, 0u);
+    EXPECT_THAT(choice.explanation,
+                HasSubstr("With 3 poles and no zero the BIC would be better still, but that model is unstable."));
+    selection.candidates.front().unstable = true;
+    EXPECT_EQ(choose_order(selection).place, 1u);
+}
+
 TEST(order_selection, a_zero_at_the_origin_tells_that_there_is_no_integrator) {  // oracle: the simulated system
     const IdData data = record(kSecondOrder, prbs(7, 8), 0.05, 30, 1);
     OrderSelectionOptions options;
