@@ -138,6 +138,23 @@ TEST_F(workbench_page_parts, a_misspelt_method_keeps_table_controls_and_pictures
     EXPECT_THAT(script(), HasSubstr("G1 = tfsrivc(estimation, 1, 0)\n"));
 }
 
+TEST_F(workbench_page_parts, a_step_of_preparation_that_fails_keeps_the_parts_and_all_pictures) {
+    Browser browser;
+    const auto program = open(browser);
+    press_all(browser, {"Divide 60 : 40", "+ Level", "New model"});
+    ASSERT_TRUE(view_comes(browser, "bode"));
+    type(browser, "\"mean\"", "\"meen\"");
+    ASSERT_TRUE(stops(browser));
+    EXPECT_TRUE(browser.comes("document.querySelectorAll('.tile.older canvas').length >= 4"));
+    EXPECT_TRUE(browser.comes("document.body.innerText.includes('Divide 60 : 40')"));
+    EXPECT_TRUE(browser.comes("document.querySelector('.models td.number')"));
+    browser.evaluate(
+        "const list = document.querySelector('.preparing select'); list.value = '\"linear\"'; "
+        "list.dispatchEvent(new Event('change'))");
+    EXPECT_TRUE(browser.comes("document.getElementById('state').textContent === 'up to date'"));
+    EXPECT_TRUE(browser.comes("!document.querySelector('.tile.older')"));
+}
+
 TEST_F(workbench_page_parts, a_bracket_that_is_open_is_marked_where_it_was_opened) {
     Browser browser;
     const auto program = open(browser);

@@ -72,29 +72,35 @@ function drawPanels() {
   const steps = $("steps"), active = document.activeElement;
   panelsAreOld = held;
   if (held) return drawModels();
-  const path = steps.contains(active) && active !== steps ? placeOf(steps, active) : null, chosen = chosenDetails(steps), scrolled = steps.scrollTop;
+  const path = steps.contains(active) && active !== steps ? placeOf(steps, active) : null, known = path && markOf(steps, active), chosen = chosenDetails(steps), scrolled = steps.scrollTop;
   const typedText = path && ["text", "textarea"].includes(active.type) && active.value !== active.defaultValue ? active.value : null;
   steps.replaceChildren(...[recordPanel(), preparationPanel(), partsPanel(), readingPanel(), estimatePanel(), knownPanel(), viewsPanel(), exportsPanel()].filter(Boolean));
   for (const [key, node] of namedDetails(steps)) {
     if (chosen.has(key)) Object.assign(node, { open: chosen.get(key) }).dataset.chosen = "1";
   }
   steps.scrollTop = scrolled;
-  const again = path && nodeAt(steps, path);
-  if (again && again.tagName === active.tagName && !again.disabled) {
-    again.focus({ preventScroll: true });
-    if (typedText !== null) again.value = typedText;
-  } else if (path) {
-    nearestControl(steps, path).focus({ preventScroll: true });
-  }
+  const again = path && controlAt(steps, known);
+  (again ?? (path && nearestControl(steps, path)))?.focus({ preventScroll: true });
+  if (again && typedText !== null) again.value = typedText;
   drawModels();
 }
 function drawModels() {
   const models = modelsPanel(), old = document.querySelector("#views > .models"), active = document.activeElement;
-  const path = old?.contains(active) && active !== old ? placeOf(old, active) : null;
+  const path = old?.contains(active) && active !== old ? placeOf(old, active) : null, known = path && markOf(old, active);
   if (old && models) old.replaceWith(models);
   else old?.remove();
   if (models && !old) $("views").prepend(models);
-  if (path) (models ? nodeAt(models, path) ?? nearestControl(models, path) : $("views")).focus({ preventScroll: true });
+  if (path) (models ? controlAt(models, known) ?? nearestControl(models, path) : $("views")).focus({ preventScroll: true });
+}
+/// A control is known again, where its panel was made anew, by its panel's title, its name and its place among those of that name.
+const titleOf = (node) => node.closest(".panel")?.querySelector("h2, summary").textContent.replace(/ \(\d+\)$/, "");
+const nameOf = (node) => node.ariaLabel ?? node.closest("label")?.firstChild.textContent ?? node.textContent.replace(/ \(\d+\)$/, "");
+const keyOf = (node) => [titleOf(node), node.type, nameOf(node)].join("|");
+const ofKey = (root, tag, key) => [...root.querySelectorAll(tag)].filter((node) => keyOf(node) === key);
+const markOf = (root, node) => ({ tag: node.tagName, key: keyOf(node), number: ofKey(root, node.tagName, keyOf(node)).indexOf(node) });
+function controlAt(root, { tag, key, number }) {
+  const found = ofKey(root, tag, key)[number];
+  return found && !found.disabled ? found : null;
 }
 /// Where focus goes when its control is no longer there: to the last one at a place on the way to it.
 function nearestControl(root, path) {
