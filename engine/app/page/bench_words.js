@@ -67,7 +67,7 @@ const WORDS = {
   exports: ["Exports", "Exportations"], exportModels: ["Models", "Modèles"], exportData: ["Prepared record", "Enregistrement préparé"], exportScript: ["Script", "Script"],
 };
 const VIEWS = {
-  record: ["Record", "Enregistrement"], second: ["Second record, for validation", "Second enregistrement, pour la validation"], spectrum: ["Spectrum", "Spectre"], compare: ["Simulation and record", "Simulation et mesure"],
+  record: ["Record", "Enregistrement"], second: ["Second record", "Second enregistrement"], spectrum: ["Spectrum", "Spectre"], compare: ["Simulation and record", "Simulation et mesure"],
   residuals: ["Simulation residuals", "Résidus de simulation"], step: ["Step response", "Réponse indicielle"], impulse: ["Impulse response", "Réponse impulsionnelle"],
   bode: ["Bode", "Bode"], nyquist: ["Nyquist", "Nyquist"], poles: ["Poles and zeros", "Pôles et zéros"], parameters: ["Parameters", "Paramètres"],
   correlation: ["Impulse response by correlation", "Réponse par corrélation"], delay: ["Loss over the delay", "Critère selon le retard"],
