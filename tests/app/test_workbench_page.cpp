@@ -240,6 +240,7 @@ TEST_F(workbench_page_parts, a_cell_of_the_map_becomes_the_model_whose_controls_
     const auto program = open(browser);
     press_all(browser, {"New model", "Search orders"});
     ASSERT_TRUE(browser.comes("document.querySelectorAll('button.order').length >= 9"));
+    browser.evaluate("document.querySelector('.models td button').click()");  // G1 was chosen by hand
     browser.evaluate("document.querySelectorAll('button.order')[4].click()");
     ASSERT_TRUE(script_has(browser, "G2 = tfsrivc"));
     EXPECT_TRUE(browser.comes("document.querySelector('.chosen h3').textContent === 'G2'"));
