@@ -6,6 +6,7 @@
 #include "cli/document_command.h"
 #include "numerics/error.h"
 #include "workflow/identify.h"
+#include "workflow/recording.h"
 
 namespace dynlab::inline cli {
 namespace {
@@ -39,8 +40,19 @@ void print_at_once(const std::string& text) {
     std::fflush(stdout);
 }
 
+/// identification_script(), with what somebody at the terminal can do about a file without a sampling time.
+std::string script_of(const IdentifyRequest& request) {
+    try {
+        return identification_script(request);
+    } catch (const UnknownSampling& error) {
+        throw EnvironmentError(std::string(error.what()) +
+                               "; give --Ts SECONDS or --time NAME, or write '# Ts: 0.01' into the first line of a "
+                               "CSV file");
+    }
+}
+
 int identify(const IdentifyArguments& words) {
-    const std::string script = identification_script(words.request);
+    const std::string script = script_of(words.request);
     if (words.script) {
         print_at_once(script);
         return kDone;

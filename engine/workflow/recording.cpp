@@ -78,11 +78,8 @@ void Recording::find_sampling(std::optional<double> given, const std::string& ti
         time_.reset();
         sampling_ = "{0}.Ts";
     } else if (sampling_.empty()) {
-        throw EnvironmentError(
-            name_ +
-            " states no sampling time and has no column t or time, nor one whose header has a unit of "
-            "time; give --Ts SECONDS or --time NAME, or write '# Ts: 0.01' into the first line of a CSV "
-            "file");
+        throw UnknownSampling(
+            name_ + " states no sampling time and has no column t or time, nor one whose header has a unit of time");
     }
 }
 

@@ -4,8 +4,15 @@
 #include <vector>
 
 #include "data_io/dataset_index.h"
+#include "platform/error.h"
 
 namespace dynlab::inline workflow {
+
+/// A file does not tell when its samples were taken. The message says so; what can be done depends on who asks.
+class UnknownSampling : public EnvironmentError {
+  public:
+    using EnvironmentError::EnvironmentError;
+};
 
 /// Signals of a data file and how their samples lie in time, to be written down in Lua.
 class Recording {
@@ -14,8 +21,8 @@ class Recording {
     /// file, columns of a matrix: y2 is the second of y, or members of a struct: steps.y, whose time is steps.t. `Ts`:
     /// sampling time in seconds instead of what the file says; without it the file's own, or the column `time`, or the
     /// one that is most likely the time (time_column()). Throws EnvironmentError for a name that is not a column of
-    /// numbers there (listing those there are), signals of different lengths, unknown sampling, a time that does not
-    /// increase.
+    /// numbers there (listing those there are), signals of different lengths, a time that does not increase;
+    /// UnknownSampling.
     Recording(const std::string& name, const std::vector<std::string>& inputs, const std::vector<std::string>& outputs,
               std::optional<double> Ts, const std::string& time);
 

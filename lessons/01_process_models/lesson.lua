@@ -226,7 +226,7 @@ report.value("K_any_ratio", G1_free.std[1]/G1.std[1], "%.1f")
 --
 -- `dynlab app heat_exchanger` opens the record in a workbench in the browser (@fig:workbench). Under **Read by hand** press **First order**: a model lies over
 -- the response, and its two marked points can be dragged; the formulas below the picture hold the numbers of the moment. Then choose `procsrivc` as **Method** and
--- press **New model**; leave one pole, `P1`, take the delay `D` out, and under **Options** choose `steady` for `InitialState`. Each click writes
+-- press **New model**; choose one pole, `P1`, take the delay `D` out, and under **Options** choose `steady` for `InitialState`. Each click writes
 -- or changes a line of `heat_exchanger_session.lua`, which stands beside the pictures: `dynlab run` and `dynlab report` take it as it is.
 --
 -- ![The workbench after these clicks: the controls, the pictures, and the script that they have written](workbench.png){#fig:workbench}

@@ -48,9 +48,7 @@ TEST(session_script, leaves_alone_what_controls_cannot_show) {
     EXPECT_TRUE(session_steps("if a then\n  G = f(1)\nend\nrepeat\n  x = g(2)\nuntil x\n").empty());
     EXPECT_TRUE(session_steps("-- G = srivc(data, {1, 2, 0})\n").empty());
     EXPECT_TRUE(session_steps("local x\nx.y = f(3)\n").empty());
-    EXPECT_TRUE(session_steps("G = srivc(data, {1, 2\n").empty());
     EXPECT_TRUE(session_steps("").empty());
-    EXPECT_TRUE(session_steps("s = \"never closed\n").empty());
     EXPECT_TRUE(session_steps(")}]end end x").empty());
 }
 
@@ -62,6 +60,34 @@ TEST(session_script, knows_the_lines_of_steps_over_several) {
     EXPECT_EQ(steps[1].first_line, 4);
     EXPECT_EQ(steps[1].last_line, 6);
     EXPECT_EQ(steps[2].first_line, 10);
+}
+
+std::string seen_in(const std::string& source) {
+    std::string text;
+    for (const SessionStep& step : session_steps(source)) {
+        text += std::to_string(step.first_line) + "-" + std::to_string(step.last_line) + (step.broken ? " broken" : "");
+        for (const std::string& name : step.names) text += " " + name;
+        text += " = " + step.function;
+        for (const std::string& argument : step.arguments) text += "|" + argument;
+        text += "\n";
+    }
+    return text;
+}
+
+TEST(session_script, a_statement_that_is_half_typed_takes_nothing_with_it) {
+    const std::string before = "a = f(1)\n", behind = "\n-- %% id=later\nb, c = g(a)\n", rest = "4-4 b c = g|a\n";
+    EXPECT_EQ(seen_in(before + "G = srivc(data, {1, 2" + behind),
+              "1-1 a = f|1\n2-2 broken G = |srivc(data, {1, 2\n" + rest);
+    EXPECT_EQ(seen_in(before + "G = 2/(s^2 +" + behind), "1-1 a = f|1\n2-2 broken G = |2/(s^2 +\n" + rest);
+    EXPECT_EQ(seen_in(before + "G = 2/" + behind), "1-1 a = f|1\n2-2 broken G = |2/\n" + rest);
+    EXPECT_EQ(seen_in(before + "G =" + behind), "1-1 a = f|1\n2-2 broken G = |\n" + rest);
+    EXPECT_EQ(seen_in(before + "G = \"never closed" + behind), "1-1 a = f|1\n2-2 broken G = |\"never closed\n" + rest);
+    EXPECT_EQ(seen_in(before + "G = 2/\nK = 3" + behind),
+              "1-1 a = f|1\n2-2 broken G = |2/\n3-3 K = |3\n5-5 b c = g|a\n");
+    EXPECT_EQ(seen_in("M = montecarlo{runs = 3,\n  estimators = {srivc = {{1, 2}}\nK = 3\n"),
+              "1-2 broken M = |montecarlo{runs = 3, estimators = {srivc = {{1, 2}}\n3-3 K = |3\n");
+    EXPECT_EQ(seen_in("G = srivc(data))\nend\nK = 3\n"), "1-1 G = |srivc(data))\n3-3 K = |3\n");
+    EXPECT_EQ(seen_in("a = 1; b = 2\nK = 3\n"), "2-2 K = |3\n") << "nothing unfinished";
 }
 
 TEST(session_script, remarks_behind_a_step_stay_and_those_inside_make_it_none) {

@@ -15,23 +15,7 @@ using namespace dynlab::test;
 using testing::HasSubstr;
 using testing::Not;
 
-class workbench : public workbench_page {
-  protected:
-    /// A second-order plant with noise, as a stranger's CSV file.
-    void write_record(const std::string& name = "plant.csv") const {
-        std::ofstream out(file(name));
-        out << "time (s),valve (%),level (cm)\n";
-        double x = 0, v = 0;
-        for (int k = 0; k < 800; ++k) {
-            const double u = (k / 37 + k / 59) % 2 == 0 ? 1 : -1, noise = 0.02 * std::sin(12.9898 * k * k);
-            out << 0.1 * k << ',' << 50 + 10 * u << ',' << 20 + 5 * x + noise << '\n';
-            for (int i = 0; i < 20; ++i) {
-                v += 0.005 * (2 * u - 3 * x - 2 * v);
-                x += 0.005 * v;
-            }
-        }
-    }
-};
+class workbench : public workbench_page {};
 
 TEST_F(workbench, a_file_that_nobody_has_seen_becomes_a_validated_model_with_its_report) {
     write_record();

@@ -96,7 +96,7 @@ TEST_F(workbench_lessons, the_known_system_of_lesson_4) {
     EXPECT_THAT(text, HasSubstr("`lssvf = {{2, 1, 0}, 3}`"));
     browser.evaluate(
         "const field = [...document.querySelectorAll('#steps label')].find((one) => "
-        "one.textContent.trim().startsWith('estimators')).querySelector('input');"
+        "one.textContent.trim().startsWith('estimators')).querySelector('textarea');"
         "field.value = '{lssvf = {{2, 1, 0}, 3}, srivc = {{1, 2, 0}, {lambda = 3}}}'; field.dispatchEvent(new "
         "Event('change'))");
     ASSERT_TRUE(browser.comes("document.querySelector('.tile[data-view=study] table')?.textContent.includes('lssvf')"));

@@ -176,6 +176,7 @@ TEST(script_errors, name_the_line_where_something_is_missing) {
         {"for i = 1, 2 do if i > 1 then print(i) end\n" + below, "lesson.lua:1: the 'for' of line 1 has no 'end'"},
         {"local x = 1 +\n" + below, "lesson.lua:1: this statement goes on, but the cell ends here"},
         {"local v = {1, 2,\n" + below, "lesson.lua:1: this statement goes on, but the cell ends here"},
+        {"print(1)\nprint(1, {2,\n3\n", "lesson.lua:2: the '{' of line 2 is not closed: '}' is missing"},
         {"print(1 +\n2,\n3 3)\n" + below, "lesson.lua:3: the '(' of line 1 is not closed: ')' is missing"},
     });
 }

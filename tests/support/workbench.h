@@ -1,7 +1,9 @@
 #pragma once
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -23,6 +25,20 @@ class workbench_page : public testing::Test {
         if (!subject.empty()) words.push_back(subject);
         words.insert(words.end(), options.begin(), options.end());
         return std::make_unique<PageProgram>(words, std::filesystem::path(), folder.path());
+    }
+    /// A second-order plant with noise, as a stranger's CSV file.
+    void write_record(const std::string& name = "plant.csv") const {
+        std::ofstream out(file(name));
+        out << "time (s),valve (%),level (cm)\n";
+        double x = 0, v = 0;
+        for (int k = 0; k < 800; ++k) {
+            const double u = (k / 37 + k / 59) % 2 == 0 ? 1 : -1, noise = 0.02 * std::sin(12.9898 * k * k);
+            out << 0.1 * k << ',' << 50 + 10 * u << ',' << 20 + 5 * x + noise << '\n';
+            for (int i = 0; i < 20; ++i) {
+                v += 0.005 * (2 * u - 3 * x - 2 * v);
+                x += 0.005 * v;
+            }
+        }
     }
     static bool is_ready(Browser& browser) {
         return browser.comes(

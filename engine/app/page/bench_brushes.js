@@ -44,7 +44,7 @@ export class Brushes {
         edge.setAttribute("aria-valuenow", String(Number(part[i].toPrecision(6))));
         edge.setAttribute("aria-valuemin", String(this.whole[0]));
         edge.setAttribute("aria-valuemax", String(this.whole[1]));
-        edge.setAttribute("aria-valuetext", panel.x.text(part[i], this.plot.comma));
+        edge.setAttribute("aria-valuetext", `${panel.x.text(part[i], this.plot.comma)}${panel.x.measure ? "" : " s"}`);
       });
     });
   }

@@ -1,5 +1,6 @@
 // Controls of a step that calls an estimator: they follow from its form, show what the step's line says, and change that line.
-import { change, post, session, trouble } from "/bench_session.js";
+import { change, session, trouble } from "/bench_session.js";
+import { help, inline } from "/bench_help.js";
 import { formOf, luaNumber, replaced, stepOf } from "/bench_steps.js";
 import { say } from "/bench_words.js";
 
@@ -10,13 +11,6 @@ export function element(tag, fields = {}, ...children) {
 }
 export const button = (words, act, fields = {}) => element("button", { type: "button", textContent: words, onclick: act, ...fields });
 
-/// The help page of a function, in a dialog.
-export async function help(name) {
-  const answer = await fetch(`/help?name=${encodeURIComponent(name)}`);
-  document.getElementById("help-title").textContent = `${say("help")} ${name}`;
-  document.getElementById("help-text").textContent = (await answer.text()).replace(/^# .*\n+/, "");
-  document.getElementById("page-of-help").showModal();
-}
 export const why = (name) => button(say("why"), () => help(name), { className: "why", ariaLabel: `${say("why")} ${name}`, title: `dynlab help ${name}` });
 
 /// Writes a step anew; `make(step)` gives what is other.
@@ -40,8 +34,16 @@ const isNumber = (text) => text.trim() !== "" && Number.isFinite(Number(text));
 
 function labelled(words, control, title = "") {
   control.title = title;
+  const range = control.querySelector?.("input[type=range]");
+  if (range) range.ariaLabel = `${words}: ${say("slider")}`;
   return element("label", { title }, element("span", { textContent: words }), control);
 }
+/// The beginning of what a help page says of an option, and what is taken where it is not given.
+function shortWords(words) {
+  const [begin] = words.split(/[;.](?:\s|$)/), initial = /[^;.(]*\bdefault\b(?:[^;.]|\.\d)*/.exec(words.slice(begin.length))?.[0].trim();
+  return inline(begin + (initial ? `; ${initial}` : ""));
+}
+const option = (key, field, now) => element("div", { className: "option" }, labelled(field.name, optionControl(key, field, now), field.words), element("small", {}, ...shortWords(field.words)));
 
 function choice(values, now, act, names = values) {
   const list = element("select", { onchange: () => act(list.value) });
@@ -51,8 +53,31 @@ function choice(values, now, act, names = values) {
   return list;
 }
 
-/// A field for an expression of Lua: what is no expression is told by the run, in its line.
-const textField = (now, act) => element("input", { type: "text", value: now, spellcheck: false, onchange: (event) => act(event.target.value.trim()) });
+/// What is open at the end of an expression, or closed too often: a bracket or a quote; null where all is closed.
+function openAt(text) {
+  const open = [], closing = { ")": "(", "]": "[", "}": "{" };
+  for (const [sign] of text.matchAll(/"(?:[^"\\]|\\.)*"|'(?:[^'\\]|\\.)*'|["'()[\]{}]/g)) {
+    if (sign.length > 1) continue;
+    if ("([{".includes(sign)) open.push(sign);
+    else if (!closing[sign] || open.pop() !== closing[sign]) return sign;
+  }
+  return open.pop() ?? null;
+}
+/// A field for an expression of Lua. One that is not closed stays in the field, since it would take the lines behind it
+/// along; what else is no expression is told by the run, in its line.
+function expression(box, now, act) {
+  Object.assign(box, { value: now, defaultValue: now, spellcheck: false });
+  box.onchange = () => {
+    const text = box.value.trim(), wrong = openAt(text);
+    if (wrong) trouble(`${say("notClosed")} ${wrong}    ${text}`);
+    else if (box.ariaInvalid === "true") trouble(session.error?.message ?? null);
+    box.ariaInvalid = String(Boolean(wrong));
+    if (!wrong) act(text);
+  };
+  return box;
+}
+const textField = (now, act) => expression(element("input", { type: "text" }), now, act);
+const longField = (now, act) => expression(element("textarea", { rows: 2 }), now, act);
 
 /// Controls are not made anew while a hand is at one of them.
 export const hold = (held) => document.dispatchEvent(new CustomEvent("benchheld", { detail: held }));
@@ -63,7 +88,7 @@ function numberField(now, act, { slider = true } = {}) {
   const box = element("input", { type: "number", step: "any", value: now });
   box.onchange = () => act(box.value === "" ? "" : luaNumber(box.value), {});
   if (!slider || !isNumber(now) || !(Number(now) > 0)) return box;
-  const range = element("input", { type: "range", min: -1, max: 1, step: 0.01, value: 0, ariaLabel: say("value") });
+  const range = element("input", { type: "range", min: -1, max: 1, step: 0.01, value: 0, ariaLabel: say("slider") });
   let middle = Number(now), held = false;
   range.oninput = () => {
     const text = luaNumber((middle * 30 ** Number(range.value)).toPrecision(3));
@@ -106,7 +131,7 @@ function processField(now, act) {
   const letters = new Set(read[2]);
   let poles = read[1];
   const tell = () => act(`"P${poles}${[..."DIUZ"].filter((letter) => letters.has(letter) && !(letter === "U" && poles === "1")).join("")}"`, {});
-  const row = element("span", { className: "orders" }, choice(["1", "2", "3"], poles, (value) => { poles = value; tell(); }, ["P1", "P2", "P3"]));
+  const row = element("span", { className: "orders" }, Object.assign(choice(["1", "2", "3"], poles, (value) => { poles = value; tell(); }, ["P1", "P2", "P3"]), { ariaLabel: say("poles") }));
   for (const letter of "DIZU") {
     const box = element("input", { type: "checkbox", checked: letters.has(letter), disabled: letter === "U" && poles === "1" });
     box.onchange = () => { if (box.checked) letters.add(letter); else letters.delete(letter); tell(); };
@@ -142,7 +167,7 @@ function delayControl(key, step) {
     options: [...without(step), ...(way === "free" ? [] : [way === "none" ? { key: "TdMax", text: "0" } : { key: "IODelay", text: fixed || "0.1" }])],
   }));
   const row = element("span", { className: "orders" }, labelled(say("delay"), choice(["free", "fixed", "none"], now, act, [say("free"), say("fixed"), say("noDelay")])));
-  if (fixed) row.append(numberField(fixed, (text, how) => rewrite(key, (step) => withOption(step, "IODelay", text), how)));
+  if (fixed) row.append(labelled("IODelay (s)", numberField(fixed, (text, how) => rewrite(key, (step) => withOption(step, "IODelay", text), how))));
   return row;
 }
 
@@ -155,10 +180,10 @@ export function stepControls(key, step, { open = false } = {}) {
   if (hasDelay) node.append(delayControl(key, step));
   const given = form.options.filter(({ name }) => optionText(step, name) !== "" && !(hasDelay && ["IODelay", "TdMax"].includes(name)));
   const rest = form.options.filter((field) => !given.includes(field) && !(hasDelay && field.name === "IODelay"));
-  for (const field of given) node.append(labelled(field.name, optionControl(key, field, optionText(step, field.name)), field.words));
+  for (const field of given) node.append(option(key, field, optionText(step, field.name)));
   if (rest.length > 0) {
     const more = element("details", { open }, element("summary", { textContent: `${say("options")} (${rest.length})` }));
-    for (const field of rest) more.append(labelled(field.name, optionControl(key, field, optionText(step, field.name)), field.words));
+    for (const field of rest) more.append(option(key, field, optionText(step, field.name)));
     node.append(more);
   }
   return node;
@@ -169,4 +194,4 @@ export function firstCall(form, data) {
   const args = form.arguments.map((field) => (field.kind === "orders" ? `{${field.initial}}` : field.initial || "3"));
   return `${form.name}(${[data, ...args].join(", ")})`;
 }
-export { labelled, choice, numberField, textField, isNumber };
+export { labelled, choice, numberField, textField, longField, isNumber };

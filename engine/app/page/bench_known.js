@@ -1,7 +1,7 @@
 // A system that is known, an input, noise, and what estimators make of it: the cloud of their estimates grows while one looks.
 import { change, session } from "/bench_session.js";
-import { button, element, hold, labelled, numberField, rewrite, textField, why, withOption } from "/bench_fields.js";
-import { freeName, keyOf, newCell, stepOf, written } from "/bench_steps.js";
+import { button, element, labelled, longField, numberField, rewrite, textField, why, withOption } from "/bench_fields.js";
+import { formOf, freeName, keyOf, newCell, stepOf, written } from "/bench_steps.js";
 import { say } from "/bench_words.js";
 
 const kFew = 25;  // runs while a hand is at a control
@@ -48,6 +48,14 @@ function lambdaControl(key, study) {
   return labelled("lambda (rad/s)", numberField(found[2], dragged(key, make)));
 }
 
+/// The estimators with their arguments, and what these are called in each of them.
+function estimatorsControl(key, study) {
+  const text = optionOf(study, "estimators"), named = [...new Set([...text.matchAll(/(\w+) = \{/g)].map(([, name]) => name))].map(formOf).filter(Boolean);
+  const call = (form) => `${form.name} {${form.arguments.map((field) => (field.parts.length > 0 ? `{${field.parts.join(", ")}}` : field.name)).join(", ")}}`;
+  const field = longField(text, (now) => rewrite(key, (step) => withOption(step, "estimators", now)));
+  return element("div", { className: "tall" }, labelled("estimators", field), element("small", { textContent: named.map(call).join("; ") }));
+}
+
 function begin() {
   change(() => {
     const name = freeName("study"), k = name.slice(5);
@@ -67,6 +75,6 @@ export function knownPanel() {
   const number = (name, words) => labelled(words, numberField(optionOf(study, name), dragged(key, (step, text) => withOption(step, name, text))));
   const plain = (name, words, field = textField) => labelled(words, field(optionOf(study, name), (text) => rewrite(key, (step) => withOption(step, name, text)), { slider: false }));
   node.append(defined(study, "system", say("system")), defined(study, "input", say("inputSignal")), number("Ts", "Ts (s)"), number("sigma", say("noise")),
-              lambdaControl(key, study), plain("runs", say("runs"), numberField), plain("estimators", "estimators"), why("montecarlo"));
+              lambdaControl(key, study), plain("runs", say("runs"), numberField), estimatorsControl(key, study), why("montecarlo"));
   return node;
 }

@@ -1,18 +1,18 @@
 // Estimating, and the table of models.
-import { change, session } from "/bench_session.js";
-import { button, element, firstCall, help, labelled, rewrite, stepControls, textField, why } from "/bench_fields.js";
-import { freeName, keyOf, modelSteps, newCell, roles, stepOf, variables, written } from "/bench_steps.js";
-import { isHidden, setHidden } from "/bench_views.js";
+import { change, session, trouble, request } from "/bench_session.js";
+import { button, element, firstCall, labelled, rewrite, stepControls, textField, why } from "/bench_fields.js";
+import { cellRemoval, freeName, keyOf, linesWith, modelSteps, newCell, replaced, roles, stepOf, taken, variables, written } from "/bench_steps.js";
+import { addModel, choose, chosenStep, rechoose, redraw, rowOf } from "/bench_choice.js";
+import { help } from "/bench_help.js";
+import { drawnModels, isHidden, setHidden } from "/bench_views.js";
+import { reportWithout } from "/bench_report.js";
 import { say, shortNumber } from "/bench_words.js";
 
-let chosen = null;  // key of the step whose controls are shown
 let method = "tfsrivc";  // that a new model will have
 let sorting = { key: null, way: 1 };
 
-const chosenStep = () => (chosen && stepOf(chosen)) ?? [...modelSteps()].reverse().find((step) => session.forms.some((form) => form.name === step.function)) ?? null;
-
-function methodList(act, now) {
-  const list = element("select", { ariaLabel: say("method"), onchange: () => act(list.value) });
+function methodList(act, now, name) {
+  const list = element("select", { ariaLabel: name, onchange: () => act(list.value) });
   for (const domain of ["continuous", "discrete"]) {
     const group = element("optgroup", { label: domain });
     for (const form of session.forms.filter((one) => one.domain === domain)) group.append(element("option", { value: form.name, textContent: `${form.name} — ${form.structure}`, title: form.summary }));
@@ -37,12 +37,12 @@ function exchangeMethod(key, method) {
   });
 }
 
+const isMistake = (step) => session.error && session.error.line >= step.first_line && session.error.line <= step.last_line;
+
 /// What the server says of the step's line: its mistake, or its model's own message.
 function verdictOf(step) {
-  const error = session.error;
-  if (error && error.line >= step.first_line && error.line <= step.last_line) return [error.message, "broken"];
-  const row = session.views.models?.rows?.find?.((one) => one.name === step.names[0]);
-  return row?.message ? [row.message, row.verdict && !row.is_white ? "" : ""] : ["", ""];
+  if (isMistake(step)) return [session.error.message, "broken"];
+  return [rowOf(step)?.message ?? "", ""];
 }
 
 export function estimatePanel() {
@@ -50,8 +50,9 @@ export function estimatePanel() {
   if (!raw) return "";
   const node = element("section", { className: "panel" }, element("h2", { textContent: say("estimate") }));
   const quick = element("div", { className: "adding" });
-  const list = methodList((name) => { method = name; }, method);
-  quick.append(labelled(say("method"), list), button(say("newModel"), () => estimateNew(list.value), { className: "main" }), why2(() => list.value));
+  const list = methodList((name) => { method = name; }, method, say("method"));
+  quick.append(labelled(say("method"), list), button(say("newModel"), () => estimateNew(list.value), { className: "main" }),
+               button(say("why"), () => help(list.value), { className: "why", ariaLabel: `${say("why")} ${say("method")}` }));
   const seen = variables()[estimation];
   quick.append(button(say("search"), () => change(() => {
     const name = freeName("orders"), part = roles(), apart = part.validation !== part.estimation ? `, validate = ${part.validation}` : "";
@@ -60,28 +61,17 @@ export function estimatePanel() {
   node.append(quick);
   const step = chosenStep();
   if (step) {
-    const key = keyOf(step), form = session.forms.find((one) => one.name === step.function);
-    const box = element("div", { className: "chosen" }, element("h3", { textContent: step.names[0] }));
-    if (form) box.append(methodList((method) => exchangeMethod(key, method), step.function), why(step.function), element("p", { className: "faint", textContent: `${form.structure}; ${form.noise}` }), stepControls(key, step));
-    else box.append(textField(step.arguments[0] ?? "", (text) => rewrite(key, () => ({ arguments: [text] }))));
+    const key = keyOf(step), form = session.forms.find((one) => one.name === step.function), name = step.names[0];
+    const box = element("div", { className: "chosen" }, element("h3", { textContent: name }));
+    if (form) box.append(methodList((method) => exchangeMethod(key, method), step.function, `${say("methodOf")} ${name}`), why(step.function), element("p", { className: "faint", textContent: `${form.structure}; ${form.noise}` }), stepControls(key, step));
+    else box.append(labelled(`${name} =`, textField(rightSide(step), (text) => rewrite(key, () => ({ receiver: "", function: "", options: [], braces: false, arguments: [text] })))));
     const [words, kind] = verdictOf(step);
     if (words) box.append(element("p", { className: kind, textContent: words }));
     node.append(box);
   }
   return node;
 }
-function why2(name) {
-  return button(say("why"), () => help(name()), { className: "why" });
-}
-
-/// A new cell with a model; its controls are shown.
-export function addModel(call) {
-  change(() => {
-    const name = freeName("G");
-    chosen = `${name}#0`;
-    return [newCell(name, `${name} = ${call}`)];
-  });
-}
+const rightSide = (step) => (step.function ? written({ ...step, names: [], local: false, on: true }) : step.arguments[0]);
 
 const COLUMNS = [
   ["name", (row) => row.name], ["method", (row) => row.method], ["poles", (row) => row.poles], ["zeros", (row) => row.zeros],
@@ -98,56 +88,101 @@ function cellText(key, value, row) {
   return shortNumber(value, key === "condition" ? 2 : 4);
 }
 
+const KEYWORDS = "and break do else elseif end false for function goto if in local nil not or repeat return then true until while".split(" ");
+/// Why a model cannot be called so; null where it can.
+async function unfit(name) {
+  if (!/^[A-Za-z_]\w*$/.test(name) || KEYWORDS.includes(name)) return say("noName");
+  if (taken(name) || linesWith(name).length > 0) return say("nameTaken");
+  return (await request(`/help?name=${encodeURIComponent(name)}`)).ok ? say("nameOfFunction") : null;
+}
 function renameModel(step) {
-  const now = step.names[0], next = window.prompt(say("rename"), now)?.trim();
-  if (!next || next === now || !/^[A-Za-z_]\w*$/.test(next)) return;
-  const word = new RegExp(`(?<![\\w."])${now}(?!\\w)`, "g");
-  change(() => ({ text: session.source.split("\n").map((line) => (/^\s*--(?! (off: |%%))/.test(line) ? line : line.replace(word, next))).join("\n") }));
+  const now = step.names[0], dialog = document.getElementById("rename"), box = document.getElementById("new-name"), told = document.getElementById("name-trouble");
+  document.getElementById("rename-title").textContent = `${say("rename")}: ${now}`;
+  Object.assign(box, { value: now, ariaLabel: say("newName") });
+  told.textContent = "";
+  dialog.querySelector("form").onsubmit = async (event) => {
+    event.preventDefault();
+    const next = box.value.trim(), wrong = next === now ? null : await unfit(next);
+    told.textContent = wrong ? `${next}: ${wrong}` : "";
+    if (wrong) return;
+    dialog.close();
+    if (next !== now) rename(now, next);
+  };
+  document.getElementById("give-up").onclick = () => dialog.close();
+  dialog.showModal();
+  box.select();
+}
+function rename(now, next) {
+  const word = new RegExp(`(?<![\\w."])${now}(?!\\w)`, "g"), label = new RegExp(`"${now}(?=[",])`, "g");
+  const renamed = (line) => (/labels = \{|^\s*\{"/.test(line) ? line.replace(label, `"${next}`) : line).replace(word, next);
+  rechoose(now, next);
+  change(() => ({ text: session.source.split("\n").map((line) => (/^\s*--(?! (off: |%%))/.test(line) ? line : renamed(line))).join("\n") }));
 }
 
-/// The cell of a model alone goes with it.
+/// Calls that show models, and how many arguments they need to show anything.
+const SHOWS = { compare: 2, resid: 2, impulseest: 1, step: 1, impulse: 1, bode: 1, nyquist: 1, pzmap: 1, present: 1 };
+/// A model goes with what shows it alone, and out of the calls that show others, too; what is computed from it would break
+/// the script, so that it is told.
 function deleteModel(key) {
   change(() => {
-    const step = stepOf(key);
-    if (!step) return null;
-    const lines = session.source.split("\n"), alone = /^-- %%/.test(lines[step.first_line - 2] ?? "") && /^(-- %%.*)?$/.test((lines[step.last_line] ?? "").trim());
-    let first = alone ? step.first_line - 1 : step.first_line;
-    if (alone && (lines[first - 2] ?? "").trim() === "") --first;
-    return [{ first, last: step.last_line, text: "" }];
+    const own = stepOf(key), name = own?.names[0];
+    if (!own) return null;
+    const shows = session.steps.filter((step) => step.names.length === 0 && SHOWS[step.function] && step.arguments.includes(name));
+    const without = (step) => step.arguments.filter((text) => text !== name);
+    const empty = shows.filter((step) => without(step).length < SHOWS[step.function]), others = shows.filter((step) => !empty.includes(step));
+    const isOurs = (line) => [own, ...shows].some((step) => line >= step.first_line && line <= step.last_line);
+    const report = reportWithout(name, modelSteps().map((step) => step.names[0]));
+    const used = linesWith(name).find((line) => !isOurs(line) && !report.seen.has(line));
+    if (used) {
+      trouble(`${name} ${say("isUsed")} ${used}${say("colon")} ${session.source.split("\n")[used - 1].trim()}`);
+      return null;
+    }
+    return [...cellRemoval([own, ...empty]), ...others.map((step) => replaced(step, { arguments: without(step) })), ...report.edits];
   });
+}
+
+function actionsOf(step) {
+  const key = keyOf(step), name = step.names[0];
+  const act = (word, does) => button(say(word), does, { ariaLabel: `${say(word)}: ${name}` });
+  return element("span", { className: "actions" }, element("b", { textContent: name }),
+    act("copy", () => change(() => {
+      const other = freeName("G");
+      return [newCell(other, written({ ...structuredClone(step), names: [other] }))];
+    })), act("rename", () => renameModel(step)), act("remove", () => deleteModel(key)));
 }
 
 export function modelsPanel() {
   const steps = modelSteps();
   if (steps.length === 0) return "";
   const rows = new Map((Array.isArray(session.views.models?.rows) ? session.views.models.rows : []).map((row) => [row.name, row]));
-  const lines = steps.map((step) => ({ step, row: { ...(rows.get(step.names[0]) ?? {}), name: step.names[0], method: step.function || written(step).replace(/^.*?= /, "") } }));
+  const lines = steps.map((step) => ({ step, row: { ...(rows.get(step.names[0]) ?? {}), name: step.names[0], method: step.function || rightSide(step) } }));
   const column = COLUMNS.find(([key]) => key === sorting.key);
   if (column) lines.sort((a, b) => sorting.way * ((column[1](a.row) ?? -Infinity) > (column[1](b.row) ?? -Infinity) ? 1 : -1));
-  const head = element("tr", {}, element("th", {}), ...COLUMNS.map(([key]) => {
+  const head = element("tr", {}, element("th", { scope: "col", textContent: "✓", title: say("shown"), ariaLabel: say("shown") }), ...COLUMNS.map(([key]) => {
     const cell = element("th", { scope: "col" });
-    cell.append(button(say(key), () => { sorting = { key, way: sorting.key === key ? -sorting.way : 1 }; document.dispatchEvent(new Event("benchdraw")); }));
+    cell.append(button(say(key), () => { sorting = { key, way: sorting.key === key ? -sorting.way : 1 }; redraw(); }, { title: say(`${key}About`) }));
     if (sorting.key === key) cell.setAttribute("aria-sort", sorting.way > 0 ? "ascending" : "descending");
     return cell;
-  }), element("th", {}));
+  }));
+  const chosen = chosenStep();
   const body = lines.map(({ step, row }) => {
-    const key = keyOf(step), line = element("tr", { className: chosenStep() === step ? "chosen" : "" });
+    const line = element("tr", { className: chosen === step ? "chosen" : "" });
     const shown = element("input", { type: "checkbox", checked: step.on && !isHidden(row.name), ariaLabel: `${say("shown")}: ${row.name}`, onchange: () => setHidden(row.name, !shown.checked) });
     line.append(element("td", {}, shown));
     for (const [name, read] of COLUMNS) {
-      const value = read(row), cell = element("td", { className: typeof value === "number" ? "number" : "" });
-      if (name === "name") cell.append(button(row.name, () => { chosen = key; document.dispatchEvent(new Event("benchdraw")); }, { title: row.text ?? "" }));
+      const value = read(row), cell = element("td", { className: typeof value === "number" ? "number" : name });
+      if (name === "name") cell.append(button(row.name, () => choose(keyOf(step)), { title: row.text ?? "", ariaPressed: String(chosen === step) }));
       else cell.append(cellText(name, value, row));
+      if (name === "method") cell.title = row.method;
       line.append(cell);
     }
-    const error = session.error && session.error.line >= step.first_line && session.error.line <= step.last_line;
-    if (error) line.classList.add("broken");
-    line.append(element("td", {}, button(say("copy"), () => change(() => {
-      const name = freeName("G");
-      return [newCell(name, written({ ...structuredClone(step), names: [name] }))];
-    }), { ariaLabel: `${say("copy")}: ${row.name}` }), button(say("rename"), () => renameModel(step), { ariaLabel: `${say("rename")}: ${row.name}` }),
-      button("×", () => deleteModel(key), { ariaLabel: `${say("remove")}: ${row.name}` })));
+    if (isMistake(step)) line.classList.add("broken");
     return line;
   });
-  return element("section", { className: "models" }, element("h2", { textContent: say("models") }), element("table", {}, element("thead", {}, head), element("tbody", {}, ...body)));
+  const ticked = steps.filter((step) => step.on && !isHidden(step.names[0])).length, drawn = drawnModels().length;
+  const few = drawn < ticked ? [element("p", { className: "warning", textContent: say("fewDrawn").replace("%1", drawn).replace("%2", ticked) })] : [];
+  const legend = element("details", {}, element("summary", { textContent: say("columns") }), element("dl", {}, ...COLUMNS.flatMap(([key]) => [element("dt", { textContent: say(key) }), element("dd", { textContent: say(`${key}About`) })])));
+  const node = element("section", { className: "models", tabIndex: -1, ariaLabel: say("models") }, element("h2", {}, say("models"), " ", chosen ? actionsOf(chosen) : ""),
+    ...few, element("table", {}, element("thead", {}, head), element("tbody", {}, ...body)), legend);
+  return node;
 }

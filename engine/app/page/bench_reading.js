@@ -2,7 +2,7 @@
 import { change, session } from "/bench_session.js";
 import { button, element, hold, why } from "/bench_fields.js";
 import { keyOf, luaNumber, newCell, roles, stepOf, freeName } from "/bench_steps.js";
-import { addModel } from "/bench_models.js";
+import { addModel } from "/bench_choice.js";
 import { say } from "/bench_words.js";
 
 const MODELS = {

@@ -1,8 +1,11 @@
 // The record: where it comes from, which column is what, what advice says of it, and the steps that prepare it.
 import { change, post, session, settled, trouble } from "/bench_session.js";
-import { button, choice, element, labelled, numberField, rewrite, textField, why, withOption } from "/bench_fields.js";
-import { freeName, insertedBehind, keyOf, luaText, newCell, preparingSteps, removed, replaced, roles, variables } from "/bench_steps.js";
-import { divide, showSamples } from "/bench_views.js";
+import { button, choice, element, labelled, rewrite, why, withOption } from "/bench_fields.js";
+import { formOf, freeName, keyOf, newCell, removed, roles, variables } from "/bench_steps.js";
+import { chosenStep } from "/bench_choice.js";
+import { preparedAlike } from "/bench_parts.js";
+import { addPreparing, callWords, REMEDIES } from "/bench_preparation.js";
+import { showSamples } from "/bench_views.js";
 import { say, shortNumber } from "/bench_words.js";
 
 let offered = null;  // RecordChoice of the file that is being opened
@@ -117,9 +120,14 @@ function offeredRecord() {
   const node = element("div", { className: "controls" }, element("h3", { textContent: offered.data }), columnsTable(), labelled(say("sampling"), box));
   node.append(element("details", {}, element("summary", { textContent: "dynlab look" }), element("pre", { textContent: offered.look, tabIndex: 0 })));
   node.append(button(say("take"), () => take("data"), { className: "main" }));
-  if (roles().raw) node.append(button(say("second"), takeForValidation));
+  if (roles().raw) node.append(button(say("second"), takeSecond));
   node.append(button(say("close"), () => { offered = null; document.dispatchEvent(new Event("benchdraw")); }));
   return node;
+}
+async function takeSecond() {
+  await takeForValidation();
+  await settled(() => roles().second, 3000);
+  change(preparedAlike, { goesOn: true });
 }
 /// A second record stands in for the part that validates.
 async function takeForValidation() {
@@ -134,12 +142,14 @@ async function takeForValidation() {
   });
 }
 
-/// What a button beside a finding does: the remedy as a step.
+/// An option of the chosen model that answers a finding, where its method knows it.
+const OPTIONS = { running_start: ["InitialState", "\"estimate\""] };
 function remedies(finding) {
-  const add = (line) => addPreparing(line);
-  return { offset: [["detrend(…, \"mean\")", () => add((z) => `detrend(${z}, "mean")`)], ["detrend(…, \"start\")", () => add((z) => `detrend(${z}, "start")`)]],
-           drift: [["detrend(…)", () => add((z) => `detrend(${z}, "linear")`)]], random_walk: [["detrend(…)", () => add((z) => `detrend(${z}, "linear")`)]],
-           outliers: [["filloutliers(…)", () => add((z) => `filloutliers(${z})`)]], fast_sampling: [["resample(…, 1, 10)", () => add((z) => `resample(${z}, 1, 10)`)]] }[finding.code] ?? [];
+  const steps = (REMEDIES[finding.code] ?? []).map((call) => button(callWords(call("…")), () => addPreparing(call)));
+  const [name, text] = OPTIONS[finding.code] ?? [], model = name && chosenStep();
+  const knows = model && formOf(model.function)?.options.some((option) => option.name === name) && !model.options.some((option) => option.key === name && option.text === text);
+  const key = knows && keyOf(model);
+  return knows ? [...steps, button(`${model.names[0]}: ${name} = ${text}`, () => rewrite(key, (step) => withOption(step, name, text)))] : steps;
 }
 function findingsList() {
   const { list = [] } = session.views.advice ?? {};
@@ -147,56 +157,11 @@ function findingsList() {
   if (list.length === 0) node.append(element("p", { textContent: say("clean") }));
   for (const finding of list) {
     const line = element("p", { className: finding.warning ? "warning" : "" }, finding.message + " ");
-    if (finding.sections?.length > 0) line.append(button(say("show"), () => showSamples(finding.sections[0])));
-    for (const [words, act] of remedies(finding)) line.append(button(words, act));
+    if (finding.sections?.length > 0) line.append(button(say("show"), () => showSamples(finding.sections[0]), { ariaLabel: `${say("show")}: ${finding.code}` }));
+    line.append(...remedies(finding));
     node.append(line);
   }
   return node;
-}
-
-/// A step behind the last that prepares; the record gets another name for it where it has none yet.
-export function addPreparing(call) {
-  change(() => {
-    const { raw, prepared } = roles(), steps = preparingSteps();
-    if (prepared !== raw) {
-      const before = steps[steps.length - 1] ?? session.steps.find((step) => step.names[0] === prepared);
-      return [insertedBehind(before.last_line, `${prepared} = ${call(prepared)}`)];
-    }
-    const source = session.steps.find((step) => step.names[0] === raw);
-    return [insertedBehind(source.last_line, `\nprepared = ${call(raw)}`)];
-  });
-}
-
-const NEW_STEPS = {
-  level: (z) => `detrend(${z}, "mean")`, trend: (z) => `detrend(${z}, "linear")`, filter: (z) => `idfilt(${z}, {0, ${luaCut()}})`,
-  resample: (z) => `resample(${z}, 1, 2)`, outliers: (z) => `filloutliers(${z})`, range: (z) => `${z}:range(1, ${variables()[z]?.N ?? 100})`,
-};
-const NEW_NAMES = { level: ["Level", "Niveau"], trend: ["Trend", "Tendance"], filter: ["Filter", "Filtrer"], resample: ["Resample", "Rééchantillonner"],
-                    outliers: ["Outliers", "Valeurs aberrantes"], range: ["Range", "Étendue"] };
-/// A tenth of the highest frequency.
-function luaCut() {
-  const data = variables()[roles().prepared];
-  return data?.Ts ? shortNumber(0.1 * Math.PI / data.Ts, 3).replace(",", ".").replace("−", "-") : "1";
-}
-
-function preparingStep(step, all) {
-  const key = keyOf(step), at = all.indexOf(step);
-  const row = element("li", { className: step.on ? "" : "off" });
-  const on = element("input", { type: "checkbox", checked: step.on, ariaLabel: `${say("off")}: ${step.function}` });
-  on.onchange = () => rewrite(key, () => ({ on: on.checked }));
-  row.append(on, element("code", { textContent: step.function }));
-  step.arguments.slice(step.receiver ? 0 : 1).forEach((text, i) => {
-    const place = i + (step.receiver ? 0 : 1);
-    const act = (value, how) => rewrite(key, (now) => ({ arguments: now.arguments.map((old, k) => (k === place ? value : old)) }), how);
-    if (step.function === "detrend") row.append(choice(["\"mean\"", "\"linear\"", "\"start\""], text, act, ["mean", "linear", "start"]));
-    else row.append(/^\d+$/.test(text) ? numberField(text, act, { slider: false }) : textField(text, act));
-  });
-  const swap = (other) => change(() => [{ first: Math.min(step.first_line, other.first_line), last: Math.max(step.last_line, other.last_line),
-    text: (step.first_line < other.first_line ? [other, step] : [step, other]).map((one) => session.source.split("\n").slice(one.first_line - 1, one.last_line).join("\n")).join("\n") }]);
-  if (at > 0 && all[at - 1].last_line + 1 === step.first_line) row.append(button("↑", () => swap(all[at - 1]), { ariaLabel: `${say("up")}: ${step.function}` }));
-  if (at + 1 < all.length && step.last_line + 1 === all[at + 1].first_line) row.append(button("↓", () => swap(all[at + 1]), { ariaLabel: `${say("down")}: ${step.function}` }));
-  row.append(button("×", () => change(() => [removed(step)]), { ariaLabel: `${say("remove")}: ${step.function}` }), why(step.function));
-  return row;
 }
 
 export function recordPanel() {
@@ -205,30 +170,8 @@ export function recordPanel() {
   if (offered) node.append(offeredRecord());
   else if (!raw) node.append(opener());
   else {
-    if (data?.kind === "data") node.append(element("p", { textContent: `${raw}: ${data.N} × ${data.inputs} → ${data.outputs}, Ts = ${shortNumber(data.Ts)} s` }));
+    if (data?.kind === "data") node.append(element("p", { textContent: `${raw}${say("colon")} ${data.N} × ${data.inputs} → ${data.outputs}, Ts = ${shortNumber(data.Ts)} s` }));
     node.append(element("details", {}, element("summary", { textContent: say("open") }), opener()), findingsList());
   }
-  return node;
-}
-
-export function preparationPanel() {
-  const { raw } = roles();
-  if (!raw) return "";
-  const steps = preparingSteps(), french = document.documentElement.lang === "fr" ? 1 : 0;
-  const list = element("ol", { className: "preparing" }, ...steps.map((step) => preparingStep(step, steps)));
-  const adding = element("div", { className: "adding" }, ...Object.entries(NEW_STEPS).map(([name, call]) => button(`+ ${NEW_NAMES[name][french]}`, () => addPreparing(call))));
-  return element("section", { className: "panel" }, element("h2", { textContent: say("preparation") }), list, adding);
-}
-
-export function partsPanel() {
-  const { raw, estimation, validation, prepared } = roles();
-  if (!raw) return "";
-  const node = element("section", { className: "panel" }, element("h2", { textContent: say("parts") }));
-  const seen = variables(), a = seen[estimation], b = seen[validation];
-  const same = estimation === validation || (a && b && a.start === b.start && a.last === b.last && a.N === b.N && !String(validation).startsWith("second"));
-  if (a?.kind === "data") node.append(element("p", { textContent: `${estimation}: ${shortNumber(a.start)} … ${shortNumber(a.last)} s (${a.N})` }));
-  if (b?.kind === "data") node.append(element("p", { textContent: `${validation}: ${shortNumber(b.start)} … ${shortNumber(b.last)} s (${b.N})` }));
-  if (same) node.append(element("p", { className: "warning", textContent: say("sameParts") }));
-  if (seen[prepared]?.kind === "data") node.append(button(say("divide"), () => divide(0.6)), button(say("whole"), () => divide(1)));
   return node;
 }

@@ -26,6 +26,8 @@ function together(call, models) {
 const FIGURES = {
   record: [({ raw }) => `idplot(${raw})`, "The record: output above, input below", "the record as it was measured",
     "L'enregistrement : sortie en haut, entrée en bas", "l'enregistrement tel qu'il a été mesuré"],
+  second: [({ second }) => `idplot(${second})`, "The second record: output above, input below", "the record on which the models are judged",
+    "Le second enregistrement : sortie en haut, entrée en bas", "l'enregistrement sur lequel les modèles sont jugés"],
   compare: [({ validation }, models) => `compare(${[validation, ...models, labels(models)].join(", ")})`,
     "Measured output and outputs that the models simulate, with the fit of each", "what was measured and what the models simulate",
     "Sortie mesurée et sorties simulées par les modèles, avec l'ajustement de chacune", "ce qui a été mesuré et ce que simulent les modèles"],
@@ -53,7 +55,9 @@ const TABLES = {
   parameters: [(_, models) => models.map((model) => `present(${model})`).join("\n")],
   models: [({ estimation, validation }, models, name) => {
     const head = isFrench() ? ["modèle", "estimation (%)", "validation (%)"] : ["model", "estimation (%)", "validation (%)"];
-    const rows = models.map((model) => `{${luaText(model)}, ${number(`fit(${estimation}, ${model})`, 1)}, ${number(`fit(${validation}, ${model})`, 1)}}`);
+    const outputs = variables()[estimation]?.output_names ?? [""];
+    const cell = (part, model, i) => number(outputs.length > 1 ? `(select(${i + 1}, fit(${part}, ${model})))` : `fit(${part}, ${model})`, 1);
+    const rows = models.flatMap((model) => outputs.map((output, i) => `{${luaText(outputs.length > 1 ? `${model}, ${output}` : model)}, ${cell(estimation, model, i)}, ${cell(validation, model, i)}}`));
     return `report.table("${name}", {\n  {${head.map(luaText).join(", ")}},\n  ${rows.join(",\n  ")}})`;
   }, "Fit of the simulated output", "how well the models simulate the records", "Ajustement de la sortie simulée", "l'ajustement des modèles"],
   orders: [({ orders }, _, name) => {
@@ -65,7 +69,7 @@ const TABLES = {
 export const goesIntoReport = (view) => Object.hasOwn(FIGURES, view) || Object.hasOwn(TABLES, view);
 
 /// Views of one kind come under one heading.
-const SECTIONS = [["Record", "Enregistrement", ["record", "correlation"]], ["Reading by hand", "Lecture à la main", ["reading"]], ["Choice of the structure", "Choix de la structure", ["orders"]],
+const SECTIONS = [["Record", "Enregistrement", ["record", "second", "correlation"]], ["Reading by hand", "Lecture à la main", ["reading"]], ["Choice of the structure", "Choix de la structure", ["orders"]],
   ["Models", "Modèles", ["parameters", "models"]], ["Validation", "Validation", ["compare", "residuals"]], ["Responses", "Réponses", ["step", "impulse", "bode", "nyquist", "poles"]],
   ["Monte Carlo study", "Étude de Monte-Carlo", ["study"]]];
 
@@ -79,17 +83,20 @@ function freeId(view, taken) {
 }
 const text = (...lines) => `\n-- %% [markdown]\n${lines.map((line) => `-- ${line}`.trimEnd()).join("\n")}\n`;
 
+/// What the cell of a view holds.
+function codeOf(view, models, id) {
+  const code = (FIGURES[view] ?? TABLES[view])[0](roles(), models, id);
+  return FIGURES[view] ? `report.figure("${id}", ${code}, ${luaText(wordsOf(view)[0])})` : code;
+}
+/// Caption, and what a sentence says.
+const wordsOf = (view) => (FIGURES[view] ?? TABLES[view]).slice(isFrench() ? 3 : 1).slice(0, 2);
+
 /// The lines of one view: a cell whose code is not printed, and the text that shows what it made.
 function linesOf(view, models, taken) {
-  const id = freeId(view, taken), french = isFrench();
-  const [code, ...words] = FIGURES[view] ?? TABLES[view], [caption, shows] = french ? words.slice(2) : words;
-  const cell = (body) => `\n-- %% id=${id} echo=false\n${body}\n`;
-  if (!caption) return cell(code(roles(), models));
-  if (FIGURES[view])
-    return cell(`report.figure("${id}", ${code(roles(), models)}, ${luaText(caption)})`)
-      + text(french ? `La @fig:${id} montre ${shows}.` : `@fig:${id} shows ${shows}.`, "", `![${caption}](figure:${id}){#fig:${id}}`);
-  return cell(code(roles(), models, id))
-    + text(french ? `Le @tbl:${id} montre ${shows}.` : `@tbl:${id} shows ${shows}.`, "", `::: {.table name=${id} #tbl:${id}}`, caption, ":::");
+  const id = freeId(view, taken), [caption, shows] = wordsOf(view), cell = `\n-- %% id=${id} echo=false\n${codeOf(view, models, id)}\n`;
+  if (!caption) return cell;
+  const kind = FIGURES[view] ? "fig" : "tbl", sentence = isFrench() ? `${kind === "fig" ? "La" : "Le"} @${kind}:${id} montre ${shows}.` : `@${kind}:${id} shows ${shows}.`;
+  return cell + (kind === "fig" ? text(sentence, "", `![${caption}](figure:${id}){#fig:${id}}`) : text(sentence, "", `::: {.table name=${id} #tbl:${id}}`, caption, ":::"));
 }
 const takenIds = () => new Set(session.cells.map(({ id }) => id));
 
@@ -98,10 +105,46 @@ export const viewLines = (view, models) => linesOf(view, models, takenIds());
 /// The whole session's report, its views in their order under headings; nothing where the script says by itself what it shows.
 export function wholeReport(shown, models) {
   if (/^-- %% \[markdown\]/m.test(session.source) || /\b(report\.|idplot|plot|figure|compare|resid|step|bode|nyquist|pzmap|present|print)\s*[({."]/.test(session.source)) return "";
-  const { raw, orders, reading, study } = roles(), taken = takenIds();
-  const there = { record: raw, correlation: raw && shown.includes("correlation"), reading, orders, study };
+  const { raw, second, orders, reading, study } = roles(), taken = takenIds();
+  const there = { record: raw, second, correlation: raw && shown.includes("correlation"), reading, orders, study };
   const wanted = (view) => (view in there ? there[view] : models.length > 0 && (shown.includes(view) || ["parameters", "models"].includes(view)));
   return SECTIONS.map(([english, french, views]) => [isFrench() ? french : english, views.filter((view) => wanted(view) && goesIntoReport(view))])
     .filter(([, views]) => views.length > 0)
     .map(([heading, views]) => text(`## ${heading}`) + views.map((view) => linesOf(view, models, taken)).join("")).join("");
+}
+
+/// The script's cells by their lines, 0-based, `end` behind the last.
+function cellsOf(lines) {
+  const starts = lines.flatMap((line, i) => (/^-- %%/.test(line) ? [i] : []));
+  return starts.map((start, k) => {
+    const end = starts[k + 1] ?? lines.length;
+    return { start, end, id: /\bid=(\S+)/.exec(lines[start])?.[1], body: lines.slice(start + 1, end).join("\n").trim() };
+  });
+}
+const isHeading = ({ body }) => /^-- #+ [^\n]*$/.test(body);
+
+/// Edits that take a model out of the report's own cells, which go with their texts and headings where nothing is left; and the
+/// lines that are seen to by them.
+export function reportWithout(name, models) {
+  const lines = session.source.replace(/\n$/, "").split("\n"), cells = cellsOf(lines), edits = [], seen = new Set(), gone = new Set();
+  cells.forEach((cell, k) => {
+    const view = cell.id?.replace(/-\d+$/, "");
+    if (!goesIntoReport(view ?? "") || !/ echo=false/.test(lines[cell.start])) return;
+    const named = models.filter((model) => new RegExp(`(?<![\\w."])${model}(?!\\w)`).test(cell.body)), rest = named.filter((model) => model !== name);
+    if (!named.includes(name)) return;
+    for (let line = cell.start; line < cell.end; ++line) seen.add(line + 1);
+    if (rest.length > 0) {
+      edits.push({ first: cell.start + 2, last: cell.start + 1 + cell.body.split("\n").length, text: codeOf(view, rest, cell.id) });
+      return;
+    }
+    gone.add(k);
+    if (new RegExp(`(figure:|name=)${cell.id}\\b`).test(cells[k + 1]?.body ?? "")) gone.add(k + 1);
+  });
+  cells.forEach((cell, k) => {
+    if (!isHeading(cell)) return;
+    const next = cells.findIndex((other, i) => i > k && isHeading(other)), below = cells.slice(k + 1, next < 0 ? cells.length : next);
+    if (below.length > 0 && below.every((_, i) => gone.has(k + 1 + i))) gone.add(k);
+  });
+  for (const k of gone) edits.push({ first: cells[k].start + 1, last: cells[k].end, text: "" });
+  return { edits, seen };
 }

@@ -1,7 +1,9 @@
 // The script beside the pictures: what is typed is the session, too.
 import { change, session } from "/bench_session.js";
+import { say } from "/bench_words.js";
 
 const kRest = 400;  // ms after the last key
+const kMargin = 60;  // px between a line that is shown and the edge
 let mirror = null, timer = 0, own = false, shown = "", line = -1;
 
 function loaded(file) {
@@ -26,9 +28,11 @@ export async function openScript() {
     await Promise.all([loaded("/codemirror.css"), loaded("/codemirror-lua.js")]);
     mirror = CodeMirror(document.getElementById("code"), { mode: "lua", lineNumbers: true, lineWrapping: true, value: session.source,
                                                           extraKeys: { Tab: false, "Shift-Tab": false, "Ctrl-Z": () => document.getElementById("undo").click(), "Ctrl-Y": () => document.getElementById("redo").click() } });
+    mirror.getInputField().setAttribute("aria-label", say("script"));
     mirror.on("change", () => { if (!own) typed(() => mirror.getValue()); });
   } catch {
     field.hidden = false;
+    field.ariaLabel = say("script");
     document.getElementById("code").hidden = true;
     field.oninput = () => typed(() => field.value);
   }
@@ -60,8 +64,15 @@ export function showScript() {
 
 function mark(first, last) {
   for (let i = first; i < last; ++i) mirror.addLineClass(i, "wrap", "fresh-line");
-  mirror.scrollIntoView({ line: Math.min(first, mirror.lineCount() - 1), ch: 0 }, 60);
+  const { top } = mirror.charCoords({ line: Math.min(first, mirror.lineCount() - 1), ch: 0 }, "local"), { top: from, clientHeight: height } = mirror.getScrollInfo();
+  if (top < from + kMargin || top > from + height - kMargin) mirror.scrollTo(null, top - kMargin);  // scrollIntoView() moves the page, too
   setTimeout(() => mirror.eachLine((handle) => mirror.removeLineClass(handle, "wrap", "fresh-line")), 1500);
+}
+
+/// The program has ended: nothing that is typed is heard.
+export function closeScript() {
+  mirror?.setOption("readOnly", true);
+  document.getElementById("field").readOnly = true;
 }
 
 export function showMistake() {

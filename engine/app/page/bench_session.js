@@ -1,15 +1,25 @@
 // The session as the server tells it, and orders to it. An order that changes the script is made from the state that the page
 // shows; while one is under way the last that was asked for waits.
+import { say } from "/bench_words.js";
+
 export const session = { revision: 0, shown: 0, source: "", steps: [], cells: [], states: {}, views: {}, printed: {}, forms: [],
-                         running: false, undo: false, redo: false, error: null, file: "" };
+                         running: false, undo: false, redo: false, error: null, file: "", over: false };
 const listeners = [];
 let waiting = null, busy = false;
 
 export const onChange = (listen) => listeners.push(listen);
 const tell = (changed) => { for (const listen of listeners) listen(changed); };
 
+/// What the server answers; of one that has ended or is not reached the page's state tells already.
+export async function request(path, how) {
+  try {
+    return await fetch(path, how);
+  } catch {
+    throw new Error(say(session.over ? "ended" : "noAnswer"));
+  }
+}
 export async function post(path, body, written = false) {
-  const answer = await fetch(path, { method: "POST", body: written ? body : JSON.stringify(body ?? {}), headers: { "Content-Type": "application/json" } });
+  const answer = await request(path, { method: "POST", body: written ? body : JSON.stringify(body ?? {}), headers: { "Content-Type": "application/json" } });
   if (!answer.ok && answer.status !== 409) throw new Error(await answer.text());
   return answer;
 }
@@ -58,6 +68,7 @@ export async function change(make, { goesOn = false, held = false } = {}) {
 }
 
 let told = null;
+/// Tells something at the top until the script changes; null takes it away.
 export function trouble(words) {
   told = words;
   const node = document.getElementById("trouble");
@@ -65,9 +76,10 @@ export function trouble(words) {
   node.textContent = words ?? "";
 }
 
-let looked = "", next = null, looking = false;
+let looked = "", next = null, looking = false, asked = {};  // asked: the settings that are looked at
 /// Asks for views; the same order again is nothing. While one is being made the last that was asked for waits.
 export async function look(variables, settings, until) {
+  asked = settings;
   next = JSON.stringify({ variables, settings: JSON.stringify(settings), data_until: until });
   if (looking) return;
   looking = true;
@@ -86,20 +98,65 @@ export async function look(variables, settings, until) {
   }
 }
 
+/// What a view is made of, by what look() calls it.
+const NEEDS = { variables: [], record: ["raw"], second: ["second"], spectrum: ["raw", "prepared"], advice: ["raw", "prepared"], models: ["estimation", "validation", "all_models"],
+                compare: ["estimation", "validation", "models"], residuals: ["estimation", "validation", "models"], correlation: ["estimation", "models"],
+                orders: ["orders"], study: ["study"], reading: ["raw", "reading"] };
+let latest = {};  // views as the server told them last
+
+/// Whether a script that stops at a mistake has come to all that a view is made of.
+function isWhole(view) {
+  const there = latest.variables ?? {};
+  return (NEEDS[view] ?? ["models"]).flatMap((part) => asked[part] ?? []).every((name) => name in there);
+}
+/// Views of the script before a mistake: they stay until the script gets as far again.
+export const isOlder = (view) => session.error !== null && !isWhole(view);
+
+/// The views that are shown after news; gives the names of those that are others now.
+function takeViews(page) {
+  if (page.all) { latest = {}; session.views = {}; }
+  Object.assign(latest, page.views);
+  const before = { ...session.views };
+  if (!session.error) {
+    Object.assign(session.views, !page.running && page.shown === page.revision ? latest : page.views);
+  } else {
+    for (const view of Object.keys(latest)) if (isWhole(view) || !before[view]) session.views[view] = latest[view];
+    session.views.variables = { ...before.variables, ...latest.variables };
+    const rows = latest.models?.rows, old = before.models?.rows;
+    if (Array.isArray(rows) && Array.isArray(old)) session.views.models = { rows: [...rows, ...old.filter(({ name }) => !rows.some((row) => row.name === name))] };
+  }
+  return Object.keys(session.views).filter((view) => session.views[view] !== before[view]);
+}
+
+/// A call that is half typed keeps the controls of what it was; a value is shown as it is typed.
+let finished = new Map();
+function takeSteps(steps) {
+  const now = new Map(), count = {};
+  session.steps = steps.map((step) => {
+    const names = step.names.join(","), key = `${names}#${count[names] = (count[names] ?? 0) + 1}`, was = finished.get(key);
+    const known = step.broken && was?.function ? { ...was, first_line: step.first_line, last_line: step.last_line, rest: "", broken: true } : step;
+    now.set(key, known);
+    return known;
+  });
+  finished = now;
+}
+
 function take(page) {
-  const changed = { source: page.source !== undefined, views: Object.keys(page.views ?? {}), whole: page.all };
-  if (page.all) { looked = ""; session.views = {}; }
-  Object.assign(session.views, page.views);
+  const changed = { source: page.source !== undefined, whole: page.all }, edited = changed.source && page.source !== session.source;
+  if (page.all) looked = "";
   for (const key of ["asking", "stopped", "looked", "revision", "shown", "running", "undo", "redo", "states", "printed"]) session[key] = page[key];
-  for (const key of ["source", "steps", "cells", "forms", "file"]) if (page[key] !== undefined) session[key] = page[key];
+  for (const key of ["source", "cells", "forms", "file"]) if (page[key] !== undefined) session[key] = page[key];
+  if (page.steps) takeSteps(page.steps);
+  changed.error = Boolean(session.error) !== Boolean(page.error);
   session.error = page.error ?? null;
-  if (told && changed.source) trouble(null);
+  changed.views = takeViews(page);
+  if (told && edited) trouble(null);
   tell(changed);
 }
 
 export function connect(onState) {
   const source = new EventSource("/events");
   source.addEventListener("page", (event) => { onState("here"); take(JSON.parse(event.data)); });
-  source.addEventListener("over", () => { source.close(); onState("over"); });
+  source.addEventListener("over", () => { source.close(); session.over = true; onState("over"); });
   source.onerror = () => onState("away");
 }

@@ -44,6 +44,16 @@ export const formOf = (name) => session.forms.find((form) => form.name === name)
 const uses = (step) => (step.receiver ? [step.receiver] : []).concat(step.arguments);
 const last = (list) => list[list.length - 1];
 
+/// The variable whose samples a name has: the record that iddata made.
+function sourceOf(name) {
+  for (let k = 0; name && k < 20; ++k) {
+    const step = session.steps.find((one) => one.on && one.names.includes(name)), from = step?.receiver || step?.arguments[0];
+    if (!step || step.function === "iddata" || !/^[A-Za-z_]\w*$/.test(from ?? "")) return name;
+    name = from;
+  }
+  return name;
+}
+
 /// The names that parts of a session have in this script.
 export function roles() {
   const steps = session.steps.filter((step) => step.on);
@@ -56,7 +66,9 @@ export function roles() {
   const orders = last(steps.filter((step) => step.function === "srivcstruc"))?.names[0];
   const study = last(steps.filter((step) => step.function === "montecarlo"))?.names[0];
   const reading = last(steps.filter((step) => !step.function && /^\{\s*kind = "(first|second|delayed)"/.test(step.arguments[0])))?.names[0];
-  return { raw, prepared, estimation, validation, orders, study, reading };
+  const source = sourceOf(validation), isRecord = steps.some((step) => step.names[0] === source && step.function === "iddata");
+  const second = isRecord && source !== raw ? source : undefined;  // validates, and is no part of the first
+  return { raw, prepared, estimation, validation, second, orders, study, reading };
 }
 
 /// Models that were estimated or written down; not the true system of a study.
@@ -66,9 +78,11 @@ export function modelSteps() {
                                         (formOf(step.function) || seen[step.names[0]]?.kind === "model"));
 }
 
+/// Whether a step gives a record another form under its own name.
+export const isPreparing = (step, name) => step?.names[0] === name && (PREPARING.includes(step.function) || (step.function === "range" && step.receiver === name));
 export function preparingSteps() {
   const { prepared, raw } = roles();
-  return session.steps.filter((step) => step.names[0] === prepared && prepared !== raw && PREPARING.includes(step.function));
+  return prepared === raw ? [] : session.steps.filter((step) => isPreparing(step, prepared));
 }
 
 /// The last line of the cell in which a line stands, without the empty ones at its end.
@@ -86,7 +100,44 @@ export function endOfScript() {
   return end;
 }
 
-const taken = (name) => session.steps.some((step) => step.names.includes(name)) || session.cells.some((cell) => cell.id === name);
+/// The numbers of lines in which a name stands, but for remarks and texts.
+export function linesWith(name) {
+  const word = new RegExp(`(?<![\\w.:])${name}(?!\\w)`), numbers = [];
+  session.source.split("\n").forEach((line, i) => {
+    if (/^\s*--/.test(line) && !line.startsWith("-- off: ")) return;
+    if (word.test(line.replace(/^-- off: /, "").replace(/"[^"]*"/g, '""').replace(/--.*$/, ""))) numbers.push(i + 1);
+  });
+  return numbers;
+}
+
+/// Edits that take steps away: with their cell where nothing else stands in it, and with the heading before that.
+export function cellRemoval(steps) {
+  const lines = session.source.split("\n"), gone = new Set(), edits = [];
+  for (const { first_line, last_line } of steps) for (let line = first_line; line <= last_line; ++line) gone.add(line);
+  const isEmpty = (line) => (lines[line - 1] ?? "").trim() === "", isMarker = (line) => /^-- %%/.test(lines[line - 1] ?? "");
+  const seen = new Set();
+  for (const step of steps) {
+    let first = step.first_line, last = step.last_line;
+    while (first > 1 && (isEmpty(first - 1) || gone.has(first - 1))) --first;
+    while (last < lines.length && (isEmpty(last + 1) || gone.has(last + 1))) ++last;
+    const alone = isMarker(first - 1) && (last >= lines.length || isMarker(last + 1));
+    if (!alone) { edits.push(removed(step)); continue; }
+    while (isEmpty(last) && last > step.last_line) --last;
+    first = withHeading(first - 1, isEmpty, lines);
+    if (!seen.has(first)) edits.push({ first, last, text: "" });
+    seen.add(first);
+  }
+  return edits;
+}
+/// The first line that goes with the cell whose marker is line `at`: a heading alone before it, and an empty line.
+function withHeading(at, isEmpty, lines) {
+  let first = at, line = at - 1;
+  while (line > 0 && isEmpty(line)) --line;
+  if (/^-- #+ /.test(lines[line - 1] ?? "") && /^-- %% \[markdown\]/.test(lines[line - 2] ?? "")) first = line - 1;
+  return first > 1 && isEmpty(first - 1) ? first - 1 : first;
+}
+
+export const taken = (name) => session.steps.some((step) => step.names.includes(name)) || session.cells.some((cell) => cell.id === name);
 export function freeName(stem) {
   let k = 1;
   while (taken(stem + k)) ++k;

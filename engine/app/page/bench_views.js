@@ -1,14 +1,16 @@
 // The pictures of a session, as many at once as wanted, and what is told with them.
-import { change, look, session, trouble } from "/bench_session.js";
+import { change, isOlder, look, request, session, trouble } from "/bench_session.js";
 import { Brushes } from "/bench_brushes.js";
+import { addModel, redraw } from "/bench_choice.js";
 import { button, choice, element, labelled, why } from "/bench_fields.js";
-import { endOfScript, freeName, insertedBehind, modelSteps, newCell, replaced, roles, variables } from "/bench_steps.js";
+import { movePart, partsNow } from "/bench_parts.js";
+import { endOfScript, insertedBehind, modelSteps, roles, variables } from "/bench_steps.js";
 import { goesIntoReport, viewLines, wholeReport } from "/bench_report.js";
 import { say, shortNumber, viewName, viewNames } from "/bench_words.js";
 
-const HELP = { record: "idplot", spectrum: "fft", compare: "compare", residuals: "resid", step: "step", impulse: "impulse", bode: "bode", nyquist: "nyquist",
+const HELP = { record: "idplot", second: "idplot", spectrum: "fft", compare: "compare", residuals: "resid", step: "step", impulse: "impulse", bode: "bode", nyquist: "nyquist",
                poles: "pzmap", parameters: "present", correlation: "impulseest", delay: "delayest", reading: "step_delayed", orders: "srivcstruc", study: "montecarlo" };
-const WIDE = ["record", "study", "reading", "orders"];
+const WIDE = ["record", "second", "study", "reading", "orders"];
 const OVER_TIME = [["record", "compare"], ["step", "impulse", "correlation"]];  // pictures whose cursors go together
 const tiles = new Map();  // name -> {node, body, words, plot}
 const hidden = new Set();  // models that are not drawn
@@ -17,8 +19,9 @@ let range = null;          // of the record, where it was zoomed
 let timer = 0;
 
 function defaultViews() {
-  const { raw, orders, study, reading } = roles(), models = modelSteps().length > 0;
+  const { raw, second, orders, study, reading } = roles(), models = modelSteps().length > 0;
   const names = raw ? ["record"] : [];
+  if (second) names.push("second");
   if (models) names.push("compare", "residuals", "step", "bode");
   else if (raw) names.push("correlation", "spectrum");
   if (orders) names.push("orders");
@@ -31,10 +34,28 @@ export const isHidden = (model) => hidden.has(model);
 export function setHidden(model, hide) {
   if (hide) hidden.add(model); else hidden.delete(model);
   ask();
+  redraw();
 }
+const kMostDrawn = 8;  // more curves than that nobody tells apart
+export const drawnModels = () => modelSteps().filter((step) => step.on && !hidden.has(step.names[0])).map((step) => step.names[0]).slice(-kMostDrawn);
+
+/// What a view is of; without it the view has nothing to show, and says so.
+const SUBJECTS = { record: "raw", second: "second", spectrum: "raw", correlation: "raw", orders: "orders", study: "study", reading: "reading" };
+const isEmpty = (name) => (SUBJECTS[name] ? !roles()[SUBJECTS[name]] : modelSteps().length === 0);
+const emptyWords = (name) => say(`no_${SUBJECTS[name] ?? "models"}`);
+
 export function toggleView(name, on = !shownViews().includes(name)) {
   chosen = viewNames().filter((other) => (other === name ? on : shownViews().includes(other)));
+  const closes = tiles.get(name)?.node.contains(document.activeElement);
   arrange();
+  redraw();
+  if (closes) (document.querySelector("#views .tile .close") ?? document.getElementById("views")).focus();
+}
+export function viewsPanel() {
+  const shown = shownViews(), { raw, study } = roles();
+  if (!raw && !study && modelSteps().length === 0) return "";
+  const toggle = (name) => button(viewName(name), () => toggleView(name), { ariaPressed: String(shown.includes(name)), title: isEmpty(name) ? emptyWords(name) : "" });
+  return element("section", { className: "panel" }, element("h2", { textContent: say("views") }), element("div", { className: "adding" }, ...viewNames().map(toggle)), channelChoice() ?? "");
 }
 
 /// The instant under the cursor, in the other pictures of the same time.
@@ -61,7 +82,7 @@ export async function takeSaved() {
   wanted = null;
   ask();
   if (saved.error) return trouble(saved.error);
-  const answer = await fetch(`/saved/${encodeURIComponent(saved.file)}`);
+  const answer = await request(`/saved/${encodeURIComponent(saved.file)}`);
   if (!answer.ok) return trouble(await answer.text());
   download(saved.file.replace(/-\d+(\.\w+)$/, "$1"), await answer.blob());
 }
@@ -89,10 +110,10 @@ export function ask() {
     const names = [...new Set([...Object.values(part), ...all].filter((name) => name && /^[A-Za-z_]\w*$/.test(name)))];
     const every = [...new Set([...names, ...session.steps.filter((step) => step.on).flatMap((step) => step.names)])];
     const sizes = {};
-    for (const [name, { body }] of tiles) sizes[name] = [body.clientWidth - 8, body.clientHeight - (name === "record" ? 40 : 4)];
+    for (const [name, { body }] of tiles) if (!isEmpty(name)) sizes[name] = [body.clientWidth - 8, body.clientHeight - (name === "record" ? 40 : 4)];
     const of = [part.raw, part.prepared];
     const until = Math.max(0, ...session.steps.filter((step) => step.names.some((name) => of.includes(name))).map((step) => step.last_line));
-    look(every, { ...part, views: ["variables", "models", ...shownViews(), "advice"], models: all.filter((name) => !hidden.has(name)).slice(-8), all_models: all, sizes, range, ...channel, ...(wanted ? { save: wanted } : {}) }, until);
+    look(every, { ...part, views: ["variables", "models", ...shownViews(), "advice"], models: drawnModels(), all_models: all, sizes, range, ...channel, ...(wanted ? { save: wanted } : {}) }, until);
   }, 0);
 }
 
@@ -101,29 +122,37 @@ function makeTile(name) {
   node.dataset.view = name;
   node.classList.toggle("wide", WIDE.includes(name));
   const close = button("×", () => toggleView(name, false), { className: "close", ariaLabel: `${say("close")}: ${viewName(name)}` });
-  const into = button(say("intoScript"), () => intoScript(name), { className: "into" });
+  const into = button(say("intoScript"), () => intoScript(name), { className: "into", ariaLabel: `${say("intoScript")}: ${viewName(name)}` });
   const body = element("div", { className: "body" }), words = element("p", { className: "told" });
-  const title = element("h2", { textContent: viewName(name), title: viewName(name) });
+  const title = element("h2", { textContent: viewName(name) });
   const saved = element("select", { className: "save", ariaLabel: `${say("saveAs")}: ${viewName(name)}` });
   saved.append(...["↓", "PDF", "SVG", "PNG"].map((text) => element("option", { value: text.toLowerCase(), textContent: text })));
   saved.onchange = () => { if (saved.selectedIndex > 0) save({ what: "figure", view: name, format: saved.value }); saved.selectedIndex = 0; };
-  node.append(element("header", {}, title, why(HELP[name]), ...(TABLES[name] ? [] : [saved]), ...(goesIntoReport(name) ? [into] : []), close), body, words);
+  const tools = element("span", { className: "tools-of-tile" }, why(HELP[name]), ...(TABLES[name] ? [] : [saved]), ...(goesIntoReport(name) ? [into] : []), close);
+  node.append(element("header", {}, title, tools), body, words);
   for (const group of OVER_TIME) if (group.includes(name)) linkCursor(name, body, group);
-  return { node, body, words, title };
+  return { node, body, words, tools };
+}
+/// All tiles anew, in another language.
+export function renewTiles() {
+  for (const { node } of tiles.values()) node.remove();
+  tiles.clear();
 }
 
 export function arrange() {
-  const main = document.getElementById("views"), names = shownViews();
+  const main = document.getElementById("views"), names = shownViews(), before = tiles.size;
   for (const [name, tile] of tiles) if (!names.includes(name)) { tile.node.remove(); tiles.delete(name); }
-  for (const name of names) {
+  const fresh = names.filter((name) => !tiles.has(name));
+  names.forEach((name, i) => {
     if (!tiles.has(name)) tiles.set(name, makeTile(name));
-    main.append(tiles.get(name).node);
-  }
+    const { node } = tiles.get(name), place = main.querySelectorAll(".tile")[i];
+    if (place !== node) main.insertBefore(node, place ?? null);  // one that stays keeps its focus
+  });
   drawTiles(names);
+  if (before > 0 && fresh.length > 0) tiles.get(fresh[0]).node.scrollIntoView({ block: "nearest" });
   ask();
 }
 
-const drawnModels = () => modelSteps().filter((step) => step.on && !hidden.has(step.names[0])).map((step) => step.names[0]);
 const intoScript = (name) => change(() => [insertedBehind(endOfScript(), viewLines(name, drawnModels()))]);
 /// A report that shows nothing yet gets what is on the page.
 export async function fillReport() {
@@ -131,59 +160,9 @@ export async function fillReport() {
   if (lines) await change(() => [insertedBehind(endOfScript(), lines)]);
 }
 
-const dataOf = (name) => variables()[name];
-
-/// The step that gives a part of the record its name, where it has one of its own.
-function partStep(kind) {
-  const part = roles(), name = part[kind];
-  if (!name || name === part.prepared || name === part.raw || (kind === "validation" && name === part.estimation)) return null;
-  return session.steps.find((step) => step.on && step.names.length === 1 && step.names[0] === name) ?? null;
-}
-
-/// [from, to] of the parts, in seconds of the record that they are taken from.
-function partsNow() {
-  const part = roles(), parts = {};
-  for (const kind of ["estimation", "validation"]) {
-    const data = dataOf(partStep(kind)?.names[0] ?? part.prepared);
-    if (data?.kind === "data") parts[kind] = [data.start, data.last];
-  }
-  return parts;
-}
-
-/// A part becomes what a hand says: samples of the prepared record, the whole of it by its name.
-let partIsHeld = false;
-function movePart(kind, [from, to], held) {
-  const { prepared } = roles(), data = dataOf(prepared);
-  if (data?.kind !== "data") return;
-  const sample = (instant) => Math.min(Math.max(Math.round((instant - data.start) / data.Ts) + 1, 1), data.N);
-  const first = sample(from), final = Math.min(Math.max(sample(to), first + 9), data.N);
-  const whole = first === 1 && final === data.N;
-  const value = whole ? { receiver: "", function: "", arguments: [prepared] } : { receiver: prepared, function: "range", arguments: [String(first), String(final)] };
-  change(() => {
-    const step = partStep(kind);
-    return [step ? replaced(step, { ...value, options: [] }) : newCell(kind, `${kind} = ${whole ? prepared : `${prepared}:range(${first}, ${final})`}`)];
-  }, { goesOn: partIsHeld, held });
-  partIsHeld = held;
-}
-
-export function divide(share) {
-  const { prepared } = roles(), data = dataOf(prepared), at = Math.round(share * data.N);
-  const lines = { estimation: share < 1 ? `${prepared}:range(1, ${at})` : prepared, validation: share < 1 ? `${prepared}:range(${at + 1}, ${data.N})` : prepared };
-  change(() => {
-    const edits = [], fresh = [];
-    for (const [kind, text] of Object.entries(lines)) {
-      const step = partStep(kind);
-      if (step) edits.push({ first: step.first_line, last: step.last_line, text: `${step.names[0]} = ${text}` });
-      else fresh.push(`${kind} = ${text}`);
-    }
-    if (fresh.length > 0) edits.push(newCell("parts", fresh.join("\n")));
-    return edits;
-  });
-}
-
 /// Zooms the record to samples of what was prepared, with as much before and behind.
 export function showSamples([first, last]) {
-  const plot = tiles.get("record")?.plot, data = dataOf(roles().prepared);
+  const plot = tiles.get("record")?.plot, data = variables()[roles().prepared];
   if (!plot || data?.kind !== "data") return;
   const wide = Math.max((last - first) * data.Ts, 20 * data.Ts), from = data.start + (first - 1) * data.Ts, { x } = plot.panels[0];
   plot.zoom(plot.panels[0], [x.position(from - wide), x.position(from + (last - first) * data.Ts + wide)], null);
@@ -202,6 +181,7 @@ function drawFigure(name, tile, figure) {
   if (!tile.plot) {
     tile.body.replaceChildren();
     tile.plot = dynlabPlots.show(tile.body, figure, viewName(name));
+    tile.tools.prepend(tile.plot.data);  // over the picture it would cover its numbers
     if (name === "record") { new Brushes(tile.plot, partsNow, movePart); followZoom(tile); }
     return;
   }
@@ -235,13 +215,7 @@ function ordersMap(seen) {
   };
   return table([`${say("poles")} \\ ${say("zeros")}`, ...zeros.map(String)], poles.map((p) => [element("b", { textContent: p }), ...zeros.map((z) => cell(p, z))]));
 }
-function takeOrders(poles, zeros, delay) {
-  const { estimation } = roles();
-  change(() => {
-    const name = freeName("G");
-    return [newCell(name, `${name} = tfsrivc(${estimation}, ${poles}, ${zeros}${delay > 0 ? "" : ", {TdMax = 0}"})`)];
-  });
-}
+const takeOrders = (poles, zeros, delay) => addModel(`tfsrivc(${roles().estimation}, ${poles}, ${zeros}${delay > 0 ? "" : ", {TdMax = 0}"})`);
 
 const TABLES = {
   parameters: (seen) => table([say("model"), say("parameter"), say("value"), say("error")], seen.rows),
@@ -250,11 +224,12 @@ const TABLES = {
 const studyTable = (seen) => table(["", say("parameter"), say("truth"), say("meanOf"), say("scatter"), say("bound"), say("reported")], seen.rows);
 
 function drawTile(name) {
-  const tile = tiles.get(name), seen = session.views[name] ?? {};
-  const older = session.error !== null && session.shown === session.revision;
+  const tile = tiles.get(name), seen = session.views[name] ?? {}, older = isOlder(name), empty = isEmpty(name) && !seen.error;
   tile.node.classList.toggle("older", older);
-  tile.words.textContent = seen.error ?? seen.words ?? (older ? say("older") : "");
+  tile.node.classList.toggle("empty", empty);
+  tile.words.textContent = empty ? emptyWords(name) : seen.error ?? [older && say("older"), seen.words, name === "delay" && !seen.figure && !session.running && say("no_delays")].filter(Boolean).join(" – ");
   tile.words.classList.toggle("broken", Boolean(seen.error));
+  if (empty) return;
   if (seen.figure) drawFigure(name, tile, seen.figure);
   if (TABLES[name] && seen.rows) tile.body.replaceChildren(TABLES[name](seen));
   if (name === "study" && seen.rows) {

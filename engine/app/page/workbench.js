@@ -1,32 +1,53 @@
 // The workbench: a record, its preparation, models and views, and beside them the script that all of it is.
-import { connect, onChange, post, session, trouble } from "/bench_session.js";
-import { openFirst, partsPanel, preparationPanel, recordPanel } from "/bench_record.js";
+import { change, connect, onChange, post, request, session, settled, trouble } from "/bench_session.js";
+import { openFirst, recordPanel } from "/bench_record.js";
+import { partsPanel, preparationPanel } from "/bench_preparation.js";
 import { estimatePanel, modelsPanel } from "/bench_models.js";
 import { readingPanel } from "/bench_reading.js";
 import { knownPanel } from "/bench_known.js";
-import { arrange, ask, channelChoice, drawTiles, redrawBrushes, shownViews, takeSaved, toggleView, fillReport } from "/bench_views.js";
+import { arrange, ask, download, drawTiles, fillReport, redrawBrushes, renewTiles, shownViews, takeSaved, viewsPanel } from "/bench_views.js";
 import { exportsPanel } from "/bench_exports.js";
-import { openScript, showMistake, showScript } from "/bench_script.js";
-import { button, element } from "/bench_fields.js";
-import { say, useLanguage, viewName, viewNames } from "/bench_words.js";
+import { closeScript, openScript, showMistake, showScript } from "/bench_script.js";
+import { modelSteps, roles } from "/bench_steps.js";
+import { isFrench, say, useLanguage } from "/bench_words.js";
 
 const $ = (id) => document.getElementById(id);
-let connection = "here", opened = false, viewsBefore = "";
+let connection = "here", opened = false, making = false, viewsBefore = "";
 
+/// The script's header says the language, else the browser.
+let languageBefore = null;
 function label() {
   const header = /^-- language:\s*(\w+)/m.exec(session.source)?.[1];
   useLanguage(header ?? (navigator.language?.startsWith("fr") ? "fr" : "en"));
-  const words = { undo: "undo", redo: "redo", stop: "stop", again: "again", "make-pdf": "pdf", "show-script": "script", "close-help": "close", asked: "asked", allow: "allow" };
+  const { lang } = document.documentElement, words = { undo: "undo", redo: "redo", stop: "stop", again: "again", "make-pdf": "pdf", "show-script": "script", "close-help": "close",
+                                                       asked: "asked", allow: "allow", invitation: "invitation", "take-name": "rename", "give-up": "giveUp" };
   for (const [id, key] of Object.entries(words)) $(id).textContent = say(key);
-  $("steps").setAttribute("aria-label", say("estimate"));
-  $("views").setAttribute("aria-label", say("views"));
-  $("script").setAttribute("aria-label", say("script"));
+  const names = { steps: "controls", views: "views", script: "script", language: "language", "bench-bar": "bar", "help-text": "help" };
+  for (const [id, key] of Object.entries(names)) $(id).setAttribute("aria-label", say(key));
+  $("language").value = isFrench() ? "fr" : "en";
+  if (languageBefore && languageBefore !== lang) { renewTiles(); viewsBefore = ""; }
+  languageBefore = lang;
+}
+/// The script with this language in its header.
+function inLanguage(source, code) {
+  const line = `-- language: ${code}`;
+  if (/^-- language:.*$/m.test(source)) return source.replace(/^-- language:.*$/m, line);
+  return /^-- ---\n/.test(source) ? source.replace("-- ---\n", `-- ---\n${line}\n`) : `-- ---\n${line}\n-- ---\n\n${source}`;
 }
 
 function showState() {
   $("name").textContent = session.file.split("/").pop();
-  $("undo").disabled = !session.undo;
-  $("redo").disabled = !session.redo;
+  const over = connection === "over", there = roles().raw || roles().study || modelSteps().length > 0, focused = document.activeElement;
+  $("undo").disabled = over || !session.undo;
+  $("redo").disabled = over || !session.redo;
+  if (focused === $("undo") && focused.disabled) $("redo").focus();
+  if (focused === $("redo") && focused.disabled) $("undo").focus();
+  $("make-pdf").disabled = over || making || !there;
+  $("invitation").hidden = Boolean(there);
+  for (const id of ["stop", "again", "allow", "language"]) $(id).disabled = over;
+  $("steps").inert = over;
+  document.body.classList.toggle("over", over);
+  if (over) closeScript();
   $("stop").hidden = !session.running;
   $("again").hidden = !session.stopped || session.running;
   const running = Object.values(session.states).find(({ state }) => state === "running");
@@ -35,9 +56,10 @@ function showState() {
     : session.running ? say("running") + share : session.error ? say("mistake") : session.stopped ? say("stopped") : say("ready");
   $("state").classList.toggle("broken", Boolean(session.error));
   $("question").hidden = !session.asking;
-  if (session.error) trouble(session.error.message);
-  else if ($("trouble").dataset.mistake) trouble(null);
-  $("trouble").dataset.mistake = session.error ? "1" : "";
+  const mistake = session.error?.message ?? "", { dataset, hidden } = $("trouble");
+  if (mistake && (dataset.mistake !== mistake || hidden)) trouble(mistake);
+  else if (!mistake && dataset.mistake) trouble(null);
+  dataset.mistake = mistake;
 }
 
 /// The panels are made anew with each step; what is open, typed and focused stays.
@@ -50,26 +72,43 @@ function drawPanels() {
   const steps = $("steps"), active = document.activeElement;
   panelsAreOld = held;
   if (held) return drawModels();
-  const path = steps.contains(active) ? placeOf(steps, active) : null, chosen = chosenDetails(steps), scrolled = steps.scrollTop;
-  const typedText = path && active.type === "text" && active.value !== active.defaultValue ? active.value : null;
-  const views = element("section", { className: "panel" }, element("h2", { textContent: say("views") }),
-    element("div", { className: "adding" }, ...viewNames().map((name) => button(viewName(name), () => toggleView(name), { ariaPressed: String(shownViews().includes(name)) }))), channelChoice() ?? "");
-  steps.replaceChildren(...[recordPanel(), preparationPanel(), partsPanel(), readingPanel(), estimatePanel(), knownPanel(), views, exportsPanel()].filter(Boolean));
+  const path = steps.contains(active) && active !== steps ? placeOf(steps, active) : null, known = path && markOf(steps, active), chosen = chosenDetails(steps), scrolled = steps.scrollTop;
+  const typedText = path && ["text", "textarea"].includes(active.type) && active.value !== active.defaultValue ? active.value : null;
+  steps.replaceChildren(...[recordPanel(), preparationPanel(), partsPanel(), readingPanel(), estimatePanel(), knownPanel(), viewsPanel(), exportsPanel()].filter(Boolean));
   for (const [key, node] of namedDetails(steps)) {
     if (chosen.has(key)) Object.assign(node, { open: chosen.get(key) }).dataset.chosen = "1";
   }
   steps.scrollTop = scrolled;
-  const again = path && nodeAt(steps, path);
-  if (again && again.tagName === active.tagName) {
-    again.focus({ preventScroll: true });
-    if (typedText !== null) again.value = typedText;
-  }
+  const again = path && controlAt(steps, known);
+  (again ?? (path && nearestControl(steps, path)))?.focus({ preventScroll: true });
+  if (again && typedText !== null) again.value = typedText;
   drawModels();
 }
 function drawModels() {
-  const models = modelsPanel();
-  document.querySelector("#views > .models")?.remove();
-  if (models) $("views").prepend(models);
+  const models = modelsPanel(), old = document.querySelector("#views > .models"), active = document.activeElement;
+  const path = old?.contains(active) && active !== old ? placeOf(old, active) : null, known = path && markOf(old, active);
+  if (old && models) old.replaceWith(models);
+  else old?.remove();
+  if (models && !old) $("views").prepend(models);
+  if (path) (models ? controlAt(models, known) ?? nearestControl(models, path) : $("views")).focus({ preventScroll: true });
+}
+/// A control is known again, where its panel was made anew, by its panel's title, its name and its place among those of that name.
+const titleOf = (node) => node.closest(".panel")?.querySelector("h2, summary").textContent.replace(/ \(\d+\)$/, "");
+const nameOf = (node) => node.ariaLabel ?? node.closest("label")?.firstChild.textContent ?? node.textContent.replace(/ \(\d+\)$/, "");
+const keyOf = (node) => [titleOf(node), node.type, nameOf(node)].join("|");
+const ofKey = (root, tag, key) => [...root.querySelectorAll(tag)].filter((node) => keyOf(node) === key);
+const markOf = (root, node) => ({ tag: node.tagName, key: keyOf(node), number: ofKey(root, node.tagName, keyOf(node)).indexOf(node) });
+function controlAt(root, { tag, key, number }) {
+  const found = ofKey(root, tag, key)[number];
+  return found && !found.disabled ? found : null;
+}
+/// Where focus goes when its control is no longer there: to the last one at a place on the way to it.
+function nearestControl(root, path) {
+  for (let depth = path.length - 1; depth > 0; --depth) {
+    const found = nodeAt(root, path.slice(0, depth))?.querySelector("button:enabled, input:enabled, select:enabled, summary");
+    if (found) return found;
+  }
+  return root;
 }
 /// What folds, by its title without the number behind it and its place among those of that title.
 function namedDetails(root) {
@@ -96,13 +135,13 @@ const nodeAt = (root, path) => path.reduce((node, i) => node?.children[i], root)
 function draw(changed) {
   if (changed.source) label();
   showState();
-  if (changed.source || changed.whole || changed.views.some((name) => ["variables", "models", "advice"].includes(name))) drawPanels();
+  if (changed.source || changed.whole || changed.error || changed.views.some((name) => ["variables", "models", "advice"].includes(name))) drawPanels();
   const names = shownViews().join();
   if (names !== viewsBefore || changed.whole) {
     viewsBefore = names;
     arrange();
   } else {
-    drawTiles(changed.views);
+    drawTiles(changed.error || session.error ? undefined : changed.views);
     if (changed.source || changed.views.includes("variables")) ask();
   }
   if (changed.views.includes("variables")) redrawBrushes();
@@ -119,30 +158,35 @@ connect((state) => {
   if (before !== state) showState();
 });
 
-$("undo").onclick = () => post("/undo");
-$("redo").onclick = () => post("/redo");
-$("stop").onclick = () => post("/stop");
-$("again").onclick = () => post("/again");
-$("allow").onclick = () => post("/allow");
+const order = (path) => post(path).catch((error) => trouble(error.message));
+for (const [id, path] of Object.entries({ undo: "/undo", redo: "/redo", stop: "/stop", again: "/again", allow: "/allow" })) $(id).onclick = () => order(path);
+$("language").onchange = () => change(() => ({ text: inLanguage(session.source, $("language").value) }));
 $("show-script").onclick = () => {
   const hidden = document.body.classList.toggle("without-script");
   $("show-script").setAttribute("aria-pressed", String(!hidden));
 };
+/// Saved under the session's name: a window that opens by itself later than the click would be blocked.
 $("make-pdf").onclick = async () => {
-  $("make-pdf").disabled = true;
+  making = true;
+  showState();
   try {
     await fillReport();
-    const answer = await fetch("/document.pdf");
-    if (!answer.ok) return trouble(await answer.text());
-    window.open(URL.createObjectURL(await answer.blob()), "_blank");
+    await settled(() => session.shown === session.revision && !session.running, 3000);
+    const answer = await request("/document.pdf");
+    if (answer.ok) download(session.file.split("/").pop().replace(/\.lua$/, "") + ".pdf", await answer.blob());
+    else trouble(await answer.text());
+  } catch (error) {
+    trouble(error.message);
   } finally {
-    $("make-pdf").disabled = false;
+    making = false;
+    showState();
+    if (document.activeElement === document.body) $("make-pdf").focus();
   }
 };
 document.addEventListener("keydown", (event) => {
   if (!(event.ctrlKey || event.metaKey) || event.target.closest(".CodeMirror, input, textarea")) return;
-  if (event.key === "z" && !event.shiftKey) post("/undo");
-  else if (event.key === "y" || (event.key === "z" && event.shiftKey)) post("/redo");
+  if (event.key === "z" && !event.shiftKey) order("/undo");
+  else if (event.key === "y" || (event.key === "z" && event.shiftKey)) order("/redo");
   else return;
   event.preventDefault();
 });

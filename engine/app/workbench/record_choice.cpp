@@ -187,8 +187,7 @@ RecordOrder suggested_order(const RecordChoice& choice) {
     return order;
 }
 
-std::string with_record(const std::string& source, const RecordOrder& order) {
-    const std::string lines = record_lines(order);
+std::string with_record(const std::string& source, const RecordOrder& order, const std::string& lines) {
     const PercentScript script = parse_percent_script(source, "session.lua");
     if (std::none_of(script.cells.begin(), script.cells.end(),
                      [](const Cell& cell) { return cell.kind == Cell::Kind::kCode; }))

@@ -46,10 +46,10 @@ std::string record_lines(const RecordOrder& order);
 /// The order that the roles of a choice's columns suggest. Throws EnvironmentError where there are no two signals.
 RecordOrder suggested_order(const RecordChoice& choice);
 
-/// The script with the record of the order: in place of the lines of its cell "record" where that gives the record its
-/// name, else in a cell of its own at the end; a script without any code becomes that of a new session. Throws
-/// EnvironmentError as Recording.
-std::string with_record(const std::string& script, const RecordOrder& order);
+/// The script with the record of the order, `lines` of record_lines(): in place of the lines of its cell "record" where
+/// that gives the record its name, else in a cell of its own at the end; a script without any code becomes that of a
+/// new session.
+std::string with_record(const std::string& script, const RecordOrder& order, const std::string& lines);
 
 /// The script of a new session; `lines` of record_lines() for the record "data", or empty.
 std::string new_session(const std::string& title, const std::string& lines, const std::string& language);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <regex>
 #include <span>
 
 #include "data_io/values/value_limits.h"
@@ -169,23 +170,76 @@ class Lines {
     std::vector<std::size_t> ends_;
 };
 
+/// Whether a line begins as an assignment or a cell does, so that an unfinished statement cannot go on there.
+bool begins_anew(const std::string& line) {
+    static const std::regex kBegin(R"(^(-- %%|(local\s+)?[A-Za-z_]\w*(\s*,\s*[A-Za-z_]\w*)*\s*=[^=]).*)");
+    return std::regex_match(line, kBegin);
+}
+
+/// The first line of a statement that is no statement of Lua, with the lines behind it that can belong to it, where it
+/// gives names to something.
+std::optional<SessionStep> broken_step(const std::vector<std::string>& lines, int first) {
+    static const std::regex kNames(R"(^(local\s+)?([A-Za-z_]\w*(?:\s*,\s*[A-Za-z_]\w*)*)\s*=(.*))"), kName(R"(\w+)");
+    std::smatch found;
+    const std::string& begin = lines[static_cast<std::size_t>(first - 1)];
+    if (!std::regex_match(begin, found, kNames)) return {};
+    SessionStep step;
+    step.broken = true;
+    step.first_line = step.last_line = first;
+    step.local = found[1].matched;
+    const std::string names = found[2];
+    for (std::sregex_iterator name(names.begin(), names.end(), kName), last; name != last; ++name)
+        step.names.push_back(name->str());
+    std::string text = trimmed(found[3].str());
+    for (int line = first + 1; line <= static_cast<int>(lines.size()); ++line) {
+        const std::string& more = lines[static_cast<std::size_t>(line - 1)];
+        if (is_blank(more) || begins_anew(more)) break;
+        text += " " + trimmed(more);
+        step.last_line = line;
+    }
+    step.arguments = {text};
+    return step;
+}
+
+/// Whether tokens that look like one statement are none, or two of which the first is not finished.
+bool is_unfinished(Tokens tokens, bool closed, const Lines& lines, const std::vector<std::string>& text) {
+    const int first = lines.at(tokens.front().begin);
+    int depth = 0;
+    for (const LuaToken& token : tokens) {
+        if (token.kind == Kind::kUnfinished) return true;
+        depth += opens(token) + block_change(token) - closes(token);
+        const int line = lines.at(token.begin);
+        const bool second = depth == 0 && token.is("=") && line > first;
+        if (second && begins_anew(text[static_cast<std::size_t>(line - 1)])) return true;
+    }
+    return !closed;
+}
+
 void add_running_steps(const std::string& source, std::vector<SessionStep>& steps) {
     const std::vector<LuaToken> all = lua_tokens(source);
+    const std::vector<std::string> text = lines_of(source);
     const Lines lines(source);
     int blocks = 0, brackets = 0;
     for (std::size_t i = 0; i < all.size();) {
         const std::size_t first = i;
         const bool outside = blocks == 0;
-        bool whole = true;
         do {
-            blocks += block_change(all[i]);
+            blocks = std::max(0, blocks + block_change(all[i]));
             brackets = std::max(0, brackets + opens(all[i]) - closes(all[i]));
-            whole = whole && all[i].kind != Kind::kUnfinished;
             ++i;
         } while (i < all.size() && !(blocks == 0 && brackets == 0 && !goes_on(all[i - 1]) && begins(all[i]) &&
                                      lines.at(all[i].begin) > lines.at(all[i - 1].end() - 1)));
-        if (!outside || blocks != 0 || brackets != 0 || !whole) continue;
-        std::optional<SessionStep> step = step_of(source, Tokens(all).subspan(first, i - first));
+        const Tokens tokens = Tokens(all).subspan(first, i - first);
+        if (outside && is_unfinished(tokens, blocks == 0 && brackets == 0 && !goes_on(tokens.back()), lines, text)) {
+            if (auto broken = broken_step(text, lines.at(tokens.front().begin))) {
+                for (i = first; i < all.size() && lines.at(all[i].begin) <= broken->last_line;) ++i;
+                steps.push_back(*std::move(broken));
+                blocks = brackets = 0;
+                continue;
+            }
+        }
+        if (!outside || blocks != 0 || brackets != 0) continue;
+        std::optional<SessionStep> step = step_of(source, tokens);
         if (!step) continue;
         step->first_line = lines.at(all[first].begin);
         step->last_line = lines.at(all[i - 1].end() - 1);

@@ -26,12 +26,14 @@ struct SessionStep {
     std::vector<StepOption> options;
     std::string rest;  ///< what stands behind it in its last line: a remark
     bool on = true;
+    bool broken = false;  ///< no statement of Lua: its only argument is what was typed behind the names, in one line
 };
 DYNLAB_DESCRIBE(SessionStep, first_line, last_line, names, local, receiver, function, braces, arguments, options, rest,
-                on)
+                on, broken)
 
 /// The steps of a script, in order: statements outside of functions, loops and conditions that begin a line and end
-/// one, without remarks inside. What is written in another way is no step, and stays as it is.
+/// one, without remarks inside. What is written in another way is no step, and stays as it is. A statement that is not
+/// finished ends, as a broken step, before the next line that begins as an assignment or a cell does.
 std::vector<SessionStep> session_steps(const std::string& source);
 
 /// Lines of a script that are replaced.

@@ -76,6 +76,11 @@ function views.record(settings, values)
   return {figure = (first == 1 and last == data.N) and idplot(data) or idplot(data, first, last)}
 end
 
+function views.second(settings, values)
+  local data = values[settings.second]
+  if is_data(data) then return {figure = idplot(data)} end
+end
+
 function views.prepared(settings, values)
   local data = values[settings.prepared]
   if is_data(data) then return {figure = idplot(data)} end
@@ -103,7 +108,7 @@ function views.spectrum(settings, values)
     curves[#curves + 1] = {x = w, y = power, label = label, colour = colour}
   end
   add(raw, settings.raw, 8)
-  if settings.prepared ~= settings.raw and is_data(prepared) then add(prepared, settings.prepared, 0) end
+  if prepared ~= raw and is_data(prepared) then add(prepared, settings.prepared, 0) end
   return {figure = figure{curves = curves, x_log = true, y_log = true, xlabel = "frequency (rad/s)", ylabel = "power of the output"}}
 end
 

@@ -21,6 +21,7 @@
 #include "platform/text_file.h"
 #include "scripting/runtime/help.h"
 #include "workflow/lesson_catalogue.h"
+#include "workflow/recording.h"
 
 namespace dynlab::inline app {
 namespace {
@@ -71,13 +72,24 @@ struct Opening {
 };
 DYNLAB_DESCRIBE(Opening, data, words)
 
+const std::string kSamplingRemedy = "; choose the column of the time, or type the sampling time below";
+
+/// record_lines(), with what somebody at the page can do about a file without a sampling time.
+std::string lines_of_order(const RecordOrder& order) {
+    try {
+        return record_lines(order);
+    } catch (const UnknownSampling& error) {
+        throw EnvironmentError(error.what() + kSamplingRemedy);
+    }
+}
+
 /// The script that a session begins with, where there is none yet.
 std::string first_script(const Subject& subject, Opening& opening) {
     std::string lines;
     if (!subject.data.empty()) {
         const RecordChoice choice = look_at_record(subject.data, false);
         try {
-            lines = record_lines(suggested_order(choice));
+            lines = lines_of_order(suggested_order(choice));
         } catch (const EnvironmentError& error) {
             opening = {subject.data, error.what()};
         }
@@ -133,7 +145,7 @@ void serve_records(WebServer& server, WorkbenchSession& bench) {
     });
     server.on_post("/record", [&](const PageRequest& asked) {
         const RecordOrder order = from_json<RecordOrder>(asked.body);
-        bench.put(with_record(bench.script(), order));
+        bench.put(with_record(bench.script(), order, lines_of_order(order)));
         return done();
     });
 }
@@ -157,9 +169,11 @@ struct StopsBeforeServer {
 void serve_documents(WebServer& server, WorkbenchSession& bench, BackgroundWork& background,
                      const Permissions& permissions) {
     server.on_get("/document.pdf", [&](const PageRequest&) {
-        constexpr int kFailed = 500, kForbidden = 403;
+        constexpr int kFailed = 500, kForbidden = 403, kConflict = 409;
         if (!permissions.granted())
             return PageReply{"This script has not been allowed to run.", kPlainText, kForbidden};
+        if (const auto mistake = bench.mistake())
+            return PageReply{"There is no report of a script with a mistake: " + *mistake, kPlainText, kConflict};
         background.document_changed({});
         const BackgroundWork::Pdf pdf = background.pdf();
         return pdf.bytes.empty() ? PageReply{pdf.error, kPlainText, kFailed} : PageReply{pdf.bytes, "application/pdf"};

@@ -18,6 +18,7 @@
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/interrupt.h"
+#include "scripting/prompt/prompt_statement.h"
 #include "scripting/runtime/lua_text.h"
 
 namespace dynlab::inline app {
@@ -269,8 +270,8 @@ void WorkbenchSession::run() {
     run_revision_ = text_.revision();
     changed_ = true;
     try {
-        const std::string cells = views ? view_cells(*views) : "";
-        const PercentScript script = parse_percent_script(text_to_run() + cells, text_.file());
+        const std::string text = text_to_run(), cells = views && !ends_early(text) ? view_cells(*views) : "";
+        const PercentScript script = parse_percent_script(text + cells, text_.file());
         const std::size_t first =
             runner_.run(report_of_script(script, "session.html"), figures_.path(), std::exchange(changed_data_, {}));
         for (std::size_t i = first; i < runner_.parts().size(); ++i)
@@ -280,6 +281,17 @@ void WorkbenchSession::run() {
     } catch (const EnvironmentError& error) {
         error_ = RecordedError{error.what(), 0};
     }
+}
+
+/// Whether the script ends in the middle of a statement, which whatever is appended would be taken to end.
+bool WorkbenchSession::ends_early(const std::string& text) const {
+    const std::vector<ScriptPart> parts = script_parts(parse_percent_script(text, text_.file()));
+    return !parts.empty() && read_script_part(parts.back().code).kind == PromptStatement::Kind::kIncomplete;
+}
+
+std::optional<std::string> WorkbenchSession::mistake() const {
+    const std::lock_guard lock(mutex_);
+    return error_ ? std::optional(error_->message) : std::nullopt;
 }
 
 /// From now on only what stands before this part is run and looked at, until the script changes.

@@ -50,6 +50,7 @@ class WorkbenchSession {
     /// What a run saved (workbench.show "saved"), by its name. Throws EnvironmentError where there is none.
     std::string saved(const std::string& name) const;
 
+    std::optional<std::string> mistake() const;  ///< at which the script stops, as the last run told it
     std::string script() const;
     std::filesystem::path file() const;
     std::string whole() const;             ///< what a page shows, JSON
@@ -62,6 +63,7 @@ class WorkbenchSession {
     std::optional<ViewOrder> stale_views();
     void leave_out(std::size_t part);
     std::string text_to_run() const;
+    bool ends_early(const std::string& text) const;
     void take(RunnerNews news);
     void take_record(const RunnerNews& news);
     std::string json(bool all) const;

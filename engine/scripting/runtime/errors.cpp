@@ -262,6 +262,7 @@ std::string plain_syntax_message(const std::string& message, const std::string& 
                 return LocatedMessage{placed.file, line, hint}.joined();
         }
         if (placed.text.find("'end' expected") != std::string::npos) return missing_end(placed, source).joined();
+        if (const auto opened = between(placed.text, "' at line ", ")")) placed.line = std::stoi(*opened);
     }
     const std::string wrong = line_of(source, placed.line);
     if (starts_with(near, "<\\"))
