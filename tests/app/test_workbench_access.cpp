@@ -235,6 +235,18 @@ TEST_F(workbench_access, after_the_end_nothing_can_be_pressed_and_nothing_fails)
     EXPECT_FALSE(browser.comes("document.body.innerText.includes('Failed to fetch')", 1));
 }
 
+TEST_F(workbench_access, files_that_come_and_go_beside_the_session_end_nothing) {
+    Browser browser;
+    const auto program = open(browser);
+    for (int k = 0; k < 20000; ++k) {
+        write("passing.csv", "");
+        std::filesystem::remove(file("passing.csv"));
+    }
+    ASSERT_TRUE(press(browser, "+ Level"));
+    EXPECT_TRUE(script_has(browser, "detrend(prepared"));
+    EXPECT_THAT(script(), HasSubstr("detrend(prepared, \"mean\")"));
+}
+
 TEST_F(workbench_access, more_models_than_a_picture_takes_are_told) {
     std::string text = "data = iddata(lsim(tf({2}, {1, 3}), prbs(6, 4), 0.1), prbs(6, 4), 0.1)\n";
     for (int k = 1; k <= 10; ++k) text += "G" + std::to_string(k) + " = tf({1}, {1, " + std::to_string(k) + "})\n";

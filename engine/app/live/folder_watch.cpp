@@ -9,6 +9,12 @@ namespace dynlab::inline app {
 
 namespace fs = std::filesystem;
 
+fs::path place_of(const fs::path& file) {
+    std::error_code failure;
+    const fs::path found = fs::weakly_canonical(fs::absolute(file), failure);
+    return failure ? file : found;
+}
+
 FolderWatch::FolderWatch() : events_(::inotify_init1(IN_NONBLOCK | IN_CLOEXEC)) {
     if (!events_) throw EnvironmentError("cannot watch folders: " + system_reason(errno));
 }

@@ -23,4 +23,7 @@ class FolderWatch {
     std::map<int, std::filesystem::path> folders_;
 };
 
+/// A file's place with links followed; as it is named where it has gone meanwhile, as files beside the watched ones do.
+std::filesystem::path place_of(const std::filesystem::path& file);
+
 }  // namespace dynlab::inline app

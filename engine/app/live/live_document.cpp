@@ -27,12 +27,6 @@ constexpr auto kKeepAfter = 3s;
 /// How often Ctrl-C is looked for while nothing happens.
 constexpr auto kLookForInterrupt = 1s;
 
-fs::path place_of(const fs::path& file) {
-    std::error_code failure;
-    const fs::path found = fs::weakly_canonical(fs::absolute(file), failure);
-    return failure ? file : found;
-}
-
 /// Empty where it cannot be read.
 std::string digest_of_picture(const fs::path& file) {
     std::error_code failure;

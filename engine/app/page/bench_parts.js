@@ -66,6 +66,12 @@ function grid(steps, { N, Ts, start }) {
   }
   return { N, Ts, start };
 }
+/// The prepared record as the script says it now, which its last run may not have seen yet.
+const UNTOLD = ["keep", "discard", "shift"];  // how many samples these leave
+export function preparedNow() {
+  const { raw, prepared } = roles(), data = dataOf(raw), steps = preparingSteps();
+  return data?.kind === "data" && !steps.some((step) => UNTOLD.includes(step.function)) ? grid(steps, data) : dataOf(prepared);
+}
 /// Parts keep their place in time when the record gets another sampling or loses its ends; where that leaves too little
 /// of one, their share of it.
 export function movedParts(before, after) {
@@ -85,7 +91,7 @@ export function movedParts(before, after) {
 /// Both parts from the first record: `share` of it estimates, the rest validates. A second record goes, unless it is
 /// used elsewhere.
 export function divide(share) {
-  const { prepared } = roles(), at = Math.round(share * dataOf(prepared).N), { N } = dataOf(prepared);
+  const { prepared } = roles(), { N } = preparedNow(), at = Math.round(share * N);
   const texts = { estimation: share < 1 ? `${prepared}:range(1, ${at})` : prepared, validation: share < 1 ? `${prepared}:range(${at + 1}, ${N})` : prepared };
   change(() => {
     const edits = [], fresh = [], block = alikeBlock();

@@ -1,8 +1,8 @@
 // The steps that prepare the record, and the parts of it that estimate and validate.
-import { change, session, settled } from "/bench_session.js";
+import { change, session } from "/bench_session.js";
 import { button, choice, element, isNumber, numberField, textField, why } from "/bench_fields.js";
-import { insertedBehind, keyOf, preparingSteps, removed, replaced, roles, stepOf, variables, written } from "/bench_steps.js";
-import { divide, movedParts, preparedAlike } from "/bench_parts.js";
+import { insertedBehind, keyOf, preparingSteps, removed, replaced, roles, variables, written } from "/bench_steps.js";
+import { divide, movedParts, preparedAlike, preparedNow } from "/bench_parts.js";
 import { say, shortNumber } from "/bench_words.js";
 
 /// `make(steps)` gives {edits, after}: edits of the steps that prepare, and what these are then. Parts and a second
@@ -16,8 +16,7 @@ function prepare(make, how) {
 
 /// A step behind the last that prepares; the record gets another name for it where it has none yet. `call(z)` gives
 /// function, arguments and receiver for the record z.
-export async function addPreparing(call) {
-  await settled(() => session.shown === session.revision && !session.running, 3000);  // how long the record is
+export function addPreparing(call) {
   prepare((steps) => {
     const { raw, prepared } = roles(), fresh = prepared === raw, from = fresh ? raw : prepared, name = fresh ? "prepared" : prepared;
     const step = { names: [name], receiver: "", options: [], on: true, ...call(from) };
@@ -30,12 +29,11 @@ const calls = (name, ...rest) => (z) => ({ function: name, arguments: [z, ...res
 const NEW_STEPS = {
   level: calls("detrend", "\"mean\""), trend: calls("detrend", "\"linear\""), filter: calls("idfilt", () => `{0, ${luaCut()}}`),
   resample: calls("resample", "1", "2"), outliers: calls("filloutliers"),
-  range: (z) => ({ receiver: z, function: "range", arguments: ["1", String(variables()[z]?.N ?? 100)] }),
+  range: (z) => ({ receiver: z, function: "range", arguments: ["1", String(preparedNow().N)] }),
 };
 /// A tenth of the highest frequency.
 function luaCut() {
-  const data = variables()[roles().prepared];
-  return data?.Ts ? String(Number((0.1 * Math.PI / data.Ts).toPrecision(3))) : "1";
+  return String(Number((0.1 * Math.PI / preparedNow().Ts).toPrecision(3)));
 }
 /// What a button beside a finding of advice does: the remedy as a step.
 export const REMEDIES = {
@@ -81,7 +79,7 @@ export function preparationPanel() {
   if (!raw) return "";
   const steps = preparingSteps();
   const list = element("ol", { className: "preparing" }, ...steps.map((step) => preparingStep(step, steps)));
-  const adding = element("div", { className: "adding" }, ...Object.entries(NEW_STEPS).map(([name, call]) => button(`+ ${say(name + "Step")}`, () => addPreparing(call))));
+  const adding = element("div", { className: "adding" }, ...Object.entries(NEW_STEPS).map(([name, call]) => button(`+ ${say(name + "Step")}`, () => addPreparing(call), { disabled: !preparedNow() })));
   return element("section", { className: "panel" }, element("h2", { textContent: say("preparation") }), list, adding);
 }
 

@@ -85,14 +85,6 @@ export function preparingSteps() {
   return prepared === raw ? [] : session.steps.filter((step) => isPreparing(step, prepared));
 }
 
-/// The last line of the cell in which a line stands, without the empty ones at its end.
-export function endOfCell(line) {
-  const next = session.cells.map((cell) => cell.line).sort((a, b) => a - b).find((first) => first > line);
-  const lines = session.source.split("\n");
-  let end = next === undefined ? lines.length : next - 2;  // the marker stands before a cell's first line
-  while (end > line && (lines[end - 1] ?? "").trim() === "") --end;
-  return end;
-}
 export function endOfScript() {
   const lines = session.source.split("\n");
   let end = lines.length;
@@ -148,4 +140,3 @@ export const newCell = (id, text) => insertedBehind(endOfScript(), `\n-- %% id=$
 
 /// Text of a number as a script has it.
 export const luaNumber = (value) => String(Number(Number(value).toPrecision(6)));
-export const luaText = (text) => JSON.stringify(text);

@@ -44,7 +44,7 @@ const SUBJECTS = { record: "raw", second: "second", spectrum: "raw", correlation
 const isEmpty = (name) => (SUBJECTS[name] ? !roles()[SUBJECTS[name]] : modelSteps().length === 0);
 const emptyWords = (name) => say(`no_${SUBJECTS[name] ?? "models"}`);
 
-export function toggleView(name, on = !shownViews().includes(name)) {
+function toggleView(name, on = !shownViews().includes(name)) {
   chosen = viewNames().filter((other) => (other === name ? on : shownViews().includes(other)));
   const closes = tiles.get(name)?.node.contains(document.activeElement);
   arrange();

@@ -187,7 +187,7 @@ void WorkbenchSession::work() {
                 const std::lock_guard lock(mutex_);
                 if (file.filename() == text_.file().filename())
                     changed_ = text_.look_at_file() || changed_;
-                else if (data_.contains(fs::weakly_canonical(file)))
+                else if (data_.contains(place_of(file)))
                     changed_data_.insert(file);
             }
         while (runner_.running()) {
@@ -339,7 +339,7 @@ void WorkbenchSession::take_record(const RunnerNews& news) {
         for (const std::string& cell : runner_.parts()[i].cells)
             if (cell != kViewCell && cell != kSlowViewCell) printed_[cell] = printed_by(news.record, cell);
     for (const fs::path& file : news.record.files_read) {
-        const fs::path place = fs::weakly_canonical(fs::absolute(file));
+        const fs::path place = place_of(file);
         if (data_.insert(place).second) watch_.add(place.parent_path());
     }
 }
