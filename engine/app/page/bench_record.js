@@ -1,7 +1,7 @@
 // The record: where it comes from, which column is what, what advice says of it, and the steps that prepare it.
 import { change, post, session, settled, trouble } from "/bench_session.js";
 import { button, choice, element, labelled, rewrite, why, withOption } from "/bench_fields.js";
-import { formOf, freeName, keyOf, newCell, removed, roles, variables } from "/bench_steps.js";
+import { formOf, freeName, keyOf, newCell, roles, variables } from "/bench_steps.js";
 import { chosenStep } from "/bench_choice.js";
 import { preparedAlike } from "/bench_parts.js";
 import { addPreparing, callWords, REMEDIES } from "/bench_preparation.js";
@@ -138,7 +138,7 @@ async function takeForValidation() {
     const step = session.steps.find((one) => one.on && one.names.length === 1 && one.names[0] === "validation");
     const known = session.steps.some((one) => one.names[0] === name);
     if (!known) return null;
-    return [...(step ? [removed(step)] : []), newCell("validation", `validation = ${name}`)];
+    return [step ? { first: step.first_line, last: step.last_line, text: `validation = ${name}` } : newCell("validation", `validation = ${name}`)];
   });
 }
 

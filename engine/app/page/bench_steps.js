@@ -136,6 +136,8 @@ export function freeName(stem) {
   return stem + k;
 }
 /// A cell of its own at the end.
+/// A text as Lua has it.
+export const luaText = (text) => JSON.stringify(text);
 export const newCell = (id, text) => insertedBehind(endOfScript(), `\n-- %% id=${id}\n${text}`);
 
 /// Text of a number as a script has it.

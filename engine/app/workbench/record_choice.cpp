@@ -193,18 +193,21 @@ std::string with_record(const std::string& source, const RecordOrder& order, con
                      [](const Cell& cell) { return cell.kind == Cell::Kind::kCode; }))
         return new_session("Identification from " + fs::path(order.data).stem().string(), lines,
                            script.header.language);
+    const std::string own_cell = fmt::format("\n-- %% id={}\n{}", order.name, lines);
     for (const Cell& cell : script.cells) {
-        if (cell.id != "record" || cell.content.find(order.name + " = iddata(") == std::string::npos) continue;
+        if (cell.id != "record") continue;
+        const bool again = cell.content.find(order.name + " = iddata(") != std::string::npos;
         const std::vector<std::string> all = lines_of(source);
         std::string text;
         for (int number = 1; number <= static_cast<int>(all.size()); ++number) {
-            if (number == cell.first_line) text += lines;
-            if (number < cell.first_line || number > cell.last_line())
+            if (again && number == cell.first_line) text += lines;
+            if (!again || number < cell.first_line || number > cell.last_line())
                 text += all[static_cast<std::size_t>(number - 1)] + "\n";
+            if (!again && number == cell.last_line()) text += own_cell;
         }
         return text;
     }
-    return source + fmt::format("\n-- %% id={}\n{}", order.name, lines);
+    return source + own_cell;
 }
 
 std::string new_session(const std::string& title, const std::string& lines, const std::string& language) {

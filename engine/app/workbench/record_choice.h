@@ -47,8 +47,8 @@ std::string record_lines(const RecordOrder& order);
 RecordOrder suggested_order(const RecordChoice& choice);
 
 /// The script with the record of the order, `lines` of record_lines(): in place of the lines of its cell "record" where
-/// that gives the record its name, else in a cell of its own at the end; a script without any code becomes that of a
-/// new session.
+/// that gives the record its name, else in a cell of its own behind that one; a script without any code becomes that of
+/// a new session.
 std::string with_record(const std::string& script, const RecordOrder& order, const std::string& lines);
 
 /// The script of a new session; `lines` of record_lines() for the record "data", or empty.
