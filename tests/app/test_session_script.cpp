@@ -106,6 +106,26 @@ TEST(session_script, reads_steps_that_were_switched_off) {
     EXPECT_TRUE(steps[2].on);
 }
 
+// A statement whose lines hold other text as well is none that may be written anew.
+TEST(session_script, what_shares_its_lines_with_other_text_is_no_step) {
+    EXPECT_TRUE(session_steps("--[[ a\nb ]] G = f(x)\n").empty());
+    EXPECT_TRUE(session_steps("G = f(x) --[[ a\nb ]]\n").empty());
+    EXPECT_EQ(session_steps("G = f(x) --[ a\n").size(), 1u);
+    EXPECT_EQ(session_steps("x = 1\n::top::\ny = 2\n").size(), 2u);
+    for (const char* text : {"t = [[\n-- off: z = f(1)\n]]\n", "--[==[\n]]\n-- off: z = f(1)\n]==]\nt = 1\n"})
+        EXPECT_EQ(session_steps(text).size(), 1u) << text;
+    EXPECT_EQ(session_steps("-- [[\n-- off: z = f(1)\n").size(), 1u) << "a remark of one line";
+    EXPECT_EQ(only_step("-- off: z = f(1)  -- why\n").rest, "  -- why");
+}
+
+TEST(session_script, edits_keep_the_line_ends_of_the_script) {
+    const std::string source = "G = f(a,\r\n  b)\r\nz = 1\r\n";
+    EXPECT_EQ(with_edits(source, {{3, 3, "z = 2\ny = 3"}}), "G = f(a,\r\n  b)\r\nz = 2\r\ny = 3\r\n");
+    EXPECT_EQ(session_steps(source).at(0).arguments.at(1), "b");
+    EXPECT_EQ(session_steps("G = f({1,\r\n 2})\r\n").at(0).arguments.at(0), "{1,\n 2}");
+    EXPECT_EQ(session_steps(source).at(1).rest, "");
+}
+
 TEST(session_script, edits_replace_remove_and_insert_lines) {
     const std::string source = "one\ntwo\nthree\n";
     EXPECT_EQ(with_edits(source, {{2, 2, "TWO\nand"}}), "one\nTWO\nand\nthree\n");

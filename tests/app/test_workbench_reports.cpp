@@ -117,6 +117,24 @@ TEST_F(workbench_reports, a_session_goes_through_run_report_check_and_pack_as_it
     EXPECT_TRUE(std::filesystem::exists(file("plant_session.zip")));
 }
 
+/// What is easily taken for something else is told where it happens.
+TEST_F(workbench_reports, traps_are_shown_and_not_forbidden) {
+    write("traps.lua",
+          "-- %% id=record\nu = prbs(7, 8)\ny = lsim(tf({2}, {1, 4, 3}, {IODelay = 0.3}), u, 0.05)\n"
+          "data = iddata(y, u, 0.05)\nprepared = data:shift(3)\n\n"
+          "-- %% id=G1\nG1 = arx(prepared, {2, 2, 1})\n");
+    const auto program = app("traps.lua", {"--run"});
+    Browser browser;
+    browser.open(program->address());
+    ASSERT_TRUE(view_comes(browser, "compare"));
+    EXPECT_TRUE(says(browser, "prediction one step ahead small"));
+    EXPECT_FALSE(browser.comes("document.body.innerText.includes('the sum of both')", 0.1));
+    ASSERT_TRUE(press(browser, "New model"));
+    ASSERT_TRUE(script_has(browser, "G2 = tfsrivc("));
+    EXPECT_TRUE(says(browser, "shifted the input by 3 samples"));
+    EXPECT_FALSE(browser.comes("document.body.innerText.includes('prediction one step ahead small')", 0.1));
+}
+
 TEST_F(workbench_reports, a_script_that_is_not_there_or_stops_is_told) {
     EXPECT_THAT(dynlab("pack nothing.lua").error_output, HasSubstr("nothing.lua"));
     write("stops.lua", "-- ---\n-- title: It's \"mine\"\n-- ---\nlocal file = load('away.csv')\n");

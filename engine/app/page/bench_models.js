@@ -1,7 +1,7 @@
 // Estimating, and the table of models.
 import { change, session, trouble, request } from "/bench_session.js";
 import { button, element, firstCall, labelled, rewrite, stepControls, textField, why } from "/bench_fields.js";
-import { cellRemoval, freeName, keyOf, linesWith, modelSteps, newCell, replaced, roles, stepOf, taken, variables, written } from "/bench_steps.js";
+import { cellRemoval, freeName, keyOf, linesWith, modelSteps, newCell, preparingSteps, replaced, roles, stepOf, taken, variables, written } from "/bench_steps.js";
 import { addModel, choose, chosenStep, rechoose, redraw, rowOf } from "/bench_choice.js";
 import { help } from "/bench_help.js";
 import { drawnModels, isHidden, setHidden } from "/bench_views.js";
@@ -65,11 +65,18 @@ export function estimatePanel() {
     const box = element("div", { className: "chosen" }, element("h3", { textContent: name }));
     if (form) box.append(methodList((method) => exchangeMethod(key, method), step.function, `${say("methodOf")} ${name}`), why(step.function), element("p", { className: "faint", textContent: `${form.structure}; ${form.noise}` }), stepControls(key, step));
     else box.append(labelled(`${name} =`, textField(rightSide(step), (text) => rewrite(key, () => ({ receiver: "", function: "", options: [], braces: false, arguments: [text] })))));
+    for (const trap of trapsOf(step, form)) box.append(element("p", { className: "warning", textContent: trap }));
     const [words, kind] = verdictOf(step);
     if (words) box.append(element("p", { className: kind, textContent: words }));
     node.append(box);
   }
   return node;
+}
+/// What is easily taken for something else: fits of predictions for those of simulations, two delays for one.
+function trapsOf(step, form) {
+  const predicts = form?.domain === "discrete" && /^A y = B u \+ (C )?e$|C\/D e/.test(form.structure);
+  const shift = preparingSteps().find((one) => one.on && one.function === "shift"), delay = rowOf(step)?.delay;
+  return [...(predicts ? [say("predicts")] : []), ...(shift && delay > 0 ? [say("twoDelays").replace("%1", shift.arguments.at(-1)).replace("%2", shortNumber(delay))] : [])];
 }
 const rightSide = (step) => (step.function ? written({ ...step, names: [], local: false, on: true }) : step.arguments[0]);
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <regex>
 
 #include "data_io/data_file.h"
 #include "data_io/dataset_index.h"
@@ -160,6 +161,13 @@ class Columns {
     std::vector<std::string> texts_;
 };
 
+/// A file may have any name; as text of a script's header it must not end its line.
+std::string in_one_line(std::string text) {
+    std::replace_if(
+        text.begin(), text.end(), [](unsigned char c) { return std::iscntrl(c); }, ' ');
+    return text;
+}
+
 }  // namespace
 
 RecordChoice look_at_record(const std::string& data, bool tells) {
@@ -168,6 +176,10 @@ RecordChoice look_at_record(const std::string& data, bool tells) {
 }
 
 std::string record_lines(const RecordOrder& order) {
+    static const std::regex kName("[A-Za-z_][A-Za-z0-9_]*");
+    if (!std::regex_match(order.name, kName)) throw EnvironmentError("a record's name must be one of a variable");
+    if (order.inputs.empty() || order.outputs.empty())
+        throw EnvironmentError("a record needs an input and an output at least");
     Recording recording(order.data, order.inputs, order.outputs, order.Ts > 0 ? std::optional(order.Ts) : std::nullopt,
                         order.time);
     for (const auto& [name, unit] : order.units) recording.set_unit(name, unit);
@@ -210,8 +222,13 @@ std::string with_record(const std::string& source, const RecordOrder& order, con
     return source + own_cell;
 }
 
+void expect_plain_name(const std::string& name) {
+    if (std::any_of(name.begin(), name.end(), [](unsigned char c) { return std::iscntrl(c); }))
+        throw EnvironmentError("there are control characters in the name of the file " + in_one_line(name));
+}
+
 std::string new_session(const std::string& title, const std::string& lines, const std::string& language) {
-    std::string text = fmt::format("-- ---\n-- title: {}\n", title);
+    std::string text = fmt::format("-- ---\n-- title: {}\n", in_one_line(title));
     if (language != "en") text += fmt::format("-- language: {}\n", language);
     text += "-- ---\n";
     if (lines.empty()) return text;

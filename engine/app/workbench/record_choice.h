@@ -40,7 +40,8 @@ struct RecordOrder {
 };
 DYNLAB_DESCRIBE(RecordOrder, data, inputs, outputs, time, Ts, name, units)
 
-/// The lines that load it: `NAME_file = load(...)`, `NAME = iddata(...)`. Throws EnvironmentError as Recording.
+/// The lines that load it: `NAME_file = load(...)`, `NAME = iddata(...)`. Throws EnvironmentError as Recording, and for
+/// a name that no variable can have, no input or no output.
 std::string record_lines(const RecordOrder& order);
 
 /// The order that the roles of a choice's columns suggest. Throws EnvironmentError where there are no two signals.
@@ -50,6 +51,9 @@ RecordOrder suggested_order(const RecordChoice& choice);
 /// that gives the record its name, else in a cell of its own behind that one; a script without any code becomes that of
 /// a new session.
 std::string with_record(const std::string& script, const RecordOrder& order, const std::string& lines);
+
+/// Throws EnvironmentError for control characters in the name of a file, by which it might end a line of the script.
+void expect_plain_name(const std::string& name);
 
 /// The script of a new session; `lines` of record_lines() for the record "data", or empty.
 std::string new_session(const std::string& title, const std::string& lines, const std::string& language);

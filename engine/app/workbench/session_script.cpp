@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 #include <regex>
+#include <set>
 #include <span>
 
 #include "data_io/values/value_limits.h"
@@ -35,19 +36,20 @@ int block_change(const LuaToken& token) {
 
 /// Whether a statement cannot end with this token, since more must come.
 bool goes_on(const LuaToken& token) {
-    if (token.kind == Kind::kSign) return !closes(token) && !token.is(";");
+    if (token.kind == Kind::kSign) return !closes(token) && !token.is(";") && !token.is("::");
     return token.is("and") || token.is("or") || token.is("not") || token.is("local") || token.is("return");
 }
 
 /// Whether a statement can begin with this token.
 bool begins(const LuaToken& token) {
-    return token.kind == Kind::kName ||
+    return token.kind == Kind::kName || token.is("::") ||
            (token.kind == Kind::kKeyword && !token.is("and") && !token.is("or") && !token.is("not"));
 }
 
 std::string text_of(std::string_view source, Tokens tokens) {
     if (tokens.empty()) return {};
-    return std::string(source.substr(tokens.front().begin, tokens.back().end() - tokens.front().begin));
+    return replaced(std::string(source.substr(tokens.front().begin, tokens.back().end() - tokens.front().begin)), "\r",
+                    "");
 }
 
 /// The parts between commas (and semicolons, in a table) outside of brackets.
@@ -165,10 +167,17 @@ class Lines {
     int at(std::size_t offset) const {
         return 1 + static_cast<int>(std::lower_bound(ends_.begin(), ends_.end(), offset) - ends_.begin());
     }
+    std::size_t begin_of(int line) const { return line == 1 ? 0 : ends_[static_cast<std::size_t>(line - 2)] + 1; }
 
   private:
     std::vector<std::size_t> ends_;
 };
+
+/// Whether nothing but a remark that ends with its line stands behind a statement.
+bool is_remark(const std::string& rest) {
+    static const std::regex kRemark(R"(\s*;?\s*(--(?!\[=*\[).*)?)");
+    return std::regex_match(rest, kRemark);
+}
 
 /// Whether a line begins as an assignment or a cell does, so that an unfinished statement cannot go on there.
 bool begins_anew(const std::string& line) {
@@ -244,23 +253,59 @@ void add_running_steps(const std::string& source, std::vector<SessionStep>& step
         step->first_line = lines.at(all[first].begin);
         step->last_line = lines.at(all[i - 1].end() - 1);
         const std::size_t end = all[i - 1].end();
-        step->rest = source.substr(end, source.find('\n', end) - end);
-        steps.push_back(*std::move(step));
+        step->rest = replaced(source.substr(end, source.find('\n', end) - end), "\r", "");
+        const std::size_t begin = all[first].begin;
+        const bool alone = is_blank(std::string_view(source).substr(lines.begin_of(step->first_line),
+                                                                    begin - lines.begin_of(step->first_line)));
+        if (alone && is_remark(step->rest)) steps.push_back(*std::move(step));
     }
 }
 
+/// The lines that begin inside a text or a remark of several lines.
+std::set<int> lines_inside(const std::string& source) {
+    static const std::regex kLong(R"(--\[(=*)\[|--[^\n]*)");
+    const Lines lines(source);
+    std::set<int> inside;
+    const auto add = [&](std::size_t begin, std::size_t end) {
+        for (int line = lines.at(begin) + 1; line <= lines.at(end - 1); ++line) inside.insert(line);
+    };
+    std::size_t next = 0;
+    const auto add_remarks = [&](std::size_t end) {
+        std::smatch found;
+        while (next < end && std::regex_search(source.cbegin() + static_cast<long>(next),
+                                               source.cbegin() + static_cast<long>(end), found, kLong)) {
+            const auto begin = next + static_cast<std::size_t>(found.position());
+            next = begin + static_cast<std::size_t>(found.length());
+            if (found.str(0).back() != '[' || !found[1].matched) continue;
+            const std::size_t close = source.find("]" + found.str(1) + "]", next);
+            next = close == std::string::npos ? source.size() : close + found.str(1).size() + 2;
+            add(begin, next);
+        }
+        next = end;
+    };
+    for (const LuaToken& token : lua_tokens(source)) {
+        add_remarks(token.begin);
+        add(token.begin, token.end());
+        next = token.end();
+    }
+    add_remarks(source.size());
+    return inside;
+}
+
 void add_steps_switched_off(const std::string& source, std::vector<SessionStep>& steps) {
+    const std::set<int> inside = lines_inside(source);
     int number = 0;
     for (const std::string& line : lines_of(source)) {
         ++number;
-        if (!line.starts_with(kOff)) continue;
+        if (!line.starts_with(kOff) || inside.contains(number)) continue;
         const std::string statement = line.substr(kOff.size());
         const std::vector<LuaToken> tokens = lua_tokens(statement);
         std::optional<SessionStep> step = step_of(statement, Tokens(tokens));
         if (!step) continue;
         step->first_line = step->last_line = number;
         step->on = false;
-        steps.push_back(*std::move(step));
+        step->rest = statement.substr(tokens.back().end());
+        if (is_remark(step->rest)) steps.push_back(*std::move(step));
     }
 }
 
@@ -294,7 +339,8 @@ std::string with_edits(const std::string& source, std::vector<LineEdit> edits) {
         next = edit.last + 1;
     }
     copy_until(count + 1);
-    return text;
+    if (source.find("\r\n") == std::string::npos) return text;
+    return replaced(replaced(text, "\r", ""), "\n", "\r\n");  // as its editor writes it
 }
 
 }  // namespace dynlab::inline app

@@ -52,6 +52,7 @@ fs::path session_of(const std::string& name) {
 }
 
 Subject subject_of(const std::string& words) {
+    expect_plain_name(words);
     if (words.empty()) return {"session.lua", "", "Session"};
     if (words.ends_with(".lua")) {
         if (!fs::exists(words)) throw EnvironmentError("there is no file " + words);
@@ -119,6 +120,7 @@ void take_script_orders(WebServer& server, WorkbenchSession& bench) {
 
 /// The name under which a file that was dropped on the page is kept: no folder, no file of that name before.
 fs::path free_name(const std::string& wanted) {
+    expect_plain_name(wanted);
     const fs::path name = fs::path(wanted).filename();
     if (!is_data_file(name))
         throw EnvironmentError(name.string() + " is no data file: wanted .csv, .txt, .dat, .tsv, .xlsx or .mat");
