@@ -39,6 +39,7 @@ class workbench_lessons : public workbench_page {
     }
     void photograph(Browser& browser, const fs::path& picture) const {
         const fs::path taken = file("taken.png");
+        browser.evaluate("document.getElementById('views').scrollTop = 0");
         browser.photograph(taken);
         if (std::getenv("DYNLAB_PICTURES") != nullptr)
             fs::copy_file(taken, picture, fs::copy_options::overwrite_existing);
