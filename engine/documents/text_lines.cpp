@@ -4,7 +4,6 @@
 #include <cctype>
 
 #include "documents/error.h"
-#include "documents/source_limit.h"
 #include "platform/text_file.h"
 
 namespace dynlab::inline documents {

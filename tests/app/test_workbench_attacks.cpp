@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "documents/source_limit.h"
+#include "documents/text_lines.h"
 #include "support/workbench.h"
 
 namespace test_workbench_attacks {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "documents/error.h"
-#include "documents/source_limit.h"
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
