@@ -9,12 +9,12 @@
 namespace dynlab::inline documents {
 
 std::string text_of_source(const std::filesystem::path& file) {
-    constexpr std::uintmax_t kMostMegabytes = 4;
     std::error_code unknown;
     const std::uintmax_t bytes = std::filesystem::file_size(file, unknown);
-    if (!unknown && bytes > kMostMegabytes << 20)
-        throw DocumentError(file.string() + ": a script or template has at most " + std::to_string(kMostMegabytes) +
-                            " MB, this file has " + std::to_string((bytes + (1 << 20) - 1) >> 20) + " MB");
+    if (!unknown && bytes > kMostSourceBytes)
+        throw DocumentError(file.string() + ": a script or template has at most " +
+                            std::to_string(kMostSourceBytes >> 20) + " MB, this file has " +
+                            std::to_string((bytes + (1 << 20) - 1) >> 20) + " MB");
     return read_text(file);
 }
 

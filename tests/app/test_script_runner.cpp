@@ -9,6 +9,7 @@
 
 #include <fstream>
 
+#include "app/live/folder_watch.h"
 #include "platform/temporary_folder.h"
 
 namespace test_script_runner {
@@ -122,7 +123,7 @@ TEST_F(script_runner, a_file_that_has_changed_is_read_again) {
     EXPECT_EQ(printed("b"), "2\n");
     std::ofstream(folder.path() / "d.csv") << "t,u,y\n0,1,1\n1,1,3\n";
     ASSERT_FALSE(record.files_read.empty());
-    EXPECT_THAT(run(source, {record.files_read.front()}), ElementsAre(1, 2));
+    EXPECT_THAT(run(source, {place_of(record.files_read.front())}), ElementsAre(1, 2));
     EXPECT_EQ(printed("b"), "3\n");
 }
 
@@ -170,6 +171,20 @@ TEST_F(script_runner, survives_the_death_of_its_processes) {
     EXPECT_THAT(news.record.error->message, testing::HasSubstr("has ended"));
     run(kA + kB + kC);
     EXPECT_EQ(printed("c"), "20\n");
+}
+
+/// Behind a is a process that waits; with it go those behind it.
+TEST_F(script_runner, begins_before_a_state_whose_process_was_killed) {
+    std::vector<pid_t> kept;
+    order(kA + kB + kC);
+    while (runner.running()) {
+        const RunnerNews news = runner.next();
+        if (news.kind == "split") kept.push_back(static_cast<pid_t>(news.process));
+    }
+    ASSERT_GE(kept.size(), 2u);
+    ::kill(kept[0], SIGKILL);
+    EXPECT_THAT(run(kA + kB + "-- %% id=c\nprint(x * 100)\n"), ElementsAre(0, 1, 2));
+    EXPECT_EQ(printed("c"), "200\n");
 }
 
 TEST_F(script_runner, keeps_random_numbers_and_parallel_work_as_they_are) {

@@ -241,4 +241,28 @@ TEST_F(web_server, has_a_limit_of_streams_and_forgets_those_that_are_gone) {
     EXPECT_EQ(server.streams(), 0);
 }
 
+/// News that come while the first event of a stream is being made are newer than it.
+TEST(web_server_streams, begin_before_the_news_that_follow) {
+    WebServer server({.port = 0});
+    std::thread sender;
+    server.on_stream([&] {
+        sender = std::thread([&] { server.send("page", "new"); });
+        std::this_thread::sleep_for(std::chrono::milliseconds(200));
+        return std::string("old");
+    });
+    server.start();
+    httplib::Client browser("127.0.0.1", server.port());
+    browser.set_read_timeout(5, 0);
+    const std::string address = server.address();
+    const httplib::Headers cookie = {
+        {"Cookie", "dynlab-" + std::to_string(server.port()) + "=" + address.substr(address.find('=') + 1)}};
+    std::string told;
+    browser.Get("/events", cookie, [&](const char* bytes, std::size_t count) {
+        told.append(bytes, count);
+        return told.find("new") == std::string::npos || told.find("old") == std::string::npos;
+    });
+    sender.join();
+    EXPECT_LT(told.find("old"), told.find("new")) << told;
+}
+
 }  // namespace test_web_server

@@ -181,7 +181,7 @@ void LiveDocument::read_again(const std::set<fs::path>& changed) {
         request_ = read_();
         std::set<fs::path> data;
         for (const fs::path& file : changed)
-            if (const auto read = as_read_.find(file); read != as_read_.end()) data.insert(read->second);
+            if (data_.contains(file)) data.insert(file);
         watch_inputs();
         page_is_old_ = true;
         bool may_run = false;
@@ -287,11 +287,9 @@ void LiveDocument::show_states() {
 /// What the document is made of is watched; what is not there yet may come.
 void LiveDocument::watch_inputs() {
     std::set<fs::path> inputs = {place_of(request_->script.file), place_of(request_->template_file)};
-    as_read_.clear();
-    for (const fs::path& file : shown_.files_read) {
-        as_read_[place_of(file)] = file;
-        inputs.insert(place_of(file));
-    }
+    data_.clear();
+    for (const fs::path& file : shown_.files_read) data_.insert(place_of(file));
+    inputs.insert(data_.begin(), data_.end());
     const fs::path folder = request_->script.file.parent_path();
     for (const char* name : {"group.toml", "checks.lua"}) inputs.insert(place_of(folder / name));  // `check` reads them
     if (const fs::path literature = bibliography_of(request_->script); !literature.empty())

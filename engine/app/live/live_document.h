@@ -74,8 +74,8 @@ class LiveDocument {
     std::map<std::string, CellState> states_;  ///< by cell
     std::set<std::filesystem::path> inputs_;   ///< canonical files that the document is made of
     std::map<std::filesystem::path, std::string> pictures_;  ///< of the page, not figures: canonical file -> digest
-    std::map<std::filesystem::path, std::filesystem::path> as_read_;  ///< canonical data file -> as the script read it
-    std::set<std::filesystem::path> changed_;                         ///< of them, and not yet looked at
+    std::set<std::filesystem::path> data_;                   ///< of inputs_, those that the script read
+    std::set<std::filesystem::path> changed_;                ///< of inputs_, and not yet looked at
     Clock::time_point last_change_;
     bool page_is_old_ = false;
     bool page_is_unfinished_ = false;             ///< it was set while the run was under way

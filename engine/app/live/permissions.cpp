@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "platform/hash.h"
 #include "platform/program_lookup.h"
+#include "platform/text_file.h"
 
 namespace dynlab::inline app {
 namespace {
@@ -16,22 +18,27 @@ std::string entry_of(const char* kind, const fs::path& place) {
 }  // namespace
 
 Permissions::Permissions(const fs::path& script)
-    : script_(fs::weakly_canonical(fs::absolute(script))), folder_(script_.parent_path()) {}
+    : script_(fs::weakly_canonical(fs::absolute(script))), folder_(script_.parent_path()) {
+    granted_ = was_granted();
+}
 
-bool Permissions::granted() const {
+bool Permissions::was_granted() const {
     const fs::path lessons = fs::weakly_canonical(shared_folder() / "lessons");
     const bool is_lesson =
         std::mismatch(lessons.begin(), lessons.end(), folder_.begin(), folder_.end()).first == lessons.end();
-    return is_lesson || cache_.recall(entry_of("allowed_folders", folder_)).has_value() ||
-           cache_.recall(entry_of("allowed_scripts", script_)).has_value();
+    if (is_lesson || cache_.recall(entry_of("allowed_folders", folder_))) return true;
+    const auto text = cache_.recall(entry_of("allowed_scripts", script_));
+    return text && fs::is_regular_file(script_) && *text == digest_of(read_text(script_)).hex();
 }
 
-void Permissions::grant() const {
+void Permissions::grant() {
+    granted_ = true;
     cache_.remember(entry_of("allowed_folders", folder_), "allowed");
 }
 
-void Permissions::grant_script() const {
-    cache_.remember(entry_of("allowed_scripts", script_), "allowed");
+void Permissions::grant_script(std::string_view text) {
+    granted_ = true;
+    cache_.remember(entry_of("allowed_scripts", script_), digest_of(text).hex());
 }
 
 }  // namespace dynlab::inline app

@@ -53,7 +53,7 @@ PageReply done() {
     return {"", kPlainText, 204};
 }
 
-void take_orders(WebServer& server, LiveDocument& document, const Permissions& permissions) {
+void take_orders(WebServer& server, LiveDocument& document, Permissions& permissions) {
     server.on_post("/stop", [&](const PageRequest&) { return document.stop_run(), done(); });
     server.on_post("/anew", [&](const PageRequest&) { return document.run_anew(), done(); });
     server.on_post("/slider", [&](const PageRequest& asked) {
@@ -160,7 +160,7 @@ void preview(const PreviewOptions& options) {
     const ReportRequest request = read();
     const OnlyPreview only(request.script.file.string());
     if (const auto address = only.other()) return options.opened(*address, true);
-    const Permissions permissions(request.script.file);
+    Permissions permissions(request.script.file);
     LivePage page;
     LiveDocument document(read, runner, page);
     if (options.run_at_once) permissions.grant();

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 
+#include "app/live/folder_watch.h"
 #include "app/live/runner_process.h"
 #include "data_io/values/cbor_values.h"
 #include "documents/text_lines.h"
@@ -17,6 +18,8 @@ namespace dynlab::inline app {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kNoneLeft = "the process that runs scripts has ended; start dynlab again";
 
 /// What a change of which makes every part run anew: the file's place, the seed, the header.
 std::string settings_of(const PercentScript& script, std::uint32_t seed) {
@@ -50,8 +53,9 @@ ScriptRunner::~ScriptRunner() {
     retry_interrupted([&] { return ::waitpid(first, nullptr, 0); });
 }
 
-/// Each process is the child of the one before, and dies with it.
+/// Each process is the child of the one before, and dies with it. The first stays, also where it has died.
 void ScriptRunner::end_last() {
+    if (kept_.size() == 1) return;
     ::kill(kept_.back().process, SIGKILL);
     kept_.pop_back();
 }
@@ -93,13 +97,20 @@ std::size_t ScriptRunner::run(const ReportRequest& request, const fs::path& figu
     slider_values_ = request.slider_values;
     parts_ = std::move(parts);
     used_.resize(parts_.size());
-    under_way_ = done_ = kept_.back().parts;
-    const RunOrder order{script.file.string(), script.source,          done_,
-                         request.seed,         figure_folder.string(), request.slider_values};
-    split_ = false;
-    running_ = kept_.back().line.send(cbor_of(order));
-    if (!running_) throw EnvironmentError("the process that runs the script has ended");
+    order_ = {script.file.string(), script.source, 0, request.seed, figure_folder.string(), request.slider_values};
+    if (!send_order()) throw EnvironmentError(kNoneLeft);
     return under_way_;
+}
+
+/// To the last process that is still there: others were killed. False when there is none.
+bool ScriptRunner::send_order() {
+    split_ = false;
+    while (true) {
+        order_.from = under_way_ = done_ = kept_.back().parts;
+        running_ = kept_.back().line.send(cbor_of(order_));
+        if (running_ || kept_.size() == 1) return running_;
+        end_last();
+    }
 }
 
 void ScriptRunner::stop() {
@@ -114,8 +125,12 @@ int ScriptRunner::descriptor() const {
 RunnerNews ScriptRunner::next() {
     std::optional<Channel::Message> message = kept_.back().line.receive();
     if (!message) {
+        if (!split_) {  // it died before it had begun
+            end_last();
+            if (send_order()) return next();
+        }
         RunnerNews died{.kind = "ended", .part = under_way_};
-        died.record.error = RecordedError{"the process that ran the script has ended", 0};
+        died.record.error = RecordedError{split_ ? "the process that ran the script has ended" : kNoneLeft, 0};
         split_ = true;
         stop();
         return died;
@@ -129,7 +144,8 @@ RunnerNews ScriptRunner::next() {
         under_way_ = news.part;
     } else if (news.kind == "done" && !news.record.error) {
         done_ = news.part + 1;
-        used_[news.part] = {{news.record.files_read.begin(), news.record.files_read.end()}, news.record.sliders};
+        used_[news.part] = {{}, news.record.sliders};
+        for (const fs::path& file : news.record.files_read) used_[news.part].files.insert(place_of(file));
     } else if (news.kind == "ended") {
         running_ = false;
         kept_.back().parts = done_;

@@ -26,8 +26,9 @@ class ScriptRunner {
     ScriptRunner& operator=(const ScriptRunner&) = delete;
 
     /// Runs the script of `request`, with its seed and sliders, from the first part that differs from what ran before,
-    /// asks for a slider that was moved or reads a file that is named in `changed`; a run that is under way is given
-    /// up, but not for a change of text alone. Returns the part with which it begins.
+    /// asks for a slider that was moved or reads a file whose place_of() is in `changed`; a run that is under way is
+    /// given up, but not for a change of text alone. Where a process that kept a state has died, it begins from the one
+    /// before. Returns the part with which it begins; throws EnvironmentError when there is none any more.
     std::size_t run(const ReportRequest& request, const std::filesystem::path& figure_folder,
                     const std::set<std::filesystem::path>& changed);
     void stop();                          ///< gives the run up; the next begins behind the last part that was kept
@@ -50,13 +51,15 @@ class ScriptRunner {
     };
     bool is_as_it_ran(std::size_t part, const std::vector<ScriptPart>& parts, const ReportRequest& request,
                       const std::set<std::filesystem::path>& changed) const;
+    bool send_order();
     void go_back_to(std::size_t parts);
     void end_last();
 
     std::vector<Kept> kept_;  ///< by the number of parts; the last one is the process that runs, where one does
+    RunOrder order_;          ///< the last
     std::vector<ScriptPart> parts_;
     struct Used {
-        std::set<std::filesystem::path> files;
+        std::set<std::filesystem::path> files;  ///< their places
         std::map<std::string, RecordedSlider> sliders;
     };
     std::vector<Used> used_;                       ///< by each part: what had been used behind it

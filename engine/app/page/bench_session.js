@@ -3,7 +3,7 @@
 import { say } from "/bench_words.js";
 
 export const session = { revision: 0, shown: 0, source: "", steps: [], cells: [], states: {}, views: {}, printed: {}, forms: [],
-                         running: false, undo: false, redo: false, error: null, file: "", over: false };
+                         running: false, undo: false, redo: false, error: null, unsaved: "", file: "", over: false };
 const listeners = [];
 let waiting = null, busy = false;
 
@@ -144,7 +144,7 @@ function takeSteps(steps) {
 function take(page) {
   const changed = { source: page.source !== undefined, whole: page.all }, edited = changed.source && page.source !== session.source;
   if (page.all) looked = "";
-  for (const key of ["asking", "stopped", "looked", "revision", "shown", "running", "undo", "redo", "states", "printed"]) session[key] = page[key];
+  for (const key of ["asking", "stopped", "looked", "revision", "shown", "running", "undo", "redo", "unsaved", "states", "printed"]) session[key] = page[key];
   for (const key of ["source", "cells", "forms", "file"]) if (page[key] !== undefined) session[key] = page[key];
   if (page.steps) takeSteps(page.steps);
   changed.error = Boolean(session.error) !== Boolean(page.error);

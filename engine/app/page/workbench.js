@@ -56,6 +56,9 @@ function showState() {
     : session.running ? say("running") + share : session.error ? say("mistake") : session.stopped ? say("stopped") : say("ready");
   $("state").classList.toggle("broken", Boolean(session.error));
   $("question").hidden = !session.asking;
+  $("unsaved").hidden = !session.unsaved;
+  const unsaved = session.unsaved ? say("unsaved") + session.unsaved : "";
+  if ($("unsaved").textContent !== unsaved) $("unsaved").textContent = unsaved;
   const mistake = session.error?.message ?? "", { dataset, hidden } = $("trouble");
   if (mistake && (dataset.mistake !== mistake || hidden)) trouble(mistake);
   else if (!mistake && dataset.mistake) trouble(null);

@@ -6,6 +6,7 @@
 
 #include <csignal>
 #include <memory>
+#include <mutex>
 #include <regex>
 #include <thread>
 #include <vector>
@@ -119,6 +120,7 @@ class WebServer::Work {
     httplib::Server server_;
     EventStreams streams_;
     std::function<std::string()> first_;
+    std::mutex sending_;  ///< news that are sent while first_() is made would stand before what is older
     int port_ = 0;
     const std::string token_;
 
@@ -180,6 +182,7 @@ class WebServer::Work {
     }
 
     void stream(httplib::Response& reply) {
+        std::unique_lock sending(sending_);
         const std::shared_ptr<EventStreams::Stream> stream = streams_.open();
         if (!stream) {
             reply.status = 503;
@@ -187,6 +190,7 @@ class WebServer::Work {
             return;
         }
         if (first_) stream->put(EventStreams::written("page", first_()));
+        sending.unlock();
         const auto give = [stream](std::size_t, httplib::DataSink& sink) {
             const std::optional<std::string> next = stream->take(kSignOfLife);
             if (!next) return false;
@@ -198,6 +202,12 @@ class WebServer::Work {
 
     std::thread thread_;
 };
+
+const std::string& PageRequest::parameter(const std::string& name) const {
+    const auto found = parameters.find(name);
+    if (found == parameters.end()) throw EnvironmentError("what was asked lacks the parameter \"" + name + "\"");
+    return found->second;
+}
 
 WebServer::WebServer(Options options) : work_(std::make_unique<Work>(options)) {}
 WebServer::~WebServer() = default;
@@ -227,6 +237,7 @@ std::string WebServer::address() const {
 }
 
 void WebServer::send(const std::string& event, const std::string& data) {
+    const std::lock_guard lock(work_->sending_);
     work_->streams_.send(event, data);
 }
 

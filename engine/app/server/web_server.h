@@ -12,6 +12,8 @@ struct PageRequest {
     std::string path;
     std::map<std::string, std::string> parameters;  ///< behind the question mark
     std::string body;                               ///< of a POST
+
+    const std::string& parameter(const std::string& name) const;  ///< throws EnvironmentError when it is not given
 };
 
 struct PageReply {

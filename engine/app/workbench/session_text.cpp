@@ -1,5 +1,8 @@
 #include "app/workbench/session_text.h"
 
+#include <fmt/format.h>
+
+#include "documents/error.h"
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
@@ -48,6 +51,7 @@ bool SessionText::look_at_file() {
     const std::string now = text_of_source(file_);
     if (now == saved_) return false;
     saved_ = now;
+    unsaved_.clear();
     if (now == text_) return false;
     change(now, false);
     return true;
@@ -55,6 +59,8 @@ bool SessionText::look_at_file() {
 
 void SessionText::change(std::string text, bool goes_on) {
     if (text == text_) return;
+    if (text.size() > kMostSourceBytes)
+        throw DocumentError(fmt::format("not taken over: a script has at most {} MB", kMostSourceBytes >> 20));
     if (!goes_on) past_.push_back(text_);
     if (past_.size() > kMostSteps) past_.erase(past_.begin());
     future_.clear();
@@ -62,10 +68,16 @@ void SessionText::change(std::string text, bool goes_on) {
     ++revision_;
 }
 
-void SessionText::save() {
-    if (text_ == saved_) return;
-    write_file_atomically(file_, text_);
-    saved_ = text_;
+bool SessionText::save() {
+    unsaved_.clear();
+    if (text_ == saved_) return false;
+    try {
+        write_file_atomically(file_, text_);
+        saved_ = text_;
+    } catch (const EnvironmentError& error) {
+        unsaved_ = error.what();
+    }
+    return unsaved_.empty();
 }
 
 }  // namespace dynlab::inline app

@@ -32,21 +32,25 @@ class SessionText {
     bool can_undo() const { return !past_.empty(); }
     bool can_redo() const { return !future_.empty(); }
 
+    /// Why the file is behind the text, since it could not be written; empty when it is not. The next save tries again.
+    const std::string& unsaved() const { return unsaved_; }
+
     /// False when the order was made from another revision: nothing is done then. Throws ValueError (with_edits()), and
-    /// EnvironmentError where the file cannot be written; the text has changed then all the same.
+    /// DocumentError for a text that is too long for a script.
     bool obey(const ScriptOrder& order);
     void put(const std::string& text);  ///< as a step of the history
     void undo();
     void redo();
-    /// Takes what another program wrote into the file; true when that is another text.
+    bool save();  ///< what is not on disk yet; whether there was something, and it is there now
+    /// Takes what another program wrote into the file; true when that is another text. Throws DocumentError and
+    /// EnvironmentError where that cannot be read.
     bool look_at_file();
 
   private:
     void change(std::string text, bool goes_on);
-    void save();
 
     std::filesystem::path file_;
-    std::string text_, saved_;
+    std::string text_, saved_, unsaved_;
     std::vector<std::string> past_, future_;
     std::size_t revision_ = 1;
 };

@@ -434,21 +434,30 @@ function value_or_nil(read)
   if there then return value end
 end
 
+local function saved(order, settings, values)
+  local file = string.format("%s-%d.%s", order.name or order.view or order.what, order.number, order.format)
+  saving[order.what](order, settings, values, file)
+  return {number = order.number, file = file}
+end
+
+local function seen_in(view, settings, values, name)
+  local seen = view(settings, values) or {}
+  if seen.figure then sized(seen.figure, settings, name) end
+  return seen
+end
+
 function draw_workbench(settings, values)
   local order = settings.save
   if order then
-    local file = string.format("%s-%d.%s", order.name or order.view or order.what, order.number, order.format)
-    local done, message = pcall(saving[order.what], order, settings, values, file)
-    show("saved", {number = order.number, file = file, error = not done and tostring(message) or nil})
+    local done, told = pcall(saved, order, settings, values)
+    if not done then told = {number = type(order) == "table" and order.number or nil, error = tostring(told)} end
+    show("saved", told)
   end
   for _, name in ipairs(settings.views or {}) do
     local view = views[name]
     if view then
-      local done, seen = pcall(view, settings, values)
-      if not done then seen = {error = tostring(seen)} end
-      seen = seen or {}
-      if seen.figure then sized(seen.figure, settings, name) end
-      show(name, seen)
+      local done, seen = pcall(seen_in, view, settings, values, name)
+      show(name, done and seen or {error = tostring(seen)})
     end
   end
 end

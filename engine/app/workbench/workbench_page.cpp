@@ -1,5 +1,6 @@
 #include "app/workbench/workbench_page.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 
 #include <mutex>
@@ -18,6 +19,7 @@
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/memory.h"
+#include "platform/system_call.h"
 #include "platform/text_file.h"
 #include "scripting/runtime/help.h"
 #include "workflow/lesson_catalogue.h"
@@ -118,6 +120,14 @@ void take_script_orders(WebServer& server, WorkbenchSession& bench) {
     server.on_post("/stop", [&](const PageRequest&) { return bench.stop(), done(); });
 }
 
+/// Whether there was no such file: an empty one keeps the name from now on, whoever else asks for it.
+bool is_created(const fs::path& file) {
+    constexpr mode_t kForAll = 0666;
+    const FileDescriptor made(::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kForAll));
+    if (!made && errno != EEXIST) throw EnvironmentError(file.string() + ": not written: " + system_reason(errno));
+    return static_cast<bool>(made);
+}
+
 /// The name under which a file that was dropped on the page is kept: no folder, no file of that name before.
 fs::path free_name(const std::string& wanted) {
     expect_plain_name(wanted);
@@ -125,29 +135,41 @@ fs::path free_name(const std::string& wanted) {
     if (!is_data_file(name))
         throw EnvironmentError(name.string() + " is no data file: wanted .csv, .txt, .dat, .tsv, .xlsx or .mat");
     fs::path file = name;
-    for (int k = 2; fs::exists(file); ++k)
+    for (int k = 2; !is_created(file); ++k)
         file = fmt::format("{}-{}{}", name.stem().string(), k, name.extension().string());
     return file;
 }
 
-void serve_records(WebServer& server, WorkbenchSession& bench) {
+/// What a page may look at before it stands in the script, where it can be read anyhow: data sets, files in the folder,
+/// and what the session is of.
+const std::string& checked_record(const std::string& data, const std::string& subject) {
+    const std::vector<std::string> sets = dataset_names();
+    const fs::path within = fs::weakly_canonical(data).lexically_relative(fs::current_path());
+    const bool leads_out = within.empty() || *within.begin() == "..";
+    if (data == subject || std::find(sets.begin(), sets.end(), data) != sets.end() || !leads_out) return data;
+    throw EnvironmentError(data + " lies outside the session's folder; drop the file on the page to copy it there");
+}
+
+void serve_records(WebServer& server, WorkbenchSession& bench, const std::string& subject) {
     server.on_get("/datasets", [](const PageRequest&) {
         nlohmann::json list = dataset_names();
         for (const auto& entry : fs::directory_iterator(".", fs::directory_options::skip_permission_denied))
             if (is_data_file(entry.path())) list.push_back(entry.path().filename().string());
         return PageReply{list.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), kJson};
     });
-    server.on_get("/columns", [](const PageRequest& asked) {
-        return PageReply{json_of(look_at_record(asked.parameters.at("data"))), kJson};
+    server.on_get("/columns", [&](const PageRequest& asked) {
+        return PageReply{json_of(look_at_record(checked_record(asked.parameter("data"), subject))), kJson};
     });
     server.on_post("/upload", [](const PageRequest& asked) {
-        const fs::path file = free_name(asked.parameters.at("name"));
+        const fs::path file = free_name(asked.parameter("name"));
         write_file_atomically(file, asked.body);
         return PageReply{json_of(look_at_record(file.string())), kJson};
     });
     server.on_post("/record", [&](const PageRequest& asked) {
         const RecordOrder order = from_json<RecordOrder>(asked.body);
-        bench.put(with_record(bench.script(), order, lines_of_order(order)));
+        checked_record(order.data, subject);
+        const std::string lines = lines_of_order(order);
+        bench.put([&](const std::string& script) { return with_record(script, order, lines); });
         return done();
     });
 }
@@ -155,7 +177,7 @@ void serve_records(WebServer& server, WorkbenchSession& bench) {
 /// Help pages as the terminal shows them.
 void serve_help(WebServer& server) {
     server.on_get("/help", [](const PageRequest& asked) {
-        const auto page = find_help_page(asked.parameters.at("name"));
+        const auto page = find_help_page(asked.parameter("name"));
         constexpr int kMissing = 404;
         if (!page) return PageReply{"There is no help page of this name.", kPlainText, kMissing};
         return PageReply{std::string(page->text), kPlainText};
@@ -201,9 +223,10 @@ void serve_workbench(const WorkbenchOptions& options) {
     if (fresh) write_file_atomically(subject.script, first_script(subject, opening));
     return_freed_memory();  // of the record's file
     WorkbenchSession bench(subject.script, runner);
-    const Permissions permissions(subject.script);
-    if (fresh) permissions.grant_script();
+    Permissions permissions(subject.script);
+    if (fresh) permissions.grant_script(bench.script());
     if (options.run_at_once) permissions.grant();
+    bench.on_saving([&](const std::string& text) { permissions.grant_script(text); });
     if (permissions.granted()) bench.allow_runs();
 
     BackgroundWork background(subject.script.string());
@@ -211,11 +234,11 @@ void serve_workbench(const WorkbenchOptions& options) {
     const StopsBeforeServer stops{background};
     serve_page_files(server, "workbench.html");
     take_script_orders(server, bench);
-    serve_records(server, bench);
+    serve_records(server, bench, subject.data);
     serve_help(server);
     serve_documents(server, bench, background, permissions);
     server.on_post("/allow", [&](const PageRequest&) {
-        permissions.grant();
+        permissions.grant_script(bench.script());
         return bench.allow_runs(), done();
     });
     server.on_get("/opening", [&](const PageRequest&) { return PageReply{json_of(opening), kJson}; });

@@ -8,10 +8,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "app/page/page_files.h"
 #include "app/workbench/estimator_forms.h"
 #include "data_io/values/json_values.h"
-#include "data_io/values/value_limits.h"
 #include "documents/error.h"
 #include "documents/text_lines.h"
 #include "documents/weave.h"
@@ -19,7 +17,6 @@
 #include "platform/error.h"
 #include "platform/interrupt.h"
 #include "scripting/prompt/prompt_statement.h"
-#include "scripting/runtime/lua_text.h"
 
 namespace dynlab::inline app {
 namespace {
@@ -27,30 +24,9 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr const char* kViewCell = "workbench-views";
-constexpr const char* kSlowViewCell = "workbench-slow-views";
 constexpr const char* kViewsOfRecords[] = {"record", "spectrum", "advice"};
-constexpr const char* kSlowViews[] = {"spectrum", "correlation", "advice"};
 constexpr std::size_t kMostPrinted = 4000;  // bytes of a cell that are shown
 constexpr int kLookForInterrupt = 1000;     // ms
-
-template <class Names>
-bool is_one_of(const json& name, const Names& names) {
-    return std::any_of(std::begin(names), std::end(names), [&](const char* one) { return name == one; });
-}
-
-/// A value of JSON as Lua writes it.
-std::string lua_of(const json& value) {
-    if (value.is_string()) return lua_text(value.get<std::string>());
-    if (value.is_null()) return "nil";
-    if (!value.is_structured()) return value.dump();
-    std::string text = "{";
-    for (const auto& [key, item] : value.items()) {
-        if (value.is_object()) text += "[" + lua_text(key) + "] = ";
-        text += lua_of(item) + ", ";
-    }
-    return text + "}";
-}
 
 std::string printed_by(const RunRecord& record, const std::string& cell) {
     const auto outputs = record.outputs.find(cell);
@@ -62,32 +38,6 @@ std::string printed_by(const RunRecord& record, const std::string& cell) {
 }
 
 }  // namespace
-
-std::string workbench_prelude() {
-    for (const PageFile& file : page_files())
-        if (file.name == std::string_view("views.lua")) return std::string(file.text);
-    throw EnvironmentError("the program was built without views.lua");
-}
-
-std::string view_cells(const ViewOrder& order) {
-    if (!json::accept(order.settings)) throw ValueError("the settings of the views are no JSON");
-    std::string variables;
-    for (const std::string& name : order.variables) {
-        if (!is_name(name) || name.find('-') != std::string::npos) throw ValueError("'" + name + "' is no name");
-        variables += fmt::format("{0} = value_or_nil(function() return {0} end), ", name);
-    }
-    json quick = json::parse(order.settings);
-    if (!quick.is_object()) throw ValueError("the settings of the views are no object");
-    json slow = quick;
-    quick["views"] = slow["views"] = json::array();
-    for (const json& view : json::parse(order.settings).value("views", json::array()))
-        (is_one_of(view, kSlowViews) ? slow : quick)["views"].push_back(view);
-    slow.erase("save");
-    const auto cell = [&](const char* id, const json& settings) {
-        return fmt::format("\n-- %% id={}\ndraw_workbench({}, {{{}}})\n", id, lua_of(settings), variables);
-    };
-    return cell(kViewCell, quick) + (slow["views"].empty() ? "" : cell(kSlowViewCell, slow));
-}
 
 WorkbenchSession::WorkbenchSession(fs::path file, ScriptRunner& runner)
     : runner_(runner), wake_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)), text_(std::move(file)) {
@@ -104,25 +54,32 @@ void WorkbenchSession::wake() {
 std::optional<std::size_t> WorkbenchSession::change(const ScriptOrder& order) {
     const std::lock_guard lock(mutex_);
     if (!text_.obey(order)) return {};
-    wake();
+    order.unsaved ? wake() : text_is_ours();
     return text_.revision();
 }
 
-void WorkbenchSession::put(const std::string& text) {
+void WorkbenchSession::put(const std::function<std::string(const std::string&)>& make) {
     const std::lock_guard lock(mutex_);
-    text_.put(text);
-    wake();
+    text_.put(make(text_.text()));
+    text_is_ours();
 }
 
 void WorkbenchSession::undo() {
     const std::lock_guard lock(mutex_);
     text_.undo();
-    wake();
+    text_is_ours();
 }
 
 void WorkbenchSession::redo() {
     const std::lock_guard lock(mutex_);
     text_.redo();
+    text_is_ours();
+}
+
+/// What stands on disk is what somebody at the page wanted; or why it is not there has changed.
+void WorkbenchSession::text_is_ours() {
+    changed_ = true;
+    if (may_run_) tell_of_saving_(text_.text());
     wake();
 }
 
@@ -176,20 +133,48 @@ fs::path WorkbenchSession::file() const {
 }
 
 void WorkbenchSession::work() {
+    try {
+        follow();
+    } catch (...) {
+        save_rest();
+        throw;
+    }
+    save_rest();
+}
+
+/// The file of a slider that was held to the last.
+void WorkbenchSession::save_rest() {
+    const std::lock_guard lock(mutex_);
+    if (text_.save() && may_run_) tell_of_saving_(text_.text());
+    if (!text_.unsaved().empty()) throw EnvironmentError("the last changes are lost: " + text_.unsaved());
+}
+
+void WorkbenchSession::take_file_changes() {
+    const std::lock_guard lock(mutex_);
+    for (const fs::path& file : watch_.changes()) {
+        if (file.filename() == text_.file().filename()) {
+            changed_ = true;
+            unread_.clear();
+            try {
+                text_.look_at_file();
+            } catch (const std::exception& error) {
+                unread_ = error.what();
+            }
+        } else if (const fs::path place = place_of(file); data_.contains(place)) {
+            changed_data_.insert(place);
+            old_ = true;
+        }
+    }
+}
+
+void WorkbenchSession::follow() {
     while (!end_) {
         take_orders();
         pollfd waiting[3] = {
             {watch_.descriptor(), POLLIN, 0}, {wake_.get(), POLLIN, 0}, {runner_.descriptor(), POLLIN, 0}};
         ::poll(waiting, 3, kLookForInterrupt);
         throw_if_interrupted();
-        if (waiting[0].revents != 0)
-            for (const fs::path& file : watch_.changes()) {
-                const std::lock_guard lock(mutex_);
-                if (file.filename() == text_.file().filename())
-                    changed_ = text_.look_at_file() || changed_;
-                else if (data_.contains(place_of(file)))
-                    changed_data_.insert(file);
-            }
+        if (waiting[0].revents != 0) take_file_changes();
         while (runner_.running()) {
             pollfd news{runner_.descriptor(), POLLIN, 0};
             if (::poll(&news, 1, 0) <= 0) break;
@@ -216,7 +201,7 @@ void WorkbenchSession::take_orders() {
             for (auto& [cell, state] : states_)
                 if (state.state != "done") state = {"waiting", 0, 0};
         }
-        must_run = may_run_ && (old_ || !changed_data_.empty() || run_revision_ != text_.revision());
+        must_run = may_run_ && (old_ || run_revision_ != text_.revision());
     }
     if (must_run) run();
     tell_();
@@ -272,8 +257,9 @@ void WorkbenchSession::run() {
     try {
         const std::string text = text_to_run(), cells = views && !ends_early(text) ? view_cells(*views) : "";
         const PercentScript script = parse_percent_script(text + cells, text_.file());
-        const std::size_t first =
-            runner_.run(report_of_script(script, "session.html"), figures_.path(), std::exchange(changed_data_, {}));
+        const std::size_t first = runner_.run(report_of_script(script, "session.html"), figures_.path(), changed_data_);
+        changed_data_.clear();
+        forget_other_cells();
         for (std::size_t i = first; i < runner_.parts().size(); ++i)
             for (const std::string& cell : runner_.parts()[i].cells) states_[cell] = {"waiting", 0, 0};
     } catch (const DocumentError& error) {
@@ -281,6 +267,15 @@ void WorkbenchSession::run() {
     } catch (const EnvironmentError& error) {
         error_ = RecordedError{error.what(), 0};
     }
+}
+
+/// What was told of cells that the script no longer has.
+void WorkbenchSession::forget_other_cells() {
+    std::set<std::string> there = {kViewCell, kSlowViewCell};
+    for (const Cell& cell : parse_percent_script(text_.text(), text_.file()).cells) there.insert(cell.id);
+    const auto is_gone = [&](const auto& entry) { return !there.contains(entry.first); };
+    std::erase_if(states_, is_gone);
+    std::erase_if(printed_, is_gone);
 }
 
 /// Whether the script ends in the middle of a statement, which whatever is appended would be taken to end.
@@ -340,7 +335,7 @@ void WorkbenchSession::take_record(const RunnerNews& news) {
             if (cell != kViewCell && cell != kSlowViewCell) printed_[cell] = printed_by(news.record, cell);
     for (const fs::path& file : news.record.files_read) {
         const fs::path place = place_of(file);
-        if (data_.insert(place).second) watch_.add(place.parent_path());
+        if (data_.insert(place).second && fs::is_directory(place.parent_path())) watch_.add(place.parent_path());
     }
 }
 
@@ -362,10 +357,14 @@ std::string WorkbenchSession::json(bool all) const {
                              {"stopped", stopped_},
                              {"undo", text_.can_undo()},
                              {"redo", text_.can_redo()},
+                             {"unsaved", told_error(text_.unsaved(), language())},
                              {"states", ::nlohmann::json::object()}};
     for (const auto& [cell, state] : states_)
         page["states"][cell] = {{"state", state.state}, {"seconds", state.seconds}, {"progress", state.progress}};
-    if (error_) page["error"] = {{"message", told_error(error_->message, language())}, {"line", error_->line}};
+    if (!unread_.empty())
+        page["error"] = {{"message", told_error(unread_, language())}, {"line", 0}};
+    else if (error_)
+        page["error"] = {{"message", told_error(error_->message, language())}, {"line", error_->line}};
     if (all) {
         page["file"] = fs::absolute(text_.file()).string();
         page["forms"] =

@@ -10,23 +10,10 @@
 #include "app/live/page_content.h"
 #include "app/live/script_runner.h"
 #include "app/workbench/session_text.h"
+#include "app/workbench/view_cells.h"
 #include "platform/temporary_folder.h"
 
 namespace dynlab::inline app {
-
-/// What the page wants to see besides the script: handed to draw_workbench of views.lua.
-struct ViewOrder {
-    std::vector<std::string> variables;  ///< of the script, whose values are looked at
-    std::string settings;                ///< JSON: which views, of which variables, and how
-    int data_until = 0;                  ///< the last line of the script on which the records that are looked at depend
-};
-DYNLAB_DESCRIBE(ViewOrder, variables, settings, data_until)
-
-/// The Lua that runs before a session's script: the functions that look at its variables.
-std::string workbench_prelude();
-/// Cells that stand behind a session's script: they hand its variables and the settings to the prelude, what is quick
-/// first. Throws ValueError for names that are none and for settings that are no JSON.
-std::string view_cells(const ViewOrder& order);
 
 /// A session: a script that is run as it is changed, and views of what it computed. One thread works (`work`); orders
 /// come from any.
@@ -35,11 +22,14 @@ class WorkbenchSession {
     /// `runner` has workbench_prelude(), and was made before the program had threads.
     WorkbenchSession(std::filesystem::path file, ScriptRunner& runner);
 
+    /// With the text that an order of the page made, once it may run.
+    void on_saving(std::function<void(const std::string&)> tell) { tell_of_saving_ = std::move(tell); }
     void on_change(std::function<void()> tell) { tell_ = std::move(tell); }
-    void work();  ///< until end() or Ctrl-C
+    /// Until end() or Ctrl-C. What is not on disk then is saved; throws EnvironmentError where it cannot be.
+    void work();
 
     std::optional<std::size_t> change(const ScriptOrder& order);  ///< as SessionText::obey(); the revision then
-    void put(const std::string& text);
+    void put(const std::function<std::string(const std::string&)>& make);  ///< of the script that stands there
     void undo();
     void redo();
     std::size_t look(const ViewOrder& order);  ///< the number of the order
@@ -58,7 +48,12 @@ class WorkbenchSession {
 
   private:
     void wake();
+    void text_is_ours();
+    void follow();
+    void save_rest();
+    void take_file_changes();
     void take_orders();
+    void forget_other_cells();
     void run();
     std::optional<ViewOrder> stale_views();
     void leave_out(std::size_t part);
@@ -71,11 +66,12 @@ class WorkbenchSession {
 
     ScriptRunner& runner_;
     std::function<void()> tell_ = [] {};
+    std::function<void(const std::string&)> tell_of_saving_ = [](const std::string&) {};
     TemporaryFolder figures_;
     FolderWatch watch_;
     FileDescriptor wake_;
-    std::set<std::filesystem::path> data_;  ///< files that the script read
-    std::set<std::filesystem::path> changed_data_;
+    std::set<std::filesystem::path> data_;          ///< places of files that the script read
+    std::set<std::filesystem::path> changed_data_;  ///< of them, and no run knows of it
 
     mutable std::mutex mutex_;
     SessionText text_;
@@ -91,6 +87,7 @@ class WorkbenchSession {
     std::map<std::string, CellState> states_;
     std::map<std::string, std::string> printed_;  ///< by cell
     std::optional<RecordedError> error_;
+    std::string unread_;  ///< why what another program wrote into the script's file is not taken; else empty
     struct View {
         std::string json;
         bool fresh = true;

@@ -1,0 +1,33 @@
+#pragma once
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "data_io/values/described.h"
+
+namespace dynlab::inline app {
+
+inline constexpr const char* kViewCell = "workbench-views";
+inline constexpr const char* kSlowViewCell = "workbench-slow-views";
+
+template <class Names>
+bool is_one_of(const nlohmann::json& name, const Names& names) {
+    return std::any_of(std::begin(names), std::end(names), [&](const char* one) { return name == one; });
+}
+
+/// What the page wants to see besides the script: handed to draw_workbench of views.lua.
+struct ViewOrder {
+    std::vector<std::string> variables;  ///< of the script, whose values are looked at
+    std::string settings;                ///< JSON: which views, of which variables, and how
+    int data_until = 0;                  ///< the last line of the script on which the records that are looked at depend
+};
+DYNLAB_DESCRIBE(ViewOrder, variables, settings, data_until)
+
+/// The Lua that runs before a session's script: the functions that look at its variables.
+std::string workbench_prelude();
+/// Cells that stand behind a session's script: they hand its variables and the settings to the prelude, what is quick
+/// first. Throws ValueError for names that are none and for settings that are no JSON.
+std::string view_cells(const ViewOrder& order);
+
+}  // namespace dynlab::inline app
