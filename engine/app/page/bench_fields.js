@@ -89,17 +89,17 @@ function numberField(now, act, { slider = true } = {}) {
   box.onchange = () => act(box.value === "" ? "" : luaNumber(box.value), {});
   if (!slider || !isNumber(now) || !(Number(now) > 0)) return box;
   const range = element("input", { type: "range", min: -1, max: 1, step: 0.01, value: 0, ariaLabel: say("slider") });
-  let middle = Number(now), held = false;
+  let middle = Number(now), hand = null;
   range.oninput = () => {
     const text = luaNumber((middle * 30 ** Number(range.value)).toPrecision(3));
     box.value = text;
-    if (!held) hold(true);
-    act(text, { goesOn: held, held: true });
-    held = true;
+    if (!hand) hold(true);
+    hand ??= {};
+    act(text, { hand, held: true });
   };
   range.onchange = () => {
-    held = false;
-    act(box.value, { goesOn: true });
+    act(box.value, { hand });
+    hand = null;
     middle = Number(box.value);
     range.value = 0;
     hold(false);

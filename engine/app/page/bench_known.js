@@ -18,9 +18,10 @@ function dragged(key, make) {
     const all = runs;
     if (how.held) return rewrite(key, (step) => few(step, kFew), how);
     runs = null;
+    const hand = how.hand ?? {};
     const grow = async () => {
       for (let count = kFew; ; count *= 2) {
-        await rewrite(key, (step) => ({ ...step, ...make(step, text), options: withOption({ ...step, ...make(step, text) }, "runs", String(Math.min(count, all))).options }), { goesOn: how.goesOn || count > kFew });
+        await rewrite(key, (step) => ({ ...step, ...make(step, text), options: withOption({ ...step, ...make(step, text) }, "runs", String(Math.min(count, all))).options }), { hand });
         if (count >= all) return;
         await new Promise((yes) => setTimeout(yes, 60));
       }

@@ -1,11 +1,10 @@
-// The session as the server tells it, and orders to it. An order that changes the script is made from the state that the page
-// shows; while one is under way the last that was asked for waits.
+// The session as the server tells it, and orders to it. An order that changes the script is made from the state that the one
+// before it left.
 import { say } from "/bench_words.js";
 
 export const session = { revision: 0, shown: 0, source: "", steps: [], cells: [], states: {}, views: {}, printed: {}, forms: [],
                          running: false, undo: false, redo: false, error: null, file: "", over: false };
 const listeners = [];
-let waiting = null, busy = false;
 
 export const onChange = (listen) => listeners.push(listen);
 const tell = (changed) => { for (const listen of listeners) listen(changed); };
@@ -41,30 +40,49 @@ export function settled(holds, longest) {
 }
 const kLongestFrame = 300;  // ms: a run that takes longer is overtaken by the next place of a hand
 
-/// `make()` gives the order's edits of the script as it is then (or {text} for all of it), or null for nothing to do.
-/// `held`: a control is still being dragged.
-export async function change(make, { goesOn = false, held = false } = {}) {
-  waiting = { make, goesOn: goesOn || waiting?.goesOn === true && goesOn, held };
-  if (busy) return;
-  busy = true;
-  try {
-    while (waiting) {
-      const { make, goesOn, held } = waiting;
-      waiting = null;
-      const made = make();
-      if (!made || (Array.isArray(made) && made.length === 0)) continue;
-      const whole = !Array.isArray(made), before = session.revision;
-      const answer = await post("/script", { revision: before, edits: whole ? [] : made, whole, text: whole ? made.text : "",
-                                             goes_on: goesOn, unsaved: held });
-      const reached = answer.ok ? await answer.json() : before + 1;
-      await settled(() => session.revision >= reached, 1000);
-      if (answer.ok && held) await settled(() => session.shown === session.revision && !session.running, kLongestFrame);
-    }
-  } catch (error) {
-    trouble(error.message);
-  } finally {
-    busy = false;
+const kLongestNews = 1000;  // ms until the news of an order are there
+const kAttempts = 6;  // of an order that meets what was changed elsewhere
+
+let turn = Promise.resolve(), last = null;
+/// What changes the script, one after the other: `run()` when all that was asked for before is done.
+export function inTurn(run) {
+  last = null;
+  const result = turn.then(run);
+  turn = result.catch(() => {});
+  return result;
+}
+
+/// `make()` gives the order's edits of the script as it is in its turn (or {text} for all of it), or null for nothing to do;
+/// it is called again where the script was changed elsewhere meanwhile. `hand`: an object of one drag, whose moves are one
+/// step of the history; a move that is `held` still is overtaken by the next one of its hand.
+export function change(make, { hand = null, held = false, goesOn = false } = {}) {
+  if (hand && last?.hand === hand && last.held) {
+    Object.assign(last, { make, held });
+    return last.done;
   }
+  const order = { make, hand, held, goesOn };
+  order.done = inTurn(() => obey(order)).catch((error) => trouble(error.message));
+  last = order;
+  return order.done;
+}
+
+async function obey(order) {
+  if (last === order) last = null;
+  const { make, hand, held, goesOn } = order;
+  for (let attempt = 0; attempt < kAttempts; ++attempt) {
+    const made = make();
+    if (!made || (Array.isArray(made) && made.length === 0)) return;
+    const whole = !Array.isArray(made), before = session.revision;
+    const answer = await post("/script", { revision: before, edits: whole ? [] : made, whole, text: whole ? made.text : "",
+                                           goes_on: hand?.begun ?? goesOn, unsaved: held });
+    const reached = answer.ok ? await answer.json() : before + 1;
+    await settled(() => session.revision >= reached, kLongestNews);
+    if (!answer.ok) continue;
+    if (hand && reached > before) hand.begun = true;
+    if (held) await settled(() => session.shown === session.revision && !session.running, kLongestFrame);
+    return;
+  }
+  throw new Error(say("changedMeanwhile"));
 }
 
 let told = null;

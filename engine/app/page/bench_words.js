@@ -41,6 +41,7 @@ const WORDS = {
   noName: ["a name is letters, digits and _, begins with no digit, and is no word of Lua.", "un nom est fait de lettres, de chiffres et de _, ne commence pas par un chiffre et n'est pas un mot de Lua."],
   nameTaken: ["this name stands in the script already.", "ce nom est déjà dans le script."], nameOfFunction: ["a function is called so.", "une fonction s'appelle ainsi."],
   isUsed: ["is used further on; change that first. Line", "sert encore plus loin ; changez d'abord cela. Ligne"],
+  changedMeanwhile: ["Not done: the script is being changed elsewhere all the time; try again.", "Pas fait : le script ne cesse d'être modifié ailleurs ; réessayez."],
   notClosed: ["Not taken over, as it is not closed:", "Non repris, car non fermé :"],
   fewDrawn: ["The pictures show the last %1 of %2 ticked models.", "Les figures montrent les %1 derniers des %2 modèles cochés."],
   columns: ["What the columns say", "Ce que disent les colonnes"],

@@ -1,0 +1,103 @@
+// Nothing that hands do on the workbench's page is lost: quick clicks, typing between them, others at the same script.
+// Oracle: the script on disk, which must hold all that was done.
+#include <gmock/gmock.h>
+
+#include "support/program.h"
+#include "support/workbench.h"
+
+namespace test_workbench_hands {
+using namespace dynlab;
+using namespace dynlab::test;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+/// In a page: a button by its words, the editor, and an edit as another tab orders it.
+const std::string kHands = R"(
+const named = (words) => [...document.querySelectorAll('button')].find((one) => one.textContent.trim() === words && one.offsetParent);
+const mirror = document.querySelector('.CodeMirror').CodeMirror, plain = window.fetch;
+const pause = (ms) => new Promise((yes) => setTimeout(yes, ms));
+const order = (revision, first, last, text) => plain('/script', { method: 'POST', headers: { 'Content-Type': 'application/json' },
+  body: JSON.stringify({ revision, edits: [{ first, last, text }], whole: false, text: '', goes_on: false, unsaved: false }) });
+)";
+
+class workbench_hands : public workbench_page {
+  protected:
+    void SetUp() override {
+        write_record();
+        program = app("plant.csv");
+        browser.open(program->address());
+        ASSERT_TRUE(view_comes(browser, "record"));
+        ASSERT_TRUE(browser.comes("document.querySelector('.CodeMirror')"));
+        ASSERT_TRUE(is_ready(browser));
+    }
+    std::string evaluate(const std::string& script) {
+        return browser.evaluate("return (async () => {" + kHands + script + "})()");
+    }
+    /// Undoes one step.
+    void undo() {
+        const std::string before = script();
+        ASSERT_TRUE(press(browser, "Undo"));
+        for (int i = 0; i < 500 && script() == before; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        EXPECT_NE(script(), before);
+    }
+    /// Whether the file on disk comes to hold all of these texts.
+    bool file_comes(const std::vector<std::string>& texts) const {
+        for (int i = 0; i < 500; ++i) {
+            const std::string now = script();
+            if (std::all_of(texts.begin(), texts.end(),
+                            [&](const std::string& text) { return now.find(text) != std::string::npos; }))
+                return true;
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+        return false;
+    }
+    std::string script() const { return text_of("plant_session.lua"); }
+    Browser browser;
+    std::unique_ptr<PageProgram> program;
+};
+
+// Clicks.
+
+TEST_F(workbench_hands, four_clicks_at_once_are_four_steps) {
+    const std::string before = script();
+    evaluate("for (const words of ['+ Level', '+ Trend', '+ Outliers', '+ Resample']) named(words).click()");
+    EXPECT_TRUE(file_comes({"\"mean\"", "\"linear\"", "filloutliers(", "resample("})) << script();
+    ASSERT_TRUE(is_ready(browser));
+    for (int i = 0; i < 4; ++i) undo();
+    EXPECT_EQ(script(), before) << "each is a step of the history";
+}
+
+TEST_F(workbench_hands, a_click_that_meets_the_edit_of_another_tab_is_done_behind_it) {
+    evaluate(
+        "window.fetch = async (path, how) => { if (path !== '/script') return plain(path, how); window.fetch = plain; "
+        "await order(JSON.parse(how.body).revision, 1, 0, '-- theirs'); return plain(path, how); }; "
+        "named('New model').click();");
+    EXPECT_TRUE(file_comes({"-- theirs\n", "\nG1 = tfsrivc("})) << script();
+}
+
+TEST_F(workbench_hands, a_click_that_never_gets_through_is_told) {
+    evaluate(
+        "window.fetch = async (path, how) => (path === '/script' ? new Response('', { status: 409 }) : plain(path, "
+        "how)); named('New model').click();");
+    EXPECT_TRUE(says(browser, "Not done: the script is being changed elsewhere"));
+}
+
+TEST_F(workbench_hands, a_drag_is_one_step_of_the_history_even_where_its_first_move_is_overtaken) {
+    evaluate(
+        "mirror.replaceRange('\\n\\n-- %% id=G1\\nG1 = tfsrivc(data, 2, 0, {IODelay = 0.1})\\n', {line: 1e9, ch: 0})");
+    const std::string slider =
+        "[...document.querySelectorAll('.chosen label')].find((one) => one.textContent.startsWith('IODelay'))"
+        "?.querySelector('input[type=range]')";
+    ASSERT_TRUE(browser.comes(slider));
+    ASSERT_TRUE(is_ready(browser));
+    evaluate("const slider = " + slider +
+             "; named('+ Level').click(); for (const at of [0.1, 0.2, 0.3]) { slider.value = at; "
+             "slider.dispatchEvent(new Event('input')); } slider.dispatchEvent(new Event('change'));");
+    ASSERT_TRUE(file_comes({"\"mean\"", "{IODelay = 0.277}"})) << script();
+    ASSERT_TRUE(is_ready(browser));
+    undo();
+    EXPECT_THAT(script(), AllOf(HasSubstr("\"mean\""), HasSubstr("{IODelay = 0.1}"))) << "the click stays";
+}
+
+}  // namespace test_workbench_hands
