@@ -100,4 +100,59 @@ TEST_F(workbench_hands, a_drag_is_one_step_of_the_history_even_where_its_first_m
     EXPECT_THAT(script(), AllOf(HasSubstr("\"mean\""), HasSubstr("{IODelay = 0.1}"))) << "the click stays";
 }
 
+// Typing.
+
+TEST_F(workbench_hands, what_is_typed_stands_before_a_click_behind_it) {
+    evaluate("atEnd('-- typed\\n'); await pause(100); named('New model').click();");
+    EXPECT_TRUE(file_comes({"-- typed\n", "\nG1 = tfsrivc("})) << script();
+    ASSERT_TRUE(is_ready(browser));
+    undo();
+    EXPECT_THAT(script(), AllOf(HasSubstr("-- typed\n"), Not(HasSubstr("G1"))));
+    undo();
+    EXPECT_THAT(script(), Not(HasSubstr("typed")));
+}
+
+TEST_F(workbench_hands, undo_behind_typing_undoes_what_was_typed) {
+    const std::string before = script();
+    evaluate("named('+ Level').click();");
+    ASSERT_TRUE(file_comes({"\"mean\""}));
+    ASSERT_TRUE(is_ready(browser));
+    evaluate("atEnd('-- typed\\n'); document.getElementById('undo').click();");
+    ASSERT_TRUE(browser.comes("!document.getElementById('redo').disabled"));
+    EXPECT_THAT(script(), AllOf(HasSubstr("\"mean\""), Not(HasSubstr("typed"))));
+    EXPECT_FALSE(browser.comes("document.querySelector('.CodeMirror').CodeMirror.getValue().includes('typed')", 1));
+    undo();
+    EXPECT_EQ(script(), before);
+}
+
+TEST_F(workbench_hands, typing_and_the_edits_of_others_are_put_together) {
+    evaluate(
+        "const { session } = await import('/bench_session.js'); atEnd('-- typed\\n'); "
+        "await order(session.revision, 1, 0, '-- theirs');");
+    EXPECT_TRUE(file_comes({"-- theirs\n", "-- typed\n"})) << script();
+    EXPECT_TRUE(script_has(browser, "-- theirs")) << "and in the editor";
+    write("plant_session.lua", "-- a program\n" + script());  // somebody's own editor
+    evaluate("atEnd('-- more\\n');");
+    EXPECT_TRUE(file_comes({"-- a program\n", "-- theirs\n", "-- typed\n", "-- more\n"})) << script();
+}
+
+TEST_F(workbench_hands, lines_that_others_change_while_they_are_typed_are_told_and_can_be_had_again) {
+    evaluate(
+        "const { session } = await import('/bench_session.js'); mirror.replaceRange('-- mine\\n', {line: 0, ch: 0}, "
+        "{line: 1, ch: 0}); "
+        "await order(session.revision, 1, 1, '-- theirs');");
+    EXPECT_TRUE(says(browser, "changed elsewhere meanwhile: yours stand"));
+    EXPECT_THAT(script(), AllOf(HasSubstr("-- mine\n"), Not(HasSubstr("-- theirs"))));
+    undo();
+    EXPECT_THAT(script(), AllOf(HasSubstr("-- theirs\n"), Not(HasSubstr("-- mine"))));
+}
+
+TEST_F(workbench_hands, keys_that_come_while_text_is_sent_follow_it) {
+    evaluate(
+        "window.fetch = async (path, how) => { if (path === '/script') await pause(700); return plain(path, how); }; "
+        "for (const letter of 'abcdefghij') { atEnd(letter); await pause(150); } await pause(600); atEnd('klm');");
+    EXPECT_TRUE(file_comes({"abcdefghijklm"})) << script();
+    EXPECT_TRUE(script_has(browser, "abcdefghijklm"));
+}
+
 }  // namespace test_workbench_hands

@@ -43,9 +43,12 @@ const kLongestFrame = 300;  // ms: a run that takes longer is overtaken by the n
 const kLongestNews = 1000;  // ms until the news of an order are there
 const kAttempts = 6;  // of an order that meets what was changed elsewhere
 
-let turn = Promise.resolve(), last = null;
+let turn = Promise.resolve(), last = null, sendTyped = () => {};
+/// What somebody types goes before what is clicked behind it.
+export const beforeOrders = (send) => { sendTyped = send; };
 /// What changes the script, one after the other: `run()` when all that was asked for before is done.
 export function inTurn(run) {
+  sendTyped();
   last = null;
   const result = turn.then(run);
   turn = result.catch(() => {});
@@ -54,24 +57,25 @@ export function inTurn(run) {
 
 /// `make()` gives the order's edits of the script as it is in its turn (or {text} for all of it), or null for nothing to do;
 /// it is called again where the script was changed elsewhere meanwhile. `hand`: an object of one drag, whose moves are one
-/// step of the history; a move that is `held` still is overtaken by the next one of its hand.
-export function change(make, { hand = null, held = false, goesOn = false } = {}) {
+/// step of the history; a move that is `held` still is overtaken by the next one of its hand. `done()` is called when the
+/// session has taken it.
+export function change(make, { hand = null, held = false, goesOn = false, done = () => {} } = {}) {
   if (hand && last?.hand === hand && last.held) {
     Object.assign(last, { make, held });
-    return last.done;
+    return last.ended;
   }
-  const order = { make, hand, held, goesOn };
-  order.done = inTurn(() => obey(order)).catch((error) => trouble(error.message));
+  const order = { make, hand, held, goesOn, done };
+  order.ended = inTurn(() => obey(order)).catch((error) => trouble(error.message));
   last = order;
-  return order.done;
+  return order.ended;
 }
 
 async function obey(order) {
   if (last === order) last = null;
-  const { make, hand, held, goesOn } = order;
+  const { make, hand, held, goesOn, done } = order;
   for (let attempt = 0; attempt < kAttempts; ++attempt) {
     const made = make();
-    if (!made || (Array.isArray(made) && made.length === 0)) return;
+    if (!made || (Array.isArray(made) && made.length === 0)) return done();
     const whole = !Array.isArray(made), before = session.revision;
     const answer = await post("/script", { revision: before, edits: whole ? [] : made, whole, text: whole ? made.text : "",
                                            goes_on: hand?.begun ?? goesOn, unsaved: held });
@@ -80,7 +84,7 @@ async function obey(order) {
     if (!answer.ok) continue;
     if (hand && reached > before) hand.begun = true;
     if (held) await settled(() => session.shown === session.revision && !session.running, kLongestFrame);
-    return;
+    return done();
   }
   throw new Error(say("changedMeanwhile"));
 }

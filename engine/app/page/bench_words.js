@@ -42,6 +42,8 @@ const WORDS = {
   nameTaken: ["this name stands in the script already.", "ce nom est déjà dans le script."], nameOfFunction: ["a function is called so.", "une fonction s'appelle ainsi."],
   isUsed: ["is used further on; change that first. Line", "sert encore plus loin ; changez d'abord cela. Ligne"],
   changedMeanwhile: ["Not done: the script is being changed elsewhere all the time; try again.", "Pas fait : le script ne cesse d'être modifié ailleurs ; réessayez."],
+  typedOver: ["Lines that you typed were changed elsewhere meanwhile: yours stand here; Undo brings the others back.",
+              "Des lignes que vous avez tapées ont été modifiées ailleurs entre-temps : les vôtres restent ; Annuler rétablit les autres."],
   notClosed: ["Not taken over, as it is not closed:", "Non repris, car non fermé :"],
   fewDrawn: ["The pictures show the last %1 of %2 ticked models.", "Les figures montrent les %1 derniers des %2 modèles cochés."],
   columns: ["What the columns say", "Ce que disent les colonnes"],

@@ -172,6 +172,7 @@ $("make-pdf").onclick = async () => {
   making = true;
   showState();
   try {
+    await inTurn(() => {});  // what was asked for and typed is in it
     await fillReport();
     await settled(() => session.shown === session.revision && !session.running, 3000);
     const answer = await request("/document.pdf");
