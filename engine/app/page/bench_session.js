@@ -4,6 +4,7 @@ import { say } from "/bench_words.js";
 
 export const session = { revision: 0, shown: 0, source: "", steps: [], cells: [], states: {}, views: {}, printed: {}, forms: [],
                          running: false, undo: false, redo: false, error: null, file: "", over: false };
+const kMostOfLeaving = 20000;  // letters that a browser sends on for a page that is left: 64 KiB at most
 const listeners = [];
 
 export const onChange = (listen) => listeners.push(listen);
@@ -18,7 +19,8 @@ export async function request(path, how) {
   }
 }
 export async function post(path, body, written = false) {
-  const answer = await request(path, { method: "POST", body: written ? body : JSON.stringify(body ?? {}), headers: { "Content-Type": "application/json" } });
+  const text = written ? body : JSON.stringify(body ?? {}), keepalive = document.hidden && text.length < kMostOfLeaving;
+  const answer = await request(path, { method: "POST", body: text, keepalive, headers: { "Content-Type": "application/json" } });
   if (!answer.ok && answer.status !== 409) throw new Error(await answer.text());
   return answer;
 }
@@ -43,15 +45,20 @@ const kLongestFrame = 300;  // ms: a run that takes longer is overtaken by the n
 const kLongestNews = 1000;  // ms until the news of an order are there
 const kAttempts = 6;  // of an order that meets what was changed elsewhere
 
-let turn = Promise.resolve(), last = null, sendTyped = () => {};
+let turn = Promise.resolve(), waiting = 0, last = null, sendTyped = () => {};
 /// What somebody types goes before what is clicked behind it.
 export const beforeOrders = (send) => { sendTyped = send; };
 /// What changes the script, one after the other: `run()` when all that was asked for before is done.
 export function inTurn(run) {
   sendTyped();
   last = null;
-  const result = turn.then(run);
-  turn = result.catch(() => {});
+  ++waiting;
+  const result = turn.then(async () => {
+    openOrClose();
+    await settled(() => here, kLongestNews);
+    return run();
+  });
+  turn = result.catch(() => {}).then(() => { --waiting; openOrClose(); });
   return result;
 }
 
@@ -176,9 +183,24 @@ function take(page) {
   tell(changed);
 }
 
-export function connect(onState) {
-  const source = new EventSource("/events");
-  source.addEventListener("page", (event) => { onState("here"); take(JSON.parse(event.data)); });
-  source.addEventListener("over", () => { source.close(); session.over = true; onState("over"); });
-  source.onerror = () => onState("away");
+let stream = null, here = false, onState = () => {};
+function open() {
+  stream = new EventSource("/events");
+  stream.addEventListener("page", (event) => { here = true; onState("here"); take(JSON.parse(event.data)); });
+  stream.addEventListener("over", () => { stream.close(); session.over = true; onState("over"); });
+  stream.onerror = () => onState("away");
+}
+/// Browsers open six connections to one server, whatever the number of tabs: those that nobody sees let theirs go, when
+/// all is done that was asked for there.
+function openOrClose() {
+  if (session.over || (stream !== null) === (!document.hidden || waiting > 0)) return;
+  if (!stream) return open();
+  stream.close();
+  stream = null;
+  here = false;
+}
+export function connect(listen) {
+  onState = listen;
+  document.addEventListener("visibilitychange", openOrClose);
+  openOrClose();
 }
