@@ -13,11 +13,11 @@ export const button = (words, act, fields = {}) => element("button", { type: "bu
 
 export const why = (name) => button(say("why"), () => help(name), { className: "why", ariaLabel: `${say("why")} ${name}`, title: `dynlab help ${name}` });
 
-/// Writes a step anew; `make(step)` gives what is other.
+/// Writes a step anew; `make(step)` gives what is other, or null for nothing.
 export function rewrite(key, make, how) {
   return change(() => {
-    const step = stepOf(key);
-    return step ? [replaced(step, make(step))] : null;
+    const step = stepOf(key), made = step && make(step);
+    return made ? [replaced(step, made)] : null;
   }, how);
 }
 const withArgument = (step, place, text) => ({ arguments: step.arguments.map((old, i) => (i === place ? text : old)) });
