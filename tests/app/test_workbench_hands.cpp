@@ -16,6 +16,7 @@ using testing::Not;
 const std::string kHands = R"(
 const named = (words) => [...document.querySelectorAll('button')].find((one) => one.textContent.trim() === words && one.offsetParent);
 const mirror = document.querySelector('.CodeMirror').CodeMirror, plain = window.fetch;
+const atEnd = (text) => mirror.replaceRange(text, { line: mirror.lineCount(), ch: 0 });
 const pause = (ms) => new Promise((yes) => setTimeout(yes, ms));
 const order = (revision, first, last, text) => plain('/script', { method: 'POST', headers: { 'Content-Type': 'application/json' },
   body: JSON.stringify({ revision, edits: [{ first, last, text }], whole: false, text: '', goes_on: false, unsaved: false }) });
@@ -153,6 +154,105 @@ TEST_F(workbench_hands, keys_that_come_while_text_is_sent_follow_it) {
         "for (const letter of 'abcdefghij') { atEnd(letter); await pause(150); } await pause(600); atEnd('klm');");
     EXPECT_TRUE(file_comes({"abcdefghijklm"})) << script();
     EXPECT_TRUE(script_has(browser, "abcdefghijklm"));
+}
+
+TEST_F(workbench_hands, what_is_typed_before_the_page_is_left_is_there) {
+    evaluate("atEnd('-- typed\\n');");
+    browser.open("about:blank");
+    EXPECT_TRUE(file_comes({"-- typed\n"})) << script();
+}
+
+TEST_F(workbench_hands, ten_tabs_are_heard_and_each_hears) {
+    Browser whole(1280, 900, Browser::Kind::kWhole);  // which tells a tab that it is hidden
+    for (int i = 0; i < 10; ++i) {
+        if (i > 0) whole.new_tab();
+        whole.open(program->address());
+        ASSERT_TRUE(whole.comes("document.querySelector('.CodeMirror')", 10)) << "tab " << i;
+        ASSERT_TRUE(press(whole, "+ Level")) << "tab " << i;
+        ASSERT_TRUE(whole.comes("document.querySelectorAll('.preparing li').length === " + std::to_string(i + 1), 10));
+    }
+}
+
+TEST_F(workbench_hands, what_is_typed_in_a_tab_that_is_hidden_then_is_there) {
+    Browser whole(1280, 900, Browser::Kind::kWhole);
+    whole.open(program->address());
+    ASSERT_TRUE(whole.comes("document.querySelector('.CodeMirror')"));
+    whole.evaluate("document.querySelector('.CodeMirror').CodeMirror.replaceRange('-- typed\\n', {line: 1e9, ch: 0})");
+    whole.new_tab();
+    EXPECT_TRUE(file_comes({"-- typed\n"})) << script();
+}
+
+// What is written into a script that has the like already.
+
+TEST_F(workbench_hands, parts_find_an_id_beside_cells_that_are_called_so) {
+    evaluate(
+        "mirror.setValue(mirror.getValue().replace('estimation = prepared\\nvalidation = prepared\\n', "
+        "'x = 1\\n\\n-- %% id=estimation\\nx = 2\\n'));");
+    ASSERT_TRUE(file_comes({"id=estimation"}));
+    ASSERT_TRUE(is_ready(browser));
+    ASSERT_TRUE(press(browser, "Divide 60 : 40"));
+    EXPECT_TRUE(file_comes({"-- %% id=parts1\nestimation = prepared:range(1, 480)\n"})) << script();
+    EXPECT_TRUE(says(browser, "(480)")) << "its samples, once it has run";
+    EXPECT_TRUE(is_ready(browser));
+    undo();
+    ASSERT_TRUE(is_ready(browser));
+    evaluate(
+        "const edge = document.querySelectorAll('.brush.estimation .edge')[1]; edge.dispatchEvent(new "
+        "KeyboardEvent('keydown', {key: "
+        "'PageDown', bubbles: true}));");
+    EXPECT_TRUE(file_comes({"-- %% id=estimation1\nestimation = prepared:range(1, "})) << script();
+}
+
+TEST_F(workbench_hands, a_step_over_two_lines_that_is_switched_off_is_one_remark) {
+    evaluate(
+        "mirror.setValue(mirror.getValue().replace('prepared = data\\n', 'prepared = data\\nprepared = "
+        "idfilt(prepared, {0,\\n  12})\\n'));");
+    const std::string box = "document.querySelector('.preparing input[type=checkbox]')";
+    ASSERT_TRUE(browser.comes(box));
+    ASSERT_TRUE(is_ready(browser));
+    evaluate(box + ".click();");
+    EXPECT_TRUE(file_comes({"= data\n-- off: prepared = idfilt(prepared, {0, 12})\n"})) << script();
+    ASSERT_TRUE(browser.comes("!" + box + ".checked"));
+    EXPECT_TRUE(browser.comes("document.getElementById('state').textContent === 'up to date'"));
+    evaluate(box + ".click();");
+    EXPECT_TRUE(file_comes({"= data\nprepared = idfilt(prepared, {0, 12})\n"})) << script();
+}
+
+// A study whose runs grow behind a hand.
+
+TEST_F(workbench_hands, a_study_comes_to_all_its_runs_however_often_it_is_altered_or_to_those_that_are_said) {
+    evaluate("document.querySelectorAll('#steps details').forEach((one) => { one.open = true; });");
+    ASSERT_TRUE(press(browser, "Begin a study"));
+    const std::string field =
+        "const field = (name) => [...document.querySelectorAll('#steps label')].find((one) => "
+        "one.textContent.startsWith(name))"
+        ".querySelector('input'); const put = (name, value) => { const box = field(name); box.value = value; "
+        "box.dispatchEvent(new Event('change')); };";
+    ASSERT_TRUE(browser.comes(
+        "[...document.querySelectorAll('#steps label')].some((one) => one.textContent.startsWith('noise'))"));
+    evaluate(field + "put('noise', 0.2); await pause(100); put('noise', 0.3); await pause(1500);");
+    EXPECT_TRUE(file_comes({"sigma = 0.3", "runs = 200"})) << script();
+    evaluate(field + "put('noise', 0.4); await pause(100); put('runs', 60); await pause(1500);");
+    EXPECT_TRUE(file_comes({"sigma = 0.4", "runs = 60"})) << script();
+}
+
+// A hand that the system takes away.
+
+TEST_F(workbench_hands, a_part_stays_where_it_was_when_the_system_takes_the_pointer) {
+    const std::string hand =
+        "const bar = document.querySelector('.brush.estimation'), box = bar.getBoundingClientRect(), edge = "
+        "bar.querySelectorAll('.edge')[1];"
+        "const at = (name, share, pointerId = 7) => (name === 'pointerdown' ? edge : document).dispatchEvent(new "
+        "PointerEvent(name, { pointerId, bubbles: true, "
+        "button: 0, clientX: box.left + share * box.width, clientY: box.top + 2 }));";
+    evaluate(hand + "at('pointerdown', 1); at('pointermove', 0.7, 8); at('pointermove', 0.5); at('pointercancel', 0);");
+    ASSERT_TRUE(file_comes({"estimation = prepared:range(1, 40"})) << script();
+    ASSERT_TRUE(is_ready(browser));
+    const std::string before = script();
+    evaluate(hand + "at('pointermove', 0.2); at('pointerup', 0.2); await pause(500);");
+    EXPECT_EQ(script(), before);
+    undo();
+    EXPECT_THAT(script(), Not(HasSubstr("range("))) << "one step of the history";
 }
 
 }  // namespace test_workbench_hands
