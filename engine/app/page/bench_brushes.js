@@ -61,16 +61,19 @@ export class Brushes {
       if (next[0] > next[1]) next.reverse();
       return next;
     };
-    const follow = (event) => this.move(kind, moved(this.value(event)), true);
-    hold(true);
-    const end = (event) => {
-      document.removeEventListener("pointermove", follow);
-      document.removeEventListener("pointerup", end);
-      this.move(kind, moved(this.value(event)), false);
+    const events = new AbortController(), taken = event.pointerId;
+    let place = part;
+    const listen = (name, act) => document.addEventListener(name, (event) => { if (event.pointerId === taken) act(event); }, { signal: events.signal });
+    const follow = (event) => { place = moved(this.value(event)); };
+    const end = () => {
+      events.abort();
+      this.move(kind, place, false);
       hold(false);
     };
-    document.addEventListener("pointermove", follow);
-    document.addEventListener("pointerup", end);
+    hold(true);
+    listen("pointermove", (event) => { follow(event); this.move(kind, place, true); });
+    listen("pointerup", (event) => { follow(event); end(); });
+    listen("pointercancel", end);  // the system took the hand away: the part stays where it was put
   }
   value(event) {
     const [x] = this.plot.place(event);

@@ -13,11 +13,11 @@ export const button = (words, act, fields = {}) => element("button", { type: "bu
 
 export const why = (name) => button(say("why"), () => help(name), { className: "why", ariaLabel: `${say("why")} ${name}`, title: `dynlab help ${name}` });
 
-/// Writes a step anew; `make(step)` gives what is other.
+/// Writes a step anew; `make(step)` gives what is other, or null for nothing.
 export function rewrite(key, make, how) {
   return change(() => {
-    const step = stepOf(key);
-    return step ? [replaced(step, make(step))] : null;
+    const step = stepOf(key), made = step && make(step);
+    return made ? [replaced(step, made)] : null;
   }, how);
 }
 const withArgument = (step, place, text) => ({ arguments: step.arguments.map((old, i) => (i === place ? text : old)) });
@@ -89,17 +89,17 @@ function numberField(now, act, { slider = true } = {}) {
   box.onchange = () => act(box.value === "" ? "" : luaNumber(box.value), {});
   if (!slider || !isNumber(now) || !(Number(now) > 0)) return box;
   const range = element("input", { type: "range", min: -1, max: 1, step: 0.01, value: 0, ariaLabel: say("slider") });
-  let middle = Number(now), held = false;
+  let middle = Number(now), hand = null;
   range.oninput = () => {
     const text = luaNumber((middle * 30 ** Number(range.value)).toPrecision(3));
     box.value = text;
-    if (!held) hold(true);
-    act(text, { goesOn: held, held: true });
-    held = true;
+    if (!hand) hold(true);
+    hand ??= {};
+    act(text, { hand, held: true });
   };
   range.onchange = () => {
-    held = false;
-    act(box.value, { goesOn: true });
+    act(box.value, { hand });
+    hand = null;
     middle = Number(box.value);
     range.value = 0;
     hold(false);

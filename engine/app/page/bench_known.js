@@ -7,25 +7,29 @@ import { say } from "/bench_words.js";
 const kFew = 25;  // runs while a hand is at a control
 const optionOf = (step, name) => step.options.find(({ key }) => key === name)?.text ?? "";
 
-/// A number of the study: few runs while it is dragged, then more and more until all are made.
+let growth = null;  // behind a hand at a study: {all}, the runs that it comes to in the end
+
+/// A number of the study: few runs while it is dragged, then more and more until all are made, or somebody says another
+/// number of them.
 function dragged(key, make) {
-  let runs = null;
-  return (text, how = {}) => {
+  return async (text, how = {}) => {
     const step = stepOf(key);
     if (!step) return;
-    runs ??= Number(optionOf(step, "runs"));
-    const few = (step, count) => ({ ...step, ...withOption({ ...step, ...make(step, text) }, "runs", String(Math.min(count, runs))) });
-    const all = runs;
-    if (how.held) return rewrite(key, (step) => few(step, kFew), how);
-    runs = null;
-    const grow = async () => {
-      for (let count = kFew; ; count *= 2) {
-        await rewrite(key, (step) => ({ ...step, ...make(step, text), options: withOption({ ...step, ...make(step, text) }, "runs", String(Math.min(count, all))).options }), { goesOn: how.goesOn || count > kFew });
-        if (count >= all) return;
-        await new Promise((yes) => setTimeout(yes, 60));
-      }
-    };
-    return grow();
+    const mine = growth = { all: growth?.all ?? Number(optionOf(step, "runs")) }, hand = how.hand ?? {};
+    const runsOf = (count) => String(Math.min(count, mine.all));
+    const write = (count, before) => rewrite(key, (step) => {
+      if (growth !== mine) return null;
+      if (before && optionOf(step, "runs") !== before) return growth = null;
+      const next = { ...step, ...make(step, text) };
+      return { ...next, ...withOption(next, "runs", runsOf(count)) };
+    }, { hand, held: how.held });
+    if (how.held) return write(kFew);
+    for (let count = kFew, before = null; growth === mine; count *= 2) {
+      await write(count, before);
+      before = runsOf(count);
+      if (count >= mine.all && growth === mine) growth = null;
+      await new Promise((yes) => setTimeout(yes, 60));
+    }
   };
 }
 

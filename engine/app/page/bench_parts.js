@@ -23,7 +23,7 @@ export function partsNow() {
 }
 
 /// A part becomes what a hand says: samples of the prepared record, the whole of it by its name.
-let partIsHeld = false;
+let hand = null;
 export function movePart(kind, [from, to], held) {
   const { prepared } = roles(), data = dataOf(prepared);
   if (data?.kind !== "data") return;
@@ -31,11 +31,12 @@ export function movePart(kind, [from, to], held) {
   const first = sample(from), final = Math.min(Math.max(sample(to), first + kFewest - 1), data.N);
   const whole = first === 1 && final === data.N;
   const value = whole ? { receiver: "", function: "", arguments: [prepared] } : { receiver: prepared, function: "range", arguments: [String(first), String(final)] };
+  hand ??= {};
   change(() => {
     const step = partStep(kind);
     return [step ? replaced(step, { ...value, options: [] }) : newCell(kind, `${kind} = ${whole ? prepared : `${prepared}:range(${first}, ${final})`}`)];
-  }, { goesOn: partIsHeld, held });
-  partIsHeld = held;
+  }, { hand, held });
+  if (!held) hand = null;
 }
 
 /// The lines behind `validation = second1` that prepare it, and that line.

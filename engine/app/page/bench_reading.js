@@ -35,19 +35,19 @@ function put(numbers, how) {
 }
 const ours = (name) => name.startsWith("reading-");
 
-let held = false, last = {};
+let hand = null, last = {};
 document.addEventListener("slidermove", ({ detail }) => {
   if (!Object.keys(detail).every(ours)) return;
   last = Object.fromEntries(Object.entries(detail).map(([name, value]) => [name.slice(8), value]));
-  if (!held) hold(true);
-  put(last, { goesOn: held, held: true });
-  held = true;
+  if (!hand) hold(true);
+  hand ??= {};
+  put(last, { hand, held: true });
 });
 for (const name of ["pointerup", "pointercancel"]) document.addEventListener(name, () => {
-  if (!held) return;
-  held = false;
-  put(last, { goesOn: true });
-  change(() => ({ text: session.source }), { goesOn: true });  // the file follows
+  if (!hand) return;
+  put(last, { hand });
+  change(() => ({ text: session.source }), { hand });  // the file follows
+  hand = null;
   hold(false);
 });
 document.addEventListener("sliderstep", ({ detail: { name, by } }) => {

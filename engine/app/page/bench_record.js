@@ -1,5 +1,5 @@
 // The record: where it comes from, which column is what, what advice says of it, and the steps that prepare it.
-import { change, post, session, settled, trouble } from "/bench_session.js";
+import { change, inTurn, post, session, settled, trouble } from "/bench_session.js";
 import { button, choice, element, labelled, rewrite, why, withOption } from "/bench_fields.js";
 import { formOf, freeName, keyOf, newCell, roles, variables } from "/bench_steps.js";
 import { chosenStep } from "/bench_choice.js";
@@ -104,7 +104,7 @@ async function take(name) {
   if (outputs.length === 0 || inputs.length === 0) return trouble(say("tooFew")), false;
   const units = Object.fromEntries([...of("input"), ...of("output")].filter(({ unit }) => unit).map((column) => [column.name, column.unit]));
   try {
-    await post("/record", { data: offered.data, inputs, outputs, time: named("time")[0] ?? "", Ts: Number(offered.Ts) || 0, name, units });
+    await inTurn(() => post("/record", { data: offered.data, inputs, outputs, time: named("time")[0] ?? "", Ts: Number(offered.Ts) || 0, name, units }));
     offered = null;
     trouble(null);
     redraw();

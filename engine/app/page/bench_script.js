@@ -1,10 +1,13 @@
 // The script beside the pictures: what is typed is the session, too.
-import { change, session } from "/bench_session.js";
+import { beforeOrders, change, session, trouble } from "/bench_session.js";
+import { merged } from "/bench_merge.js";
 import { say } from "/bench_words.js";
 
 const kRest = 400;  // ms after the last key
 const kMargin = 60;  // px between a line that is shown and the edge
-let mirror = null, timer = 0, own = false, shown = "", line = -1;
+let mirror = null, timer = 0, own = false, line = -1;
+let shown = "";  // the session's text from which the editor's comes
+let typing = false, unsent = false;  // the editor has text that the session does not have yet; that it did not take
 
 function loaded(file) {
   return new Promise((yes, no) => {
@@ -16,10 +19,35 @@ function loaded(file) {
   });
 }
 
-function typed(text) {
+const textNow = () => (mirror ? mirror.getValue() : document.getElementById("field").value);
+
+function typed() {
+  typing = true;
+  unsent = false;
   clearTimeout(timer);
-  timer = setTimeout(() => { timer = 0; change(() => (text() === session.source ? null : { text: text() })); }, kRest);
+  timer = setTimeout(sendTyped, kRest);
 }
+/// What was typed since `shown` goes into the session as it has become meanwhile.
+function sendTyped() {
+  if (!timer) return;
+  clearTimeout(timer);
+  timer = 0;
+  let mine = "", result = null;
+  const make = () => {
+    mine = textNow();
+    result = merged(shown, mine, session.source);
+    return result.text === session.source ? null : { text: result.text };
+  };
+  const done = () => {
+    shown = mine;
+    typing = textNow() !== mine;
+    showScript();
+    if (result.clashed) trouble(say("typedOver"));
+  };
+  change(make, { done }).then(() => { unsent = typing && !timer; });
+}
+beforeOrders(sendTyped);
+document.addEventListener("visibilitychange", () => { if (document.hidden) sendTyped(); });
 
 export async function openScript() {
   const field = document.getElementById("field");
@@ -29,20 +57,20 @@ export async function openScript() {
     mirror = CodeMirror(document.getElementById("code"), { mode: "lua", lineNumbers: true, lineWrapping: true, value: session.source,
                                                           extraKeys: { Tab: false, "Shift-Tab": false, "Ctrl-Z": () => document.getElementById("undo").click(), "Ctrl-Y": () => document.getElementById("redo").click() } });
     mirror.getInputField().setAttribute("aria-label", say("script"));
-    mirror.on("change", () => { if (!own) typed(() => mirror.getValue()); });
+    mirror.on("change", () => { if (!own) typed(); });
   } catch {
     field.hidden = false;
     field.ariaLabel = say("script");
     document.getElementById("code").hidden = true;
-    field.oninput = () => typed(() => field.value);
+    field.oninput = typed;
   }
   showScript();
 }
 
-/// The text as it is now, with what changed marked, unless somebody is typing.
+/// The text as it is now, with what changed marked, unless somebody is typing; what could not be sent is sent again.
 export function showScript() {
   const field = document.getElementById("field");
-  if (timer) return;
+  if (typing) { if (unsent) typed(); return; }
   const before = shown.split("\n"), after = session.source.split("\n");
   shown = session.source;
   if (!mirror) { if (field.value !== shown) field.value = shown; return; }

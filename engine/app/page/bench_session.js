@@ -1,11 +1,11 @@
-// The session as the server tells it, and orders to it. An order that changes the script is made from the state that the page
-// shows; while one is under way the last that was asked for waits.
+// The session as the server tells it, and orders to it. An order that changes the script is made from the state that the one
+// before it left.
 import { say } from "/bench_words.js";
 
 export const session = { revision: 0, shown: 0, source: "", steps: [], cells: [], states: {}, views: {}, printed: {}, forms: [],
                          running: false, undo: false, redo: false, error: null, unsaved: "", file: "", over: false };
+const kMostOfLeaving = 20000;  // letters that a browser sends on for a page that is left: 64 KiB at most
 const listeners = [];
-let waiting = null, busy = false;
 
 export const onChange = (listen) => listeners.push(listen);
 const tell = (changed) => { for (const listen of listeners) listen(changed); };
@@ -19,7 +19,8 @@ export async function request(path, how) {
   }
 }
 export async function post(path, body, written = false) {
-  const answer = await request(path, { method: "POST", body: written ? body : JSON.stringify(body ?? {}), headers: { "Content-Type": "application/json" } });
+  const text = written ? body : JSON.stringify(body ?? {}), keepalive = document.hidden && text.length < kMostOfLeaving;
+  const answer = await request(path, { method: "POST", body: text, keepalive, headers: { "Content-Type": "application/json" } });
   if (!answer.ok && answer.status !== 409) throw new Error(await answer.text());
   return answer;
 }
@@ -41,30 +42,58 @@ export function settled(holds, longest) {
 }
 const kLongestFrame = 300;  // ms: a run that takes longer is overtaken by the next place of a hand
 
-/// `make()` gives the order's edits of the script as it is then (or {text} for all of it), or null for nothing to do.
-/// `held`: a control is still being dragged.
-export async function change(make, { goesOn = false, held = false } = {}) {
-  waiting = { make, goesOn: goesOn || waiting?.goesOn === true && goesOn, held };
-  if (busy) return;
-  busy = true;
-  try {
-    while (waiting) {
-      const { make, goesOn, held } = waiting;
-      waiting = null;
-      const made = make();
-      if (!made || (Array.isArray(made) && made.length === 0)) continue;
-      const whole = !Array.isArray(made), before = session.revision;
-      const answer = await post("/script", { revision: before, edits: whole ? [] : made, whole, text: whole ? made.text : "",
-                                             goes_on: goesOn, unsaved: held });
-      const reached = answer.ok ? await answer.json() : before + 1;
-      await settled(() => session.revision >= reached, 1000);
-      if (answer.ok && held) await settled(() => session.shown === session.revision && !session.running, kLongestFrame);
-    }
-  } catch (error) {
-    trouble(error.message);
-  } finally {
-    busy = false;
+const kLongestNews = 1000;  // ms until the news of an order are there
+const kAttempts = 6;  // of an order that meets what was changed elsewhere
+
+let turn = Promise.resolve(), waiting = 0, last = null, sendTyped = () => {};
+/// What somebody types goes before what is clicked behind it.
+export const beforeOrders = (send) => { sendTyped = send; };
+/// What changes the script, one after the other: `run()` when all that was asked for before is done.
+export function inTurn(run) {
+  sendTyped();
+  last = null;
+  ++waiting;
+  const result = turn.then(async () => {
+    openOrClose();
+    await settled(() => here, kLongestNews);
+    return run();
+  });
+  turn = result.catch(() => {}).then(() => { --waiting; openOrClose(); });
+  return result;
+}
+
+/// `make()` gives the order's edits of the script as it is in its turn (or {text} for all of it), or null for nothing to do;
+/// it is called again where the script was changed elsewhere meanwhile. `hand`: an object of one drag, whose moves are one
+/// step of the history; a move that is `held` still is overtaken by the next one of its hand. `done()` is called when the
+/// session has taken it.
+export function change(make, { hand = null, held = false, goesOn = false, done = () => {} } = {}) {
+  if (hand && last?.hand === hand && last.held) {
+    Object.assign(last, { make, held });
+    return last.ended;
   }
+  const order = { make, hand, held, goesOn, done };
+  order.ended = inTurn(() => obey(order)).catch((error) => trouble(error.message));
+  last = order;
+  return order.ended;
+}
+
+async function obey(order) {
+  if (last === order) last = null;
+  const { make, hand, held, goesOn, done } = order;
+  for (let attempt = 0; attempt < kAttempts; ++attempt) {
+    const made = make();
+    if (!made || (Array.isArray(made) && made.length === 0)) return done();
+    const whole = !Array.isArray(made), before = session.revision;
+    const answer = await post("/script", { revision: before, edits: whole ? [] : made, whole, text: whole ? made.text : "",
+                                           goes_on: hand?.begun ?? goesOn, unsaved: held });
+    const reached = answer.ok ? await answer.json() : before + 1;
+    await settled(() => session.revision >= reached, kLongestNews);
+    if (!answer.ok) continue;
+    if (hand && reached > before) hand.begun = true;
+    if (held) await settled(() => session.shown === session.revision && !session.running, kLongestFrame);
+    return done();
+  }
+  throw new Error(say("changedMeanwhile"));
 }
 
 let told = null;
@@ -154,9 +183,24 @@ function take(page) {
   tell(changed);
 }
 
-export function connect(onState) {
-  const source = new EventSource("/events");
-  source.addEventListener("page", (event) => { onState("here"); take(JSON.parse(event.data)); });
-  source.addEventListener("over", () => { source.close(); session.over = true; onState("over"); });
-  source.onerror = () => onState("away");
+let stream = null, here = false, onState = () => {};
+function open() {
+  stream = new EventSource("/events");
+  stream.addEventListener("page", (event) => { here = true; onState("here"); take(JSON.parse(event.data)); });
+  stream.addEventListener("over", () => { stream.close(); session.over = true; onState("over"); });
+  stream.onerror = () => onState("away");
+}
+/// Browsers open six connections to one server, whatever the number of tabs: those that nobody sees let theirs go, when
+/// all is done that was asked for there.
+function openOrClose() {
+  if (session.over || (stream !== null) === (!document.hidden || waiting > 0)) return;
+  if (!stream) return open();
+  stream.close();
+  stream = null;
+  here = false;
+}
+export function connect(listen) {
+  onState = listen;
+  document.addEventListener("visibilitychange", openOrClose);
+  openOrClose();
 }

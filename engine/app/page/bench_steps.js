@@ -7,26 +7,38 @@ const PREPARING = ["detrend", "idfilt", "resample", "fillmissing", "filloutliers
 const kWidest = 88;  // characters of a line that a report prints unbroken
 
 /// Pieces behind a beginning, in as many lines as they need.
-function inLines(begin, pieces, end) {
+function inLines(begin, pieces, end, widest) {
   const one = begin + pieces.join(", ") + end;
-  if (one.length <= kWidest) return one;
+  if (one.length <= widest) return one;
   const lines = [begin.trimEnd()];
   for (const [i, piece] of pieces.entries()) {
     const text = piece + (i + 1 < pieces.length ? "," : end), last = lines.length - 1;
-    if (lines[last].length + text.length + 1 <= kWidest) lines[last] += (lines[last].endsWith("{") || lines[last].endsWith("(") ? "" : " ") + text;
+    if (lines[last].length + text.length + 1 <= widest) lines[last] += (lines[last].endsWith("{") || lines[last].endsWith("(") ? "" : " ") + text;
     else lines.push("  " + text);
   }
   return lines.join("\n");
 }
 
-export function written(step) {
+/// The same code in one line, with texts over several lines as texts with \n.
+function inOneLine(code) {
+  return code.replace(/"(?:[^"\\]|\\[^])*"|'(?:[^'\\]|\\[^])*'|\[(=*)\[\n?([^]*?)\]\1\]|\s*\n\s*/g, (piece, _, inside) => {
+    if (!piece.includes("\n")) return piece;
+    if (piece.startsWith("[")) return luaText(inside);
+    return /^["']/.test(piece) ? piece.replace(/\\\n/g, "\\n") : " ";
+  });
+}
+
+/// A step that is off is a remark, and so one line.
+export const written = (step) => (step.on ? statement(step, kWidest) : `-- off: ${inOneLine(statement(step, Infinity))}`);
+
+function statement(step, widest) {
   const options = step.options.map(({ key, text }) => `${key} = ${text}`);
-  const before = (step.on ? "" : "-- off: ") + (step.local ? "local " : "") + (step.names.length ? step.names.join(", ") + " = " : "");
+  const before = (step.local ? "local " : "") + (step.names.length ? step.names.join(", ") + " = " : "");
   const call = (step.receiver ? step.receiver + ":" : "") + step.function;
   if (!step.function) return before + step.arguments[0];
-  if (step.braces) return inLines(`${before}${call}{`, options, "}");
-  if (options.length === 0 || !step.on) return `${before}${call}(${[...step.arguments, ...(options.length > 0 ? [`{${options.join(", ")}}`] : [])].join(", ")})`;
-  return inLines(`${before}${call}(${step.arguments.map((text) => text + ", ").join("")}{`, options, "})");
+  if (step.braces) return inLines(`${before}${call}{`, options, "}", widest);
+  if (options.length === 0) return `${before}${call}(${step.arguments.join(", ")})`;
+  return inLines(`${before}${call}(${step.arguments.map((text) => text + ", ").join("")}{`, options, "})", widest);
 }
 
 export const replaced = (step, change) => ({ first: step.first_line, last: step.last_line, text: written({ ...structuredClone(step), ...change }) + step.rest });
@@ -135,10 +147,13 @@ export function freeName(stem) {
   while (taken(stem + k)) ++k;
   return stem + k;
 }
-/// A cell of its own at the end.
 /// A text as Lua has it.
 export const luaText = (text) => JSON.stringify(text);
-export const newCell = (id, text) => insertedBehind(endOfScript(), `\n-- %% id=${id}\n${text}`);
+/// A cell of its own at the end, of this id where no cell has it yet.
+export function newCell(id, text) {
+  const own = session.cells.some((cell) => cell.id === id) ? freeName(id) : id;
+  return insertedBehind(endOfScript(), `\n-- %% id=${own}\n${text}`);
+}
 
 /// Text of a number as a script has it.
 export const luaNumber = (value) => String(Number(Number(value).toPrecision(6)));

@@ -1,5 +1,5 @@
 // The workbench: a record, its preparation, models and views, and beside them the script that all of it is.
-import { change, connect, onChange, post, request, session, settled, trouble } from "/bench_session.js";
+import { change, connect, inTurn, onChange, post, request, session, settled, trouble } from "/bench_session.js";
 import { openFirst, recordPanel } from "/bench_record.js";
 import { partsPanel, preparationPanel } from "/bench_preparation.js";
 import { estimatePanel, modelsPanel } from "/bench_models.js";
@@ -161,8 +161,10 @@ connect((state) => {
   if (before !== state) showState();
 });
 
-const order = (path) => post(path).catch((error) => trouble(error.message));
-for (const [id, path] of Object.entries({ undo: "/undo", redo: "/redo", stop: "/stop", again: "/again", allow: "/allow" })) $(id).onclick = () => order(path);
+const told = (answer) => answer.catch((error) => trouble(error.message));
+const order = (path) => told(inTurn(() => post(path)));  // of the script as all that was asked for before leaves it
+for (const name of ["undo", "redo"]) $(name).onclick = () => order(`/${name}`);
+for (const name of ["stop", "again", "allow"]) $(name).onclick = () => told(post(`/${name}`));
 $("language").onchange = () => change(() => ({ text: inLanguage(session.source, $("language").value) }));
 $("show-script").onclick = () => {
   const hidden = document.body.classList.toggle("without-script");
@@ -173,6 +175,7 @@ $("make-pdf").onclick = async () => {
   making = true;
   showState();
   try {
+    await inTurn(() => {});  // what was asked for and typed is in it
     await fillReport();
     await settled(() => session.shown === session.revision && !session.running, 3000);
     const answer = await request("/document.pdf");
