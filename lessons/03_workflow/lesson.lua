@@ -27,7 +27,7 @@
 -- The work is planned for two sittings of three hours:
 --
 -- | sitting | questions, with minutes | aim |
--- |---------|-------------------------|------------------------|
+-- |--------------|-------------------------|------------------------|
 -- | A structure that can be believed | 1 (15), 2 (30), 3 (20), 4 (20), 5 (30), 6 (20), 7 (15), 8 (15), 9 (15) | choose an order, validate, and let a failed validation say what to change |
 -- | What the model leaves | 10 (20), 11 (30), 12 (30), 13 (15), 14 (25), 15 (20), 16 (40) | find and remove a drift, judge parameters, and reach a verdict where no truth is known |
 --
