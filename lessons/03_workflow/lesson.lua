@@ -527,7 +527,7 @@ local t = high.t
 local both = plot(t, measured, "measured",
                   t, simulated(G1, high), "from the voltage",
                   t, simulated(G2, watts(high)), "from the power",
-                  {height = 5.5, colour = {2, 1, 0}, dash = {0, 2, 0},
+                  {height = 5.5, colour = {8, 1, 2}, dash = {0, 2, 0},
                    xlabel = "time (s)", ylabel = "change (°C)"})
 report.figure("heat_high", both, "Two models on the record about 7 V")
 -- END SOLUTION
@@ -544,7 +544,7 @@ report.value("heat2_high", fit(w_records[3], G2), "%.0f")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- ![Two models, both estimated about 4 V, on the record about 7 V: measured temperature (black), model from the voltage (dotted) and from the power (full). Both simulated curves are shifted to the mean of the measured one, so that only the shape is compared; therefore that from the voltage does not begin at zero.](figure:heat_high){#fig:heat_high}
+-- ![Two models, both estimated about 4 V, on the record about 7 V: measured temperature (grey), model from the voltage (dotted) and from the power (black). Both simulated curves are shifted to the mean of the measured one, so that only the shape is compared; therefore that from the voltage does not begin at zero.](figure:heat_high){#fig:heat_high}
 --
 -- A resistor turns $u^2/R$ into heat, so the power is the natural input, and this knowledge costs no parameter. The model that was
 -- estimated about 4 V now reaches `heat2_high`{.value} % about 7 V (@fig:heat_high). But on its own record the fit has fallen to
