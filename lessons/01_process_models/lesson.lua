@@ -150,11 +150,12 @@ end
 -- every fifth sample as a dot, the model as a line, and below what is left
 local function test_figure(G, data, u0, label)
     local t, y = data.t, simulated(G, data, u0)
-    local some = linspace(t[1], t[#t], #t//5 + 1)
+    local some, span = linspace(t[1], t[#t], #t//5 + 1), {t[1], t[#t]}
     local above = plot(some, interp1(t, data.y, some), "measured", t, y, "model",
                        {style = {"points", "line"}, marker = 0,
-                        colour = {2, 0}, ylabel = label})
-    local below = plot(t, data.y - y, {xlabel = "time (s)", ylabel = "error"})
+                        colour = {2, 0}, x_range = span, ylabel = label})
+    local below = plot(t, data.y - y, {x_range = span,
+                                       xlabel = "time (s)", ylabel = "error"})
     return subplot(2, 1, {above, below}):set{height = 8.5}
 end
 local held_against = test_figure(reading, data, exchanger.u[1], "temperature (°C)")
@@ -227,7 +228,7 @@ report.value("K_any_ratio", G1_free.std[1]/G1.std[1], "%.1f")
 -- `dynlab app heat_exchanger` opens the record in a workbench in the browser (@fig:workbench). Under **Read by hand** press **First order**: a model lies over
 -- the response, and its two marked points can be dragged; the formulas below the picture hold the numbers of the moment. Then choose `procsrivc` as **Method** and
 -- press **New model**; choose one pole, `P1`, take the delay `D` out, and under **Options** choose `steady` for `InitialState`. Each click writes
--- or changes a line of `heat_exchanger_session.lua`, which stands beside the pictures: `dynlab run` and `dynlab report` take it as it is.
+-- or changes a line of the script beside the pictures, `heat_exchanger_session.lua`, which `dynlab run` and `dynlab report` take as it is.
 --
 -- ![The workbench after these clicks: the controls, the pictures, and the script that they have written](workbench.png){#fig:workbench}
 

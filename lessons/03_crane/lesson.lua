@@ -30,7 +30,7 @@
 -- # The records
 --
 -- | record | what was done |
--- |---|---|
+-- |-----------|-----------------------|
 -- | `estimation`, `validation` | rest, then a pseudo-random binary voltage of ±2 V, in two different orders |
 -- | `steps` | rest, then pushes of ±2 V and ±4 V with pauses between them |
 -- | `free_swing` | motor at 0 V, the load let go by hand |
@@ -144,8 +144,8 @@ end
 limit_panels[2].references[3] = {y = 0.5}
 limit_panels[2].references[4] = {y = -0.5}
 report.figure("limits", figure{rows = 3, height = 6.4, panels = limit_panels},
-              say("The record limits. Between the vertical lines more than ±10 V are commanded and the trolley meets the buffers at ±0.5 m (horizontal lines).",
-                  "L'enregistrement limits. Entre les traits verticaux, on commande plus de ±10 V et le chariot rencontre les butées à ±0,5 m (traits horizontaux)."))
+              say("The record `limits`. Between the vertical lines more than ±10 V are commanded and the trolley meets the buffers at ±0.5 m (horizontal lines).",
+                  "L'enregistrement `limits`. Entre les traits verticaux, on commande plus de ±10 V et le chariot rencontre les butées à ±0,5 m (traits horizontaux)."))
 -- END SOLUTION
 
 -- %% [markdown]
@@ -380,8 +380,8 @@ end
 local steps = crane.steps
 local steps_figure, steps_x_error, steps_theta_error = against_model(steps, 4.7)
 report.figure("steps", steps_figure,
-              say("The record steps: after pushes of ±2 V and ±4 V the trolley stands still, held by friction; the simulated one is set in motion by its load.",
-                  "L'enregistrement steps : après des poussées de ±2 V et ±4 V, le frottement tient le chariot ; le chariot simulé, lui, est entraîné par sa charge."))
+              say("The record `steps`: after pushes of ±2 V and ±4 V the trolley stands still, held by friction; the simulated one is set in motion by its load.",
+                  "L'enregistrement `steps` : après des poussées de ±2 V et ±4 V, le frottement tient le chariot ; le chariot simulé, lui, est entraîné par sa charge."))
 report.value("steps_fit_x", fit(integrated(steps, steps.x), model.x, resting), "%.1f")
 report.value("steps_fit_theta", fit(direct(steps, steps.theta), model.theta, resting), "%.1f")
 report.value("steps_error", 1e3*max(abs(steps_x_error)), "%.0f")
@@ -504,7 +504,7 @@ outcome(say("angle: mean fit", "angle : adéquation moyenne"), mean(vector(study
 report.value("repetitions", repetitions, "%d")
 report.value("guessed_theta", guessed, "%d")
 report.value("expected_theta", mean(vector(study.theta)), "%.0f")
-report.value("expected_theta_std", std(vector(study.theta)), "%.1f")
+report.value("expected_theta_std", std(vector(study.theta)), "%.0f")
 report.value("most_theta", max(vector(study.theta)), "%.1f")
 report.value("worst_theta", min(vector(study.theta)), "%.0f")
 report.value("worst_best_theta", min(vector(study.best_theta)), "%.0f")

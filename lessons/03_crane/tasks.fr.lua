@@ -20,7 +20,7 @@
 -- # Les enregistrements
 --
 -- | enregistrement | ce qui a été fait |
--- |---|---|
+-- |-----------|-----------------------|
 -- | `estimation`, `validation` | un repos, puis une tension binaire pseudo-aléatoire de ±2 V, dans deux ordres différents |
 -- | `steps` | un repos, puis des poussées de ±2 V et ±4 V séparées par des pauses |
 -- | `free_swing` | moteur à 0 V, charge lâchée à la main |

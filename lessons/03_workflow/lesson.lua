@@ -27,7 +27,7 @@
 -- The work is planned for two sittings of three hours:
 --
 -- | sitting | questions, with minutes | aim |
--- |---------|-------------------------|------------------------|
+-- |--------------|-------------------------|------------------------|
 -- | A structure that can be believed | 1 (15), 2 (30), 3 (20), 4 (20), 5 (30), 6 (20), 7 (15), 8 (15), 9 (15) | choose an order, validate, and let a failed validation say what to change |
 -- | What the model leaves | 10 (20), 11 (30), 12 (30), 13 (15), 14 (25), 15 (20), 16 (40) | find and remove a drift, judge parameters, and reach a verdict where no truth is known |
 --
@@ -527,7 +527,7 @@ local t = high.t
 local both = plot(t, measured, "measured",
                   t, simulated(G1, high), "from the voltage",
                   t, simulated(G2, watts(high)), "from the power",
-                  {height = 5.5, colour = {2, 1, 0}, dash = {0, 2, 0},
+                  {height = 5.5, colour = {8, 1, 2}, dash = {0, 2, 0},
                    xlabel = "time (s)", ylabel = "change (°C)"})
 report.figure("heat_high", both, "Two models on the record about 7 V")
 -- END SOLUTION
@@ -544,7 +544,7 @@ report.value("heat2_high", fit(w_records[3], G2), "%.0f")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- ![Two models, both estimated about 4 V, on the record about 7 V: measured temperature (black), model from the voltage (dotted) and from the power (full). Both simulated curves are shifted to the mean of the measured one, so that only the shape is compared; therefore that from the voltage does not begin at zero.](figure:heat_high){#fig:heat_high}
+-- ![Two models, both estimated about 4 V, on the record about 7 V: measured temperature (grey), model from the voltage (dotted) and from the power (black). Both simulated curves are shifted to the mean of the measured one, so that only the shape is compared; therefore that from the voltage does not begin at zero.](figure:heat_high){#fig:heat_high}
 --
 -- A resistor turns $u^2/R$ into heat, so the power is the natural input, and this knowledge costs no parameter. The model that was
 -- estimated about 4 V now reaches `heat2_high`{.value} % about 7 V (@fig:heat_high). But on its own record the fit has fallen to

@@ -27,7 +27,7 @@
 -- The work is planned for two sittings of three hours:
 --
 -- | sitting | questions, with minutes | aim |
--- |---------|-------------------------|------------------------|
+-- |--------------|-------------------------|------------------------|
 -- | Regressions and their bias | 1 (5), 2 (15), 3 (20), 4 (35), 5 (20), 6 (15), 7 (25), 8 (25), 9 (20) | write an estimator, see its bias, remove it by instruments, and know what the filter does |
 -- | Which method, and how sure | 10 (25), 11 (35), 12 (25), 13 (20), 14 (25), 15 (30), 16 (20) | compare methods over many records with the best that is possible, and with discrete time |
 --
@@ -318,7 +318,7 @@ local filters = study(sigma, {{"ivsvf", {2, 1, 0}, 30, label = "λ = 30"},
 -- the same picture twice: all estimates, and the middle enlarged
 local function within(x, y, legend)
     local picture = filters:scatter("a1", "a2")
-    return picture:set{x_range = x, y_range = y, legend = legend}
+    return picture:set{x_range = x, y_range = y, legend = legend, title = ""}
 end
 local both = subplot(2, 1, {within({-5, 25}, {-5, 12}, "above"),
                             within({2.5, 5.5}, {2, 4}, "none")})

@@ -21,7 +21,7 @@
 -- # Les enregistrements
 --
 -- | enregistrement | ce qui a été fait |
--- |---|---|
+-- |-------------|----------------|
 -- | `sine_100`, `sine_200`, `sine_300` | impulsions de 1500 ± 100, 200 ou 300 µs, un sinus de 0,1 Hz à 3 Hz en 20 s, avec un repos avant et après |
 -- | `square_100`, `square_200`, `square_300` | le signe du même sinus, multiplié par la même amplitude |
 --

@@ -37,7 +37,7 @@ plot(G.report.delay_grid, G.report.delay_loss,
 -- %% [markdown]
 -- Let us search the wrong valley only, on purpose. The other
 -- parameters try to make up for the wrong delay: even the sign of the gain is
--- wrong now.
+-- wrong now. The figure shows the first five seconds; its fits are those of them.
 
 -- %% id=caught
 local caught = tfsrivc(data, 2, 0, {TdMin = 0.3, TdMax = 0.55})

@@ -40,7 +40,8 @@ print(fits(G0))
 -- %% [markdown]
 -- Better, but look at the plot again: the arm was moving already when the record
 -- began, and this model was told that it rested. Its lightly damped swings ring for
--- long. Let the state at the beginning be estimated, too.
+-- long. Let the state at the beginning be estimated, too. The figure shows the first
+-- 200 samples of the second half; its fits are those of them.
 
 -- %% id=in_motion
 local G = srivc(first, {6, 6, 0}, {InitialState = "estimate"})

@@ -452,6 +452,7 @@ end
 local function paragraph(element)
   local image = plain_image(element.content)
   if image then return figure(image), false end
+  return layout:heading_line(element)
 end
 
 local function string(element)
