@@ -37,14 +37,6 @@ class workbench_access : public workbench_page {
         browser.comes("document.getElementById('state').textContent === 'computing'", 0.3);
         ASSERT_TRUE(is_ready(browser));
     }
-    std::unique_ptr<PageProgram> open(Browser& browser) const {
-        write_record();
-        auto program = app("plant.csv");
-        browser.open(program->address());
-        EXPECT_TRUE(view_comes(browser, "record"));
-        EXPECT_TRUE(is_ready(browser));
-        return program;
-    }
     std::string script() const { return text_of("plant_session.lua"); }
 };
 

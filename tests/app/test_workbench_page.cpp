@@ -13,15 +13,6 @@ using testing::Not;
 
 class workbench_page_parts : public workbench_page {
   protected:
-    /// Opens a session of the record of write_record() and waits for its picture.
-    std::unique_ptr<PageProgram> open(Browser& browser) const {
-        write_record();
-        auto program = app("plant.csv");
-        browser.open(program->address());
-        EXPECT_TRUE(view_comes(browser, "record"));
-        EXPECT_TRUE(is_ready(browser));
-        return program;
-    }
     static void press_all(Browser& browser, const std::vector<std::string>& words) {
         for (const std::string& one : words) {
             ASSERT_TRUE(press(browser, one)) << one;

@@ -44,6 +44,15 @@ class workbench_page : public testing::Test {
         return browser.comes(
             "['up to date', 'à jour', 'stopped at a mistake'].includes(document.getElementById('state').textContent)");
     }
+    /// Opens a session of the record of write_record() and waits for its picture.
+    std::unique_ptr<PageProgram> open(Browser& browser) const {
+        write_record();
+        auto program = app("plant.csv");
+        browser.open(program->address());
+        EXPECT_TRUE(view_comes(browser, "record"));
+        EXPECT_TRUE(is_ready(browser));
+        return program;
+    }
     /// Clicks the button with these words that is to be seen; false where there is none.
     static bool press(Browser& browser, const std::string& words) {
         return browser.comes(

@@ -11,7 +11,7 @@ const WORDS = {
   take: ["Take this record", "Prendre cet enregistrement"], second: ["Use it for validation only", "Pour la validation seulement"],
   experiment: ["Experiment", "Expérience"],
   advice: ["What advice says", "Ce que dit advice"], clean: ["Nothing speaks against fitting a model.", "Rien ne s'oppose à l'estimation d'un modèle."],
-  show: ["show", "montrer"], add: ["Add", "Ajouter"], remove: ["Delete", "Supprimer"], off: ["on", "actif"], up: ["Earlier", "Plus tôt"], down: ["Later", "Plus tard"],
+  show: ["show", "montrer"], remove: ["Delete", "Supprimer"], off: ["on", "actif"], up: ["Earlier", "Plus tôt"], down: ["Later", "Plus tard"],
   divide: ["Divide 60 : 40", "Diviser 60 : 40"], whole: ["Whole record for both", "Tout pour les deux"],
   predicts: ["This method makes the error of the prediction one step ahead small; the fits and pictures here are those of the simulation, which sees no measured output.",
              "Cette méthode rend petite l'erreur de la prédiction à un pas ; les ajustements et les figures d'ici sont ceux de la simulation, qui ne voit aucune sortie mesurée."],
@@ -71,7 +71,7 @@ const WORDS = {
   ofRecord: ["of the record", "de l'enregistrement"], without: ["without", "sans"],
   notAlike: ["The second record is not prepared as the first is.", "Le second enregistrement n'est pas préparé comme le premier."], prepareAlike: ["Prepare it alike", "Le préparer de même"],
   levelStep: ["Level", "Niveau"], trendStep: ["Trend", "Tendance"], filterStep: ["Filter", "Filtrer"], resampleStep: ["Resample", "Rééchantillonner"],
-  outliersStep: ["Outliers", "Valeurs aberrantes"], missingStep: ["Missing samples", "Échantillons manquants"], rangeStep: ["Range", "Étendue"],
+  outliersStep: ["Outliers", "Valeurs aberrantes"], rangeStep: ["Range", "Étendue"],
   noStep: ["The input of this record is no single step, or the response has not settled.", "L'entrée n'est pas un échelon unique, ou la réponse n'est pas établie."],
   exports: ["Exports", "Exportations"], exportModels: ["Models", "Modèles"], exportData: ["Prepared record", "Enregistrement préparé"], exportScript: ["Script", "Script"],
 };

@@ -9,6 +9,7 @@
 #include <map>
 #include <regex>
 
+#include "app/workbench/session_script.h"
 #include "data_io/data_file.h"
 #include "data_io/dataset_index.h"
 #include "documents/percent_script.h"
@@ -205,21 +206,14 @@ std::string with_record(const std::string& source, const RecordOrder& order, con
                      [](const Cell& cell) { return cell.kind == Cell::Kind::kCode; }))
         return new_session("Identification from " + fs::path(order.data).stem().string(), lines,
                            script.header.language);
-    const std::string own_cell = fmt::format("\n-- %% id={}\n{}", order.name, lines);
+    const std::string own_cell = fmt::format("\n-- %% id={}\n{}", order.name, trimmed(lines));
     for (const Cell& cell : script.cells) {
         if (cell.id != "record") continue;
         const bool again = cell.content.find(order.name + " = iddata(") != std::string::npos;
-        const std::vector<std::string> all = lines_of(source);
-        std::string text;
-        for (int number = 1; number <= static_cast<int>(all.size()); ++number) {
-            if (again && number == cell.first_line) text += lines;
-            if (!again || number < cell.first_line || number > cell.last_line())
-                text += all[static_cast<std::size_t>(number - 1)] + "\n";
-            if (!again && number == cell.last_line()) text += own_cell;
-        }
-        return text;
+        return with_edits(source, {again ? LineEdit{cell.first_line, cell.last_line(), trimmed(lines)}
+                                         : LineEdit{cell.last_line() + 1, cell.last_line(), own_cell}});
     }
-    return source + own_cell;
+    return source + own_cell + "\n";
 }
 
 void expect_plain_name(const std::string& name) {
