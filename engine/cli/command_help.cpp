@@ -1,3 +1,5 @@
+#include <fmt/ranges.h>
+
 #include <iostream>
 
 #include "cli/commands.h"
@@ -8,12 +10,12 @@
 namespace dynlab::inline cli {
 
 void add_help(CLI::App& app, Action& action) {
-    auto name = std::make_shared<std::string>();
+    auto words_asked = std::make_shared<std::vector<std::string>>();
     auto word = std::make_shared<std::string>();
     auto sheet = std::make_shared<std::string>();
     CLI::App* command = app.add_subcommand("help", "What a function of the scripts does, with an example");
     CLI::Option* page = command->add_option(
-        "NAME", *name,
+        "NAME", *words_asked,
         "A function (tf, lsim, ...), a method (iddata.split), a word of MATLAB or Lua, or a "
         "subject: lua, matlab, guide-report, checks, names, review_marks; without it the list of all");
     CLI::Option* search =
@@ -25,8 +27,9 @@ void add_help(CLI::App& app, Action& action) {
     command->footer(
         "Examples:  dynlab help     dynlab help procsrivc     dynlab help lua     dynlab help --search delay"
         "     dynlab help --sheet cheat.pdf");
-    command->callback([name, word, sheet, &action] {
-        action = [name, word, sheet]() -> int {
+    command->callback([words_asked, word, sheet, &action] {
+        action = [words_asked, word, sheet]() -> int {
+            const std::string name = fmt::format("{}", fmt::join(*words_asked, " "));
             if (!sheet->empty()) {
                 make_cheat_sheet(*sheet);
                 std::cout << std::filesystem::absolute(*sheet).lexically_normal().string() << "\n";
@@ -38,7 +41,7 @@ void add_help(CLI::App& app, Action& action) {
             if (!word->empty())
                 std::cout << help_search(*word, functions, width);
             else
-                std::cout << (name->empty() ? help_overview(functions, width) : help_text(*name, functions, width));
+                std::cout << (name.empty() ? help_overview(functions, width) : help_text(name, functions, width));
             return kDone;
         };
     });

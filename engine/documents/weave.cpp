@@ -1,10 +1,15 @@
 #include "documents/weave.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <cctype>
+#include <string_view>
 
 #include "documents/solutions.h"
 #include "documents/text_lines.h"
 #include "documents/words/sentence_catalogue.h"
+#include "figures/french_texts.h"
 
 namespace dynlab::inline documents {
 namespace {
@@ -32,6 +37,40 @@ std::string fenced(const std::string& text, const std::string& block_class) {
 std::string stopped_here(const std::string& language) {
     return language == "fr" ? "\nLe script s'est arrêté ici ; rien de ce qui suit n'a été exécuté."
                             : "\nThe script stopped here; nothing below was run.";
+}
+
+/// Text as Markdown that prints it: every mark escaped that could mean something.
+std::string literal(const std::string& text) {
+    std::string markdown;
+    for (const char c : text) {
+        if (std::string_view("\\`*_{}[]#^~$@<>|").find(c) != std::string_view::npos) markdown += '\\';
+        markdown += c;
+    }
+    return markdown;
+}
+
+/// What the axes say, for a figure that nobody gave a caption: "y (m), u (V) over time (s)"; where they say nothing,
+/// the cell that drew it.
+std::string caption_of_axes(const Figure& figure, const std::string& cell, const std::string& language) {
+    const bool french = language == "fr";
+    const Figure told = french ? in_french(figure) : figure;
+    std::vector<std::string> drawn;
+    std::string over;
+    for (const Panel& panel : told.panels) {
+        if (!panel.y_label.empty() && std::find(drawn.begin(), drawn.end(), literal(panel.y_label)) == drawn.end())
+            drawn.push_back(literal(panel.y_label));
+        if (!panel.x_label.empty()) over = literal(panel.x_label);
+    }
+    if (drawn.empty()) return fmt::format("{} `{}`", french ? "De la cellule" : "From the cell", cell);
+    std::string caption = fmt::format("{}", fmt::join(drawn, ", "));
+    if (!over.empty())
+        caption +=
+            french ? (over.starts_with("temps") ? " en fonction du " : " en fonction de ") + over : " over " + over;
+    const auto small = [&](std::size_t i) {
+        return i < caption.size() && std::islower(static_cast<unsigned char>(caption[i]));
+    };
+    if (small(0) && small(1)) caption[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(caption[0])));
+    return caption;
 }
 
 class Weaver {
@@ -93,16 +132,17 @@ class Weaver {
         for (const CellOutput& output : outputs->second) {
             const std::string printed = output.printed.substr(0, output.printed.find_last_not_of('\n') + 1);
             if (!is_blank(printed)) add_block(printed, "output", cell.last_line());
-            if (output.figure) add_figure(*output.figure, cell.last_line());
+            if (output.figure) add_figure(*output.figure, cell);
         }
     }
 
-    /// Figures without a caption are shown without a number, so nothing can refer to them.
-    void add_figure(const std::string& name, int number) {
+    void add_figure(const std::string& name, const Cell& cell) {
         const auto figure = record_.figures.find(name);
-        const bool captioned = figure != record_.figures.end() && !figure->second.caption.empty();
-        add("![](figure:" + name + ")" + (captioned ? "{#fig:" + name + "}" : ""), number);
-        add("", number);
+        std::string caption;
+        if (figure != record_.figures.end() && figure->second.caption.empty())
+            caption = caption_of_axes(figure->second.figure, cell.id, script_.header.language);
+        add(fmt::format("![{}](figure:{}){{#fig:{}}}", caption, name, name), cell.last_line());
+        add("", cell.last_line());
     }
 
     const PercentScript& script_;

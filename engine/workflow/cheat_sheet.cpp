@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <regex>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -30,6 +31,31 @@ constexpr const char* kSheetBegin = R"(\begin{document}
 \newcommand{\dynlabrow}[2]{{\hangindent=2em\hangafter=1\noindent\texttt{\color{dlkeyword}#1}\enspace #2\par}}
 )";
 
+/// Whether a word is one of an equation: "B/F", "y", "+", "=", the last one with a comma behind it.
+bool is_symbol(std::string_view word) {
+    static const std::regex kSymbol("[A-Z](/[A-Z])?|[euvy]|[=+]");
+    return std::regex_match(word.begin(), word.end(), kSymbol);
+}
+
+constexpr char kTie = '\t';  // a space at which no line breaks
+
+/// The text with ties in braces, but for those behind commas, and in equations.
+std::string tied(std::string_view text) {
+    std::string result(text);
+    int depth = 0;
+    std::size_t word = 0;  // where the word before the next space begins
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        if (result[i] == '{' || result[i] == '[') ++depth;
+        if (result[i] == '}' || result[i] == ']') --depth;
+        if (result[i] != ' ') continue;
+        const std::size_t next = i + 1, end = std::min(result.find_first_of(" ,", next), result.size());
+        const bool equation = is_symbol(text.substr(word, i - word)) && is_symbol(text.substr(next, end - next));
+        if (equation || (depth > 0 && i > 0 && result[i - 1] != ',')) result[i] = kTie;
+        word = next;
+    }
+    return result;
+}
+
 std::string latex_words(std::string_view text) {
     std::string latex;
     for (const char c : text) switch (c) {
@@ -38,6 +64,9 @@ std::string latex_words(std::string_view text) {
                 break;
             case '^':
                 latex += "\\textasciicircum{}";
+                break;
+            case kTie:
+                latex += '~';
                 break;
             case '~':
                 latex += "\\textasciitilde{}";
@@ -68,7 +97,9 @@ std::string latex_cell(std::string_view markdown) {
     std::string latex, piece;
     bool code = false;
     const auto end_piece = [&] {
-        latex += code ? "\\texttt{" + latex_words(piece) + "}" : latex_words(piece);
+        const std::string words = latex_words(tied(piece));
+        latex += code ? "\\texttt{" + words + "}"
+                      : std::regex_replace(words, std::regex("R\\\\_T\\\\textasciicircum\\{\\}2"), "$$R_T^2$$");
         piece.clear();
     };
     for (std::size_t i = 0; i < markdown.size(); ++i) {
@@ -114,8 +145,8 @@ std::string functions_by_area() {
         latex += fmt::format("\\dynlabarea{{{}}}\n", latex_words(area));
         for (const FunctionEntry& entry : catalogue_of_functions())
             if (entry.area == area)
-                latex +=
-                    fmt::format("\\dynlabrow{{{}}}{{{}}}\n", latex_words(called(entry)), latex_words(entry.summary));
+                latex += fmt::format("\\dynlabrow{{{}}}{{{}}}\n", latex_words(tied(called(entry))),
+                                     latex_cell(entry.summary));
     }
     return latex;
 }

@@ -41,10 +41,13 @@ fs::path template_file(const std::string& name, const std::string& language) {
     return fs::is_regular_file(own) ? own : folder / (name + ".md");
 }
 
-/// The template's text with the lesson's title and language in its header.
+/// The template's text with the lesson's title, language and (in answers to a lesson's questions) subtitle in its
+/// header.
 std::string report_for(const ScriptHeader& header, const fs::path& file, const std::string& language) {
     std::string text = read_text(file);
-    put(text, "title: My work", "title: \"" + header.title + "\"");
+    const bool answers = header.template_name == "lesson" && !header.subtitle.empty();
+    const std::string subtitle = answers ? "\nsubtitle: \"" + header.subtitle + "\"" : "";
+    put(text, "title: My work", "title: \"" + header.title + "\"" + subtitle);
     put(text, "title: Notre travail", "title: \"" + header.title + "\"");
     put(text, "lang: en", "lang: " + (language.empty() ? header.language : language));
     return text;

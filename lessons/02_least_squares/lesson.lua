@@ -313,7 +313,7 @@ print(Gd)
 local simulated = lsim(Gd, u, Ts)
 report.figure("dt_fit", plot(fine, step(Gc, fine), "continuous time",
               t, simulated, "discrete time", t, record.y, "samples",
-              {style = {"line", "stairs", "points"}, dash = {1, 0, 0}, height = 5.5,
+              {style = {"line", "stairs", "points"}, dash = {1, 0, 0}, height = 4.8,
                xlabel = "time (s)", ylabel = "output"}),
               "The discrete-time model")
 -- END SOLUTION
@@ -412,7 +412,7 @@ local runs, samples, sigma = 1000, 400, 0.3
 local estimates, limit = study(runs, samples, sigma)
 local bars = histogram(estimates, {truth = dt[1], xlabel = "estimate of a_{1}"})
 bars:vline(mean(estimates), "mean")
-bars:set{x_range = {dt[1] - 0.015, (max(estimates)) + 0.01}, height = 6.5}
+bars:set{x_range = {dt[1] - 0.015, (max(estimates)) + 0.01}, height = 5}
 report.figure("monte_carlo", bars, "A thousand estimates and the true value")
 -- END SOLUTION
 
@@ -495,7 +495,7 @@ do
     local bars = histogram(found - a1, {truth = 0,
                            xlabel = "estimate less true a_{1}"})
     bars:vline(bias, "mean")
-    bars:set{x_range = {-0.2, 0.8}, height = 6, title =
+    bars:set{x_range = {-0.2, 0.8}, height = 5, title =
              string.format("bias %.3f, scatter %.3f", bias, std(found))}
     report.figure("bias_by_hand", bars, "Bias and scatter of a hundred estimates")
 end

@@ -92,7 +92,7 @@ for column, shape in ipairs(shapes) do
     raw_panels[2 + column] = {ylabel = column == 1 and thrust_axis or nil, xlabel = seconds, y_range = {-32, 32},
                               curves = {{x = record.t, y = record.force, colour = 0, line_width = 0.6}}}
 end
-report.figure("raw", figure{rows = 2, columns = 2, width = 14.4, height = 4.9, panels = raw_panels},
+report.figure("raw", figure{rows = 2, columns = 2, width = 14.4, height = 5.4, panels = raw_panels},
               say("The records of the largest amplitude: widths (above) and thrust (below)",
                   "Les enregistrements de plus grande amplitude : largeurs (en haut) et poussée (en bas)"))
 

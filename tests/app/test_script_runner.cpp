@@ -8,6 +8,7 @@
 #include <signal.h>
 
 #include <fstream>
+#include <thread>
 
 #include "app/live/folder_watch.h"
 #include "platform/temporary_folder.h"
@@ -173,6 +174,17 @@ TEST_F(script_runner, survives_the_death_of_its_processes) {
     EXPECT_EQ(printed("c"), "20\n");
 }
 
+/// Whether the process ends within five seconds, reaped or not.
+bool ends(pid_t process) {
+    for (int i = 0; i < 500; ++i) {
+        std::ifstream file("/proc/" + std::to_string(process) + "/stat");
+        const std::string text((std::istreambuf_iterator<char>(file)), {});
+        if (text.empty() || text[text.rfind(')') + 2] == 'Z') return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return false;
+}
+
 /// Behind a is a process that waits; with it go those behind it.
 TEST_F(script_runner, begins_before_a_state_whose_process_was_killed) {
     std::vector<pid_t> kept;
@@ -183,6 +195,7 @@ TEST_F(script_runner, begins_before_a_state_whose_process_was_killed) {
     }
     ASSERT_GE(kept.size(), 2u);
     ::kill(kept[0], SIGKILL);
+    ASSERT_TRUE(ends(kept[1])) << "until then its state would do";
     EXPECT_THAT(run(kA + kB + "-- %% id=c\nprint(x * 100)\n"), ElementsAre(0, 1, 2));
     EXPECT_EQ(printed("c"), "200\n");
 }

@@ -60,7 +60,7 @@ TEST_F(workbench_lessons, the_heat_exchanger_of_lesson_1) {
     const std::string text = read_text(lesson("01_process_models") / "lesson.lua");
     EXPECT_THAT(text, HasSubstr("`dynlab app heat_exchanger`"));
     const auto program = app("heat_exchanger");
-    Browser browser(1280, 960);
+    Browser browser(960, 800);
     browser.open(program->address());
     ASSERT_TRUE(view_comes(browser, "record"));
     open_as_told(browser, text, "Read by hand");
@@ -87,7 +87,7 @@ TEST_F(workbench_lessons, the_heat_exchanger_of_lesson_1) {
 TEST_F(workbench_lessons, the_known_system_of_lesson_4) {
     const std::string text = read_text(lesson("04_estimators") / "lesson.lua");
     const auto program = app("");
-    Browser browser(1280, 760);
+    Browser browser(960, 700);
     browser.open(program->address());
     ASSERT_TRUE(is_ready(browser));
     open_as_told(browser, text, "Known system");

@@ -80,6 +80,9 @@ TEST_P(lessons, starter_runs_and_shows_no_solution) {
 
     ASSERT_EQ(bench.dynlab({"report", "mine"}).exit_code, 0);
     const std::string starter = text_of_pdf(bench, "mine/report.pdf");
+    if (bench.read("mine/analysis.lua").find("\n-- template: lesson\n") != std::string::npos) {
+        EXPECT_THAT(starter, testing::ContainsRegex("\nLesson [0-9.]+ – ")) << "the subtitle";
+    }
     ASSERT_EQ(bench.dynlab({"report", GetParam()}).exit_code, 0);
     EXPECT_LT(starter.size(), text_of_pdf(bench, GetParam() + ".pdf").size());
 }

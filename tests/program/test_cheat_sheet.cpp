@@ -9,6 +9,7 @@
 namespace dynlab::test {
 namespace test_cheat_sheet {
 using testing::HasSubstr;
+using testing::Not;
 
 TEST(cheat_sheet, holds_every_function_on_two_pages) {
     const Workbench bench;
@@ -24,6 +25,7 @@ TEST(cheat_sheet, holds_every_function_on_two_pages) {
     for (std::sregex_iterator i(list.begin(), list.end(), kRow), end; i != end; ++i, ++functions)
         EXPECT_TRUE(std::regex_search(sheet, std::regex("[\n\f]" + (*i)[1].str() + "[({]"))) << (*i)[1];
     EXPECT_GT(functions, 120);
+    for (const char* torn : {"\n=}", "\n=,", "`", "R_T", "\nu + ", "\nB/F"}) EXPECT_THAT(sheet, Not(HasSubstr(torn)));
     for (const char* phrase :
          {"zeros(N,1), ones(N,1), eye(2)", "A:times(B)", "-- comment", "gt(x, 2)", "a && b, a || b"})
         EXPECT_THAT(sheet, HasSubstr(phrase));

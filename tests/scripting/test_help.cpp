@@ -97,6 +97,9 @@ TEST(help, leads_on_from_toolboxes_methods_and_lua) {
     const auto all = functions();
     EXPECT_THAT(help_text("tfest", all),
                 AllOf(HasSubstr("tfest is a word of other programs; here: write tfsrivc"), HasSubstr("\n  tfsrivc  ")));
+    EXPECT_THAT(help_text("CARX", all), AllOf(HasSubstr("\n  lssvf  "), HasSubstr("\n  ivsvf  ")));
+    EXPECT_THAT(help_text("CBJ", all), HasSubstr("\n  rivc  "));
+    EXPECT_EQ(help_text("COE", all), help_text("coe", all));
     EXPECT_THAT(help_text("legend", all), HasSubstr("name the curves: plot(x1"));
     for (const char* name : {"procest", "ssest", "polyest", "idpoly", "disp", "fprintf", "roots"})
         EXPECT_THAT(help_text(name, all), HasSubstr("is a word of other programs; here: ")) << name;
@@ -118,6 +121,9 @@ TEST(help, finds_pages_by_words) {
         EXPECT_THAT(help_text(word, all), AllOf(HasSubstr("these speak of it:\n\n  "), HasSubstr("help NAME"))) << word;
     EXPECT_THAT(help_text("cells", all), HasSubstr("guide-report"));
     EXPECT_THAT(help_text("colour", all), HasSubstr("\n  plot  "));
+    for (const char* words : {"prediction interval", "interval prediction"})
+        EXPECT_THAT(help_text(words, all), AllOf(HasSubstr("\n  forecast  "), HasSubstr("\n  measures  "))) << words;
+    EXPECT_THROW(help_search("delay zzzz", all), InvalidArgument);
     EXPECT_THROW(help_search("zzzz", all), InvalidArgument);
     EXPECT_THROW(help_search("", all), InvalidArgument);
     EXPECT_THROW(help_text("", all), InvalidArgument);

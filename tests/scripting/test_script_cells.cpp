@@ -164,6 +164,22 @@ TEST(script_cells, sliders_are_their_own_number_and_are_recorded) {
         EXPECT_THAT(test::error_of(call), testing::HasSubstr(sentence)) << call;
 }
 
+/// A study's scatter says how many estimates lie outside its ranges, those that a script sets, too.
+TEST(script_cells, other_ranges_are_counted_anew) {
+    const auto title = [](const std::string& given, const std::string& set) {
+        const RunRecord record = run_script(
+            "-- %% id=a\nlocal f = plot({1, 2, 3}, {1, 2, 3}, 'a', {style = 'points', x_range = {0, 2.5}, title = '" +
+            given + "'})\nf:set{" + set + "}\n");
+        EXPECT_FALSE(record.error);
+        return record.figures.at("a-figure-1").figure.panels.at(0).title;
+    };
+    EXPECT_EQ(title("1 of 3 outside", "x_range = {0, 1.5}"), "2 of 3 outside");
+    EXPECT_EQ(title("1 of 3 outside", "x_range = {0, 5}"), "");
+    EXPECT_EQ(title("1 of 3 outside", "y_range = {1.5, 5}"), "2 of 3 outside");
+    EXPECT_EQ(title("mine", "x_range = {0, 1.5}"), "mine");
+    EXPECT_EQ(title("1 of 3 outside", "x_range = {0, 5}, title = 'all'"), "all");
+}
+
 TEST(script_cells, show_curves_as_described) {
     const RunRecord record = run_script(
         "-- %% id=a\nplot({0, 1}, {1, 2}, 'a', {0, 1}, {3, 4}, 'b', {style = {'points', 'line'}, xlabel = 'time (s)', "

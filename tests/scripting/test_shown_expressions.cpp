@@ -7,6 +7,8 @@
 
 #include "platform/temporary_folder.h"
 #include "script_run.h"
+#include "scripting/objects/data_object.h"
+#include "scripting/objects/numeric_types.h"
 #include "scripting/runtime/shown_calls.h"
 #include "scripting/runtime/shown_expressions.h"
 
@@ -55,6 +57,19 @@ TEST(shown_expressions, calls_that_only_compute_are_shown_with_the_names_of_thei
         "local x =\n  mean({1})", "f{\n  mean({1}),\n  2}", "return\n  mean({1})", "mean({1}).x = 2", "fit = {1}",
         "local p = pole(G)",      "x = y +\n  mean({1})"};
     for (const char* code : unchanged) EXPECT_EQ(with_shown_calls(code), code);
+}
+
+TEST(shown_expressions, methods_that_give_a_value_are_shown) {
+    EXPECT_EQ(
+        printed("local A = matrix{{1, 2}, {3, 4}}\nA:col(2)\nA:row(1);\nlocal v = vector{5, 6, 7}\nv:range(2, 3)"),
+        "[2 4]\n[6 7]\n");
+    EXPECT_THAT(printed("local d = iddata(linspace(0, 1, 20), linspace(1, 2, 20), 0.1)\nd:split(0.5)"),
+                testing::ContainsRegex("10 samples(.|\n)*10 samples"));
+    for (const ObjectType* type : {&vector_type(), &matrix_type(), &Boxed<IdData>::type})
+        for (const Member& method : type->methods) {
+            const std::string call = std::string("x:") + method.name + "(1)";
+            EXPECT_EQ(with_shown_calls(call) == call, std::string_view(method.name) == "set") << call;
+        }
 }
 
 TEST(shown_expressions, every_call_that_gives_a_value_is_shown_as_at_the_prompt) {

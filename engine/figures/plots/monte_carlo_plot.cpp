@@ -116,6 +116,8 @@ Matrix ellipse(const Eigen::Vector2d& centre, const Eigen::Matrix2d& root, doubl
     return points;
 }
 
+constexpr std::size_t kManyPoints = 300;  // are drawn small
+
 Curve cloud(const MonteCarloResult& result, Index x, Index y, int colour) {
     std::vector<double> xs, ys;
     for (Index k = 0; k < result.theta.rows(); ++k) {
@@ -129,7 +131,7 @@ Curve cloud(const MonteCarloResult& result, Index x, Index y, int colour) {
     curve.style = CurveStyle::kPoints;
     curve.label = result.label;
     curve.colour = colour;
-    curve.line_width = 0.6;
+    curve.line_width = xs.size() > kManyPoints ? 0.6 : 0.9;
     return curve;
 }
 
@@ -190,6 +192,19 @@ Figure monte_carlo_histograms(const MonteCarlo& study) {
     return figure;
 }
 
+std::string outside_text(const Panel& panel) {
+    const auto within = [](const std::optional<std::pair<double, double>>& range, double value) {
+        return !range || (value >= range->first && value <= range->second);
+    };
+    Index outside = 0, all = 0;
+    for (const Curve& curve : panel.curves) {
+        if (curve.style != CurveStyle::kPoints || curve.marker) continue;  // the truth has a marker of its own
+        for (Index k = 0; k < curve.x.size(); ++k, ++all)
+            if (!within(panel.x_range, curve.x[k]) || !within(panel.y_range, curve.y[k])) ++outside;
+    }
+    return outside > 0 ? fmt::format("{} of {} outside", outside, all) : "";
+}
+
 Figure monte_carlo_scatter(const MonteCarlo& study, const std::string& x_name, const std::string& y_name,
                            double level) {
     if (x_name == y_name) throw InvalidArgument("the two parameters of a scatter figure must differ");
@@ -216,13 +231,7 @@ Figure monte_carlo_scatter(const MonteCarlo& study, const std::string& x_name, c
     }
     panel.x_range = range_of(xs, true_x);
     panel.y_range = range_of(ys, true_y);
-    Index outside = 0, all = 0;
-    for (std::size_t j = 0; j < xs.size(); ++j)
-        for (Index k = 0; k < xs[j].size(); ++k, ++all)
-            if (xs[j][k] < panel.x_range->first || xs[j][k] > panel.x_range->second ||
-                ys[j][k] < panel.y_range->first || ys[j][k] > panel.y_range->second)
-                ++outside;
-    if (outside > 0) panel.title = fmt::format("{} of {} outside", outside, all);
+    panel.title = outside_text(panel);
     panel.x_label = symbol_of(x_name);
     panel.y_label = symbol_of(y_name);
     Figure figure(std::move(panel));

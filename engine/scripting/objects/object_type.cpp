@@ -47,6 +47,7 @@ std::string unknown_member_message(lua_State* L, const ObjectType& type, const s
     if (const char* hint = foreign_member_hint(type.name, key)) return message + "; " + hint;
     if (near) return message + fmt::format("; did you mean '{}'?", *near);
     if (is_library_function(L, singular)) return message + as_function(singular);
+    if (const char* hint = matlab_name_hint(key)) return message + "; " + hint;
     return names.empty() ? message : message + fmt::format("; it has {}", fmt::join(names, ", "));
 }
 

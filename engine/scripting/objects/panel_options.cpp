@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "figures/figure_text.h"
+#include "figures/plots/monte_carlo_plot.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -151,11 +152,13 @@ Curve read_curve(const Call& call, int index) {
 }
 
 void read_panel_options(const Call& call, const Options& options, Panel& panel) {
+    const bool counted = !panel.title.empty() && panel.title == outside_text(panel);
     panel.title = with_marked_indices(options.text("title", panel.title));
     panel.x_label = with_marked_indices(options.text("xlabel", panel.x_label));
     panel.y_label = with_marked_indices(options.text("ylabel", panel.y_label));
     if (options.has("x_range")) panel.x_range = options.range("x_range");
     if (options.has("y_range")) panel.y_range = options.range("y_range");
+    if (counted && !options.has("title")) panel.title = outside_text(panel);
     panel.log_x = options.flag("x_log", panel.log_x);
     panel.log_y = options.flag("y_log", panel.log_y);
     panel.equal_axes = options.flag("equal_axes", panel.equal_axes);

@@ -13,6 +13,8 @@ struct NameHint {
 };
 
 constexpr std::array kNames = {
+    NameHint{"CARX", "write lssvf(data, {na, nb, delay}), or ivsvf(...) where the noise is not white behind 1/A"},
+    NameHint{"CBJ", "write rivc(data, {nb, nc, nd, nf, delay})"},
     NameHint{"ans", "keep the result in a variable: local x = ..."},
     NameHint{"axis", "give x_range = {a, b} and y_range = {a, b} among the options of plot"},
     NameHint{"bar", "write plot(x, y, {style = \"bars\"})"},
@@ -251,6 +253,7 @@ constexpr std::array kMemberHints = {
     MemberHint{"iddata", "length", "data.N is the number of samples"},
     MemberHint{"iddata", "output", "the output is data.y"},
     MemberHint{"iddata", "size", "data.N is the number of samples"},
+    MemberHint{"matrix", "column", "the column j of a matrix is A:col(j)"},
     MemberHint{"matrix", "T", "the transpose of a matrix is A:t()"},
     MemberHint{"matrix", "length", kCounting},
     MemberHint{"matrix", "shape", kCounting},

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <regex>
+#include <sstream>
 
 #include "documents/text_lines.h"
 #include "numerics/error.h"
@@ -51,6 +53,10 @@ bool begins_a_word(const std::string& text, const std::string& word) {
     return false;
 }
 
+bool begin_words(const std::string& text, const std::vector<std::string>& words) {
+    return std::all_of(words.begin(), words.end(), [&](const auto& word) { return begins_a_word(text, word); });
+}
+
 struct Found {
     int rank;  ///< 0 in the name, 1 in the summary, 2 in the page
     std::string name, summary;
@@ -58,12 +64,14 @@ struct Found {
 
 std::vector<Found> pages_about(const std::string& asked, const FunctionList& functions) {
     std::vector<Found> found;
-    const std::string word = in_small_letters(asked);
+    std::istringstream stream(in_small_letters(asked));
+    const std::vector<std::string> words(std::istream_iterator<std::string>(stream), {});
+    if (words.empty()) return found;
     const auto look = [&](const std::string& name, const std::string& summary, std::string_view text) {
-        const int rank = begins_a_word(in_small_letters(name), word)                ? 0
-                         : begins_a_word(in_small_letters(summary), word)           ? 1
-                         : begins_a_word(in_small_letters(std::string(text)), word) ? 2
-                                                                                    : 3;
+        const int rank = begin_words(in_small_letters(name), words)                ? 0
+                         : begin_words(in_small_letters(summary), words)           ? 1
+                         : begin_words(in_small_letters(std::string(text)), words) ? 2
+                                                                                   : 3;
         if (rank < 3) found.push_back({rank, name, summary});
     };
     for (const FunctionEntry* entry : functions) {
@@ -194,6 +202,8 @@ std::string help_text(const std::string& name, const FunctionList& functions, st
     if (const auto method = method_answer(name, width)) return *method;
     if (const char* hint = matlab_name_hint(name)) return matlab_answer(name, hint, functions, width);
     if (const auto words = lua_answer(name, width)) return *words;
+    if (const std::string small = in_small_letters(name); small != name && find_help_page(small))
+        return help_text(small, functions, width);
     const std::vector<Found> found = pages_about(name, functions);
     if (name.empty() || found.empty()) refuse_topic(name, functions);
     return fmt::format("No page is called '{}'; these speak of it:\n\n", name) + list_of(found, width);

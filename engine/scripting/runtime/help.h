@@ -29,7 +29,7 @@ std::string help_overview(const std::vector<const FunctionEntry*>& functions, st
 /// InvalidArgument with the nearest name where there is nothing.
 std::string help_text(const std::string& name, const std::vector<const FunctionEntry*>& functions,
                       std::size_t width = kHelpWidth);
-/// The functions and subjects in whose names, summaries or pages the word stands, those first in whose names it does.
+/// The functions and subjects in whose names, summaries or pages the words stand, those first in whose names it does.
 /// Throws InvalidArgument where there are none.
 std::string help_search(const std::string& word, const std::vector<const FunctionEntry*>& functions,
                         std::size_t width = kHelpWidth);

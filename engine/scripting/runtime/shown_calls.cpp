@@ -18,6 +18,11 @@ constexpr int kMostCalls = 1000;
 /// Called alone for what they do, or print what they give.
 constexpr const char* kForTheirEffect[] = {"advice", "require", "slider"};
 
+/// Methods of vectors, matrices and data that change nothing and give a value: A:t(), data:split(0.6).
+constexpr const char* kValueMethods[] = {"at",     "col",   "detrend", "discard",     "experiment", "filter",
+                                         "keep",   "merge", "range",   "remove_mean", "resample",   "row",
+                                         "select", "shift", "split",   "t",           "table",      "times"};
+
 /// What each form of a signature gives: of "step(G, t) -> y, t, sd; step(G1, ...) -> fig" the texts "y, t, sd", "fig".
 std::vector<std::string_view> results_of(std::string_view signature) {
     std::vector<std::string_view> results;
@@ -136,6 +141,13 @@ bool of_lua_library(const std::vector<LuaToken>& tokens, std::size_t i) {
            !tokens[i + 2].is("randomseed");
 }
 
+/// OBJECT:METHOD(...) that gives a value.
+bool is_value_method(const std::vector<LuaToken>& tokens, std::size_t i) {
+    return i + 2 < tokens.size() && tokens[i].kind == LuaToken::Kind::kName && tokens[i + 1].is(":") &&
+           std::any_of(std::begin(kValueMethods), std::end(kValueMethods),
+                       [&](const char* name) { return tokens[i + 2].is(name); });
+}
+
 }  // namespace
 
 std::string with_shown_calls(const std::string& source) {
@@ -144,12 +156,12 @@ std::string with_shown_calls(const std::string& source) {
     int calls = 0;
     for (std::size_t first = tokens.size(); first-- > 0 && calls < kMostCalls;) {
         const auto known = shown_calls().find(tokens[first].text);
-        const bool library = of_lua_library(tokens, first);
+        const bool method = is_value_method(tokens, first), library = method || of_lua_library(tokens, first);
         if ((known == shown_calls().end() && !library) || !begins_statement(source, tokens, first)) continue;
         const std::optional<std::size_t> last = end_of_call(tokens, library ? first + 2 : first);
         if (!last || !next_begins_statement(source, tokens, *last + 1)) continue;
         ++calls;
-        if (has_own_meaning(source, tokens, tokens[first].text, first)) continue;
+        if (!method && has_own_meaning(source, tokens, tokens[first].text, first)) continue;
         const std::size_t begin = tokens[first].begin, length = tokens[*last].end() - begin;
         const std::string call = code.substr(begin, length);
         std::string shown = "dynlab.show(" + call + ")";

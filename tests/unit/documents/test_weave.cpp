@@ -45,6 +45,23 @@ TEST(weave, shows_code_output_and_figures_in_order) {
     EXPECT_LT(figure, second);
 }
 
+TEST(weave, figures_without_a_caption_are_numbered_and_say_what_their_axes_do) {
+    RunRecord record;
+    record.outputs["a"] = {{"", "a-figure-1"}, {"", "a-figure-2"}};
+    Figure& figure = record.figures["a-figure-1"].figure;
+    figure.panels.resize(3);
+    figure.panels[0].y_label = "y_1 (m)", figure.panels[1].y_label = figure.panels[2].y_label = "voltage (V)";
+    figure.panels[2].x_label = "time (s)";
+    record.figures["a-figure-2"].figure.panels.resize(1);
+    const std::string text = weave("-- %% id=a\nplot(x)\n", record).text;
+    EXPECT_THAT(text, HasSubstr("![y\\_1 (m), voltage (V) over time (s)](figure:a-figure-1){#fig:a-figure-1}"));
+    figure.panels[0].y_label = "thrust (N)";
+    EXPECT_THAT(weave("-- %% id=a\nplot(x)\n", record).text, HasSubstr("![Thrust (N), voltage (V) over"));
+    EXPECT_THAT(text, HasSubstr("![From the cell `a`](figure:a-figure-2){#fig:a-figure-2}"));
+    EXPECT_THAT(weave("-- ---\n-- title: Essai\n-- language: fr\n-- ---\n-- %% id=a\nplot(x)\n", record).text,
+                HasSubstr("voltage (V) en fonction du temps (s)]"));
+}
+
 TEST(weave, options_hide_code_or_output) {
     RunRecord record;
     record.outputs["a"] = record.outputs["b"] = {{"printed\n", std::nullopt}};
