@@ -114,6 +114,8 @@ class HeaderReader {
     int number_ = 0;
 };
 
+constexpr std::size_t kMostMistakes = 10;
+
 bool is_fence(const std::string& line) {
     return line.starts_with("--") && trimmed(line.substr(2)) == "---";
 }
@@ -131,15 +133,23 @@ std::size_t read_script_header(const std::vector<std::string>& lines, const std:
     const std::size_t first = !lines.empty() && lines[0].starts_with("#!") ? 1 : 0;
     if (lines.size() <= first || !is_fence(lines[first])) return 0;
     HeaderReader reader(file, header);
+    std::vector<std::string> mistakes;  // told together, a line each
     for (std::size_t i = first + 1; i < lines.size(); ++i) {
         const int number = static_cast<int>(i) + 1;
-        if (is_fence(lines[i])) return i + 1;
+        if (is_fence(lines[i])) {
+            if (!mistakes.empty()) throw DocumentError(fmt::format("{}", fmt::join(mistakes, "\n")));
+            return i + 1;
+        }
         if (!lines[i].starts_with("--"))
             throw DocumentError(file.string() + ":" + std::to_string(number) +
                                 ": the script header is not closed: a line \"-- ---\" is missing before this line");
         std::string content = lines[i].substr(2);
         if (content.starts_with(' ')) content.erase(0, 1);
-        reader.read_line(content, number);
+        try {
+            reader.read_line(content, number);
+        } catch (const DocumentError& error) {
+            if (mistakes.size() < kMostMistakes) mistakes.emplace_back(error.what());
+        }
     }
     throw DocumentError(file.string() + ":" + std::to_string(first + 1) +
                         ": the script header is not closed: a line \"-- ---\" is missing after it");

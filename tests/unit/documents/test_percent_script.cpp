@@ -102,6 +102,15 @@ TEST(percent_script, header_mistakes_name_the_line_and_the_mend) {
     EXPECT_THAT(refusal("-- ---\n--   G1: model\n-- ---\n"), HasSubstr("answers:"));
 }
 
+TEST(percent_script, all_mistakes_of_a_header_are_told_at_once) {
+    const std::string told = refusal("-- ---\n-- titel: A\n-- seed: one\n-- language: fr\n-- lessn: 2\n-- ---\n");
+    std::vector<std::string> lines = lines_of(told);
+    ASSERT_EQ(lines.size(), 3u) << told;
+    EXPECT_THAT(lines[0], StartsWith("lesson.lua:2: "));
+    EXPECT_THAT(lines[1], StartsWith("lesson.lua:3: "));
+    EXPECT_THAT(lines[2], StartsWith("lesson.lua:5: "));
+}
+
 TEST(percent_script, cell_mistakes_name_the_line_and_the_mend) {
     EXPECT_THAT(refusal("-- %% ecoh=false\n"), StartsWith("lesson.lua:1: "));
     EXPECT_THAT(refusal("-- %% ecoh=false\n"), HasSubstr("did you mean \"echo\"?"));
