@@ -98,7 +98,7 @@
   });
   document.addEventListener("click", (event) => { if (!field.form.contains(event.target)) list.hidden = true; });
   document.addEventListener("keydown", (event) => {
-    if (event.key !== "/" || event.ctrlKey || event.metaKey || event.target.closest("input, textarea, select")) return;
+    if (event.key !== "/" || event.ctrlKey || event.metaKey || event.target.closest?.("input, textarea, select")) return;
     event.preventDefault();
     field.focus();
   });

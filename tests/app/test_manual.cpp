@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
-#include <chrono>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
@@ -108,22 +108,24 @@ void check_validity(const Workbench& bench, const std::map<std::string, std::str
               "");
 }
 
-/// Lines that only a worked solution has.
-std::vector<std::string> solution_lines(const std::string& script) {
+/// A lesson's lines, those of its worked solution apart.
+struct LessonLines {
+    std::vector<std::string> solution;
     std::string open;
-    std::vector<std::string> lines;
+};
+
+LessonLines lines_of_lesson(const std::string& script) {
+    LessonLines lines;
     bool solution = false;
     std::istringstream stream(script);
     for (std::string line; std::getline(stream, line);) {
         if (line.find("-- BEGIN SOLUTION") != std::string::npos) solution = true;
         if (!solution || line.find("STARTER:") != std::string::npos)
-            open += bare(line);
+            lines.open += bare(line);
         else
-            lines.push_back(bare(line));
+            lines.solution.push_back(bare(line));
         if (line.find("-- END SOLUTION") != std::string::npos) solution = false;
     }
-    std::erase_if(lines,
-                  [&](const std::string& line) { return line.size() < 30 || open.find(line) != std::string::npos; });
     return lines;
 }
 
@@ -132,23 +134,33 @@ void check_no_solutions(const std::map<std::string, std::string>& pages) {
     for (const auto& [file, html] : pages)
         if (file.starts_with("lesson-") || file == "gallery.html") all += bare_text_of(html) + " ";
     std::size_t searched = 0;
-    for (const auto& entry : fs::directory_iterator(kSource / "lessons")) {
-        if (!fs::exists(entry.path() / "lesson.lua")) continue;
+    std::map<fs::path, LessonLines> lessons;
+    std::string open;  // to all readers of any lesson or demonstration
+    for (const auto& entry : fs::recursive_directory_iterator(kSource / "lessons")) {
         const std::string name = entry.path().filename();
+        if (name == "lesson.lua") lessons[entry.path().parent_path()] = lines_of_lesson(read_file(entry.path()));
+        if (name == "lesson.lua") open += lessons[entry.path().parent_path()].open;
+        if (entry.path().parent_path().filename() == "demos") open += bare(read_file(entry.path()));
+    }
+    for (const auto& [folder, lines] : lessons) {
+        const std::string name = folder.filename();
         ASSERT_TRUE(pages.count("lesson-" + name + ".html")) << name;
-        for (const std::string& line : solution_lines(read_file(entry.path() / "lesson.lua"))) {
+        for (const std::string& line : lines.solution) {
+            if (line.size() < 30 || open.find(line) != std::string::npos) continue;
             EXPECT_EQ(all.find(line), std::string::npos) << name << ": " << line;
             ++searched;
         }
         // What is not for readers of the lesson: its hints, checks, mistakes, model answers.
-        for (const auto& other : fs::directory_iterator(entry.path())) {
+        for (const auto& other : fs::directory_iterator(folder)) {
             const std::string file = other.path().filename();
             if (file != "hints.md" && file != "talk.md" && file != "checks.lua" && file != "report.en.md") continue;
             std::istringstream stream(read_file(other.path()));
-            const std::string lesson = bare(read_file(entry.path() / "lesson.lua"));
-            for (std::string line; std::getline(stream, line);)
-                if (const std::string words = bare(line); words.size() > 50 && lesson.find(words) == std::string::npos)
-                    EXPECT_EQ(all.find(words), std::string::npos) << name << "/" << file << ": " << line;
+            const std::string lesson = bare(read_file(folder / "lesson.lua"));
+            for (std::string line; std::getline(stream, line);) {
+                const std::string words = bare(line);
+                if (words.size() <= 50 || lesson.find(words) != std::string::npos) continue;
+                EXPECT_EQ(all.find(words), std::string::npos) << name << "/" << file << ": " << line;
+            }
         }
     }
     EXPECT_GT(searched, 300u);
@@ -178,7 +190,9 @@ void check_examples(const Workbench& bench, const std::map<std::string, std::str
     const std::string page = read_file(kSource / "engine/scripting/reference/load.md");
     const std::size_t code = page.find("```lua\n") + 7;
     bench.write("example.lua", page.substr(code, page.find("\n```", code) - code) + "\n");
-    EXPECT_EQ(output_on(pages.at("help-load.html")) + "\n", bench.dynlab({"run", "example.lua"}).output);
+    const std::string printed = bench.dynlab({"run", "example.lua"}).output;
+    EXPECT_THAT(printed, HasSubstr("1896"));
+    EXPECT_EQ(bare(output_on(pages.at("help-load.html"))), bare(printed));
     for (const MethodEntry& method : method_catalogue())
         EXPECT_THAT(bare_text_of(pages.at("methods.html")), HasSubstr(bare(method.reference))) << method.file;
     EXPECT_GT(attributes(pages.at("gallery.html"), "src").size(), 60u);
@@ -258,12 +272,19 @@ void check_pages_in_browser(Reader& reader) {
     }
 }
 
+/// Processor time of all processes that this one has started and waited for.
+double seconds_of_children() {
+    rusage used{};
+    getrusage(RUSAGE_CHILDREN, &used);
+    return static_cast<double>(used.ru_utime.tv_sec + used.ru_stime.tv_sec);
+}
+
 TEST(manual, is_whole_valid_and_found_by_words) {
     const Workbench bench(Workbench::Memory::kShared);
-    const auto begin = std::chrono::steady_clock::now();
+    const double before = seconds_of_children();
     const ChildResult made = bench.dynlab({"manual", "site"});
     ASSERT_EQ(made.exit_code, 0) << made.error_output;
-    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(60));
+    EXPECT_LT(seconds_of_children() - before, 60);
     EXPECT_THAT(made.output, HasSubstr(bench.path("site/index.html").string()));
     const fs::path site = bench.path("site");
     const auto pages = pages_in(site);
@@ -329,7 +350,7 @@ TEST(manual, pages_lead_to_what_their_code_names) {
 
 TEST(manual, words_are_what_readers_type) {
     EXPECT_THAT(words_in_text("The “Bode” plot – bode_values(G), R², 3.5\u00a0rad/s, Broïda"),
-                ElementsAre("3", "5", "bode", "broïda", "g", "plot", "r²", "rad", "s", "the", "values"));
+                ElementsAre("3", "5", "bode", "broïda", "g", "plot", "rad", "r²", "s", "the", "values"));
     EXPECT_EQ(text_in_html("<p>a&lt;b</p><script>x</script><span>c</span>d"), " a<b  cd");
 }
 

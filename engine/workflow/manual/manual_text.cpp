@@ -129,7 +129,7 @@ std::string beginning_of(std::string_view help_page) {
 }
 
 ManualText methods_text() {
-    ManualText methods{"methods", "Methods", {}};
+    ManualText methods{"methods", "", {}};
     std::string text =
         "# Methods\n\nEvery method of dynlab: the model that it fits, what it assumes of the noise, and where it "
         "comes from. The pages of the functions tell options, results and errors.\n\n";
@@ -167,9 +167,11 @@ MarkdownText joined_chapters(const std::vector<ManualText>& texts) {
     MarkdownText all;
     std::string part;
     for (const ManualText& page : texts) {
-        if (page.part != part) all.append(fmt::format("# {}\n\n", with_capital(page.part)), "manual", 1);
+        if (page.part != part && !page.part.empty())
+            all.append(fmt::format("# {}\n\n", with_capital(page.part)), "manual", 1);
         part = page.part;
         append_page(page, all, [&](const std::string& heading, bool first) {
+            if (page.part.empty()) return heading;
             return first ? fmt::format("#{} {{#page-{}}}", heading, id_of(page.name))
                          : "**" + trimmed(heading.substr(heading.find(' '))) + "**";
         });

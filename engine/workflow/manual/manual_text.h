@@ -11,7 +11,7 @@ namespace dynlab::inline workflow {
 /// A page of Markdown that is set together with others: it begins with a heading of the first level.
 struct ManualText {
     std::string name;  ///< "srivc", "guide-first-hour", "methods"
-    std::string part;  ///< of a document of all pages: "Guides", or the area of a function
+    std::string part;  ///< of a document of all pages: "Guides", the area of a function; empty: a part by itself
     MarkdownText markdown;
 };
 
@@ -32,7 +32,8 @@ std::string beginning_of(std::string_view help_page);
 /// All pages as one text, in which every heading has an id that begins with its page's name ("srivc",
 /// "srivc-returns").
 MarkdownText joined_pages(const std::vector<ManualText>& texts);
-/// The same for paper: a heading for each part, below it those of the pages; their own become bold lines.
+/// The same for paper: a heading for each part, below it those of the pages; their own become bold
+/// lines.
 MarkdownText joined_chapters(const std::vector<ManualText>& texts);
 
 }  // namespace dynlab::inline workflow
