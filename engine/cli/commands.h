@@ -25,6 +25,7 @@ void add_check(CLI::App& app, Action& action);
 void add_demo(CLI::App& app, Action& action);
 void add_lessons(CLI::App& app, Action& action);
 void add_help(CLI::App& app, Action& action);
+void add_manual(CLI::App& app, Action& action);
 void add_doctor(CLI::App& app, Action& action);
 void add_pack(CLI::App& app, Action& action);
 void add_bundle(CLI::App& app, Action& action);

@@ -167,11 +167,13 @@ function layout:need(lines)
   return pandoc.RawBlock("latex", string.format("\\dynlabneed{%d\\baselineskip}", lines))
 end
 
--- A paragraph that is one bold line heads what follows: better no page ends behind it.
+-- A paragraph that is one bold line heads what follows: better no page ends behind it, also where a list follows, before
+-- which LaTeX likes to end pages unless it stands behind a heading.
 function layout:heading_line(paragraph)
   local inlines = paragraph.content
   if self.format ~= "latex" or self.slides or #inlines ~= 1 or inlines[1].t ~= "Strong" then return nil end
-  return pandoc.Para { inlines[1], raw("latex", "\\nopagebreak[3]") }
+  return pandoc.Blocks { pandoc.Para { inlines[1], raw("latex", "\\nopagebreak[3]") },
+    pandoc.RawBlock("latex", "\\csname @afterheading\\endcsname") }
 end
 
 function layout:need_for_lines(text) return self:need(math.min(line_count(text), least_lines)) end

@@ -153,6 +153,18 @@ TEST_F(chunk_setter, literature_stands_behind_the_last_chunk) {
     expect_as_at_once(changed(cited, " [@ljung1999]", ""));
 }
 
+TEST_F(chunk_setter, literature_stands_where_its_author_puts_it) {
+    write("references.bib",
+          "@book{ljung1999, author = {Ljung, Lennart}, title = {System Identification}, year = 1999}\n");
+    const std::string text = changed(changed(kText, "title: A report", "title: A report\nbibliography: references.bib"),
+                                     "## Second", "Read @ljung1999.\n\n::: references\n:::\n\n## Second");
+    expect_as_at_once(text);
+    expect_as_at_once(text + "\n::: note\nThe last word.\n:::\n");
+    const SetDocument document = set(text);
+    EXPECT_THAT(document.notes, IsEmpty());
+    for (const SetChunk& chunk : document.chunks) EXPECT_THAT(chunk.html, testing::Not(HasSubstr("id=\"chunk-")));
+}
+
 TEST_F(chunk_setter, numbered_sections_keep_their_numbers) {
     const std::string numbered = changed(kText, "title: A report", "title: A report\nnumbersections: true");
     set(numbered);

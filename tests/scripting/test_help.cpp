@@ -49,9 +49,21 @@ TEST(help, guide_to_lua_prints_what_it_says) {
     }
 }
 
-TEST(help, guide_to_reports_runs) {
-    for (const std::string& block : code_blocks(std::string(find_help_page("guide-report")->text)))
-        EXPECT_THAT(printed(block), Not(HasSubstr("ERROR"))) << block;
+TEST(help, guides_to_reports_and_from_other_programs_run) {
+    for (const char* guide : {"guide-report", "guide-lab-report", "guide-contsid"})
+        for (const std::string& block : code_blocks(std::string(find_help_page(guide)->text)))
+            EXPECT_THAT(printed(block), Not(HasSubstr("ERROR"))) << guide << '\n' << block;
+}
+
+/// Every line of the table from CONTSID is a line of the script below it, which is run.
+TEST(help, guide_from_contsid_runs_what_its_table_says) {
+    const std::string guide(find_help_page("guide-contsid")->text);
+    const std::string code = code_blocks(guide).at(0);
+    static const std::regex row("\n\\| `[^|]*` \\| `([^`]*)` \\|");
+    int rows = 0;
+    for (std::sregex_iterator it(guide.begin(), guide.end(), row), end; it != end; ++it, ++rows)
+        EXPECT_THAT("\n" + code + "\n", HasSubstr("\n" + (*it)[1].str() + "\n"));
+    EXPECT_EQ(rows, 13);
 }
 
 TEST(help, fits_the_width_and_shows_no_marks) {

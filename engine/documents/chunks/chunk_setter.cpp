@@ -19,9 +19,7 @@ namespace dynlab::inline documents {
 namespace {
 
 const std::string kPicturePrefix = "dynlab-picture-";
-/// With what the page goes on behind the last chunk: notes, and literature with its title.
-const char* const kBehindChunks[] = {"<section class=\"footnotes", "<h1 id=\"bibliography\"", "<h2 id=\"bibliography\"",
-                                     "<div id=\"refs\""};
+const std::string kChunkBegins = "<div id=\"chunk-";
 using Labels = std::map<std::string, std::string>;
 
 /// What of the record a chunk shows: the entries whose names occur in it.
@@ -68,6 +66,20 @@ std::optional<std::string> between(const std::string& text, const std::string& b
     const std::size_t last = text.rfind(end);
     if (first == std::string::npos || last == std::string::npos || last < first + begin.size()) return {};
     return text.substr(first + begin.size(), last - first - begin.size());
+}
+
+/// Behind the end of the division that begins at `begin`.
+std::size_t end_of_division(const std::string& html, std::size_t begin) {
+    const std::string opens = "<div", closes = "</div>";
+    int depth = 0;
+    for (std::size_t at = begin; at != std::string::npos;) {
+        const std::size_t open = html.find(opens, at), close = html.find(closes, at);
+        if (close == std::string::npos) break;
+        depth += open < close ? 1 : -1;
+        at = open < close ? open + opens.size() : close + closes.size();
+        if (depth == 0) return at;
+    }
+    return html.size();
 }
 
 }  // namespace
@@ -254,17 +266,17 @@ class ChunkJob {
         std::string body = between(page.text, "<main>\n", "</main>").value_or("");
         if (whole_document_) {
             memory_.head = between(page.text, "<body>\n", "<main>").value_or("");
-            std::size_t notes = std::string::npos;
-            for (const char* begin : kBehindChunks) notes = std::min(notes, body.find(begin));
-            memory_.notes = notes == std::string::npos ? "" : body.substr(notes);
-            if (notes != std::string::npos) body.resize(notes);
+            // Behind the last chunk: notes, and literature that has no place of its own.
+            const std::size_t last = body.rfind(kChunkBegins);
+            memory_.notes = last == std::string::npos ? body : body.substr(end_of_division(body, last));
+            if (is_blank(memory_.notes)) memory_.notes.clear();
         }
-        std::size_t begin = body.find("<div id=\"chunk-");
+        std::size_t begin = body.find(kChunkBegins);
         for (std::size_t i = 0; i < chunks_.size() && begin != std::string::npos; ++i) {
             if (!wanted[i]) continue;
-            const std::size_t end = body.find("<div id=\"chunk-", begin + 1);
-            fill(i, body.substr(begin, end == std::string::npos ? end : end - begin), page, files);
-            begin = end;
+            const std::size_t end = end_of_division(body, begin);
+            fill(i, body.substr(begin, end - begin), page, files);
+            begin = body.find(kChunkBegins, end);
         }
     }
 

@@ -56,6 +56,11 @@ std::string shown_scripts(const fs::path& shared_templates) {
     return scripts;
 }
 
+std::string scripts_of_pages(const fs::path& shared_templates) {
+    return shown_scripts(shared_templates) + read_file(shared_templates / "html/sliders.js") +
+           read_file(shared_templates / "html/document.js");
+}
+
 std::string with_inlined_pictures(const std::string& html, const std::vector<PlacedPicture>& pictures) {
     std::map<std::string, const PlacedPicture*> by_name;
     for (const PlacedPicture& picture : pictures) by_name[picture.written_name] = &picture;
@@ -83,9 +88,7 @@ std::string with_inlined_pictures(const std::string& html, const std::vector<Pla
 std::string whole_web_page(const std::string& html, const fs::path& shared_templates,
                            const std::vector<PlacedPicture>& pictures) {
     // They go in here, not in the template: Pandoc takes 0.3 s to read them there.
-    const std::string script = "\n" + shown_scripts(shared_templates) +
-                               read_file(shared_templates / "html/sliders.js") +
-                               read_file(shared_templates / "html/document.js");
+    const std::string script = "\n" + scripts_of_pages(shared_templates);
     std::string page = with_first(html, "script-src 'none'", "script-src " + policy_hash(script));
     page = with_first(std::move(page), "<style></style>",
                       "<style>\n" + read_file(shared_templates / "html/document.css") + "</style>");

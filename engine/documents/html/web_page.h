@@ -25,5 +25,7 @@ std::string whole_web_page(const std::string& html, const std::filesystem::path&
 
 /// The scripts of every page that shows documents, in their order.
 std::string shown_scripts(const std::filesystem::path& shared_templates);
+/// All scripts of a page that stands alone.
+std::string scripts_of_pages(const std::filesystem::path& shared_templates);
 
 }  // namespace dynlab::inline documents

@@ -34,14 +34,6 @@ const FunctionEntry* entry_of(std::string_view name, const FunctionList& functio
     return found == functions.end() ? nullptr : *found;
 }
 
-/// What stands behind "guide: " or "subject: " in the third line of a page that is no function's.
-std::string subject_of(const HelpPage& page) {
-    const std::vector<std::string> lines = lines_of(page.text);
-    const std::string& line = lines.size() > 2 ? lines[2] : lines[0];
-    const auto colon = line.find(": ");
-    return colon == std::string::npos ? line : line.substr(colon + 2);
-}
-
 std::string help_row(const std::string& name, const std::string& summary, std::size_t width) {
     return fmt::format("  {:<18} {}\n", name, filled(summary, width, kSummaryColumn));
 }
@@ -172,6 +164,13 @@ std::optional<HelpPage> find_help_page(std::string_view name) {
     for (const HelpPage& page : help_pages())
         if (page.name == name) return page;
     return std::nullopt;
+}
+
+std::string subject_of(const HelpPage& page) {
+    const std::vector<std::string> lines = lines_of(page.text);
+    const std::string& line = lines.size() > 2 ? lines[2] : lines[0];
+    const auto colon = line.find(": ");
+    return colon == std::string::npos ? line : line.substr(colon + 2);
 }
 
 std::string help_overview(const FunctionList& functions, std::size_t width) {

@@ -18,6 +18,8 @@ struct HelpPage {
 /// All pages, sorted by name (from reference/*.md and reference/guides/*.md, made at build time).
 std::span<const HelpPage> help_pages();
 std::optional<HelpPage> find_help_page(std::string_view name);
+/// What stands behind "guide: " or "subject: " in the third line of a page that is no function's.
+std::string subject_of(const HelpPage& page);
 
 constexpr std::size_t kHelpWidth = 80;  ///< columns, where nobody knows better
 

@@ -1,5 +1,5 @@
-// README's part for instructors runs as it is printed: its commands are read out of README.md itself and run in a
-// folder with made-up submissions. Oracle: what README prints below them, and exit codes.
+// The guides for instructors run as they are printed: their commands are read out of the help pages themselves and run
+// in a folder with made-up submissions. Oracle: what the guides print below them, and exit codes.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -10,7 +10,7 @@
 #include "course/grading_bench.h"
 
 namespace dynlab::test {
-namespace test_readme {
+namespace test_instructor_guides {
 using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
@@ -21,8 +21,8 @@ std::string between(const std::string& text, const std::string& begin, const std
     return text.substr(from, to - from);
 }
 
-std::string part_for_instructors() {
-    return between(read_file(DYNLAB_SOURCE_DIR "/README.md"), "\n## For instructors\n", "\n## I want");
+std::string guide(const std::string& name) {
+    return read_file(DYNLAB_SOURCE_DIR "/engine/scripting/reference/guides/guide-" + name + ".md");
 }
 
 /// What stands between fences, in order.
@@ -45,7 +45,7 @@ std::vector<std::string> words_in(const std::string& text) {
     return {std::istream_iterator<std::string>(stream), {}};
 }
 
-/// The commands in `...` of the running text that are whole, with a reason where README has three dots.
+/// The commands in `...` of the running text that are whole, with a reason where the guide has three dots.
 std::vector<std::string> commands_in_text(const std::string& text) {
     static const std::regex span("`(dynlab [^`]+)`"), fences("\n```(?:sh)?\n[^`]*\n```\n");
     const std::string prose = std::regex_replace(text, fences, "\n");
@@ -74,16 +74,17 @@ std::vector<PrintedCommand> printed_in(const std::string& block) {
     return commands;
 }
 
-TEST(readme, marks_of_a_class_are_made_as_it_is_printed) {
-    if (obstacle_to(Isolation::kFull)) GTEST_SKIP() << "README shows marks made in boxes, which are not to be had here";
-    const std::string part = part_for_instructors();
+TEST(instructor_guides, marks_of_a_class_are_made_as_it_is_printed) {
+    if (obstacle_to(Isolation::kFull))
+        GTEST_SKIP() << "the guide shows marks made in boxes, which are not to be had here";
+    const std::string part = guide("instructor");
     const std::vector<PrintedCommand> commands = printed_in(blocks_in(part).at(0));
     const Workbench work;
     const std::string solution = quick_solution_of("04_estimators");
     work.write("one/analysis.lua", solution);
     ASSERT_EQ(work.shell("mkdir handed-in && $DYNLAB pack one -o handed-in/group-01.zip").exit_code, 0);
     work.write("handed-in/group-02/analysis.lua", read_file(lesson_folder("04_estimators") / "wrong_biased_final.lua"));
-    // In README it is an endless loop, which ends the same way, a minute later.
+    // In the guide it is an endless loop, which ends the same way, a minute later.
     work.write("handed-in/group-03/analysis.lua",
                solution.substr(0, solution.find("\n-- %%")) + "\nerror('stopped')\n");
     work.write("secret.txt", "of a test");
@@ -113,7 +114,7 @@ TEST(readme, marks_of_a_class_are_made_as_it_is_printed) {
     work.write("my-checks/more.lua",
                "check{id = 'own_there', points = 1, about = 'There is a result', hint = 'Look at it again.',\n"
                "  test = function(a) return a.own ~= nil end}\n");
-    for (const std::string& command : commands_in_text(between(part, "## For", "\n## A course"))) {
+    for (const std::string& command : commands_in_text(part)) {
         if (command == "dynlab pack") continue;  // the command's name alone
         const ChildResult result = in_shell(work, "", command);
         EXPECT_EQ(result.exit_code, 0) << command << '\n' << result.error_output << result.output;
@@ -175,9 +176,8 @@ class MadeUpCourse {
     const Workbench& work_;
 };
 
-TEST(readme, a_course_with_reviews_and_its_corrections_run_as_printed) {
-    const std::string part = part_for_instructors();
-    const std::string course = part.substr(part.find("\n## A course with peer review"));
+TEST(instructor_guides, a_course_with_reviews_and_its_corrections_run_as_printed) {
+    const std::string course = guide("peer-review");
     const std::vector<std::string> blocks = blocks_in(course);
     ASSERT_EQ(blocks.size(), 2u);
     const Workbench work;
@@ -201,7 +201,7 @@ TEST(readme, a_course_with_reviews_and_its_corrections_run_as_printed) {
             EXPECT_THAT(result.output, HasSubstr("group-07"));
         }
     }
-    // The table and the next step have the form that README shows.
+    // The table and the next step have the form that the guide shows.
     const std::vector<std::string> shown = lines_in(blocks[1]), had = lines_in(status);
     std::vector<std::vector<std::string>> lines;
     for (const std::string& line : had) lines.push_back(words_in(line));
@@ -229,5 +229,5 @@ TEST(readme, a_course_with_reviews_and_its_corrections_run_as_printed) {
     EXPECT_GE(corrections, 7);
 }
 
-}  // namespace test_readme
+}  // namespace test_instructor_guides
 }  // namespace dynlab::test

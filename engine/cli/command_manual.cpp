@@ -1,0 +1,34 @@
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "cli/commands.h"
+#include "platform/terminal/activity_line.h"
+#include "workflow/manual/make_manual.h"
+
+namespace dynlab::inline cli {
+
+void add_manual(CLI::App& app, Action& action) {
+    auto request = std::make_shared<ManualRequest>();
+    auto timings = std::make_shared<bool>(false);
+    CLI::App* command = app.add_subcommand("manual",
+                                           "Make a site of lessons, guides, functions and methods, to be read "
+                                           "without a network");
+    command->add_option("DIR", request->folder, "A new or empty folder, or an older manual")->required();
+    command->add_flag("--timings", *timings, "Say how long each step took");
+    command->footer("Examples:  dynlab manual site     xdg-open site/index.html");
+    command->callback([request, timings, &action] {
+        action = [request, timings]() -> int {
+            ActivityLine activity;
+            request->step = [&activity](const std::string& step) { activity.begin_step(step); };
+            const ManualResult made = make_manual(*request);
+            for (const auto& [step, seconds] : made.timings)
+                if (*timings) std::cout << fmt::format("{:6.2f} s  {}\n", seconds, step);
+            const auto first = std::filesystem::absolute(request->folder / "index.html").lexically_normal();
+            std::cout << fmt::format("{}\n{} pages, and manual.pdf\n", first.string(), made.pages);
+            return kDone;
+        };
+    });
+}
+
+}  // namespace dynlab::inline cli

@@ -1,0 +1,82 @@
+#include "workflow/manual/manual_folder.h"
+
+#include <fmt/format.h>
+
+#include <set>
+
+#include "documents/text_lines.h"
+#include "platform/atomic_file.h"
+#include "platform/error.h"
+#include "platform/hash.h"
+
+namespace dynlab::inline workflow {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kList = "manual-files.txt";
+
+/// Names and the hashes that a manual's files may have: two while one is written over another.
+using WrittenBefore = std::map<std::string, std::set<std::string>>;
+
+/// What an older manual wrote. Names that lead out of the folder are none of a manual's.
+WrittenBefore written_before(const fs::path& folder) {
+    WrittenBefore written;
+    if (!fs::is_regular_file(folder / kList)) return written;
+    for (const std::string& line : lines_of(read_file(folder / kList))) {
+        const std::size_t space = line.find("  ");
+        if (space == std::string::npos) continue;
+        const fs::path name = line.substr(space + 2);
+        const bool inside = name.is_relative() && name.lexically_normal() == name && *name.begin() != "..";
+        if (inside) written[name.string()].insert(line.substr(0, space));
+    }
+    return written;
+}
+
+[[noreturn]] void refuse(const fs::path& folder, const std::string& why) {
+    throw EnvironmentError(
+        fmt::format("{}: {}; give a new or an empty folder, nothing was changed", folder.string(), why));
+}
+
+/// A file in the way that is not as the manual of before wrote it.
+void check_file(const fs::path& folder, const std::string& name, const WrittenBefore& before) {
+    const fs::path file = folder / name;
+    if (!fs::exists(fs::symlink_status(file))) return;
+    const auto known = before.find(name);
+    if (known == before.end()) refuse(folder, "it has a file " + name + " that no manual wrote");
+    if (!fs::is_regular_file(fs::symlink_status(file)) || !known->second.count(sha256_of_file(file)))
+        refuse(folder, name + " was changed since the manual was made");
+}
+
+}  // namespace
+
+void check_manual_folder(const fs::path& folder) {
+    if (!fs::exists(fs::symlink_status(folder))) return;
+    if (!fs::is_directory(folder)) refuse(folder, "it is a file");
+    if (fs::is_empty(folder)) return;
+    const auto before = written_before(folder);
+    if (before.empty()) refuse(folder, "it holds other things than a manual");
+    for (const auto& [name, hashes] : before) check_file(folder, name, before);
+}
+
+void write_manual_folder(const fs::path& folder, const ManualFiles& files) {
+    check_manual_folder(folder);
+    const WrittenBefore before = written_before(folder);
+    std::string list;
+    for (const auto& [name, content] : files) {
+        check_file(folder, name, before);
+        list += sha256_of(content) + "  " + name + "\n";
+    }
+    // The list first holds both, so that a run that is ended half way leaves a manual, too.
+    std::string both = list;
+    for (const auto& [name, hashes] : before)
+        for (const std::string& hash : hashes) both += hash + "  " + name + "\n";
+    for (const auto& [name, content] : files) fs::create_directories((folder / name).parent_path());
+    write_file_atomically(folder / kList, both);
+    for (const auto& [name, content] : files) write_file_atomically(folder / name, content);
+    for (const auto& [name, hashes] : before)
+        if (!files.count(name)) fs::remove(folder / name);
+    write_file_atomically(folder / kList, list);
+}
+
+}  // namespace dynlab::inline workflow
