@@ -40,6 +40,7 @@ purpose_text() {
     run) echo "to draw figures, make documents and keep strangers' scripts apart" ;;
     test) echo "to test it" ;;
     fuzz) echo "to feed it mutated inputs" ;;
+    package) echo "to make a package of it" ;;
     *) echo "for its $1" ;;
   esac
 }

@@ -34,7 +34,7 @@ void add_app(CLI::App& app, Action& action) {
     CLI::App* command = app.add_subcommand(
         "app",
         "Look at a record, prepare it, find models and compare them in the browser; every click is a line of a script");
-    command->add_option("SUBJECT", words->options.subject,
+    command->add_option("DATA|LESSON|FILE.lua", words->options.subject,
                         "A data file, a data set, a lesson (its record), or a script; none: an empty session");
     command->add_option("--port", words->options.port, "The port of the page's address (default: any free one)")
         ->check(CLI::Range(1, 65535));

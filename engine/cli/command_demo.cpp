@@ -112,7 +112,7 @@ int menu() {
 void add_demo(CLI::App& app, Action& action) {
     auto words = std::make_shared<DemoArguments>();
     CLI::App* command = app.add_subcommand("demo", "Show what can be done: short guided demonstrations");
-    auto* name = command->add_option("NAME", words->name, "The demonstration; without it a menu on a terminal");
+    auto* name = command->add_option("DEMO", words->name, "The demonstration; without it a menu on a terminal");
     command->add_flag("--list", words->list, "List the demonstrations, name and one line each")->excludes(name);
     command->footer(
         "On a terminal each page waits for Enter, and q goes back. Figures are saved in NAME_out and their paths "

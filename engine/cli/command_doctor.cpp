@@ -6,6 +6,7 @@
 #include "app/page/page_routes.h"
 #include "cli/commands.h"
 #include "data_io/dataset_index.h"
+#include "numerics/linalg/processor_level.h"
 #include "platform/box.h"
 #include "platform/cache.h"
 #include "platform/child_process.h"
@@ -91,6 +92,7 @@ int examine() {
     show("lessons", std::to_string(lessons().size()), !lessons().empty());
     missing.merge(check_data());
     check_isolation();
+    show("inner loops", processor_level() + std::string(" (instructions of the processor that they use)"), true);
     show("editor of pages", has_editor() ? "CodeMirror" : "a plain field of text (libjs-codemirror has more)", true);
     show("caches", Cache().root().string() + " (safe to delete)", true);
     if (missing.empty()) {

@@ -15,7 +15,7 @@ void add_help(CLI::App& app, Action& action) {
     auto sheet = std::make_shared<std::string>();
     CLI::App* command = app.add_subcommand("help", "What a function of the scripts does, with an example");
     CLI::Option* page = command->add_option(
-        "NAME", *words_asked,
+        "PAGE", *words_asked,
         "A function (tf, lsim, ...), a method (iddata.split), a word of MATLAB or Lua, or a "
         "subject: guide-first-hour, lua, matlab, checks, names, review_marks; without it the list of all");
     CLI::Option* search =

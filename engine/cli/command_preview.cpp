@@ -33,7 +33,7 @@ void add_preview(CLI::App& app, Action& action) {
     CLI::App* command =
         app.add_subcommand("preview", "Show a document in the browser; the page follows every change of its files");
     command
-        ->add_option("DOCUMENT", words->options.document,
+        ->add_option("LESSON|FOLDER|FILE.lua", words->options.document,
                      "A script, a folder with analysis.lua and report.md, or a lesson")
         ->required();
     command->add_option("--port", words->options.port, "The port of the page's address (default: any free one)")

@@ -37,6 +37,8 @@ void add_similar(CLI::App& app, Action& action);
 void add_verify(CLI::App& app, Action& action);
 void add_course(CLI::App& app, Action& action);
 void add_boxed(CLI::App& app, Action& action);
+void add_complete(CLI::App& app, Action& action);
+void add_man_pages(CLI::App& app, Action& action);
 
 /// What `dynlab` without a command does: the prompt on a terminal, statements from a pipe or file otherwise.
 /// After running a script, unless `script` is empty, whose variables stay.

@@ -83,6 +83,12 @@ fs::path Box::add_writable(const fs::path& outside, const std::string& inside) {
     return mount(outside, inside, true);
 }
 
+fs::path Box::add_program(const fs::path& program) {
+    // It looks for its own libraries in ../lib/dynlab.
+    if (const auto libraries = library_folder_of(program)) add(*libraries, "/box/lib/dynlab");
+    return add(program, "/box/bin/dynlab");
+}
+
 void Box::add_document_programs() {
     for (const char* folder : {"/etc/alternatives", "/etc/fonts", "/etc/texmf", "/var/lib/texmf",
                                "/var/cache/fontconfig", "/etc/papersize", "/etc/localtime"})

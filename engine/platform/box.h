@@ -34,6 +34,8 @@ class Box {
     /// The same for a folder that the work may write into.
     std::filesystem::path add_writable(const std::filesystem::path& outside, const std::string& inside);
     void set_environment(const std::string& name, const std::string& value) { environment_.emplace_back(name, value); }
+    /// A program of dynlab's with the libraries of its own that it may have; returns its place.
+    std::filesystem::path add_program(const std::filesystem::path& program);
     /// The TeX, font and alternatives settings of this machine, for pandoc, LaTeX and gnuplot.
     void add_document_programs();
 
@@ -43,7 +45,8 @@ class Box {
         std::uint64_t scratch_bytes = 128ull << 20;  ///< of /tmp at level kFull
         std::optional<std::uint64_t> file_bytes;     ///< of the largest file written; SIGXFSZ ends who writes more
     };
-    /// `command` names this program (its place comes from add) or one in /usr/bin. `folder` is a place in the box.
+    /// `command` names this program (its place comes from add_program) or one in /usr/bin. `folder` is a place in the
+    /// box.
     ChildResult run(const std::vector<std::string>& command, const std::filesystem::path& folder,
                     const std::string& input, const Limits& limits) const;
 

@@ -1,5 +1,9 @@
 #include "platform/program_identity.h"
 
+#include <link.h>
+
+#include <string_view>
+
 namespace dynlab::inline platform {
 
 namespace fs = std::filesystem;
@@ -13,9 +17,25 @@ std::string file_stamp(const fs::path& file) {
     return missing ? std::string() : real.string() + " " + std::to_string(size) + " " + std::to_string(date);
 }
 
+namespace {
+
+/// Adds the stamp of a loaded library, where it is the program's own: one for each level of processors.
+int add_library(dl_phdr_info* library, std::size_t, void* stamps) {
+    const std::string_view path = library->dlpi_name;
+    if (path.substr(path.rfind('/') + 1) == "libdynlab_numerics.so")
+        *static_cast<std::string*>(stamps) += "\n" + file_stamp(path);
+    return 0;
+}
+
+}  // namespace
+
 const std::string& program_identity() {
-    static const std::string stamp = file_stamp("/proc/self/exe");
-    return stamp;
+    static const std::string stamps = [] {
+        std::string program = file_stamp("/proc/self/exe");
+        ::dl_iterate_phdr(add_library, &program);
+        return program;
+    }();
+    return stamps;
 }
 
 }  // namespace dynlab::inline platform

@@ -41,6 +41,11 @@ std::optional<fs::path> find_program(const std::string& name) {
     return std::nullopt;
 }
 
+std::optional<fs::path> library_folder_of(const fs::path& program) {
+    const fs::path folder = program.parent_path().parent_path() / "lib/dynlab";
+    return is_folder(folder) ? std::optional(folder) : std::nullopt;
+}
+
 fs::path shared_folder_of(const fs::path& program) {
     const fs::path installed = program.parent_path().parent_path() / "share/dynlab";
     if (is_folder(installed / "data")) return installed;

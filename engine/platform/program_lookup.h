@@ -11,6 +11,9 @@ std::optional<std::filesystem::path> find_program(const std::string& name);  ///
 /// The file of the program that runs.
 std::filesystem::path running_program();
 
+/// The folder of a program's own libraries, <prefix>/lib/dynlab beside it; those of portable builds have one.
+std::optional<std::filesystem::path> library_folder_of(const std::filesystem::path& program);
+
 /// Folder with data/, lessons/ and report_templates/: $DYNLAB_HOME, else <prefix>/share/dynlab beside the
 /// running program, else the source tree that holds its build folder. Throws EnvironmentError that lists the
 /// places tried.

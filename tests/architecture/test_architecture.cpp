@@ -156,6 +156,29 @@ TEST(architecture, numerics_is_pure) {
     EXPECT_THAT(offences, IsEmpty());
 }
 
+// A portable build compiles numerics for several levels of processors, and all else for the lowest: a header that looks
+// different to each must not be read elsewhere.
+TEST(architecture, headers_that_depend_on_the_processor_are_for_numerics_alone) {
+    std::set<std::string> dependent;
+    for (bool grows = true; grows;) {
+        grows = false;
+        for (const fs::path& file : files_below(kRoot / "engine/numerics", {".h"})) {
+            const std::string text = text_of(file);
+            bool depends = text.find("defined(__AVX") != std::string::npos;
+            for (const std::string& included : matches(text, "#include \"([^\"]+)\""))
+                depends = depends || dependent.contains(included);
+            if (depends && dependent.insert(fs::relative(file, kRoot / "engine").string()).second) grows = true;
+        }
+    }
+    ASSERT_GE(dependent.size(), 2u);
+    std::vector<std::string> offences;
+    for (const fs::path& file : sources_below(kRoot / "engine"))
+        for (const std::string& included : matches(text_of(file), "#include \"([^\"]+)\""))
+            if (dependent.contains(included) && file.string().find("/engine/numerics/") == std::string::npos)
+                offences.push_back(place_of(file) + " includes " + included);
+    EXPECT_THAT(offences, IsEmpty());
+}
+
 // Two definitions of one function in one namespace: the linker takes either, and tells nobody.
 TEST(architecture, a_function_is_declared_in_one_header) {
     std::map<std::string, fs::path> headers;

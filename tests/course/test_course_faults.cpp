@@ -12,10 +12,10 @@ namespace test_course_faults {
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 
-// Runs $1 in a copy of the course k, with the machine failing it as $2 says (kill, full) at the first, fourth, seventh ...
-// change of a file (at every one with DYNLAB_EVERY_PLACE=1) until it comes to its end; each time $3 is asked whether all is well, the command is repeated
-// without failure, and $4 is asked. `course` is dynlab course for the copy. Threads are left out: one core, so that the
-// order of the changes is the same each time.
+// Runs $1 in a copy of the course k, with the machine failing it as $2 says (kill, full) at the first, fourth, seventh
+// ... change of a file (at every one with DYNLAB_EVERY_PLACE=1) until it comes to its end; each time $3 is asked
+// whether all is well, the command is repeated without failure, and $4 is asked. `course` is dynlab course for the
+// copy. Threads are left out: one core, so that the order of the changes is the same each time.
 constexpr const char* kTryAll = R"(
 course() { taskset -c 0 $DYNLAB course --course try "$@"; }
 command=$1 fault=$2 between=$3 after=$4

@@ -49,6 +49,23 @@ std::string figures(int drawn, int recalled) {
     return " " + std::to_string(drawn) + "  figures drawn, " + std::to_string(recalled) + " recalled\n";
 }
 
+// Of a portable build, the loader takes the library for this processor; another one is another program. Any library
+// under its name stands for that here.
+TEST_F(caches, another_variant_of_the_programs_library_recalls_nothing) {
+    bench_.write("a.lua", kHeader + kStudy);
+    const auto weave_with = [&](const std::string& environment) {
+        return bench_.shell(environment + " $DYNLAB weave a.lua -o a.md --timings").output;
+    };
+    EXPECT_THAT(weave_with(""), HasSubstr(calls(1, 0)));
+    ASSERT_EQ(
+        bench_.shell("rm a.md; cp $(ldconfig -p | sed -n 's/.*libz.so.1 .*=> //p' | head -n 1) libdynlab_numerics.so")
+            .exit_code,
+        0);
+    EXPECT_THAT(weave_with("LD_PRELOAD=$PWD/libdynlab_numerics.so"), HasSubstr(calls(1, 0)));
+    ASSERT_EQ(bench_.shell("rm a.md").exit_code, 0);
+    EXPECT_THAT(weave_with("LD_PRELOAD=$PWD/libdynlab_numerics.so"), HasSubstr("recall the run"));
+}
+
 TEST_F(caches, a_changed_late_cell_computes_and_draws_nothing_else) {
     EXPECT_THAT(weave(kStudy + kSearch + kLate), AllOf(HasSubstr(calls(3, 0)), HasSubstr(figures(3, 0))));
     const std::string changed = kStudy + kSearch + "-- %% id=late\nplot({1, 2}, {3, 5})\nprint('later')\n";

@@ -123,7 +123,7 @@ class FolderCheck {
         box.add(shared_folder() / "report_templates", "/box/home/report_templates");
         box.set_environment("DYNLAB_HOME", home.string());
         const fs::path inside = box.add(copy(), kInBox), made = box.add_writable(out(), "/box/made");
-        const fs::path program = box.add(program_, "/box/dynlab");
+        const fs::path program = box.add_program(program_);
         Box::Limits most;
         most.timeout = limits_.time;
         most.output_bytes = kMostCheckOutput;

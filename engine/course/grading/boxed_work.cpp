@@ -35,7 +35,7 @@ std::filesystem::path program_for(const std::string& work, const std::filesystem
 BoxedResult<std::string> run_boxed_bytes(Box& box, const std::filesystem::path& program, const std::string& work,
                                          const std::string& job, std::chrono::milliseconds timeout,
                                          std::uint64_t output_bytes) {
-    const std::filesystem::path inside = box.add(program_for(work, program), "/box/dynlab");
+    const std::filesystem::path inside = box.add_program(program_for(work, program));
     Box::Limits limits;
     limits.timeout = timeout;
     limits.output_bytes = output_bytes;

@@ -113,7 +113,7 @@ class CopyingAnonymously {
         box.set_environment("DYNLAB_HOME", home.string());
         const fs::path inside = box.add(folder, "/box/submission");
         const fs::path out = box.add_writable(report().parent_path(), "/box/made");
-        const fs::path program = box.add(setup_.program, "/box/dynlab");
+        const fs::path program = box.add_program(setup_.program);
         Box::Limits limits;
         limits.timeout = setup_.report_time;
         limits.file_bytes = kLargestFile;

@@ -28,6 +28,7 @@ prefix=${PREFIX:-/usr/local}
 libraries=${LIBRARIES:-/usr/lib/$(uname -m)-linux-gnu}
 cd "$(dirname "${BASH_SOURCE[0]}")"
 install -D -m 755 -t "$prefix/bin" program/*
+if [ -d own ]; then mkdir -p "$prefix/lib/dynlab" && cp -r own/. "$prefix/lib/dynlab"; fi
 mkdir -p "$prefix/share/dynlab"
 cp -r share/. "$prefix/share/dynlab"
 known=$(ldconfig -p || true)
@@ -81,7 +82,8 @@ bool of_the_c_library(const std::string& name) {
     return false;
 }
 
-/// Shared libraries that a program or library is linked with, and where they are: the lines "NAME => PATH (...)".
+/// Shared libraries of others that a program or library is linked with, and where they are: the lines "NAME => PATH
+/// (...)".
 std::map<std::string, fs::path> libraries_of(const fs::path& program) {
     ChildOptions ldd;
     ldd.command = {"ldd", program.string()};
@@ -89,8 +91,8 @@ std::map<std::string, fs::path> libraries_of(const fs::path& program) {
     for (const std::string& line : lines_of(run_child(ldd, "libc-bin").output)) {
         std::istringstream words(line);
         std::string name, arrow, path;
-        if (words >> name >> arrow >> path && arrow == "=>" && fs::exists(path) && !of_the_c_library(name))
-            found[name] = path;
+        const bool is_there = words >> name >> arrow >> path && arrow == "=>" && fs::exists(path);
+        if (is_there && !of_the_c_library(name) && !name.starts_with("libdynlab_")) found[name] = path;
     }
     return found;
 }
@@ -123,6 +125,7 @@ std::uintmax_t write_autograder(const AutograderRequest& request, const fs::path
     const fs::path small = program_for(RunJob::kWork, request.program);  // its libraries are some of dynlab's
     if (small != request.program) contents["program/" + small.filename().string()] = read_file(small);
     add_libraries(request.program, contents);
+    if (const auto own = library_folder_of(request.program)) add_folder(*own, "own", contents);
     for (const char* name : {"data", "report_templates"})
         add_folder(shared_folder() / name, std::string("share/") + name, contents);
     add_folder(request.lesson.folder, "share/lessons/" + request.lesson.slug, contents);

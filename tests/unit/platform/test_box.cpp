@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "platform/atomic_file.h"
+#include "platform/program_lookup.h"
 #include "platform/temporary_folder.h"
 
 namespace dynlab::test {
@@ -36,6 +37,23 @@ TEST_F(full_box, holds_nothing_but_what_was_put_in) {
     EXPECT_NE(shell(box_, "echo x > /usr/never").exit_code, 0);
     EXPECT_EQ(shell(box_, "ls -A /tmp; pwd").output, "/tmp\n");
     EXPECT_EQ(shell(box_, "env | grep -c HOME=").output, "1\n");
+}
+
+// oracle: a script that lists what lies beside it, inside and outside
+TEST(box, a_program_finds_its_own_libraries_beside_it) {
+    const TemporaryFolder prefix;
+    for (const char* folder : {"bin", "lib/dynlab"}) std::filesystem::create_directories(prefix.path() / folder);
+    write_file_atomically(prefix.path() / "bin/tool", "#!/bin/sh\nls \"$(dirname \"$0\")/../lib/dynlab\"\n");
+    std::filesystem::permissions(prefix.path() / "bin/tool", std::filesystem::perms(0755));
+    write_file_atomically(prefix.path() / "lib/dynlab/one.so", "");
+    EXPECT_EQ(library_folder_of(prefix.path() / "bin/tool"), prefix.path() / "lib/dynlab");
+    EXPECT_FALSE(library_folder_of(prefix.path() / "lib/dynlab/one.so"));
+    for (const Isolation level : {Isolation::kFull, Isolation::kProcess}) {
+        if (obstacle_to(level)) continue;
+        Box box(level);
+        const ChildResult run = box.run({box.add_program(prefix.path() / "bin/tool").string()}, {}, "", {});
+        EXPECT_EQ(run.output, "one.so\n") << run.error_output;
+    }
 }
 
 // oracle: what the kernel says of a process inside, and what it lets it do
