@@ -15,7 +15,7 @@ void add_help(CLI::App& app, Action& action) {
     CLI::Option* page = command->add_option(
         "NAME", *name,
         "A function (tf, lsim, ...), a method (iddata.split), a word of MATLAB or Lua, or a "
-        "subject: lua, matlab, guide-report, checks, names, review_marks; without it the list of all");
+        "subject: lua, matlab, guide-report, guide-notebook, checks, names, review_marks; without it the list of all");
     CLI::Option* search =
         command->add_option("--search", *word, "List the pages that speak of it")->type_name("WORD")->excludes(page);
     command->add_option("--sheet", *sheet, "Write all functions and MATLAB's phrases on two pages (.pdf)")
