@@ -8,9 +8,11 @@
 #include "course/findings/french_sentences.h"
 #include "course/hand_ins/work_language.h"
 #include "documents/text_lines.h"
+#include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/program_lookup.h"
 #include "platform/temporary_folder.h"
+#include "workflow/notebooks/notebook.h"
 #include "workflow/script_folder.h"
 
 namespace dynlab::inline cli {
@@ -39,21 +41,25 @@ CheckResult check_script(const fs::path& script, const CheckOptions& wishes) {
     CheckResult result = check_folder(folder.path(), running_program(), wishes);
     result.subject = script.string();
     const std::string name = script.filename().string(), pdf = fs::path(name).replace_extension(".pdf").string();
+    const std::string source = is_notebook(script) ? read_file(folder.path() / "analysis.lua") : "";
     for (Finding& finding : result.findings)
-        for (std::string* text : {&finding.place, &finding.what, &finding.remedy})
-            *text = replaced(replaced(replaced(*text, "analysis.lua", name), "report.pdf", pdf), "FOLDER", name);
+        for (std::string* text : {&finding.place, &finding.what, &finding.remedy}) {
+            const std::string told = source.empty() ? replaced(*text, "analysis.lua", name)
+                                                    : with_places_in_notebook(*text, "analysis.lua", name, source);
+            *text = replaced(replaced(told, "report.pdf", pdf), "FOLDER", name);
+        }
     return result;
 }
 
 bool is_script(const fs::path& subject) {
-    return fs::is_regular_file(subject) && subject.extension() == ".lua";
+    return fs::is_regular_file(subject) && (subject.extension() == ".lua" || is_notebook(subject));
 }
 
 /// Findings of French work are told in French.
 SentenceCatalogue sentences_for(const fs::path& subject, const CheckResult& result) {
     std::string language = result.language;
     if (fs::is_directory(subject)) language = language_of_work(subject);
-    if (is_script(subject)) language = read_percent_script(subject).header.language;
+    if (is_script(subject)) language = read_script_or_notebook(subject).header.language;
     return language == "fr" ? french_sentences(result.lesson) : SentenceCatalogue();
 }
 
@@ -91,8 +97,8 @@ void add_check(CLI::App& app, Action& action) {
     CLI::App* command =
         app.add_subcommand("check", "Look at a report as an instructor does first: what must be mended");
     command
-        ->add_option("FOLDER|FILE.lua|FILE.pdf", words->subject,
-                     "A folder made by dynlab new, a script that stands alone, or a PDF from anywhere")
+        ->add_option("FOLDER|FILE.lua|FILE.ipynb|FILE.pdf", words->subject,
+                     "A folder made by dynlab new, a script or notebook that stands alone, or a PDF from anywhere")
         ->required();
     command
         ->add_option("--template", words->template_name, "Hold it against this template, such as lab_report or slides")

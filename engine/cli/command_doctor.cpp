@@ -3,6 +3,7 @@
 #include <iostream>
 #include <set>
 
+#include "app/kernel/kernel_spec.h"
 #include "app/page/page_routes.h"
 #include "cli/commands.h"
 #include "data_io/dataset_index.h"
@@ -85,6 +86,19 @@ std::set<std::string> check_data() {
     return missing;
 }
 
+/// Whether Jupyter would start this program.
+void check_kernel() {
+    const auto kernel = installed_kernel();
+    std::error_code gone;
+    const bool there = kernel && std::filesystem::exists(*kernel, gone);
+    const std::string state = !kernel  ? "not installed (dynlab kernel install, for notebooks)"
+                              : !there ? kernel->string() + " is gone: dynlab kernel install"
+                              : std::filesystem::equivalent(*kernel, running_program(), gone)
+                                  ? "installed"
+                                  : "installed, of another program: " + kernel->string();
+    show("Jupyter kernel", state, !kernel || there);
+}
+
 int examine() {
     std::set<std::string> missing = check_programs();
     missing.merge(check_latex());
@@ -94,6 +108,7 @@ int examine() {
     check_isolation();
     show("inner loops", processor_level() + std::string(" (instructions of the processor that they use)"), true);
     show("editor of pages", has_editor() ? "CodeMirror" : "a plain field of text (libjs-codemirror has more)", true);
+    check_kernel();
     show("caches", Cache().root().string() + " (safe to delete)", true);
     if (missing.empty()) {
         std::cout << "\nEverything is in place.\n";

@@ -52,7 +52,7 @@ void tell_of_report(const fs::path& folder, const std::string& subject) {
                             entry.path().filename().string(), subject));
     }
     bool older = false;
-    for (const char* source : {"report.md", "analysis.lua"})
+    for (const char* source : {"report.md", "analysis.lua", "analysis.ipynb"})
         older = older || (made && fs::exists(folder / source) && fs::last_write_time(folder / source) > *made);
     if (!made || older)
         std::cerr << terminal_text(fmt::format(

@@ -16,6 +16,7 @@
 #include "scripting/memoized_calls/call_cache.h"
 #include "workflow/error_text.h"
 #include "workflow/make_report.h"
+#include "workflow/notebooks/notebook.h"
 #include "workflow/run_script.h"
 
 namespace dynlab::inline cli {
@@ -89,7 +90,7 @@ int run(const RunArguments& words) {
     const bool from_file = !words.file.empty();
     RunRequest request;
     const fs::path file = fs::is_directory(words.file) ? fs::path(words.file) / "analysis.lua" : fs::path(words.file);
-    request.script = from_file ? read_percent_script(file) : parse_percent_script(words.code, "command line");
+    request.script = from_file ? read_script_or_notebook(file) : parse_percent_script(words.code, "command line");
     request.seed = words.seed.value();
     request.slider_values = words.sliders.values();
     const std::string stem = from_file ? file.stem().string() : "dynlab";
@@ -123,7 +124,7 @@ int run(const RunArguments& words) {
 void add_run(CLI::App& app, Action& action) {
     auto words = std::make_shared<RunArguments>();
     CLI::App* command = app.add_subcommand("run", "Run a Lua script, or code given on the command line");
-    auto* file = command->add_option("FILE", words->file, "The script, or a folder with an analysis.lua");
+    auto* file = command->add_option("FILE", words->file, "The script or notebook, or a folder with an analysis.lua");
     auto* code = command->add_option("-e", words->code, "Code to run instead of a file")->type_name("CODE");
     file->excludes(code);
     command->add_flag("-i,--interactive", words->interactive, "Open the prompt afterwards, with the script's variables")

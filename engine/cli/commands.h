@@ -26,6 +26,8 @@ void add_demo(CLI::App& app, Action& action);
 void add_lessons(CLI::App& app, Action& action);
 void add_help(CLI::App& app, Action& action);
 void add_manual(CLI::App& app, Action& action);
+void add_notebook(CLI::App& app, Action& action);
+void add_kernel(CLI::App& app, Action& action);
 void add_doctor(CLI::App& app, Action& action);
 void add_pack(CLI::App& app, Action& action);
 void add_bundle(CLI::App& app, Action& action);

@@ -8,6 +8,7 @@
 #include "documents/percent_script.h"
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"
+#include "workflow/notebooks/notebook.h"
 
 namespace dynlab::inline workflow {
 namespace {
@@ -35,9 +36,14 @@ std::set<std::string> files_named_in(const std::string& source, const fs::path& 
 }  // namespace
 
 void make_script_folder(const fs::path& script, const fs::path& folder) {
-    const PercentScript read = read_percent_script(script);
+    const PercentScript read = read_script_or_notebook(script);
     const fs::path beside = fs::absolute(script).parent_path();
-    copy_with_time(script, folder / "analysis.lua");
+    if (is_notebook(script)) {
+        write_file_atomically(folder / "analysis.lua", read.source);
+        fs::last_write_time(folder / "analysis.lua", fs::last_write_time(script));
+    } else {
+        copy_with_time(script, folder / "analysis.lua");
+    }
     const std::string title = read.header.title.empty() ? script.stem().string() : read.header.title;
     const fs::path text = folder / "report.md";
     write_file_atomically(text, fmt::format("---\ntitle: '{}'\nlang: {}\n---\n\n::: {{.cells}}\n:::\n",

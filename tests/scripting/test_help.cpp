@@ -66,6 +66,12 @@ TEST(help, guide_from_contsid_runs_what_its_table_says) {
     EXPECT_EQ(rows, 13);
 }
 
+TEST(help, guide_to_notebooks_shows_what_it_says) {
+    const std::vector<std::string> blocks = code_blocks(std::string(find_help_page("guide-notebook")->text));
+    ASSERT_EQ(blocks.size(), 1u);
+    EXPECT_THAT(printed(blocks[0]), HasSubstr("4.66"));  // (1 + 4 + 9)/3
+}
+
 TEST(help, fits_the_width_and_shows_no_marks) {
     const auto all = functions();
     for (const HelpPage& page : help_pages()) {

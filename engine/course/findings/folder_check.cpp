@@ -12,6 +12,7 @@
 #include "course/grading/feedback.h"
 #include "course/grading/folder_copy.h"
 #include "course/grading/grading_rules.h"
+#include "course/hand_ins/notebooks.h"
 #include "data_io/dataset_index.h"
 #include "documents/error.h"
 #include "documents/percent_script.h"
@@ -24,6 +25,7 @@
 #include "platform/program_lookup.h"
 #include "platform/temporary_folder.h"
 #include "workflow/make_report.h"
+#include "workflow/notebooks/notebook.h"
 #include "workflow/specimen_record.h"
 
 namespace dynlab::inline course {
@@ -34,6 +36,7 @@ namespace fs = std::filesystem;
 constexpr int kMissingProgramCode = 3;  ///< dynlab's exit code when pandoc or the like is not installed
 constexpr std::uint64_t kMostCheckOutput = 16u << 20, kLargestMade = 200u << 20;
 constexpr std::size_t kLongestStart = 200;  ///< of a line, where a question's number is looked for
+constexpr const char *kOwnScript = "analysis.lua", *kOwnNotebook = "analysis.ipynb";
 constexpr char kInBox[] = "/box/submission";
 
 /// One folder's check: a clean copy, what runs in it, and what is found.
@@ -68,6 +71,7 @@ class FolderCheck {
         else if (handed_in)
             check_report(*handed_in, wishes);
         if (made && handed_in) compare_with(*handed_in);
+        if (of_notebook_) tell_in_cells();
         sort_findings(result_.findings);
         return std::move(result_);
     }
@@ -84,8 +88,9 @@ class FolderCheck {
     }
 
     bool has_its_files() {
-        for (const char* needed : {"analysis.lua", "report.md"}) {
+        for (const char* needed : {kOwnScript, "report.md"}) {
             if (fs::is_regular_file(fs::symlink_status(folder_ / needed))) continue;
+            if (needed == kOwnScript && fs::is_regular_file(fs::symlink_status(folder_ / kOwnNotebook))) continue;
             add("analysis-missing", Severity::kRule, needed, fmt::format("The folder has no file {}.", needed),
                 "Hand in the whole folder that dynlab new made, with analysis.lua and report.md directly in it.");
         }
@@ -98,12 +103,31 @@ class FolderCheck {
             add("link-left-out", Severity::kHint, name, "This is a link or not a regular file; it is not handed in.",
                 "Put the file itself there.");
         }
-        if (!outcome.too_large) return true;
+        if (!outcome.too_large) return scripts_made();
         add("folder-too-large", Severity::kRule, "",
             fmt::format("The folder is too large: at most {} files and {} MB are looked at.", limits_.files,
                         limits_.folder_bytes >> 20),
             "Take out what the report does not need.");
         return false;
+    }
+
+    /// Of a notebook that was handed in instead.
+    bool scripts_made() {
+        try {
+            of_notebook_ = !take_notebooks(copy()).empty();
+            return true;
+        } catch (const SubmissionError& error) {
+            add("analysis-fails", Severity::kRule, kOwnNotebook, error.what(), "Save it again in Jupyter.");
+            return false;
+        }
+    }
+
+    /// The cells of the notebook instead of lines that its author does not see.
+    void tell_in_cells() {
+        const std::string source = read_file(copy() / kOwnScript);
+        for (Finding& finding : result_.findings)
+            for (std::string* text : {&finding.place, &finding.what, &finding.remedy})
+                *text = with_places_in_notebook(*text, kOwnScript, kOwnNotebook, source);
     }
 
     std::optional<PercentScript> readable_script() {
@@ -352,8 +376,8 @@ class FolderCheck {
             return;
         }
         const auto written = fs::last_write_time(folder_ / name);
-        const bool outdated = written < fs::last_write_time(folder_ / "analysis.lua") ||
-                              written < fs::last_write_time(folder_ / "report.md");
+        const bool outdated =
+            written < fs::last_write_time(copy() / kOwnScript) || written < fs::last_write_time(copy() / "report.md");
         if (outdated) {
             add("pdf-outdated", Severity::kHint, name,
                 "The PDF is older than the analysis or the text it was made from.", make_again(name));
@@ -362,6 +386,7 @@ class FolderCheck {
         }
     }
 
+    bool of_notebook_ = false;
     fs::path folder_, program_;
     FolderLimits limits_;
     Isolation isolation_ = strongest_isolation();

@@ -6,6 +6,7 @@
 
 #include "course/grading/folder_copy.h"
 #include "course/grading/zip_file.h"
+#include "course/hand_ins/notebooks.h"
 #include "data_io/dataset_index.h"
 #include "data_io/values/json_values.h"
 #include "platform/atomic_file.h"
@@ -55,7 +56,8 @@ std::map<std::string, std::string> contents_of(const fs::path& folder) {
 }  // namespace
 
 Pack pack_folder(const fs::path& folder, const fs::path& file) {
-    if (!fs::is_regular_file(fs::symlink_status(folder / "analysis.lua")))
+    const auto has = [&](const char* name) { return fs::is_regular_file(fs::symlink_status(folder / name)); };
+    if (!has("analysis.lua") && !has("analysis.ipynb"))
         throw EnvironmentError(
             fmt::format("{} has no analysis.lua; pack the folder that dynlab new made", folder.string()));
     const TemporaryFolder copy;
@@ -63,6 +65,7 @@ Pack pack_folder(const fs::path& folder, const fs::path& file) {
     if (copied.too_large)
         throw EnvironmentError(fmt::format("{} is too large: at most {} files and {} MB are handed in", folder.string(),
                                            kMostFiles, kMostPackedBytes >> 20));
+    take_notebooks(copy.path());
     std::map<std::string, std::string> contents = contents_of(copy.path());
     std::erase_if(contents, [](const auto& entry) {
         return entry.first.ends_with(".zip") || entry.first == kManifest || entry.first.starts_with(kFiguresOfRuns);

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "course/grading/folder_copy.h"
+#include "course/hand_ins/notebooks.h"
 #include "course/hand_ins/owners.h"
 #include "course/hand_ins/work_language.h"
 #include "platform/text/foreign_text.h"
@@ -103,21 +104,30 @@ class Stager {
 
     StagedWork stage() {
         fill_root();
+        take_notebooks_in(root_);
         std::vector<FoundScript> found = scripts_in(root_, "");
         if (found.empty()) open_archives(root_, "", 1, found);
         if (found.empty()) throw SubmissionError(obstacle());
-        if (found.size() == 1) return {found.front().folder, ""};
+        if (found.size() == 1) return staged(found.front(), "");
         const std::optional<FoundScript> newest = newest_of(found);
         if (!newest)
             throw SubmissionError(fmt::format(
                 "There are several folders with an analysis.lua, and which is the newest cannot be told: {}. "
                 "Hand in one.",
                 listed_places(found)));
-        return {newest->folder,
-                fmt::format("of {}, \"{}\" was taken as the newest", listed_places(found), newest->shown)};
+        return staged(*newest,
+                      fmt::format("of {}, \"{}\" was taken as the newest", listed_places(found), newest->shown));
     }
 
   private:
+    StagedWork staged(const FoundScript& script, const std::string& remark) const {
+        return {script.folder, remark, "", of_notebooks_.contains(script.folder)};
+    }
+
+    void take_notebooks_in(const fs::path& folder) {
+        for (const fs::path& place : take_notebooks(folder)) of_notebooks_.insert(place);
+    }
+
     void fill_root() {
         if (submission_.archive) {
             unpack_submission(submission_.path, root_, level_, program_, limits_);
@@ -137,9 +147,11 @@ class Stager {
     }
 
     void copy_loose(const LooseFile& file) const {
-        static const std::regex of_platform(R"(^(?:.*_)?analysis(?:-\d+)?\.lua$)");
+        static const std::regex of_platform(R"(^(?:.*_)?analysis(?:-\d+)?(\.lua|\.ipynb)$)");
         if (fs::file_size(file.path) > limits_.bytes) too_large();
-        fs::path to = root_ / (std::regex_match(file.name, of_platform) ? kScript : file.name);
+        std::smatch parts;
+        fs::path to =
+            root_ / (std::regex_match(file.name, parts, of_platform) ? "analysis" + parts[1].str() : file.name);
         for (int i = 2; fs::exists(to); ++i) to = root_ / fmt::format("{} {}", i, file.name);
         fs::copy_file(file.path, to);
         fs::last_write_time(to, fs::last_write_time(file.path));
@@ -163,6 +175,7 @@ class Stager {
             const std::string name = shown + (shown.empty() ? "" : "/") + shown_place(file, folder);
             try {
                 unpack_submission(file, to, level_, program_, limits_);
+                take_notebooks_in(to);
             } catch (const SubmissionError& error) {
                 damage_ = fmt::format(" \"{}\": {}", name, error.what());
                 continue;
@@ -176,18 +189,21 @@ class Stager {
     /// What is there instead of a script.
     std::string obstacle() const {
         std::vector<std::string> near, others;
+        bool notebook = false;
         for (const auto& entry : fs::directory_iterator(to_))
             for (const fs::path& file : files_below(entry.path())) {
                 const std::string name = shown_place(file, entry.path()), lower = in_small_letters(name);
-                const bool script = lower.ends_with(".lua") || lower.find(".lua.") != std::string::npos;
+                if (lower.ends_with(".ipynb")) notebook = true;
+                const bool script =
+                    lower.ends_with(".lua") || lower.ends_with(".ipynb") || lower.find(".lua.") != std::string::npos;
                 (script ? near : others).push_back(fmt::format("\"{}\"", name));
             }
         std::sort(near.begin(), near.end());
         std::sort(others.begin(), others.end());
         if (near.empty() && others.empty()) return "It is empty: there is no analysis.lua in it.";
         if (!near.empty())
-            return fmt::format("There is no analysis.lua in it, but {}: hand it in under the name analysis.lua.{}",
-                               fmt::join(shortened_list(near), ", "), damage_);
+            return fmt::format("There is no analysis.lua in it, but {}: hand it in under the name analysis.{}.{}",
+                               fmt::join(shortened_list(near), ", "), notebook ? "ipynb" : "lua", damage_);
         return fmt::format("There is no analysis.lua in it, only {}{}; hand in the folder that dynlab new made.{}",
                            fmt::join(shortened_list(others), ", "), closed_kinds(others), damage_);
     }
@@ -212,7 +228,8 @@ class Stager {
     const fs::path& program_;
     SubmissionLimits limits_;
     int opened_ = 0;
-    std::string damage_;  ///< of the last archive that could not be opened
+    std::set<fs::path> of_notebooks_;  ///< folders whose script was a notebook
+    std::string damage_;               ///< of the last archive that could not be opened
 };
 
 }  // namespace

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 
+#include "course/hand_ins/notebooks.h"
+#include "platform/atomic_file.h"
 #include "platform/error.h"
+#include "workflow/notebooks/notebook.h"
 
 namespace dynlab::inline course {
 namespace {
@@ -63,7 +66,17 @@ void IncomingFiles::add(const fs::path& given) {
 
 void IncomingFiles::add_file(const fs::path& file, const std::string& source) {
     const std::string name = file.filename();
-    files_.push_back({file, name, source, sender_of(name), {}, given_ - 1});
+    if (!is_notebook(file)) {
+        files_.push_back({file, name, source, sender_of(name), {}, given_ - 1});
+        return;
+    }
+    try {  // a notebook is the script that it says
+        const fs::path script = scratch_.path() / fmt::format("notebook-{}.lua", ++unpacked_);
+        write_file_atomically(script, script_of_handed_in(file));
+        files_.push_back({script, fs::path(name).stem().string() + ".lua", source, sender_of(name), {}, given_ - 1});
+    } catch (const SubmissionError& error) {
+        left_out_.push_back(fmt::format("{}: {} It was left out", source, error.what()));
+    }
 }
 
 /// A file of a folder: links could lead to files that nobody handed in.

@@ -6,20 +6,13 @@
 
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"
+#include "platform/text/base64.h"
 #include "platform/text/small_letters.h"
 
 namespace dynlab::inline documents {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string base64(const std::string& bytes) {
-    std::string text(sodium_base64_ENCODED_LEN(bytes.size(), sodium_base64_VARIANT_ORIGINAL), '\0');
-    sodium_bin2base64(text.data(), text.size(), reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(),
-                      sodium_base64_VARIANT_ORIGINAL);
-    text.pop_back();  // the zero behind it
-    return text;
-}
 
 /// A script's name in a Content Security Policy.
 std::string policy_hash(const std::string& script) {

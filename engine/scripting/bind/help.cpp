@@ -1,9 +1,12 @@
 #include <array>
 
+#include "numerics/models/transfer_function_latex.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/figure_object.h"
+#include "scripting/objects/model.h"
 #include "scripting/objects/text_form.h"
 #include "scripting/runtime/help.h"
+#include "scripting/runtime/value_listener.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -25,6 +28,12 @@ int help(Call& call) {
     return 0;
 }
 
+/// The formula of a model with one channel; empty for other values.
+std::string formula_of(lua_State* L, int index) {
+    const Model* model = to_object<Model>(L, index);
+    return model != nullptr && model->single_channel() ? "$\\displaystyle " + to_latex(model->G) + "$" : "";
+}
+
 int show(Call& call) {
     lua_State* L = call.state();
     std::string line;
@@ -34,7 +43,10 @@ int show(Call& call) {
         else
             line += (line.empty() ? "" : "\t") + text_for_reading(L, i);
     }
-    if (!line.empty()) call.print_lines(line + '\n');
+    if (line.empty()) return 0;
+    const auto listener = service_or_default<ValueListener>(L);
+    if (listener.expect) listener.expect(call.count() == 1 ? formula_of(L, 1) : "");
+    call.print_lines(line + '\n');
     return 0;
 }
 

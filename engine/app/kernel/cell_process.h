@@ -1,0 +1,48 @@
+#pragma once
+#include <sys/types.h>
+
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "app/kernel/cell_messages.h"
+#include "app/live/channel.h"
+
+namespace dynlab::inline app {
+
+/// The cells of a notebook in a process of their own, so that one that ends its process takes nothing else with it: a
+/// new process stands ready then. One thread asks; interrupt() and stop() may be called by others.
+class CellProcess {
+  public:
+    CellProcess();   ///< to be made before the program has threads
+    ~CellProcess();  ///< ends it
+    CellProcess(const CellProcess&) = delete;
+    CellProcess& operator=(const CellProcess&) = delete;
+
+    using Listener = std::function<void(const CellNews&)>;
+    /// Has an order obeyed, and hands over what is told, the last of it "done". Text that is printed quickly comes in
+    /// larger pieces. Where the process ends instead, gives the sentence about it, and a new one has been started.
+    std::optional<std::string> ask(const CellOrder& order, const Listener& listener);
+
+    /// Stops the cell that runs, and no other: where none does, nothing happens. What is asked for between the order
+    /// and the cell's beginning is kept until then.
+    void interrupt();
+    void stop();  ///< ends the process for good
+
+  private:
+    void start();
+    std::optional<CellNews> next();
+    std::optional<CellNews> with_what_follows(CellNews printed);
+    void note_begun();
+
+    Channel keeper_;                ///< to the process that starts the others; it has no threads
+    Channel line_;                  ///< to the one that runs cells
+    std::optional<CellNews> held_;  ///< came behind printed text
+    std::string ended_;             ///< how the last process did
+    std::mutex mutex_;
+    pid_t process_ = -1;
+    bool running_ = false, begun_ = false, interrupt_waits_ = false, stopped_ = false;
+};
+
+}  // namespace dynlab::inline app

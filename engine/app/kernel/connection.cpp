@@ -1,0 +1,40 @@
+#include "app/kernel/connection.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "platform/error.h"
+#include "platform/text_file.h"
+
+namespace dynlab::inline app {
+
+std::string KernelConnection::address(int port) const {
+    return fmt::format("{}://{}{}{}", transport, ip, transport == "ipc" ? "-" : ":", port);
+}
+
+KernelConnection read_connection(const std::filesystem::path& file) {
+    using nlohmann::json;
+    const json told = json::parse(read_text(file), nullptr, false);
+    KernelConnection connection;
+    try {
+        connection.transport = told.value("transport", "tcp");
+        connection.ip = told.at("ip").get<std::string>();
+        connection.key = told.value("key", "");
+        for (const auto& [name, port] :
+             {std::pair{"shell_port", &KernelConnection::shell}, std::pair{"control_port", &KernelConnection::control},
+              std::pair{"stdin_port", &KernelConnection::stdin_}, std::pair{"iopub_port", &KernelConnection::iopub},
+              std::pair{"hb_port", &KernelConnection::heartbeat}})
+            connection.*port = told.at(name).get<int>();
+        const std::string scheme = told.value("signature_scheme", "hmac-sha256");
+        if (scheme != "hmac-sha256")
+            throw EnvironmentError(
+                fmt::format("{}: messages signed by {}, and dynlab's are by hmac-sha256", file.string(), scheme));
+    } catch (const json::exception&) {
+        throw EnvironmentError(fmt::format(
+            "{} is no connection file of Jupyter, which starts a kernel by itself: jupyter notebook", file.string()));
+    }
+    return connection;
+}
+
+}  // namespace dynlab::inline app

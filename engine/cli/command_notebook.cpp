@@ -1,0 +1,92 @@
+#include <iostream>
+
+#include "cli/commands.h"
+#include "figures/gnuplot_renderer.h"
+#include "platform/atomic_file.h"
+#include "platform/terminal/terminal_text.h"
+#include "platform/written_files.h"
+#include "scripting/memoized_calls/call_cache.h"
+#include "workflow/error_text.h"
+#include "workflow/notebooks/figure_bundle.h"
+#include "workflow/notebooks/notebook.h"
+#include "workflow/run_script.h"
+
+namespace dynlab::inline cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct NotebookArguments {
+    std::string file, output;
+    bool run = false, force = false;
+};
+
+void write(const NotebookArguments& words, const char* ending, const std::string& content) {
+    const fs::path file =
+        words.output.empty() ? fs::path(words.file).replace_extension(ending) : fs::path(words.output);
+    WrittenFiles written(state_file("written"),
+                         words.force ? WrittenFiles::Others::kReplaced : WrittenFiles::Others::kKept);
+    const fs::path folder = fs::absolute(file).parent_path();
+    if (fs::exists(file) && read_file(file) == content) {
+        std::cout << file.string() << " says the same already\n";
+        return;
+    }
+    written.take(fs::weakly_canonical(folder / file.filename()));
+    write_file_atomically(file, content);
+    std::cout << file.string() << '\n';
+}
+
+/// The notebook with what a run of the script prints and draws. Returns the exit code.
+int write_with_outputs(const NotebookArguments& words, const PercentScript& script) {
+    const Cache cache;
+    CallCache calls(cache);
+    WrittenFiles written(state_file("written"));
+    GnuplotRenderer renderer(&cache);
+    const fs::path folder = script.file.parent_path();
+    RunRequest request;
+    request.script = script;
+    request.out_folder = folder.empty() ? fs::path(".") : folder;
+    request.call_cache = &calls, request.written = &written;
+    const RunRecord record = run_script(request, renderer);
+    std::map<std::string, std::string> figures;
+    for (const auto& [name, figure] : record.figures)
+        figures[name] = figure_bundle(figure.figure, renderer, script.header.language == "fr");
+    write(words, ".ipynb", notebook_of(script, &record, figures));
+    if (!record.error) return kDone;
+    std::cerr << "dynlab: " << terminal_text(error_text(*record.error, script)) << '\n';
+    return kFailed;
+}
+
+int convert(const NotebookArguments& words) {
+    if (is_notebook(words.file)) {
+        const NotebookScript script = read_notebook(words.file);
+        parse_percent_script(script.source, words.file);  // throws where the cells do not make a script
+        for (const std::string& loss : script.losses) std::cerr << "dynlab: note: " << terminal_text(loss) << '\n';
+        write(words, ".lua", script.source);
+        return kDone;
+    }
+    const PercentScript script = read_percent_script(words.file);
+    if (words.run) return write_with_outputs(words, script);
+    write(words, ".ipynb", notebook_of(script));
+    return kDone;
+}
+
+}  // namespace
+
+void add_notebook(CLI::App& app, Action& action) {
+    auto words = std::make_shared<NotebookArguments>();
+    CLI::App* command =
+        app.add_subcommand("notebook", "Make a Jupyter notebook of a script, and a script of a notebook");
+    command->add_option("FILE.lua|FILE.ipynb", words->file, "A script, or a notebook in Lua")->required();
+    command->add_option("-o", words->output, "The file that is made (default: beside it, with the other ending)")
+        ->type_name("FILE");
+    command->add_flag("--run", words->run, "Run the script, and put what it prints and draws into the notebook");
+    command->add_flag("--force", words->force, "Replace a file that was changed since it was made, or is another's");
+    command->footer(
+        "A script becomes the same script again, byte for byte, where the notebook is not changed. Jupyter runs the\n"
+        "notebook by the kernel that dynlab kernel install makes known; dynlab help guide-notebook.\n"
+        "Examples:  dynlab notebook my-crane/analysis.lua     dynlab notebook analysis.ipynb");
+    command->callback([words, &action] { action = [words] { return convert(*words); }; });
+}
+
+}  // namespace dynlab::inline cli

@@ -1,0 +1,26 @@
+#include "workflow/notebooks/figure_bundle.h"
+
+#include <nlohmann/json.hpp>
+
+#include "figures/french_texts.h"
+#include "platform/atomic_file.h"
+#include "platform/temporary_folder.h"
+#include "platform/text/base64.h"
+
+namespace dynlab::inline workflow {
+
+std::string figure_bundle(const Figure& figure, GnuplotRenderer& renderer, bool french) {
+    const TemporaryFolder folder;
+    const Figure shown = french ? in_french(figure) : figure;
+    const auto svg = folder.path() / "figure.svg", png = folder.path() / "figure.png",
+               pdf = folder.path() / "figure.pdf";
+    for (const auto& file : {svg, png, pdf}) renderer.draw(shown, file, figure_format(file), french);
+    renderer.finish();
+    const nlohmann::json bundle = {{"image/svg+xml", read_file(svg)},
+                                   {"image/png", base64(read_file(png))},
+                                   {"application/pdf", base64(read_file(pdf))},
+                                   {"text/plain", figure.title.empty() ? "figure" : figure.title}};
+    return bundle.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+}  // namespace dynlab::inline workflow

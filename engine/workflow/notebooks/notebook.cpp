@@ -1,0 +1,331 @@
+#include "workflow/notebooks/notebook.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "documents/cell_marker.h"
+#include "documents/error.h"
+#include "documents/text_lines.h"
+#include "platform/atomic_file.h"
+#include "platform/text_file.h"
+
+namespace dynlab::inline workflow {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::uintmax_t kMostNotebookBytes = std::uintmax_t{64} << 20;
+constexpr const char* kOurs = "dynlab";  // what we keep in the metadata of a cell
+constexpr std::size_t kLongestId = 64;   // nbformat's
+
+/// A cell as both formats know it.
+struct CellText {
+    bool marked = true, text = false;
+    std::string options;  ///< of the marker: "id=q2 echo=false"
+    std::string source;   ///< as a notebook shows it: without comment signs, and without blank lines at its end
+};
+
+/// A cell's own lines in a script, its marker's among them.
+struct Segment {
+    std::string written;
+    int first_line = 1;
+};
+
+std::vector<Segment> segments_of(const std::string& source) {
+    std::vector<Segment> segments;
+    int number = 0;
+    for (const std::string_view line : lines_with_ends(source)) {
+        ++number;
+        if (segments.empty() || is_cell_marker(line)) segments.push_back({"", number});
+        segments.back().written += line;
+    }
+    if (segments.empty()) segments.emplace_back();
+    return segments;
+}
+
+std::string joined_lines(const std::vector<std::string>& lines) {
+    std::string text;
+    for (std::size_t i = 0; i < lines.size(); ++i) text += (i == 0 ? "" : "\n") + lines[i];
+    return text;
+}
+
+std::string without_blank_end(std::vector<std::string> lines) {
+    while (!lines.empty() && is_blank(lines.back())) lines.pop_back();
+    return joined_lines(lines);
+}
+
+std::string first_line_of(const std::string& text) {
+    return text.substr(0, text.find_first_of("\r\n"));
+}
+
+/// What the lines of one cell say.
+CellText read_cell(const std::string& written) {
+    std::vector<std::string> lines = lines_of(written);
+    CellText cell;
+    cell.marked = !lines.empty() && is_cell_marker(lines.front());
+    if (cell.marked) {
+        cell.text = is_text_cell_marker(lines.front());
+        cell.options = trimmed(cell_marker_options(lines.front()));
+        if (cell.text) cell.options = trimmed(cell.options.substr(std::string_view("[markdown]").size()));
+        lines.erase(lines.begin());
+    }
+    if (cell.text)
+        for (std::string& line : lines)
+            if (line.starts_with("--")) line = line.substr(line.starts_with("-- ") ? 3 : 2);
+    cell.source = without_blank_end(std::move(lines));
+    return cell;
+}
+
+/// A line of a cell must not begin another cell of the script.
+std::string script_line(const std::string& line, bool text) {
+    if (!text) return is_cell_marker(line) ? "-" + line : line;
+    const std::string commented = line.empty() ? "--" : "-- " + line;
+    return is_cell_marker(commented) ? "-- \\" + line.substr(line.find('%')) : commented;
+}
+
+/// The lines that a script has for a cell; a blank one parts it from the next.
+std::string write_cell(const CellText& cell, bool last) {
+    std::string written;
+    if (cell.marked)
+        written = std::string("-- %%") + (cell.text ? " [markdown]" : "") +
+                  (cell.options.empty() ? "" : " " + cell.options) + "\n";
+    for (const std::string& line : lines_of(cell.source)) written += script_line(line, cell.text) + "\n";
+    return last ? written : written + "\n";
+}
+
+bool begins_with_header(const std::string& source) {
+    return source.starts_with("-- ---") || source.starts_with("#!");
+}
+
+json lines_as_json(const std::string& text) {
+    json lines = json::array();
+    for (const std::string_view line : lines_with_ends(text)) lines.push_back(line);
+    return lines;
+}
+
+std::string text_in(const json& value) {
+    if (value.is_string()) return value.get<std::string>();
+    std::string text;
+    if (value.is_array())
+        for (const json& line : value)
+            if (line.is_string()) text += line.get<std::string>();
+    return text;
+}
+
+/// A member's text; empty where there is none.
+std::string text_at(const json& object, const char* key) {
+    const auto member = object.is_object() ? object.find(key) : object.end();
+    return object.is_object() && member != object.end() ? text_in(*member) : "";
+}
+
+const json& object_at(const json& object, const char* key) {
+    static const json kNone = json::object();
+    const auto member = object.is_object() ? object.find(key) : object.end();
+    return object.is_object() && member != object.end() && member->is_object() ? *member : kNone;
+}
+
+/// What a cell of a run printed and drew, in order; and the error with which the run stopped in it.
+json outputs_of(const RunRecord& record, const Cell& cell, bool stopped_here,
+                const std::map<std::string, std::string>& figures) {
+    json outputs = json::array();
+    if (const auto found = record.outputs.find(cell.id); found != record.outputs.end()) {
+        for (const CellOutput& piece : found->second) {
+            if (!piece.printed.empty())
+                outputs.push_back(
+                    {{"output_type", "stream"}, {"name", "stdout"}, {"text", lines_as_json(piece.printed)}});
+            const auto drawn = piece.figure ? figures.find(*piece.figure) : figures.end();
+            if (drawn != figures.end())
+                outputs.push_back({{"output_type", "display_data"},
+                                   {"data", json::parse(drawn->second)},
+                                   {"metadata", json::object()}});
+        }
+    }
+    if (stopped_here)
+        outputs.push_back({{"output_type", "error"},
+                           {"ename", "error"},
+                           {"evalue", record.error->message},
+                           {"traceback", json::array({record.error->message})}});
+    return outputs;
+}
+
+/// The ids of a notebook's cells: those of the script where nbformat takes them, each once.
+class NotebookIds {
+  public:
+    std::string next(std::string id) {
+        if (!is_name(id) || id.size() > kLongestId) id = "cell";
+        for (int i = 2; !taken_.insert(id).second; ++i) id = fmt::format("{}-{}", id.substr(0, kLongestId - 8), i);
+        return id;
+    }
+
+  private:
+    std::set<std::string> taken_;
+};
+
+json notebook_metadata() {
+    return {{"kernelspec", {{"name", kKernelName}, {"display_name", kKernelTitle}, {"language", kKernelLanguage}}},
+            {"language_info", {{"name", kKernelLanguage}, {"file_extension", ".lua"}, {"mimetype", "text/x-lua"}}}};
+}
+
+[[noreturn]] void refuse(const std::filesystem::path& name, const std::string& what) {
+    throw DocumentError(name.string() + ": " + what);
+}
+
+/// The cells of a notebook that we can read, or the sentence why we cannot.
+const json& checked_cells(const json& notebook, const std::filesystem::path& name) {
+    if (!notebook.is_object()) refuse(name, "this is JSON, but no Jupyter notebook");
+    const auto format = notebook.find("nbformat");
+    if (format == notebook.end() || !format->is_number_integer())
+        refuse(name, "this is JSON, but no Jupyter notebook (it has no nbformat)");
+    if (*format != 4)
+        refuse(name, fmt::format("a notebook of nbformat {}, and nbformat 4 is read: open and save it in a Jupyter of "
+                                 "today, or run jupyter nbconvert --to notebook",
+                                 format->dump()));
+    const json& metadata = object_at(notebook, "metadata");
+    for (const json* told : {&object_at(metadata, "language_info"), &object_at(metadata, "kernelspec")}) {
+        const std::string language = text_at(*told, told == &object_at(metadata, "kernelspec") ? "language" : "name");
+        if (!language.empty() && language != kKernelLanguage && language != "Lua")
+            refuse(name, fmt::format("a notebook in {}; dynlab runs notebooks in Lua, of its own kernel", language));
+    }
+    const auto cells = notebook.find("cells");
+    if (cells == notebook.end() || !cells->is_array()) refuse(name, "this notebook has no list of cells");
+    if (cells->empty()) refuse(name, "this notebook has no cells");
+    return *cells;
+}
+
+CellText cell_of_json(const json& cell, bool first) {
+    CellText read;
+    const json& ours = object_at(object_at(cell, "metadata"), kOurs);
+    const std::string kind = text_at(cell, "cell_type");
+    read.source = text_at(cell, "source");
+    const bool header = first && begins_with_header(read.source);
+    read.text = kind != "code" && !header;
+    const auto marked = ours.find("marked");
+    read.marked = !header && !(first && marked != ours.end() && *marked == json(false));
+    read.options = first_line_of(text_at(ours, "options"));
+    read.source = without_blank_end(lines_of(read.source));
+    return read;
+}
+
+/// The lines that the script had for the cell, where the cell still says what they say.
+std::string remembered(const json& cell, const CellText& read) {
+    const std::string written = text_at(object_at(object_at(cell, "metadata"), kOurs), "written");
+    if (written.empty() || segments_of(written).size() != 1) return {};
+    const CellText before = read_cell(written);
+    const bool same = before.marked == read.marked && before.text == read.text && before.source == read.source;
+    return same ? written : "";
+}
+
+}  // namespace
+
+bool is_notebook(const std::filesystem::path& file) {
+    return file.extension() == ".ipynb";
+}
+
+std::string notebook_of(const PercentScript& script, const RunRecord* record,
+                        const std::map<std::string, std::string>& figures) {
+    const std::vector<Segment> segments = segments_of(script.source);
+    NotebookIds ids;
+    json cells = json::array();
+    int runs = 0;
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+        const bool last = i + 1 == segments.size();
+        const CellText cell = read_cell(segments[i].written);
+        const int end = last ? std::numeric_limits<int>::max() : segments[i + 1].first_line;
+        const auto parsed = std::find_if(script.cells.begin(), script.cells.end(), [&](const Cell& one) {
+            return one.first_line >= segments[i].first_line && one.first_line < end;
+        });
+        json ours = json::object();
+        if (!cell.options.empty()) ours["options"] = cell.options;
+        if (!cell.marked) ours["marked"] = false;
+        if (write_cell(cell, last) != segments[i].written) ours["written"] = lines_as_json(segments[i].written);
+        const bool there = parsed != script.cells.end();
+        json made = {{"cell_type", cell.text ? "markdown" : "code"},
+                     {"id", ids.next(there ? parsed->id : "header")},
+                     {"metadata", ours.empty() ? json::object() : json{{kOurs, ours}}},
+                     {"source", lines_as_json(cell.source)}};
+        if (!cell.text) {
+            const bool shows = record != nullptr && there;
+            const bool stopped = shows && record->error && script.cell_at_line(record->error->line) == &*parsed;
+            made["outputs"] = shows ? outputs_of(*record, *parsed, stopped, figures) : json::array();
+            made["execution_count"] = record != nullptr ? json(++runs) : json();
+        }
+        cells.push_back(std::move(made));
+    }
+    const json notebook = {
+        {"nbformat", 4}, {"nbformat_minor", 5}, {"metadata", notebook_metadata()}, {"cells", std::move(cells)}};
+    return notebook.dump(1, ' ', false, json::error_handler_t::replace) + "\n";
+}
+
+NotebookScript script_of_notebook(std::string_view text, const std::filesystem::path& name) {
+    const json notebook = json::parse(text, nullptr, false);
+    if (notebook.is_discarded()) refuse(name, "this is no Jupyter notebook: it is not JSON, or cut off");
+    const json& cells = checked_cells(notebook, name);
+    NotebookScript script;
+    int number = 0;
+    for (const json& cell : cells) {
+        const bool first = ++number == 1, last = static_cast<std::size_t>(number) == cells.size();
+        const std::string kind = text_at(cell, "cell_type");
+        if (kind != "code" && kind != "markdown" && kind != "raw")
+            refuse(name, fmt::format("cell {} is neither code nor text", number));
+        if (!object_at(cell, "attachments").empty())
+            script.losses.push_back(
+                fmt::format("{}: cell {} has a picture that was pasted; save it as a file and name that in the text",
+                            name.string(), number));
+        const CellText read = cell_of_json(cell, first);
+        std::string written = remembered(cell, read);
+        if (written.empty()) written = write_cell(read, last);
+        if (!last && !written.ends_with('\n')) written += "\n";
+        script.source += written;
+    }
+    return script;
+}
+
+NotebookScript read_notebook(const std::filesystem::path& file) {
+    std::error_code unknown;
+    const std::uintmax_t bytes = std::filesystem::file_size(file, unknown);
+    if (!unknown && bytes > kMostNotebookBytes)
+        refuse(file, fmt::format("a notebook of {} MB, and at most {} MB are read: clear its outputs", bytes >> 20,
+                                 kMostNotebookBytes >> 20));
+    NotebookScript script = script_of_notebook(read_text(file), file);
+    if (script.source.size() > kMostSourceBytes)
+        refuse(file, fmt::format("its cells have {} MB of text, and a script has at most {} MB",
+                                 (script.source.size() + (1 << 20) - 1) >> 20, kMostSourceBytes >> 20));
+    return script;
+}
+
+PercentScript read_script_or_notebook(const std::filesystem::path& file) {
+    return is_notebook(file) ? parse_percent_script(read_notebook(file).source, file) : read_percent_script(file);
+}
+
+std::string place_in_notebook(const std::string& source, int line) {
+    const std::vector<Segment> segments = segments_of(source);
+    for (std::size_t i = segments.size(); i-- > 0;) {
+        if (segments[i].first_line > line) continue;
+        const int behind_marker = line - segments[i].first_line + (read_cell(segments[i].written).marked ? 0 : 1);
+        return behind_marker == 0 ? "" : fmt::format("cell {}, line {}", i + 1, behind_marker);
+    }
+    return {};
+}
+
+std::string with_places_in_notebook(const std::string& text, const std::string& script, const std::string& notebook,
+                                    const std::string& source) {
+    std::string result;
+    std::size_t at = 0;
+    for (std::size_t found; (found = text.find(script, at)) != std::string::npos;) {
+        result += text.substr(at, found - at);
+        at = found + script.size();
+        std::size_t end = at + 1;
+        while (end < text.size() && std::isdigit(static_cast<unsigned char>(text[end]))) ++end;
+        const bool placed = at < text.size() && text[at] == ':' && end > at + 1 && end < at + 9;
+        const std::string place = placed ? place_in_notebook(source, std::stoi(text.substr(at + 1))) : "";
+        result += notebook + (place.empty() ? "" : ", " + place);
+        if (!place.empty()) at = end;
+    }
+    return result + text.substr(at);
+}
+
+}  // namespace dynlab::inline workflow
