@@ -170,29 +170,29 @@ json notebook_metadata() {
             {"language_info", {{"name", kKernelLanguage}, {"file_extension", ".lua"}, {"mimetype", "text/x-lua"}}}};
 }
 
-[[noreturn]] void refuse(const std::filesystem::path& name, const std::string& what) {
+[[noreturn]] void refuse_notebook(const std::filesystem::path& name, const std::string& what) {
     throw DocumentError(name.string() + ": " + what);
 }
 
 /// The cells of a notebook that we can read, or the sentence why we cannot.
 const json& checked_cells(const json& notebook, const std::filesystem::path& name) {
-    if (!notebook.is_object()) refuse(name, "this is JSON, but no Jupyter notebook");
+    if (!notebook.is_object()) refuse_notebook(name, "this is JSON, but no Jupyter notebook");
     const auto format = notebook.find("nbformat");
     if (format == notebook.end() || !format->is_number_integer())
-        refuse(name, "this is JSON, but no Jupyter notebook (it has no nbformat)");
+        refuse_notebook(name, "this is JSON, but no Jupyter notebook (it has no nbformat)");
     if (*format != 4)
-        refuse(name, fmt::format("a notebook of nbformat {}, and nbformat 4 is read: open and save it in a Jupyter of "
+        refuse_notebook(name, fmt::format("a notebook of nbformat {}, and nbformat 4 is read: open and save it in a Jupyter of "
                                  "today, or run jupyter nbconvert --to notebook",
                                  format->dump()));
     const json& metadata = object_at(notebook, "metadata");
     for (const json* told : {&object_at(metadata, "language_info"), &object_at(metadata, "kernelspec")}) {
         const std::string language = text_at(*told, told == &object_at(metadata, "kernelspec") ? "language" : "name");
         if (!language.empty() && language != kKernelLanguage && language != "Lua")
-            refuse(name, fmt::format("a notebook in {}; dynlab runs notebooks in Lua, of its own kernel", language));
+            refuse_notebook(name, fmt::format("a notebook in {}; dynlab runs notebooks in Lua, of its own kernel", language));
     }
     const auto cells = notebook.find("cells");
-    if (cells == notebook.end() || !cells->is_array()) refuse(name, "this notebook has no list of cells");
-    if (cells->empty()) refuse(name, "this notebook has no cells");
+    if (cells == notebook.end() || !cells->is_array()) refuse_notebook(name, "this notebook has no list of cells");
+    if (cells->empty()) refuse_notebook(name, "this notebook has no cells");
     return *cells;
 }
 
@@ -262,7 +262,7 @@ std::string notebook_of(const PercentScript& script, const RunRecord* record,
 
 NotebookScript script_of_notebook(std::string_view text, const std::filesystem::path& name) {
     const json notebook = json::parse(text, nullptr, false);
-    if (notebook.is_discarded()) refuse(name, "this is no Jupyter notebook: it is not JSON, or cut off");
+    if (notebook.is_discarded()) refuse_notebook(name, "this is no Jupyter notebook: it is not JSON, or cut off");
     const json& cells = checked_cells(notebook, name);
     NotebookScript script;
     int number = 0;
@@ -270,7 +270,7 @@ NotebookScript script_of_notebook(std::string_view text, const std::filesystem::
         const bool first = ++number == 1, last = static_cast<std::size_t>(number) == cells.size();
         const std::string kind = text_at(cell, "cell_type");
         if (kind != "code" && kind != "markdown" && kind != "raw")
-            refuse(name, fmt::format("cell {} is neither code nor text", number));
+            refuse_notebook(name, fmt::format("cell {} is neither code nor text", number));
         if (!object_at(cell, "attachments").empty())
             script.losses.push_back(
                 fmt::format("{}: cell {} has a picture that was pasted; save it as a file and name that in the text",
@@ -288,11 +288,11 @@ NotebookScript read_notebook(const std::filesystem::path& file) {
     std::error_code unknown;
     const std::uintmax_t bytes = std::filesystem::file_size(file, unknown);
     if (!unknown && bytes > kMostNotebookBytes)
-        refuse(file, fmt::format("a notebook of {} MB, and at most {} MB are read: clear its outputs", bytes >> 20,
+        refuse_notebook(file, fmt::format("a notebook of {} MB, and at most {} MB are read: clear its outputs", bytes >> 20,
                                  kMostNotebookBytes >> 20));
     NotebookScript script = script_of_notebook(read_text(file), file);
     if (script.source.size() > kMostSourceBytes)
-        refuse(file, fmt::format("its cells have {} MB of text, and a script has at most {} MB",
+        refuse_notebook(file, fmt::format("its cells have {} MB of text, and a script has at most {} MB",
                                  (script.source.size() + (1 << 20) - 1) >> 20, kMostSourceBytes >> 20));
     return script;
 }
