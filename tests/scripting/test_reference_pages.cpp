@@ -49,7 +49,7 @@ TEST_P(reference_pages, has_the_form_of_a_page) {
             testing::AnyOf("matlab", "checks", "measures", "names", "review_marks", "lua", "guide-report",
                            "guide-first-hour", "guide-contsid", "guide-lab-report", "guide-prompt", "guide-commands",
                            "guide-check", "guide-instructor", "guide-year", "guide-peer-review", "guide-add-lesson",
-                           "guide-formats", "guide-security", "guide-troubleshooting"))
+                           "guide-formats", "guide-security", "guide-trouble"))
             << "a page that is neither a function's nor a known subject";
         return;
     }
