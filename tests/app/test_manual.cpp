@@ -351,7 +351,8 @@ TEST(manual, pages_lead_to_what_their_code_names) {
 TEST(manual, words_are_what_readers_type) {
     EXPECT_THAT(words_in_text("The “Bode” plot – bode_values(G), R², 3.5\u00a0rad/s, Broïda"),
                 ElementsAre("3", "5", "bode", "broïda", "g", "plot", "rad", "r²", "s", "the", "values"));
-    EXPECT_EQ(text_in_html("<p>a&lt;b</p><script>x</script><span>c</span>d"), " a<b  cd");
+    EXPECT_EQ(text_in_html("<p>a&lt;b</p><script>x</script><span class=\"k\">c</span>d"), " a<b  cd");
+    EXPECT_EQ(text_in_html("to <math><mi>K</mi></math>, <em>then</em><br>on"), "to K, then on");
 }
 
 }  // namespace test_manual

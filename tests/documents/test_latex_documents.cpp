@@ -224,6 +224,25 @@ TEST_F(latex_documents, headings_that_follow_each_other_stay_on_one_page) {
     EXPECT_LT(begun_on_the_second, documents);
 }
 
+// Oracle: a bold line before a list or a paragraph, at sixty places of a page's height, never ends the page's text.
+TEST_F(latex_documents, a_bold_line_stays_with_what_it_heads) {
+    std::string text;
+    for (int i = 0; i < 60; ++i) {
+        for (int line = 0; line < 3 + i % 11; ++line) text += "A line of text.\n\n";
+        text += i % 2 == 0 ? "**Heads**\n\n- an entry\n- another\n\n" : "**Heads**\n\nA paragraph.\n\n";
+    }
+    const PdfContent content = pdf(text);
+    EXPECT_GT(content.pages.size(), 8u);
+    for (std::size_t page = 0; page < content.pages.size(); ++page) {
+        const std::string& words = content.pages[page];
+        const std::size_t last = words.rfind("Heads");
+        if (last == std::string::npos) continue;
+        EXPECT_TRUE(words.find("entry", last) != std::string::npos ||
+                    words.find("paragraph", last) != std::string::npos)
+            << "page " << page + 1;
+    }
+}
+
 // Oracle: bounding boxes of the words against the margins of A4.
 TEST_F(latex_documents, long_code_and_output_lines_stay_inside_the_text) {
     std::string spaces, solid;

@@ -47,7 +47,7 @@ TEST(guides, messages_are_those_that_are_explained) {
     bench.write("analysis.lua", "print(1)\n");
     bench.write("my-work/kept", "");
     int messages = 0;
-    for (const std::string& block : blocks_of("troubleshooting")) {
+    for (const std::string& block : blocks_of("trouble")) {
         ASSERT_TRUE(block.starts_with("$ ")) << block;
         const std::size_t end = block.find('\n');
         const ChildResult result = typed(bench, block.substr(2, end - 2));

@@ -54,7 +54,7 @@ class ManualMaker {
         timed("demonstrations", [&] { add_demonstrations(); });
         timed("figures", [&] { draw(FigureFormat::kSvg); });
         timed("guides and functions", [&] { add_texts(); });
-        if (request_.with_pdf) timed("manual.pdf", [&] { add_pdf(); });
+        timed("manual.pdf", [&] { add_pdf(); });
         timed("lists and search", [&] { add_lists(); });
         timed("files", [&] { write(); });
         return std::move(result_);

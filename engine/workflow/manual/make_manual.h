@@ -9,7 +9,6 @@ namespace dynlab::inline workflow {
 
 struct ManualRequest {
     std::filesystem::path folder;
-    bool with_pdf = true;
     std::function<void(const std::string&)> step = {};  ///< called with each step as it begins; may be empty
 };
 

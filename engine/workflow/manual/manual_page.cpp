@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <sodium.h>
 
-#include <regex>
+#include <set>
 
 #include "documents/text_lines.h"
 #include "platform/hash.h"
@@ -35,6 +35,14 @@ std::string subject_of_code(std::string code) {
     if (code.starts_with("help(&quot;")) return code.substr(11, code.find("&quot;", 11) - 11);
     const std::size_t end = std::min(code.find('('), code.size());
     return code.substr(0, end);
+}
+
+/// Whether the element at `open` only makes letters look otherwise: words on both sides of any other are two.
+bool stands_in_a_line(const std::string& html, std::size_t open) {
+    static const std::set<std::string> kInLines = {"span", "em", "strong", "code", "a",    "sub",  "sup",  "mi",
+                                                   "mo",   "mn", "mrow",   "msub", "msup", "math", "mtext"};
+    const std::size_t name = open + (html[open + 1] == '/' ? 2 : 1);
+    return kInLines.count(html.substr(name, html.find_first_of(" />", name) - name)) > 0;
 }
 
 std::string bar_of(const ManualPage& page) {
@@ -85,8 +93,7 @@ std::string text_in_html(const std::string& html) {
             if (html.compare(open + 1, std::string_view(unseen).size(), unseen) == 0)
                 close = html.find('>', html.find(fmt::format("</{}", unseen), open));
         if (close == std::string::npos) break;
-        // Words on both sides of a block are two; letters that only look otherwise are one word.
-        if (html.compare(open, 5, "<span") != 0 && html.compare(open, 6, "</span") != 0) text += ' ';
+        if (!stands_in_a_line(html, open)) text += ' ';
         at = close + 1;
     }
     for (const auto& [entity, letter] : {std::pair{"&lt;", "<"}, {"&gt;", ">"}, {"&quot;", "\""}, {"&amp;", "&"}})

@@ -109,6 +109,8 @@ std::vector<ManualText> help_texts(const HelpExamples& examples) {
         else
             guides.push_back({name, "Guides", headed_guide(page, text)});
     }
+    std::stable_partition(guides.begin(), guides.end(),
+                          [](const ManualText& guide) { return guide.name == "guide-first-hour"; });
     std::stable_sort(functions.begin(), functions.end(), [](const ManualText& a, const ManualText& b) {
         return place_of_area(a.part) < place_of_area(b.part);
     });

@@ -15,7 +15,8 @@ struct ManualText {
     MarkdownText markdown;
 };
 
-/// The help pages woven with what their examples gave: guides, headed by what they are about, then functions by area.
+/// The help pages woven with what their examples gave: guides (the first hour first), headed by what they
+/// are about, then functions by area.
 std::vector<ManualText> help_texts(const HelpExamples& examples);
 
 /// Every method with what it fits, its assumptions and its literature, from the catalogue of methods, and with what its

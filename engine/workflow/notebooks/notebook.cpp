@@ -181,14 +181,16 @@ const json& checked_cells(const json& notebook, const std::filesystem::path& nam
     if (format == notebook.end() || !format->is_number_integer())
         refuse_notebook(name, "this is JSON, but no Jupyter notebook (it has no nbformat)");
     if (*format != 4)
-        refuse_notebook(name, fmt::format("a notebook of nbformat {}, and nbformat 4 is read: open and save it in a Jupyter of "
-                                 "today, or run jupyter nbconvert --to notebook",
-                                 format->dump()));
+        refuse_notebook(
+            name, fmt::format("a notebook of nbformat {}, and nbformat 4 is read: open and save it in a Jupyter of "
+                              "today, or run jupyter nbconvert --to notebook",
+                              format->dump()));
     const json& metadata = object_at(notebook, "metadata");
     for (const json* told : {&object_at(metadata, "language_info"), &object_at(metadata, "kernelspec")}) {
         const std::string language = text_at(*told, told == &object_at(metadata, "kernelspec") ? "language" : "name");
         if (!language.empty() && language != kKernelLanguage && language != "Lua")
-            refuse_notebook(name, fmt::format("a notebook in {}; dynlab runs notebooks in Lua, of its own kernel", language));
+            refuse_notebook(name,
+                            fmt::format("a notebook in {}; dynlab runs notebooks in Lua, of its own kernel", language));
     }
     const auto cells = notebook.find("cells");
     if (cells == notebook.end() || !cells->is_array()) refuse_notebook(name, "this notebook has no list of cells");
@@ -288,12 +290,12 @@ NotebookScript read_notebook(const std::filesystem::path& file) {
     std::error_code unknown;
     const std::uintmax_t bytes = std::filesystem::file_size(file, unknown);
     if (!unknown && bytes > kMostNotebookBytes)
-        refuse_notebook(file, fmt::format("a notebook of {} MB, and at most {} MB are read: clear its outputs", bytes >> 20,
-                                 kMostNotebookBytes >> 20));
+        refuse_notebook(file, fmt::format("a notebook of {} MB, and at most {} MB are read: clear its outputs",
+                                          bytes >> 20, kMostNotebookBytes >> 20));
     NotebookScript script = script_of_notebook(read_text(file), file);
     if (script.source.size() > kMostSourceBytes)
         refuse_notebook(file, fmt::format("its cells have {} MB of text, and a script has at most {} MB",
-                                 (script.source.size() + (1 << 20) - 1) >> 20, kMostSourceBytes >> 20));
+                                          (script.source.size() + (1 << 20) - 1) >> 20, kMostSourceBytes >> 20));
     return script;
 }
 
