@@ -12,6 +12,7 @@
 
 namespace dynlab::test {
 namespace test_package_files {
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
@@ -63,6 +64,13 @@ TEST(package_files, version_licence_and_packages_are_those_of_the_project) {
     const Workbench bench;
     const std::string version = bench.dynlab({"--version"}).output;
     EXPECT_EQ(read_file(kPackaging + "changelog").find("dynlab (" + version.substr(7, version.size() - 8) + ")"), 0u);
+    const std::string guide = read_file(DYNLAB_SOURCE_DIR "/engine/scripting/reference/guides/guide-package.md");
+    EXPECT_THAT(matches(guide, "dynlab_([0-9.]+)_amd64[.]deb"), ElementsAre(version.substr(7, version.size() - 8)));
+    // The recipe's option is the one that the package is tried with.
+    const std::string option = "--path-include='/usr/share/doc/libslicot-doc/*'";
+    EXPECT_THAT(guide, HasSubstr(option));
+    EXPECT_THAT(read_file(DYNLAB_SOURCE_DIR "/tests/package/try_package"),
+                HasSubstr(std::regex_replace(option, std::regex("'"), "")));
     // The licence stands there indented, with a dot for an empty line.
     std::string licence = std::regex_replace(read_file(kPackaging + "copyright"), std::regex("\n ([.](?=\n))?"), "\n");
     const std::string terms = read_file(DYNLAB_SOURCE_DIR "/LICENSE");

@@ -114,6 +114,7 @@ TEST_F(shell_completion, zsh_is_told_names_and_where_files_stand) {
                      "); CURRENT=$#words; source " + kScripts + "dynlab.zsh; true'");
     };
     EXPECT_THAT(answer("lessons \"\""), ElementsAre(""));
+    EXPECT_THAT(answer("rep"), ElementsAre(HasSubstr("report:")));
     EXPECT_THAT(answer("report 02"),
                 ElementsAre(AllOf(HasSubstr("02_least_squares:"), HasSubstr("Straight")), "files"));
 }
