@@ -155,7 +155,7 @@ TEST_F(kernel, an_interrupt_ends_the_cell_that_runs_and_no_other) {
     for (const char* code :
          {kEndless, "print('x') for i = 1, 1e9 do pcall(function() while true do end end) end",
           "print('x') montecarlo{system = tf({1}, {1, 1}), input = prbs(9, 8), Ts = 0.1, sigma = 0.1, "
-          "runs = 1000000, estimators = {srivc = {{1, 1, 0}}}}"}) {
+          "runs = 20000, estimators = {srivc = {{1, 1, 0}}}}"}) {
         const std::string id = client().start(code);
         client().await_output(id);
         if (std::string(code).find("montecarlo") != std::string::npos) expect_progress(id);

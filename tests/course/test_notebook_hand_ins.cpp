@@ -74,6 +74,11 @@ TEST(notebook_hand_ins, are_packed_and_checked_as_scripts_without_names) {
         EXPECT_THAT(bench.dynlab({"check", subject, "--document-only"}).output,
                     AllOf(HasSubstr("analysis.ipynb, cell 3, line 2"), Not(HasSubstr("analysis.lua:"))))
             << subject;
+    const std::string french = "-- ---\n-- title: T\n-- language: fr\n-- ---\n\n-- %%\nprint(1)\nprint(1 + nil)\n";
+    bench.write("f/analysis.ipynb", notebook_by(french));
+    bench.write("f/report.md", "---\ntitle: T\nlang: fr\n---\n");
+    EXPECT_THAT(bench.dynlab({"check", "f", "--document-only"}).output,
+                HasSubstr("analysis.ipynb, cellule 2, ligne 2"));
     bench.write("w/analysis.ipynb", "[]");
     EXPECT_THAT(bench.dynlab({"check", "w"}).output, HasSubstr("cannot be read: this is JSON, but no Jupyter"));
     const ChildResult pack = bench.dynlab({"pack", "w"});
