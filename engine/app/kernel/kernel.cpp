@@ -179,7 +179,7 @@ class Kernel {
         for (const KernelMessage& waiting : waiting_) {
             if (waiting.type() != "execute_request") continue;
             publish("status", {{"execution_state", "busy"}}, waiting);
-            reply(waiting, {{"status", "aborted"}, {"execution_count", count_}}, shell_);
+            reply(waiting, {{"status", "aborted"}}, shell_);
             publish("status", {{"execution_state", "idle"}}, waiting);
         }
         std::erase_if(waiting_, [](const KernelMessage& waiting) { return waiting.type() == "execute_request"; });
@@ -335,8 +335,7 @@ class Kernel {
     void tell_progress(double part, bool& shown, const KernelMessage& request) {
         if (part < 0 && !shown) return;
         const int percent = static_cast<int>(100 * part);
-        const std::string text =
-            part < 0 ? "done" : fmt::format("[{:<20}] {} %", std::string(percent / 5, '#'), percent);
+        const std::string text = part < 0 ? "" : fmt::format("[{:<20}] {} %", std::string(percent / 5, '#'), percent);
         publish(shown ? "update_display_data" : "display_data",
                 {{"data", {{"text/plain", text}}},
                  {"metadata", json::object()},

@@ -31,7 +31,6 @@
 #include "platform/temporary_folder.h"
 #include "platform/terminal/progress.h"
 #include "platform/terminal/terminal_text.h"
-#include "workflow/notebooks/notebook.h"
 
 namespace dynlab::inline course {
 namespace {
@@ -334,11 +333,7 @@ class ClassGrader {
         const StagedWork staged =
             stage_submission(submission, work.path(), request_.setup.isolation, request_.setup.program);
         std::string log;
-        CheckedSubmission checked = rules_.work_in(staged.folder, seed, log);
-        if (staged.of_notebook)
-            for (auto& [name, run] : checked.runs)
-                if (run.error)
-                    run.error = with_places_in_notebook(*run.error, "analysis.lua", "analysis.ipynb", checked.source);
+        CheckedSubmission checked = rules_.work_in(staged.folder, seed, log, staged.of_notebook);
         write_kept_runs(kept_file, {of_runs, checked, staged.remark, staged.language});
         return {index, {submission.name, std::move(checked), seed, log}, fingerprint, staged.remark, staged.language};
     }

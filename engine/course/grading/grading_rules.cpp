@@ -18,6 +18,7 @@
 #include "platform/program_identity.h"
 #include "platform/program_lookup.h"
 #include "platform/text_file.h"
+#include "workflow/notebooks/notebook.h"
 
 namespace dynlab::inline course {
 namespace {
@@ -329,13 +330,17 @@ Grade GradingRules::ungraded(const std::string& name) const {
     return grade;
 }
 
-CheckedSubmission GradingRules::work_in(const fs::path& folder, const GroupSeed& group_seed, std::string& log) const {
+CheckedSubmission GradingRules::work_in(const fs::path& folder, const GroupSeed& group_seed, std::string& log,
+                                        bool of_notebook) const {
     CheckedSubmission work;
     work.runs = runs(folder, group_seed, log);
     if (document_) work.findings = findings(folder, group_seed);
     const fs::path script = folder / "analysis.lua";
     std::error_code error;
     if (fs::file_size(script, error) <= kMostSource && !error) work.source = read_file(script);
+    for (auto& [name, run] : work.runs)
+        if (of_notebook && run.error)
+            run.error = with_places_in_notebook(*run.error, "analysis.lua", "analysis.ipynb", work.source);
     return work;
 }
 

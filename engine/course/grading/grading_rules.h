@@ -44,8 +44,9 @@ class GradingRules {
     using GroupSeed = std::optional<std::uint32_t>;
 
     /// What the checks are tried on: the runs of the script in `folder`, and findings of its document where a check
-    /// asks for them.
-    CheckedSubmission work_in(const std::filesystem::path& folder, const GroupSeed& group_seed, std::string& log) const;
+    /// asks for them. Errors of a script that was a notebook name its cells.
+    CheckedSubmission work_in(const std::filesystem::path& folder, const GroupSeed& group_seed, std::string& log,
+                              bool of_notebook = false) const;
     /// Of a submission, to be judged.
     struct Work {
         std::string name;

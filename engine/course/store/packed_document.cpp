@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "course/grading/submission.h"
+#include "course/hand_ins/notebooks.h"
 #include "course/review/version_reading.h"
 #include "course/store/file_kind.h"
 
@@ -61,6 +62,7 @@ OpenedPack open_pack(const fs::path& pack, const std::string& part, const fs::pa
                      const fs::path& program) {
     const fs::path unpacked = to / "pack";
     unpack_submission(pack, unpacked, level, program);
+    take_notebooks(unpacked);
     const std::vector<fs::path> files = files_in(unpacked);
     std::vector<fs::path> pdfs, named;
     for (const fs::path& file : files) {

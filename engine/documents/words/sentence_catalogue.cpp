@@ -50,7 +50,7 @@ bool ends_sentence(std::string_view text, std::size_t at) {
 
 /// How much of a text is file, line and function of a script's message; 0 for other texts.
 std::size_t place_in_script(std::string_view text) {
-    static const std::regex place(R"(^[^\s:]+:\d+: (?:[A-Za-z_][\w.]*: )?)");
+    static const std::regex place(R"(^[^\s:]+(?::\d+|, cell \d+, line \d+): (?:[A-Za-z_][\w.]*: )?)");
     std::cmatch found;
     return std::regex_search(text.data(), text.data() + text.size(), found, place)
                ? static_cast<std::size_t>(found.length())
@@ -143,7 +143,12 @@ std::string SentenceCatalogue::told_line(std::string_view message) const {
     const std::size_t place = place_in_script(message);
     const std::string_view sentence = message.substr(place);
     const std::optional<Fit> found = fitting(sentence, Extent::kAll);
-    return std::string(message.substr(0, place)) + (found ? written(*found) : std::string(sentence));
+    std::string told(message.substr(0, place));
+    static const std::regex kCell(R"(cell \d+, line \d+)");  // of a notebook
+    if (std::smatch cell; std::regex_search(told, cell, kCell))
+        if (const std::string words = cell.str(); const std::optional<Fit> known = fitting(words, Extent::kAll))
+            told.replace(static_cast<std::size_t>(cell.position()), words.size(), written(*known));
+    return told + (found ? written(*found) : std::string(sentence));
 }
 
 std::string SentenceCatalogue::written(const Fit& found) const {

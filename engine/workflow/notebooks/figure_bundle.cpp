@@ -1,5 +1,6 @@
 #include "workflow/notebooks/figure_bundle.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "figures/french_texts.h"
@@ -16,7 +17,9 @@ std::string figure_bundle(const Figure& figure, GnuplotRenderer& renderer, bool 
                pdf = folder.path() / "figure.pdf";
     for (const auto& file : {svg, png, pdf}) renderer.draw(shown, file, figure_format(file), french);
     renderer.finish();
-    const nlohmann::json bundle = {{"image/svg+xml", read_file(svg)},
+    // Without the declaration of XML, which programs that put the picture into a page do not take.
+    const std::string drawn = read_file(svg), element = drawn.substr(std::min(drawn.find("<svg"), drawn.size()));
+    const nlohmann::json bundle = {{"image/svg+xml", element},
                                    {"image/png", base64(read_file(png))},
                                    {"application/pdf", base64(read_file(pdf))},
                                    {"text/plain", figure.title.empty() ? "figure" : figure.title}};

@@ -183,7 +183,7 @@ const json& checked_cells(const json& notebook, const std::filesystem::path& nam
     if (*format != 4)
         refuse_notebook(
             name, fmt::format("a notebook of nbformat {}, and nbformat 4 is read: open and save it in a Jupyter of "
-                              "today, or run jupyter nbconvert --to notebook",
+                              "today, or run python3 -m nbconvert --to notebook",
                               format->dump()));
     const json& metadata = object_at(notebook, "metadata");
     for (const json* told : {&object_at(metadata, "language_info"), &object_at(metadata, "kernelspec")}) {
@@ -206,7 +206,7 @@ CellText cell_of_json(const json& cell, bool first) {
     const bool header = first && begins_with_header(read.source);
     read.text = kind != "code" && !header;
     const auto marked = ours.find("marked");
-    read.marked = !header && !(first && marked != ours.end() && *marked == json(false));
+    read.marked = !header && !(first && !read.text && marked != ours.end() && *marked == json(false));
     read.options = first_line_of(text_at(ours, "options"));
     read.source = without_blank_end(lines_of(read.source));
     return read;
