@@ -12,10 +12,11 @@ void add_help(CLI::App& app, Action& action) {
     auto word = std::make_shared<std::string>();
     auto sheet = std::make_shared<std::string>();
     CLI::App* command = app.add_subcommand("help", "What a function of the scripts does, with an example");
-    CLI::Option* page = command->add_option(
-        "NAME", *name,
-        "A function (tf, lsim, ...), a method (iddata.split), a word of MATLAB or Lua, or a "
-        "subject: lua, matlab, guide-report, checks, names, review_marks; without it the list of all");
+    CLI::Option* page =
+        command->add_option("NAME", *name,
+                            "A function (tf, lsim, ...), a method (iddata.split), a word of MATLAB or Lua, or a "
+                            "subject: lua, matlab, guide-report, guide-editors, guide-own-course, guide-interchange, "
+                            "checks, names, review_marks; without it the list of all");
     CLI::Option* search =
         command->add_option("--search", *word, "List the pages that speak of it")->type_name("WORD")->excludes(page);
     command->add_option("--sheet", *sheet, "Write all functions and MATLAB's phrases on two pages (.pdf)")
