@@ -167,5 +167,15 @@ TEST_F(own_course, documents_with_gaps_and_copies_with_results_are_told) {
                  "lesson.lua: the student's copy (en) gives values of the solution: given"});
 }
 
+TEST_F(own_course, a_report_of_more_pages_than_its_header_allows_is_told) {
+    bench().shell(std::string("rm -rf long && mkdir long && cp -r ") + kLesson + " long/07_springs");
+    std::string report = "---\ntitle: A report\nlang: en\npages: 1\n---\n\n# Springs\n\n";
+    for (int i = 0; i < 60; ++i) report += "The spring was loaded, and its elongation read off the scale by eye.\n\n";
+    bench().write("long/07_springs/report.en.md", report);
+    const ChildResult tested = bench().dynlab({"test-lesson", "long/07_springs", "--part", "documents"});
+    EXPECT_EQ(tested.exit_code, 1);
+    EXPECT_THAT(tested.output, testing::ContainsRegex("long/07_springs/report.en.md: its report, page [0-9]+: .*page"));
+}
+
 }  // namespace test_own_course
 }  // namespace dynlab::test

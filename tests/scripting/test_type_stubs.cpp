@@ -76,6 +76,9 @@ TEST(function_forms, takes_signatures_apart) {
     EXPECT_EQ(options->first_place, 2u);
     for (const char* name : {"MaxIter", "maxIter", "Lambda", "OutputWeights"})
         EXPECT_TRUE(options->knows(name)) << name;
+    EXPECT_THAT(options->names, testing::Not(testing::Contains("data")));
+    EXPECT_THAT(options_of_function("load")->names,
+                testing::ElementsAre("skip", "names", "delimiter", "units", "time", "sheet"));
     EXPECT_FALSE(options->knows("Lamda"));
     EXPECT_FALSE(options_of_function("mean"));
 }

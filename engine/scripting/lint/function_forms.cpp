@@ -40,14 +40,17 @@ void add_described(const std::string& item, std::vector<std::pair<std::string, s
     }
 }
 
+void add_names(std::string_view code, std::set<std::string>& names) {
+    for (const LuaToken& token : lua_tokens(code))
+        if (token.kind == LuaToken::Kind::kName) names.emplace(token.text);
+}
+
 /// Every name in code on a page: between backticks and in its examples.
 void add_mentioned(std::string_view page, std::set<std::string>& names) {
     bool code = false;
     for (std::size_t begin = 0; begin < page.size(); code = !code) {
         const std::size_t end = std::min(page.find('`', begin), page.size());
-        if (code)
-            for (const LuaToken& token : lua_tokens(page.substr(begin, end - begin)))
-                if (token.kind == LuaToken::Kind::kName) names.emplace(token.text);
+        if (code) add_names(page.substr(begin, end - begin), names);
         begin = end + 1;
     }
 }
@@ -115,8 +118,11 @@ std::optional<FunctionOptions> options_of_function(const std::string& function) 
     const auto page = find_help_page(function);
     if (entry == nullptr || !page) return std::nullopt;
     std::optional<FunctionOptions> options;
+    std::set<std::string> positional;
     for (const std::string& form : forms_of(entry->signature)) {
         const std::vector<std::string> arguments = arguments_of(form);
+        for (const std::string& argument : arguments)
+            if (!is_options(argument)) add_names(argument, positional);
         const auto table = std::find_if(arguments.begin(), arguments.end(), is_options);
         if (table == arguments.end()) continue;
         const bool varies = std::find(arguments.begin(), table, "...") != table;
@@ -135,9 +141,9 @@ std::optional<FunctionOptions> options_of_function(const std::string& function) 
             if (const auto there = find_function(other) ? find_help_page(other) : std::nullopt)
                 add_mentioned(there->text, mentioned);
     }
+    std::set<std::string> known(options->names.begin(), options->names.end());
     for (const auto& [name, words] : described_options(function))
-        if (find_function(name) == nullptr &&
-            std::find(options->names.begin(), options->names.end(), name) == options->names.end())
+        if (find_function(name) == nullptr && !positional.contains(name) && known.insert(name).second)
             options->names.push_back(name);
     options->mentioned.assign(mentioned.begin(), mentioned.end());
     return options;
