@@ -89,6 +89,7 @@ TEST(lint_command, tells_files_lines_and_columns) {
     EXPECT_EQ(wrong.output,
               "wrong.lua:3:35: srivc: option 'Lamda' is unknown; did you mean 'lambda'?\n"
               "wrong.lua:4:7: there is no function or variable 'modle'; did you mean 'model'?\n");
+    EXPECT_THAT(bench.dynlab({"help", "guide-editors"}).output, HasSubstr("wrong.lua:3:35: srivc: option 'Lamda'"));
     const json told = json::parse(bench.dynlab({"lint", "--json", "wrong.lua"}).output).at("findings");
     ASSERT_EQ(told.size(), 2u);
     EXPECT_EQ(told[1], json({{"file", "wrong.lua"},

@@ -32,7 +32,8 @@ local w = vector{0.5, 2, 5}
 local answer = freqresp(tf({2, 3}, {1, 0.5, 4}), w)
 save_mat("more.mat", {H = H, S = ss(tf({2, 3}, {1, 0.5, 4})), y = lsim(P, u, 0.1), t = t,
   step = step(tf({2, 3}, {1, 0.5, 4}), t), u = u, gain = answer.abs})
-save_json("more.json", {H = H, y = lsim(P, u, 0.1), t = t, step = step(tf({2, 3}, {1, 0.5, 4}), t)})
+local late = c2d(G, 0.1)
+save_json("more.json", {late = late, late_y = lsim(late, u, 0.1), H = H, y = lsim(P, u, 0.1), t = t, step = step(tf({2, 3}, {1, 0.5, 4}), t)})
 step(G)
 save(plot(t, sin(t), "it's", {xlabel = "time (s)"}), "sine.gp")
 )code");
@@ -98,15 +99,18 @@ print("discrete", float(max(abs(num.flatten()[1:] - M["H"]["num"]).max(), abs(de
 t, response = sg.step(G, T=np.array(M["t"]))
 print("step", float(abs(response - M["step"]).max()))
 print("arx", float(abs(y - M["y"]).max()))
+late = sg.lfilter(M["late"]["B"], M["late"]["F"], S["data"]["u"])
+print("late", float(abs(late - M["late_y"]).max()), M["late"]["B"][:5])
 print("csv", float(abs(csv["y1"] - S["data"]["y"]).max()), len(csv))
 print("delay", S["G"]["IODelay"], S["P"]["kind"], len(S["P"]["names"]))
 json.dump({"R": {"num": [5], "den": [1, 2, 3]}}, open("back.json", "w"))
 )code");
     const ChildResult read = files().shell(python + " read.py");
     ASSERT_EQ(read.exit_code, 0) << read.error_output;
-    for (const char* difference : {"discrete", "step", "arx"})
+    for (const char* difference : {"discrete", "step", "arx", "late"})
         EXPECT_NEAR(number_after(read.output, difference), 0, 1e-8) << difference;
     EXPECT_NEAR(number_after(read.output, "csv"), 0, 1e-5) << "7 digits";
+    EXPECT_THAT(read.output, HasSubstr("[0.0, 0.0, 0.0, 0.0, 0.0]"));
     EXPECT_THAT(read.output, HasSubstr("delay 0.5 idpoly 4"));
     const ChildResult back = files().dynlab({"run", "-e", "print(dcgain(tf(load('back.json').R)))"});
     EXPECT_THAT(back.output, testing::StartsWith("1.66")) << back.error_output;
