@@ -2,7 +2,10 @@
 #include <optional>
 
 #include "cli/commands.h"
+#include "platform/error.h"
 #include "platform/terminal/activity_line.h"
+#include "workflow/authoring/editor_files.h"
+#include "workflow/authoring/lesson_skeleton.h"
 #include "workflow/student_copy.h"
 
 namespace dynlab::inline cli {
@@ -13,7 +16,24 @@ struct NewArguments {
     std::optional<std::uint32_t> group_seed;
 };
 
+int make_editor_files(const std::string& folder) {
+    if (!std::filesystem::is_directory(folder)) throw EnvironmentError("there is no folder " + folder);
+    for (const std::string& kept : write_editor_files(folder))
+        std::cout << kept << " is there already and stays as it is\n";
+    std::cout << folder << ": editors complete and check the functions of dynlab in it\n";
+    return kDone;
+}
+
+int make_lesson(const std::string& folder) {
+    for (const std::string& name : make_lesson_skeleton(folder)) std::cout << name << '\n';
+    std::cout << folder << ": a small lesson that runs; lesson.lua holds its text, code and worked solution.\n"
+              << "Try:  dynlab test-lesson " << folder << "    then    dynlab report " << folder << '\n';
+    return kDone;
+}
+
 int make_new(const NewArguments& words) {
+    if (words.lesson == "lesson") return make_lesson(words.folder);
+    if (words.lesson == "editor") return make_editor_files(words.folder);
     if (words.lesson == "review") {
         make_review_folder(words.folder, words.language);
         std::cout << words.folder << ": report.md has the five questions, analysis.lua takes scores.\n"
@@ -25,6 +45,7 @@ int make_new(const NewArguments& words) {
         ActivityLine activity;
         if (words.group_seed) activity.begin_step("finding out which data the lesson loads");
         make_student_copy(lesson, words.folder, words.group_seed, words.language);
+        write_editor_files(words.folder);
     }
     std::cout << words.folder << ": analysis.lua is yours to edit, report.md is your report's text.\n"
               << "Try:  dynlab run " << words.folder << "    then    dynlab report " << words.folder << '\n';
@@ -37,7 +58,8 @@ void add_new(CLI::App& app, Action& action) {
     auto words = std::make_shared<NewArguments>();
     CLI::App* command =
         app.add_subcommand("new", "Make your own copy of a lesson, without its solutions, or a folder for a review");
-    command->add_option("LESSON", words->lesson, "The lesson's number or name, its folder, or review")->required();
+    command->add_option("LESSON", words->lesson, "The lesson's number or name, its folder, review, lesson, or editor")
+        ->required();
     command->add_option("DIR", words->folder, "The folder to make")->required();
     command
         ->add_option("--group-seed", words->group_seed,
@@ -46,7 +68,12 @@ void add_new(CLI::App& app, Action& action) {
         ->check(CLI::Range(1u, 4294967295u));
     command->add_option("--lang", words->language, "Language of the report, where it is not the lesson's")
         ->check(CLI::IsMember({"en", "fr"}));
-    command->footer("Examples:  dynlab new 02 my-work     dynlab new review my-review --lang fr");
+    command->footer(
+        "Examples:  dynlab new 02 my-work     dynlab new review my-review --lang fr\n"
+        "dynlab new lesson DIR makes a small lesson of your own with checks, to be changed: dynlab help "
+        "guide-own-course.\n"
+        "dynlab new editor DIR writes what editors want into a folder that is there: .luarc.json with all functions\n"
+        "(completion, signatures), tasks of VS Code, .editorconfig; a student's copy has them.");
     command->callback([words, &action] { action = [words] { return make_new(*words); }; });
 }
 

@@ -9,6 +9,8 @@
 #include "cli/options/seed_option.h"
 #include "cli/options/slider_option.h"
 #include "course/store/aligned_table.h"
+#include "figures/french_texts.h"
+#include "figures/gnuplot_script.h"
 #include "platform/atomic_file.h"
 #include "platform/terminal/activity_line.h"
 #include "platform/terminal/terminal_text.h"
@@ -26,7 +28,7 @@ namespace fs = std::filesystem;
 
 struct RunArguments {
     std::string file, code, out;
-    bool interactive = false, view = false, force = false;
+    bool interactive = false, view = false, force = false, gnuplot = false;
     SeedOption seed;
     SliderOption sliders;
 };
@@ -47,7 +49,7 @@ fs::path folder_of(const fs::path& script) {
 
 /// Figures of an earlier run, by the names that draw_figures gives: "03-step-figure-1.pdf".
 void remove_old_figures(const fs::path& folder) {
-    static const std::regex kDrawn("[0-9][0-9]+-.+\\.pdf");
+    static const std::regex kDrawn("[0-9][0-9]+-.+\\.(pdf|gp)");
     std::error_code none;
     std::vector<fs::path> old;
     for (const auto& entry : fs::directory_iterator(folder, none))
@@ -64,6 +66,18 @@ void save_figures(RunRecord& record, GnuplotRenderer& renderer, const fs::path& 
     renderer.finish();
     for (const std::string& name : figures_in_order(record))
         std::cout << "figure " << terminal_text(name) << ": " << record.figures.at(name).file.string() << '\n';
+}
+
+/// Beside each figure what gnuplot draws it from.
+void save_gnuplot_files(const RunRecord& record, const std::string& language) {
+    const bool french = language == "fr";
+    for (const auto& [name, figure] : record.figures) {
+        fs::path file = figure.file;
+        const std::string drawn = file.filename().string();
+        write_file_atomically(
+            file.replace_extension(".gp"),
+            gnuplot_file(french ? in_french(figure.figure) : figure.figure, FigureFormat::kPdf, drawn, french));
+    }
 }
 
 /// What the script gave to the report, and what of it the report would not show.
@@ -108,6 +122,7 @@ int run(const RunArguments& words) {
     RunRecord record = run_showing_activity(request, renderer);
     if (words.out.empty()) remove_old_figures(out);  // a folder that was named is somebody's
     save_figures(record, renderer, out, request.script.header.language);
+    if (words.gnuplot) save_gnuplot_files(record, request.script.header.language);
     if (!words.out.empty()) write_file_atomically(out / "record.json", to_json(record));
     show_reported(request.script, record);
     if (!record.error) {
@@ -132,6 +147,7 @@ void add_run(CLI::App& app, Action& action) {
     command->add_flag("--view", words->view, "The same, and show the figures in the browser")->needs(file);
     command->add_option("--out", words->out, "Folder for figures, saved files and the run's record (record.json)")
         ->type_name("DIR");
+    command->add_flag("--gnuplot", words->gnuplot, "Write beside each figure NAME.gp, which `gnuplot NAME.gp` draws");
     CLI::Option* force =
         command->add_flag("--force", words->force, "Let the script replace files that no run of dynlab wrote");
     words->seed.add_to(*command);

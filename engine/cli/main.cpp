@@ -67,14 +67,20 @@ int main(int argc, char** argv) {
     app.require_subcommand(0, 1);
     bool view = false;
     app.add_flag("--view", view, "Show the prompt's figures in the browser as they are made");
+    app.add_option_function<std::string>(
+           "--course",
+           [](const std::string& folder) { ::setenv("DYNLAB_COURSE", std::filesystem::absolute(folder).c_str(), 1); },
+           "A folder with lessons, data and templates of your own (before the command; or DYNLAB_COURSE)")
+        ->type_name("DIR");
     app.failure_message(usage_message);
 
     Action action;
     for (const auto add :
-         {add_run,    add_look,   add_identify, add_report,  add_sheet,    add_hint,       add_weave,     add_preview,
-          add_app,    add_new,    add_check,    add_lessons, add_demo,     add_help,       add_manual,    add_doctor,
-          add_pack,   add_verify, add_bundle,   add_checks,  add_grade,    add_gradescope, add_hand_back, add_similar,
-          add_course, add_boxed,  add_notebook, add_kernel,  add_complete, add_man_pages})
+         {add_run,        add_look,      add_identify,    add_report,   add_sheet,    add_hint,     add_weave,
+          add_preview,    add_app,       add_new,         add_check,    add_lessons,  add_demo,     add_help,
+          add_manual,     add_doctor,    add_pack,        add_verify,   add_bundle,   add_checks,   add_grade,
+          add_gradescope, add_hand_back, add_similar,     add_course,   add_boxed,    add_notebook, add_kernel,
+          add_lint,       add_lsp,       add_test_lesson, add_complete, add_man_pages})
         add(app, action);
     app.footer(kFooter);  // commands made before have no part in it, nor in the next
     app.set_help_flag("-h,--help", "Show this text, or a command's: dynlab run --help");

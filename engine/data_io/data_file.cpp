@@ -6,6 +6,7 @@
 #include <array>
 
 #include "data_io/csv_file.h"
+#include "data_io/json_file.h"
 #include "data_io/mat_file.h"
 #include "data_io/tables/unit_text.h"
 #include "data_io/workbook.h"
@@ -18,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 4> kTableEndings = {".csv", ".tsv", ".txt", ".dat"};
-constexpr std::string_view kMatEnding = ".mat", kWorkbookEnding = ".xlsx";
+constexpr std::string_view kMatEnding = ".mat", kJsonEnding = ".json", kWorkbookEnding = ".xlsx";
 constexpr double kStepTolerance = 1e-3;  // relative; instants are often rounded when they are written
 
 bool is_table(const std::string& ending) {
@@ -70,10 +71,13 @@ void refuse_table_options(const fs::path& file, const ImportOptions& options) {
                                            file.extension().string()));
 }
 
-LoadedData variables_of_mat(const fs::path& file, bool guarded, const ImportOptions& options) {
+LoadedData variables_of(const fs::path& file, bool guarded, const ImportOptions& options) {
     refuse_table_options(file, options);
     LoadedData data;
-    data.variables = read_mat_file(file, guarded, &data.notes);
+    if (ending_of(file) == kJsonEnding)
+        data.variables = read_json_file(file);
+    else
+        data.variables = read_mat_file(file, guarded, &data.notes);
     for (std::string& note : data.notes) note += ": left out";
     for (const auto& [name, unit] : options.units) {
         if (data.variables.count(name) == 0)
@@ -141,20 +145,20 @@ bool is_called_time(const std::string& name) {
 
 bool is_data_file(const fs::path& file) {
     const std::string ending = ending_of(file);
-    return ending == kMatEnding || ending == kWorkbookEnding || is_table(ending);
+    return ending == kMatEnding || ending == kJsonEnding || ending == kWorkbookEnding || is_table(ending);
 }
 
 LoadedData read_data_file(const fs::path& file, bool guarded, const ImportOptions& options) {
     const std::string ending = ending_of(file);
     LoadedData data;
-    if (ending == kMatEnding)
-        data = variables_of_mat(file, guarded, options);
+    if (ending == kMatEnding || ending == kJsonEnding)
+        data = variables_of(file, guarded, options);
     else if (is_table(ending))
         data = from_text(file, options);
     else if (ending == kWorkbookEnding)
         data = from_workbook(file, options);
     else
-        throw EnvironmentError(fmt::format("{} is of no kind that can be read: those are .mat, .xlsx, {}",
+        throw EnvironmentError(fmt::format("{} is of no kind that can be read: those are .mat, .xlsx, {}, .json",
                                            file.string(), fmt::join(kTableEndings, ", ")));
     data.file = file;
     if (!options.time.empty()) take_time(data, options.time);

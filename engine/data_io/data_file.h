@@ -26,11 +26,11 @@ struct LoadedData {
 /// Whether the name's ending is one of those that read_data_file() knows.
 bool is_data_file(const std::filesystem::path& file);
 
-/// Reads a .mat file, or a table in a .csv, .tsv, .txt or .dat file (csv_file.h) or a sheet of an .xlsx workbook
-/// (workbook.h). With `options.time` the variable of that
-/// name must hold increasing instants: in seconds they become the variable t, and their distance, where it is even, Ts.
-/// `guarded`: as read_mat_file(). Throws EnvironmentError as the readers do, for a file of another kind, a time
-/// that does not increase, and an option that the kind does not know.
+/// Reads a .mat or .json file (json_file.h), or a table in a .csv, .tsv, .txt or .dat file (csv_file.h) or a sheet of
+/// an .xlsx workbook (workbook.h). With `options.time` the variable of that name must hold increasing instants: in
+/// seconds they become the variable t, and their distance, where it is even, Ts. `guarded`: as read_mat_file(). Throws
+/// EnvironmentError as the readers do, for a file of another kind, a time that does not increase, and an option that
+/// the kind does not know.
 LoadedData read_data_file(const std::filesystem::path& file, bool guarded, const ImportOptions& options = {});
 
 struct TimeColumn {

@@ -298,4 +298,9 @@ std::string gnuplot_script(const Figure& figure, FigureFormat format, bool decim
     return out;
 }
 
+std::string gnuplot_file(const Figure& figure, FigureFormat format, const std::string& output, bool decimal_comma) {
+    return fmt::format("# Drawn by: gnuplot FILE, where FILE is this one; the data are in it.\noutput_file = {}\n{}",
+                       gnuplot_quoted(output), gnuplot_script(figure, format, decimal_comma));
+}
+
 }  // namespace dynlab::inline figures

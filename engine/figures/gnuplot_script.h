@@ -12,4 +12,8 @@ namespace dynlab::inline figures {
 /// With `decimal_comma` the numbers beside the axes are written as French writes them.
 std::string gnuplot_script(const Figure& figure, FigureFormat format, bool decimal_comma = false);
 
+/// The same as the text of a file that `gnuplot FILE` draws by itself, into `output`, a name beside it.
+std::string gnuplot_file(const Figure& figure, FigureFormat format, const std::string& output,
+                         bool decimal_comma = false);
+
 }  // namespace dynlab::inline figures

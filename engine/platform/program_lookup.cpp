@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "platform/error.h"
+#include "platform/files/course_home.h"
 
 namespace dynlab::inline platform {
 namespace {
@@ -61,12 +62,22 @@ fs::path running_program() {
     return fs::read_symlink("/proc/self/exe");
 }
 
-fs::path shared_folder() {
+namespace {
+
+fs::path installed_folder() {
     if (const char* home = std::getenv("DYNLAB_HOME"); home && *home) {
         if (is_folder(fs::path(home) / "data")) return home;
         throw EnvironmentError("DYNLAB_HOME is " + std::string(home) + ", but there is no folder data in it");
     }
     return shared_folder_of(running_program());
+}
+
+}  // namespace
+
+fs::path shared_folder() {
+    const fs::path installed = installed_folder();
+    const auto course = own_course();
+    return course ? course_home(*course, installed) : installed;
 }
 
 const std::vector<NeededProgram>& needed_programs() {

@@ -15,8 +15,8 @@ std::filesystem::path running_program();
 std::optional<std::filesystem::path> library_folder_of(const std::filesystem::path& program);
 
 /// Folder with data/, lessons/ and report_templates/: $DYNLAB_HOME, else <prefix>/share/dynlab beside the
-/// running program, else the source tree that holds its build folder. Throws EnvironmentError that lists the
-/// places tried.
+/// running program, else the source tree that holds its build folder; with a course of one's own (DYNLAB_COURSE) what
+/// this and the course hold together. Throws EnvironmentError that lists the places tried.
 std::filesystem::path shared_folder();
 /// The same for a given program file, without the environment.
 std::filesystem::path shared_folder_of(const std::filesystem::path& program);

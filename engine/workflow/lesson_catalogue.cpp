@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "platform/error.h"
+#include "platform/files/course_home.h"
 #include "platform/program_lookup.h"
 
 namespace dynlab::inline workflow {
@@ -37,6 +38,8 @@ std::vector<Lesson> lessons() {
         if (!fs::is_directory(folder)) throw EnvironmentError("DYNLAB_LESSONS: there is no folder '" + folder + "'");
         folders.emplace_back(folder);
     }
+    if (const auto course = own_course(); course && fs::is_directory(*course / "lessons"))
+        folders.push_back(*course / "lessons");
     folders.push_back(shared_folder() / "lessons");
     std::map<std::string, Lesson> found;
     for (const fs::path& folder : folders)

@@ -70,21 +70,13 @@ TEST_P(lessons, equations_have_the_same_numbers_with_and_without_the_solutions) 
     }
 }
 
-TEST_P(lessons, starter_runs_and_shows_no_solution) {
+// That the command finds faults is seen in tests/course/test_own_course.cpp.
+TEST_P(lessons, texts_documents_and_copies_are_in_order) {
     const Workbench bench(Workbench::Memory::kShared);
-    ASSERT_EQ(bench.dynlab({"new", GetParam(), "mine"}).exit_code, 0);
-    const ChildResult run = bench.dynlab({"run", "mine/analysis.lua", "--out", "made"});
-    EXPECT_EQ(run.exit_code, 0) << run.error_output;
-    const auto record = nlohmann::json::parse(bench.read("made/record.json"));
-    EXPECT_TRUE(record.at("values").empty()) << "the starter must not hold the solution's values";
-
-    ASSERT_EQ(bench.dynlab({"report", "mine"}).exit_code, 0);
-    const std::string starter = text_of_pdf(bench, "mine/report.pdf");
-    if (bench.read("mine/analysis.lua").find("\n-- template: lesson\n") != std::string::npos) {
-        EXPECT_THAT(starter, testing::ContainsRegex("\nLesson [0-9.]+ – ")) << "the subtitle";
+    for (const char* part : {"texts", "documents"}) {
+        const ChildResult tested = bench.dynlab({"test-lesson", GetParam(), "--part", part});
+        EXPECT_EQ(tested.exit_code, 0) << tested.output << tested.error_output;
     }
-    ASSERT_EQ(bench.dynlab({"report", GetParam()}).exit_code, 0);
-    EXPECT_LT(starter.size(), text_of_pdf(bench, GetParam() + ".pdf").size());
 }
 
 TEST(lesson_01, readings_and_estimates_find_the_parameters_of_the_simulated_processes) {

@@ -8,67 +8,10 @@
 #include "documents/text_lines.h"
 #include "documents/words/sentence_catalogue.h"
 #include "numerics/estimators/catalogue.h"
-#include "scripting/runtime/help.h"
+#include "scripting/lint/function_forms.h"
 
 namespace dynlab::inline app {
 namespace {
-
-const FunctionEntry* find_function(const std::string& name) {
-    for (const FunctionEntry& entry : catalogue_of_functions())
-        if (name == entry.name) return &entry;
-    return nullptr;
-}
-
-/// What stands between the brackets of "f(data, {na, nb}, x, {hold =}) -> G", taken apart at the outer commas.
-std::vector<std::string> arguments_of(const std::string& signature) {
-    std::vector<std::string> arguments(1);
-    int depth = 0;
-    for (const char c : signature.substr(signature.find('(') + 1)) {
-        if (c == ')' && depth == 0) break;
-        depth += (c == '{') - (c == '}');
-        if (c == ',' && depth == 0)
-            arguments.emplace_back();
-        else
-            arguments.back() += c;
-    }
-    for (std::string& argument : arguments) argument = trimmed(argument);
-    return arguments;
-}
-
-/// The items of a page's list of arguments, each in one line.
-std::vector<std::string> argument_items(std::string_view page) {
-    std::vector<std::string> items;
-    bool inside = false;
-    for (const std::string& line : lines_of(page)) {
-        if (line.starts_with("## ")) inside = line == "## Arguments";
-        if (!inside) continue;
-        if (line.starts_with("- "))
-            items.push_back(line.substr(2));
-        else if (!items.empty() && !is_blank(line))
-            items.back() += " " + trimmed(line);
-    }
-    return items;
-}
-
-/// "`MaxIter`, `Tol`: words; `NumTd`: words" as names with their words.
-void add_described(const std::string& item, std::vector<std::pair<std::string, std::string>>& described) {
-    static const std::regex kNames(R"((^|[;.] |or )((`\w+`(, | and )?)+):)"), kName(R"(`(\w+)`)");
-    std::vector<std::smatch> heads(std::sregex_iterator(item.begin(), item.end(), kNames), {});
-    for (std::size_t i = 0; i < heads.size(); ++i) {
-        const auto begin = heads[i][0].second;
-        const auto end = i + 1 < heads.size() ? heads[i + 1][0].first : item.end();
-        const std::string words = trimmed(std::string(begin, end)), names = heads[i][2];
-        for (std::sregex_iterator name(names.begin(), names.end(), kName), last; name != last; ++name)
-            described.emplace_back((*name)[1], words);
-    }
-}
-
-std::vector<std::pair<std::string, std::string>> described_options(const std::string& function) {
-    std::vector<std::pair<std::string, std::string>> described;
-    if (const auto page = find_help_page(function))
-        for (const std::string& item : argument_items(page->text)) add_described(item, described);
-    return described;
-}
 
 /// The words of an option; where they only point to another page, that page's.
 std::string words_of(const std::string& option, const std::string& words) {
@@ -120,10 +63,6 @@ FormField argument_field(const std::string& written, TimeDomain domain) {
         field.initial += (field.initial.empty() ? "" : ", ") + initial_order(name, domain);
     }
     return field;
-}
-
-bool is_options(const std::string& written) {
-    return written.find('=') != std::string::npos;
 }
 
 EstimatorForm form_of(const MethodEntry& method, const FunctionEntry& function) {

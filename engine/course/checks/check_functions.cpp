@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "course/checks/check_records.h"
 #include "course/checks/check_session.h"
 #include "data_io/values/json_values.h"
 #include "numerics/number_text.h"
@@ -382,6 +383,13 @@ FunctionEntries check_functions() {
 
 FunctionEntries verdict_function() {
     return kVerdict;
+}
+
+std::vector<std::string> names_of_check_functions() {
+    std::vector<std::string> names;
+    for (const auto functions : {check_declarations, check_functions, check_source_functions, check_record_functions})
+        for (const FunctionEntry& entry : functions()) names.emplace_back(entry.name);
+    return names;
 }
 
 }  // namespace dynlab::inline course

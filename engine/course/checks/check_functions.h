@@ -1,4 +1,7 @@
 #pragma once
+#include <string>
+#include <vector>
+
 #include "scripting/runtime/function_entry.h"
 
 namespace dynlab::inline course {
@@ -11,5 +14,8 @@ FunctionEntries check_source_functions();  ///< source, calls
 
 /// One more, for the engine: _verdict(k) tries the k-th declared check and leaves its verdict in the session.
 FunctionEntries verdict_function();
+
+/// The names of all that files with checks may call besides what scripts may.
+std::vector<std::string> names_of_check_functions();
 
 }  // namespace dynlab::inline course

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <future>
 
 #include "course/grading/feedback.h"
 #include "documents/solutions.h"
@@ -105,7 +106,7 @@ bool CheckTrial::sound() const {
     return solution.trouble.empty() && std::all_of(solution.checks.begin(), solution.checks.end(), full);
 }
 
-CheckTrial try_checks_of(const GradingSetup& setup) {
+CheckTrial try_checks_of(const GradingSetup& setup, Mutants mutants) {
     const GradingRules rules(setup);
     CheckTrial trial;
     trial.checks = rules.checks();
@@ -122,15 +123,20 @@ CheckTrial try_checks_of(const GradingSetup& setup) {
     std::vector<CheckedSubmission> submissions;
     std::vector<std::string> names;
     ProgressBar bar("running scripts", sources.size());
+    std::vector<std::future<CheckedSubmission>> works;  // the rules know how many may run at once
     for (const auto& [name, source] : sources) {
-        submissions.push_back(work_of(rules, source));
+        works.push_back(std::async(std::launch::async, [&rules, &source = source] { return work_of(rules, source); }));
         names.push_back(name);
+    }
+    for (std::future<CheckedSubmission>& work : works) {
+        submissions.push_back(work.get());
         bar.advance(submissions.size());
     }
-    for (auto& [name, mutant] : mutants_of(submissions.front())) {
-        submissions.push_back(std::move(mutant));
-        names.push_back(name);
-    }
+    if (mutants == Mutants::kAll)
+        for (auto& [name, mutant] : mutants_of(submissions.front())) {
+            submissions.push_back(std::move(mutant));
+            names.push_back(name);
+        }
     const std::vector<std::vector<TriedCheck>> verdicts = rules.tried(submissions);
     for (std::size_t k = 0; k < verdicts.size(); ++k) {
         TriedScript script{names[k], submissions[k].runs.at("main").error.value_or(""), verdicts[k]};

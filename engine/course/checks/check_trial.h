@@ -31,7 +31,8 @@ struct CheckTrial {
 /// scripts in the folder `try` of the instructor's checks, and on mutants of the solution's answers: each number of an
 /// answer 1.5 times as large, of the other sign, the answer left out. Scripts are run, mutants are not. Throws
 /// EnvironmentError as GradingRules does.
-CheckTrial try_checks_of(const GradingSetup& setup);
+enum class Mutants { kAll, kNone };
+CheckTrial try_checks_of(const GradingSetup& setup, Mutants mutants = Mutants::kAll);
 
 /// It in words, a line for each script and what no script shows.
 std::string trial_in_words(const CheckTrial& trial);

@@ -5,6 +5,7 @@
 
 #include "data_io/values/json_values.h"
 #include "documents/percent_script.h"
+#include "platform/spelling.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/model_description.h"
 
@@ -240,6 +241,13 @@ void push_answer_value(lua_State* L, const std::string& text) {
     } catch (const ValueError& error) {
         throw InvalidArgument(std::string("the answer is damaged: ") + error.what());
     }
+}
+
+std::string undeclared_answer_sentence(const std::string& name, const std::vector<std::string>& names) {
+    const auto near = nearest_word(name, names);
+    return fmt::format(
+        "the script's header declares no answer \"{}\"; {}", name,
+        near ? fmt::format("did you mean \"{}\"?", *near) : fmt::format("it declares {}", fmt::join(names, ", ")));
 }
 
 }  // namespace dynlab::inline scripting

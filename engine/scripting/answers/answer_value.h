@@ -1,6 +1,7 @@
 #pragma once
 #include <lua.hpp>
 #include <string>
+#include <vector>
 
 namespace dynlab::inline scripting {
 
@@ -22,5 +23,8 @@ AnswerValue answer_value(lua_State* L, int index);
 /// Pushes the value again. Throws InvalidArgument where the text is not what answer_value makes: it may come from
 /// anybody.
 void push_answer_value(lua_State* L, const std::string& json);
+
+/// About an answer that the script's header does not declare; it declares `names`.
+std::string undeclared_answer_sentence(const std::string& name, const std::vector<std::string>& names);
 
 }  // namespace dynlab::inline scripting

@@ -266,18 +266,6 @@ Options::Options(const Call& call, int index, std::initializer_list<const char*>
     check_names(known);
 }
 
-namespace {
-
-/// The name with its first letter in the other case: MATLAB's options are a mixture, Lambda and lambda.
-std::string with_other_case(std::string name) {
-    if (name.empty()) return name;
-    const auto first = static_cast<unsigned char>(name[0]);
-    name[0] = static_cast<char>(std::isupper(first) ? std::tolower(first) : std::toupper(first));
-    return name;
-}
-
-}  // namespace
-
 void Options::check_names(std::initializer_list<const char*> known) const {
     lua_State* L = call_.state();
     lua_pushnil(L);
@@ -297,11 +285,7 @@ void Options::check_names(std::initializer_list<const char*> known) const {
             lua_pop(L, 1);
             continue;
         }
-        const std::vector<std::string> names(known.begin(), known.end());
-        const auto near = nearest_word(name, names);
-        throw InvalidArgument(
-            near ? fmt::format("option '{}' is unknown; did you mean '{}'?", name, *near)
-                 : fmt::format("option '{}' is unknown; the options are {}", name, fmt::join(names, ", ")));
+        throw InvalidArgument(unknown_option_sentence(name, {known.begin(), known.end()}));
     }
 }
 

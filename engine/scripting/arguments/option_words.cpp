@@ -1,8 +1,13 @@
 #include "scripting/arguments/option_words.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <utility>
+
+#include "platform/spelling.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -43,6 +48,19 @@ std::string in_lua_words(std::string_view message) {
         message.remove_prefix(known ? end + 1 : end);
     }
     return text += message;
+}
+
+std::string with_other_case(std::string name) {
+    if (name.empty()) return name;
+    const auto first = static_cast<unsigned char>(name[0]);
+    name[0] = static_cast<char>(std::isupper(first) ? std::tolower(first) : std::toupper(first));
+    return name;
+}
+
+std::string unknown_option_sentence(const std::string& name, const std::vector<std::string>& known) {
+    const auto near = nearest_word(name, known);
+    return near ? fmt::format("option '{}' is unknown; did you mean '{}'?", name, *near)
+                : fmt::format("option '{}' is unknown; the options are {}", name, fmt::join(known, ", "));
 }
 
 std::vector<std::string> translated_options() {

@@ -12,4 +12,10 @@ std::string in_lua_words(std::string_view message);
 /// The names of numerics' options that in_lua_words() knows.
 std::vector<std::string> translated_options();
 
+/// The name with its first letter in the other case: MATLAB's options are a mixture, Lambda and lambda.
+std::string with_other_case(std::string name);
+
+/// About an option that is none of these.
+std::string unknown_option_sentence(const std::string& name, const std::vector<std::string>& known);
+
 }  // namespace dynlab::inline scripting

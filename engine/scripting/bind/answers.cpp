@@ -2,7 +2,6 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "platform/spelling.h"
 #include "scripting/answers/answer_value.h"
 #include "scripting/arguments/arguments.h"
 #include "scripting/bind/bindings.h"
@@ -21,11 +20,8 @@ void check_declared(const std::vector<ExpectedAnswer>& expected, const std::stri
             throw InvalidArgument(
                 fmt::format("the answer \"{}\" must be of the kind {}, but a {} was given", name, answer.kind, kind));
     }
-    if (std::find(names.begin(), names.end(), name) != names.end()) return;
-    const auto near = nearest_word(name, names);
-    throw InvalidArgument(fmt::format(
-        "the script's header declares no answer \"{}\"; {}", name,
-        near ? fmt::format("did you mean \"{}\"?", *near) : fmt::format("it declares {}", fmt::join(names, ", "))));
+    if (std::find(names.begin(), names.end(), name) == names.end())
+        throw InvalidArgument(undeclared_answer_sentence(name, names));
 }
 
 /// The kind that the script's header declares for an answer; empty where it declares none of this name.

@@ -4,8 +4,10 @@
 
 #include "figures/figure_text.h"
 #include "figures/gnuplot_renderer.h"
+#include "figures/gnuplot_script.h"
 #include "figures/plots/motion_plot.h"
 #include "numerics/number_text.h"
+#include "platform/atomic_file.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/panel_options.h"
@@ -259,6 +261,11 @@ int save(Call& call) {
     ScriptFigure& figure = used_figure(call, 1, "figure");
     const std::filesystem::path file = output_path(call.context(), call.text(2, "path"));
     if (call.context().options.graded) return 0;
+    if (file.extension() == ".gp") {
+        const std::string drawn = std::filesystem::path(file).replace_extension(".pdf").filename().string();
+        write_file_atomically(file, gnuplot_file(figure.figure, FigureFormat::kPdf, drawn));
+        return 0;
+    }
     call.context().renderer.draw(figure.figure, file, figure_format(file));
     return 0;
 }

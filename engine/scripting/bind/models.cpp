@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 
 #include "numerics/models/convert.h"
@@ -5,13 +6,60 @@
 #include "scripting/arguments/told_sentences.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/model.h"
+#include "scripting/objects/numeric_tables.h"
 #include "scripting/objects/present.h"
 #include "scripting/objects/process_structure.h"
 
 namespace dynlab::inline scripting {
 namespace {
 
-/// tf("s"), tf("z", Ts), tf(num, den, {Ts =, IODelay =}), tf(num, den, Ts, {IODelay =}), tf(system)
+/// Pushes a field of a struct, which may be one that load() gave: these refuse names they have not.
+int push_field(lua_State* L, int index, const char* name) {
+    lua_pushstring(L, name);
+    return lua_rawget(L, index);
+}
+
+/// A field of a struct: a number, a vector, a list of numbers, or a matrix of one row.
+Vector coefficients_of_field(const Call& call, int index, const char* name) {
+    lua_State* L = call.state();
+    if (push_field(L, index, name) == LUA_TTABLE)
+        make_vector_of_table(L, lua_gettop(L), fmt::format("the field {} of a model's struct", name));
+    NumericBlock* block = to_vector(L, -1) != nullptr ? to_vector(L, -1) : to_matrix(L, -1);
+    Vector values;
+    if (lua_type(L, -1) == LUA_TNUMBER)
+        values = Vector::Constant(1, lua_tonumber(L, -1));
+    else if (block != nullptr && std::min(block->rows, block->columns) == 1)
+        values = Eigen::Map<const Vector>(block->data(), block->rows * block->columns);
+    else
+        throw InvalidArgument(fmt::format("the field {} of a model's struct must be a vector, but it is {}", name,
+                                          given_text(L, lua_gettop(L))));
+    lua_pop(L, 1);
+    return values;
+}
+
+double number_of_field(const Call& call, int index, const char* name) {
+    lua_State* L = call.state();
+    const int type = push_field(L, index, name);
+    if (type != LUA_TNIL && type != LUA_TNUMBER)
+        throw InvalidArgument(fmt::format("the field {} of a model's struct must be a number, but it is {}", name,
+                                          given_text(L, lua_gettop(L))));
+    const double value = type == LUA_TNIL ? 0 : lua_tonumber(L, -1);
+    lua_pop(L, 1);
+    return value;
+}
+
+/// Whether the argument is a struct as save_mat and save_json write it of a model.
+bool holds_model_struct(const Call& call) {
+    if (call.type(1) != LUA_TTABLE) return false;
+    bool both = true;
+    for (const char* name : {"num", "den"}) {
+        both = push_field(call.state(), 1, name) != LUA_TNIL && both;
+        lua_pop(call.state(), 1);
+    }
+    return both;
+}
+
+/// tf("s"), tf("z", Ts), tf(struct), tf(num, den, {Ts =, IODelay =}), tf(num, den, Ts, {IODelay =}), tf(system)
 int make_tf(Call& call) {
     call.at_most(call.type(3) == LUA_TNUMBER ? 4 : 3);
     if (call.type(1) == LUA_TSTRING) {
@@ -21,6 +69,12 @@ int make_tf(Call& call) {
         throw InvalidArgument("the variable is written tf(\"s\"), or tf(\"z\", Ts) with the sampling time in seconds");
     }
     if (holds_model(call, 1)) return give_model(call, model_argument(call, 1, "model").G);
+    if (holds_model_struct(call)) {
+        call.at_most(1);
+        const Vector num = coefficients_of_field(call, 1, "num"), den = coefficients_of_field(call, 1, "den");
+        return give_model(
+            call, TransferFunction(num, den, number_of_field(call, 1, "Ts"), number_of_field(call, 1, "IODelay")));
+    }
     const bool sampled = call.type(3) == LUA_TNUMBER;  // tf(num, den, Ts)
     const Options options(call, sampled ? 4 : 3, {"Ts", "IODelay"});
     auto coefficients = [&](int index, const char* what) {

@@ -2,10 +2,12 @@
 #include <array>
 
 #include "data_io/csv_file.h"
+#include "data_io/json_file.h"
 #include "data_io/mat_file.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/boxed.h"
 #include "scripting/objects/data_object.h"
+#include "scripting/objects/exchange.h"
 #include "scripting/runtime/output_path.h"
 
 namespace dynlab::inline scripting {
@@ -170,15 +172,21 @@ bool is_table_of_variables(lua_State* L, int index) {
     return true;
 }
 
-/// The entry on top of the stack as a MAT variable.
+Variable structure(VariableTable fields) {
+    return {std::make_shared<VariableTable>(std::move(fields))};
+}
+
+/// The entry on top of the stack as a variable of a MAT or JSON file.
 Variable variable_on_top(const Call& call, const std::string& name, int depth) {
     lua_State* L = call.state();
     if (NumericBlock* column = to_vector(L, -1)) return {Vector(column->vector())};
     if (NumericBlock* matrix = to_matrix(L, -1)) return {Matrix(matrix->matrix())};
+    if (const Model* model = to_object<Model>(L, -1)) return structure(struct_of(*model));
+    if (const StateSpace* system = to_object<StateSpace>(L, -1)) return structure(struct_of(*system));
+    if (const IdData* data = to_object<IdData>(L, -1)) return structure(struct_of(*data));
     if (lua_type(L, -1) == LUA_TNUMBER) return {lua_tonumber(L, -1)};
     if (lua_type(L, -1) == LUA_TSTRING) return {std::string(lua_tostring(L, -1))};
-    if (is_table_of_variables(L, lua_gettop(L)))
-        return {std::make_shared<VariableTable>(variables_of(call, lua_gettop(L), depth + 1))};
+    if (is_table_of_variables(L, lua_gettop(L))) return structure(variables_of(call, lua_gettop(L), depth + 1));
     if (!is_list_of(L, -1, LUA_TSTRING)) refuse_entry(L, name);
     auto cells = std::make_shared<VariableList>();
     for (const std::string& text : list_of_texts(L, lua_gettop(L))) cells->push_back({text});
@@ -207,12 +215,22 @@ int save_mat(Call& call) {
     return 0;
 }
 
+int save_json(Call& call) {
+    call.at_most(2);
+    const std::filesystem::path file = file_to_write(call, ".json");
+    if (call.type(2) != LUA_TTABLE) wrong_argument(call.state(), 2, "variables", "a table of variables by name");
+    write_json_file(file, variables_of(call, 2, 1));
+    return 0;
+}
+
 constexpr const char* kSavingArea = "data";
 constexpr std::array kSavingFunctions = {
     FunctionEntry{"save_csv", kSavingArea, "save_csv(path, data, {units =, title =, columns =, Ts =, digits =})",
                   "writes data, or a table of vectors, as CSV", guarded<save_csv>},
     FunctionEntry{"save_mat", kSavingArea, "save_mat(path, variables, {digits =})",
-                  "writes vectors, matrices, numbers, texts and tables of them as a MAT file", guarded<save_mat>},
+                  "writes models, data, vectors, numbers, texts and tables of them as a MAT file", guarded<save_mat>},
+    FunctionEntry{"save_json", kSavingArea, "save_json(path, variables)",
+                  "the same as a JSON file, for Python and others", guarded<save_json>},
 };
 
 }  // namespace

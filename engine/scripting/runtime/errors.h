@@ -1,6 +1,7 @@
 #pragma once
 #include <lua.hpp>
 #include <string>
+#include <vector>
 
 namespace dynlab::inline scripting {
 
@@ -18,6 +19,15 @@ void translate_value_on_top(lua_State* L);
 std::string memory_message(const RuntimeContext& context);
 /// Replaces the error on top by it.
 void push_memory_message(lua_State* L);
+
+/// About a name that nobody defined, in this line of a script (empty where it is not known); `names` are those there
+/// are.
+std::string unknown_name_sentence(const std::string& name, const std::string& line, std::vector<std::string> names);
+/// About a function of dynlab that a script gives another value.
+std::string replaced_name_sentence(const std::string& name);
+/// About a member that a table of dynlab lacks; `of_library`: a function by itself is called so.
+std::string unknown_member_sentence(const std::string& table, const std::string& key, bool of_library,
+                                    std::vector<std::string> names);
 
 /// "file:line: text" taken apart; line 0 and empty file when the text has no location.
 struct LocatedMessage {

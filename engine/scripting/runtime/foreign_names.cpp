@@ -76,7 +76,7 @@ constexpr std::array kNames = {
     NameHint{"ylim", "give it among the options: plot(x, y, {y_range = {a, b}})"},
     NameHint{"aic", "write G.report or srivcstruc(data, ...), whose rows have aic, bic and fpe"},
     NameHint{"all", "write #find(mask) == #v"},
-    NameHint{"angle", "write freqresp(G, w):arg(), or bode_values(G, w) for degrees"},
+    NameHint{"angle", "write freqresp(G, w).arg, or bode_values(G, w) for degrees"},
     NameHint{"any", "write #find(mask) > 0"},
     NameHint{"cellfun", "write a loop: for i, x in ipairs(t) do ... end"},
     NameHint{"chol", "there is no Cholesky factor; solve(A, b) solves A*x = b"},

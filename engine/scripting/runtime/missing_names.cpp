@@ -64,24 +64,16 @@ int unknown_global(lua_State* L) {
     std::string message;
     {
         const std::string name = key_text(L, 2);
-        const char* matlab = matlab_name_hint(name);
         RuntimeContext& context = context_of(L);
         const LocatedMessage here = take_apart(script_location(L) + ": ");
-        const std::string comment =
-            here.file == context.script_name ? comment_hint(line_of(context.source, here.line), name) : "";
-        if (!comment.empty()) {
-            message = fmt::format("there is no variable '{}'; {}", name, comment);
-        } else if (matlab != nullptr) {
-            message = fmt::format("there is no function '{}' here; {}", name, matlab);
-        } else {
-            std::vector<std::string> names;
-            push_library(L);
-            collect_names(L, -1, names);
-            lua_pushglobaltable(L);
-            collect_names(L, -1, names);
-            collect_locals(L, names);
-            message = fmt::format("there is no function or variable '{}'{}", name, suggestion(name, std::move(names)));
-        }
+        const bool of_script = here.file == context.script_name;
+        std::vector<std::string> names;
+        push_library(L);
+        collect_names(L, -1, names);
+        lua_pushglobaltable(L);
+        collect_names(L, -1, names);
+        collect_locals(L, names);
+        message = unknown_name_sentence(name, of_script ? line_of(context.source, here.line) : "", std::move(names));
     }
     raise_error(L, message);
 }
@@ -92,11 +84,8 @@ int set_global(lua_State* L) {
     lua_pushvalue(L, 2);
     if (lua_rawget(L, -2) != LUA_TNIL) {
         const std::string name = key_text(L, 2);
-        raise_error(
-            L,
-            fmt::format("'{0}' is a function or table of dynlab and cannot be replaced; choose another name, or write "
-                        "'local {0} = ...' to use the name for a variable of your own",
-                        name));
+        const std::string message = replaced_name_sentence(name);
+        raise_error(L, message);
     }
     lua_settop(L, 3);
     lua_rawset(L, 1);
@@ -105,16 +94,17 @@ int set_global(lua_State* L) {
 
 /// __index behind a sealed table; upvalue 1 is the table's name.
 int unknown_member(lua_State* L) {
-    if (key_text(L, 2) == "randomseed") raise_error(L, "the random numbers of a run begin with rng(seed)");
-    std::vector<std::string> names;
-    collect_names(L, 1, names);
-    const std::string key = key_text(L, 2);
-    const std::string table = lua_tostring(L, lua_upvalueindex(1));
-    push_library(L);
-    lua_pushstring(L, key.c_str());
-    if (lua_rawget(L, -2) == LUA_TFUNCTION)
-        raise_error(L, fmt::format("'{0}' has no member '{1}'; write {1}(x), without {0}", table, key));
-    raise_error(L, fmt::format("'{}' has no member '{}'{}", table, key, suggestion(key, std::move(names))));
+    std::string message;
+    {
+        std::vector<std::string> names;
+        collect_names(L, 1, names);
+        const std::string key = key_text(L, 2);
+        push_library(L);
+        lua_pushstring(L, key.c_str());
+        const bool of_library = lua_rawget(L, -2) == LUA_TFUNCTION;
+        message = unknown_member_sentence(lua_tostring(L, lua_upvalueindex(1)), key, of_library, std::move(names));
+    }
+    raise_error(L, message);
 }
 
 int refuse_change(lua_State* L) {
@@ -184,6 +174,28 @@ void seal_tables_of_library(lua_State* L) {
 }
 
 }  // namespace
+
+std::string unknown_name_sentence(const std::string& name, const std::string& line, std::vector<std::string> names) {
+    const std::string comment = comment_hint(line, name);
+    if (!comment.empty()) return fmt::format("there is no variable '{}'; {}", name, comment);
+    if (const char* matlab = matlab_name_hint(name))
+        return fmt::format("there is no function '{}' here; {}", name, matlab);
+    return fmt::format("there is no function or variable '{}'{}", name, suggestion(name, std::move(names)));
+}
+
+std::string replaced_name_sentence(const std::string& name) {
+    return fmt::format(
+        "'{0}' is a function or table of dynlab and cannot be replaced; choose another name, or write 'local {0} = "
+        "...' to use the name for a variable of your own",
+        name);
+}
+
+std::string unknown_member_sentence(const std::string& table, const std::string& key, bool of_library,
+                                    std::vector<std::string> names) {
+    if (key == "randomseed") return "the random numbers of a run begin with rng(seed)";
+    if (of_library) return fmt::format("'{0}' has no member '{1}'; write {1}(x), without {0}", table, key);
+    return fmt::format("'{}' has no member '{}'{}", table, key, suggestion(key, std::move(names)));
+}
 
 void push_library(lua_State* L) {
     lua_rawgetp(L, LUA_REGISTRYINDEX, &library_key);

@@ -231,28 +231,8 @@ void Runtime::run_source(const std::string& source, const PromptStatement* state
     const bool shows = statement != nullptr && !statement->silent;
     if (shows) lua_pushcfunction(L, show_values);
     const std::string chunk_name = "@" + context.script_name;
-    if (const std::optional<int> line = line_with_semicolon_rows(source)) {
-        lua_pushstring(L, LocatedMessage{context.script_name, *line,
-                                         "the rows of a matrix are tables of their own: matrix{{1, 2}, {3, 4}}; a "
-                                         "semicolon separates entries as a comma does"}
-                              .joined()
-                              .c_str());
-        return record_error(LUA_ERRRUN, {});
-    }
-    if (const std::optional<int> line = line_with_compared_place(source)) {
-        lua_pushstring(L, LocatedMessage{context.script_name, *line,
-                                         "max(v) and min(v) give the element's place, too, which math.max and math.min "
-                                         "would compare like a value: write math.max(x, (max(v)))"}
-                              .joined()
-                              .c_str());
-        return record_error(LUA_ERRRUN, {});
-    }
-    if (const std::optional<DecimalComma> number = decimal_comma_of(source)) {
-        const std::string text = fmt::format(
-            "{0} = {1},{2} gives {0} the value {1}: a decimal number is written with a "
-            "point, {1}.{2}",
-            number->name, number->whole, number->fraction);
-        lua_pushstring(L, LocatedMessage{context.script_name, number->line, text}.joined().c_str());
+    if (const std::optional<MisreadLine> misread = misread_line_of(source)) {
+        lua_pushstring(L, LocatedMessage{context.script_name, misread->line, misread->sentence}.joined().c_str());
         return record_error(LUA_ERRRUN, {});
     }
     int status = luaL_loadbufferx(L, source.data(), source.size(), chunk_name.c_str(), "t");

@@ -1,5 +1,7 @@
 #include "scripting/runtime/shown_expressions.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -131,6 +133,8 @@ std::optional<int> line_with_semicolon_rows(const std::string& source) {
     return std::nullopt;
 }
 
+namespace {
+
 constexpr int kMostLooks = 200;  // each may go through the whole source
 
 std::optional<int> line_with_compared_place(const std::string& source) {
@@ -169,6 +173,12 @@ std::optional<int> line_with_compared_place(const std::string& source) {
     return std::nullopt;
 }
 
+/// A number written with a decimal comma, and its line.
+struct DecimalComma {
+    int line;
+    std::string name, whole, fraction;
+};
+
 std::optional<DecimalComma> decimal_comma_of(const std::string& source) {
     const std::vector<LuaToken> tokens = lua_tokens(source);
     const auto whole = [](const LuaToken& token) {
@@ -187,6 +197,25 @@ std::optional<DecimalComma> decimal_comma_of(const std::string& source) {
         return DecimalComma{1 + static_cast<int>(std::count(source.begin(), before, '\n')), std::string(tokens[i].text),
                             std::string(left.text), std::string(right.text)};
     }
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<MisreadLine> misread_line_of(const std::string& source) {
+    if (const std::optional<int> line = line_with_semicolon_rows(source))
+        return MisreadLine{*line,
+                           "the rows of a matrix are tables of their own: matrix{{1, 2}, {3, 4}}; a semicolon "
+                           "separates entries as a comma does"};
+    if (const std::optional<int> line = line_with_compared_place(source))
+        return MisreadLine{*line,
+                           "max(v) and min(v) give the element's place, too, which math.max and math.min would compare "
+                           "like a value: write math.max(x, (max(v)))"};
+    if (const std::optional<DecimalComma> number = decimal_comma_of(source))
+        return MisreadLine{number->line,
+                           fmt::format("{0} = {1},{2} gives {0} the value {1}: a decimal number is written with a "
+                                       "point, {1}.{2}",
+                                       number->name, number->whole, number->fraction)};
     return std::nullopt;
 }
 

@@ -17,15 +17,14 @@ std::string with_shown_expressions(const std::string& source);
 /// for a comma, so that one long row would come of it.
 std::optional<int> line_with_semicolon_rows(const std::string& source);
 
-/// A number written with a decimal comma, as in `x = 3,5`, which Lua reads as two values, and its line.
-struct DecimalComma {
+/// A line that Lua takes for something else than its writer meant, and what to write instead.
+struct MisreadLine {
     int line;
-    std::string name, whole, fraction;
+    std::string sentence;
 };
-std::optional<DecimalComma> decimal_comma_of(const std::string& source);
-
-/// The line of a math.max or math.min whose last argument is max(v) or min(v) of one vector: these give the place of
-/// the element, too, which would be compared like a value.
-std::optional<int> line_with_compared_place(const std::string& source);
+/// The first such line: rows of a matrix set apart by semicolons, a decimal comma as in `x = 3,5`, which Lua reads as
+/// two values, or a math.max or math.min whose last argument is max(v) or min(v) of one vector, which give the place of
+/// the element, too.
+std::optional<MisreadLine> misread_line_of(const std::string& source);
 
 }  // namespace dynlab::inline scripting

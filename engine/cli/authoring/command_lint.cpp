@@ -1,0 +1,80 @@
+#include <fmt/format.h>
+
+#include <iostream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.h"
+#include "course/checks/check_functions.h"
+#include "documents/text_lines.h"
+#include "platform/terminal/terminal_text.h"
+#include "scripting/lint/lint.h"
+
+namespace dynlab::inline cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kStandardInput = "-";
+
+struct LintArguments {
+    std::vector<std::string> files;
+    bool json = false;
+};
+
+std::string text_of(const std::string& file) {
+    if (file != kStandardInput) return text_of_source(file);
+    return {std::istreambuf_iterator<char>(std::cin), {}};
+}
+
+/// Files with checks have a language of their own.
+std::vector<std::string> names_in(const std::string& file) {
+    return fs::path(file).filename() == "checks.lua" ? names_of_check_functions() : std::vector<std::string>();
+}
+
+int lint(const LintArguments& words) {
+    nlohmann::json all = nlohmann::json::array();
+    std::string text;
+    for (const std::string& given : words.files) {
+        const std::string file = fs::is_directory(given) ? (fs::path(given) / "analysis.lua").string() : given;
+        for (const LintFinding& found : lint_script(text_of(file), file, names_in(file))) {
+            all.push_back({{"file", file},
+                           {"line", found.line},
+                           {"column", found.column},
+                           {"kind", found.kind},
+                           {"message", found.message}});
+            text += fmt::format("{}:{}:{}: {}\n", file, found.line, found.column, found.message);
+        }
+    }
+    if (words.json)
+        std::cout << nlohmann::json{{"findings", all}}.dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
+                  << '\n';
+    else
+        std::cout << terminal_text(text);
+    return all.empty() ? kDone : kFailed;
+}
+
+std::string complaint_about(const std::string& given) {
+    if (given == kStandardInput || fs::is_regular_file(given)) return {};
+    if (fs::is_regular_file(fs::path(given) / "analysis.lua")) return {};
+    return fs::is_directory(given) ? "there is no analysis.lua in the folder " + given : "there is no file " + given;
+}
+
+}  // namespace
+
+void add_lint(CLI::App& app, Action& action) {
+    auto words = std::make_shared<LintArguments>();
+    CLI::App* command = app.add_subcommand("lint", "Look for mistakes in scripts without running them");
+    command->add_option("FILE", words->files, "Scripts, folders with an analysis.lua, or - for standard input")
+        ->required()
+        ->check(CLI::Validator([](std::string& given) { return complaint_about(given); }, "", "file"));
+    command->add_flag("--json", words->json, "Print {findings: [{file, line, column, kind, message}]}");
+    command->footer(
+        "Told are text that Lua cannot read, names that nothing defines, options that a function does not know, and\n"
+        "answers that the header does not declare or that are never handed in, each as FILE:LINE:COLUMN: what.\n"
+        "Example:  dynlab lint analysis.lua\n"
+        "Exit codes: 0 nothing was found, 1 something was, 2 wrong usage.");
+    command->callback([words, &action] { action = [words] { return lint(*words); }; });
+}
+
+}  // namespace dynlab::inline cli

@@ -1,0 +1,91 @@
+#include <fmt/format.h>
+
+#include <iostream>
+#include <thread>
+
+#include "cli/commands.h"
+#include "course/checks/lesson_trial.h"
+#include "numerics/number_text.h"
+#include "platform/atomic_file.h"
+#include "platform/program_lookup.h"
+#include "platform/terminal/activity_line.h"
+#include "platform/terminal/terminal_text.h"
+
+namespace dynlab::inline cli {
+namespace {
+
+struct TestLessonArguments {
+    std::string lesson, part, secret;
+    int timeout = 60;
+};
+
+GradingSetup setup_of(const Lesson& lesson, const TestLessonArguments& words) {
+    GradingSetup setup;
+    setup.lesson = lesson;
+    setup.isolation = strongest_isolation();
+    setup.timeout = std::chrono::seconds(words.timeout);
+    setup.program = running_program();
+    setup.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    if (!words.secret.empty()) setup.secret = read_file(words.secret);
+    return setup;
+}
+
+int test_lesson(const TestLessonArguments& words) {
+    const Lesson lesson = find_lesson(words.lesson);
+    std::size_t faults = 0;
+    const auto tell = [&](const LessonFaults& found, const std::string& what) {
+        for (const LessonFault& fault : found) {
+            const std::string line = fault.line > 0 ? fmt::format(":{}", fault.line) : "";
+            std::cout << terminal_text(
+                fmt::format("{}{}: {}\n", (lesson.folder / fault.file).string(), line, fault.what));
+        }
+        if (found.empty()) std::cout << what << ": in order\n";
+        faults += found.size();
+        return found.empty();
+    };
+    const auto wanted = [&](const char* part) { return words.part.empty() || words.part == part; };
+    bool readable = true;  // what cannot be read is not run
+    if (wanted("texts")) readable = tell(faults_of_texts(lesson), "texts");
+    if (readable && wanted("checks")) tell(faults_of_checks(setup_of(lesson, words)), "checks");
+    if (readable && wanted("documents")) {
+        LessonFaults found;
+        {
+            ActivityLine activity;
+            activity.begin_step("making reports and students' copies");
+            found = faults_of_documents(lesson);
+        }
+        tell(found, "documents");
+    }
+    if (faults > 0)
+        std::cerr << fmt::format("dynlab: {} in {}{}\n", counted(faults, "fault"), lesson.slug,
+                                 readable ? "" : "; nothing was run");
+    return faults == 0 ? kDone : kFailed;
+}
+
+}  // namespace
+
+void add_test_lesson(CLI::App& app, Action& action) {
+    auto words = std::make_shared<TestLessonArguments>();
+    CLI::App* command = app.add_subcommand("test-lesson", "Test a lesson before a class meets it");
+    command->add_option("LESSON", words->lesson, "The lesson's folder, number or name")->required();
+    command->add_option("--part", words->part, "Only a part of it")
+        ->type_name("PART")
+        ->check(CLI::IsMember({"texts", "checks", "documents"}));
+    command->add_option("--secret", words->secret, "File whose content the hidden records are drawn from")
+        ->type_name("FILE")
+        ->check(CLI::ExistingFile);
+    command->add_option("--timeout", words->timeout, "Seconds for each run of a script")
+        ->type_name("S")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 3600));
+    command->footer(
+        "texts: headers, cells, Lua, names and options, hints, tasks in other languages; nothing is run.\n"
+        "checks: the worked solution gets full marks, the untouched starter none, right_*.lua all; each wrong_*.lua\n"
+        "fails what its lines \"-- expects: CHECK: words\" name, with these words, and nothing else.\n"
+        "documents: in each language the report is whole and fits its pages, and the student's copy runs and has one.\n"
+        "Example:  dynlab new lesson lessons/07_springs && dynlab test-lesson lessons/07_springs\n"
+        "Exit codes: 0 all is in order, 1 something is not, 2 wrong usage.");
+    command->callback([words, &action] { action = [words] { return test_lesson(*words); }; });
+}
+
+}  // namespace dynlab::inline cli

@@ -1,0 +1,227 @@
+#include "scripting/lint/lint.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <set>
+
+#include "documents/error.h"
+#include "documents/percent_script.h"
+#include "documents/text_lines.h"
+#include "figures/gnuplot_renderer.h"
+#include "scripting/answers/answer_value.h"
+#include "scripting/arguments/option_words.h"
+#include "scripting/lint/function_forms.h"
+#include "scripting/lint/script_walk.h"
+#include "scripting/runtime/errors.h"
+#include "scripting/runtime/lua_reader.h"
+#include "scripting/runtime/lua_tokens.h"
+#include "scripting/runtime/runtime.h"
+#include "scripting/runtime/shown_expressions.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+constexpr const char* kNamesOfLibrary = R"(
+for name, value in pairs(dynlab) do
+  print(name)
+  if type(value) == "table" and name ~= "dynlab" and name ~= "_G" then
+    for member in pairs(value) do print(name .. " " .. member) end
+  end
+end)";
+
+/// Collects what is found in one script.
+class Linter {
+  public:
+    Linter(const std::string& source, const std::filesystem::path& file, const std::vector<std::string>& more_names)
+        : source_(source), file_(file), more_names_(more_names) {}
+
+    std::vector<LintFinding> findings() {
+        read_header();
+        if (is_lua()) look_at_names();
+        std::stable_sort(found_.begin(), found_.end(), [](const LintFinding& one, const LintFinding& other) {
+            return std::pair(one.line, one.column) < std::pair(other.line, other.column);
+        });
+        return std::move(found_);
+    }
+
+  private:
+    void add(std::size_t offset, const char* kind, std::string message) {
+        const std::size_t newline = offset == 0 ? std::string::npos : source_.rfind('\n', offset - 1);
+        const std::size_t begin = newline == std::string::npos ? 0 : newline + 1;
+        const auto characters = std::count_if(source_.begin() + static_cast<std::ptrdiff_t>(begin),
+                                              source_.begin() + static_cast<std::ptrdiff_t>(offset),
+                                              [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
+        const auto lines = std::count(source_.begin(), source_.begin() + static_cast<std::ptrdiff_t>(begin), '\n');
+        found_.push_back({static_cast<int>(lines) + 1, static_cast<int>(characters) + 1, kind, std::move(message)});
+    }
+
+    /// Where the words of a line begin.
+    std::size_t offset_of_line(int line) const {
+        std::size_t begin = 0;
+        for (int i = 1; i < line && begin < source_.size(); ++i) {
+            const std::size_t end = source_.find('\n', begin);
+            begin = end == std::string::npos ? source_.size() : end + 1;
+        }
+        return std::min(source_.find_first_not_of(" \t", begin), source_.size());
+    }
+
+    void read_header() {
+        try {
+            header_ = parse_percent_script(source_, file_).header;
+        } catch (const DocumentError& error) {
+            const LocatedMessage told = take_apart(error.what());
+            add(offset_of_line(std::max(told.line, 1)), "header", told.text);
+        }
+    }
+
+    bool is_lua() {
+        const std::string read = with_shown_expressions(source_);
+        LuaReader reader;
+        if (const auto misread = misread_line_of(read)) {
+            add(offset_of_line(misread->line), "syntax", misread->sentence);
+            return false;
+        }
+        const auto error = reader.error_of(read);
+        if (!error) return true;
+        const LocatedMessage told = take_apart(plain_syntax_message(*error, source_));
+        const std::size_t end = source_.find_last_not_of(" \t\r\n") + 1;  // what is missing there is told there
+        const std::size_t place = std::min(offset_of_line(std::max(told.line, 1)), end), stop = stopping_place(reader);
+        const bool same_line = stop >= place && source_.find('\n', place) >= stop;
+        add(same_line ? stop : place, "syntax", told.text);
+        return false;
+    }
+
+    /// Where Lua stops reading: the first token with which the text before it is wrong, and not only unfinished.
+    std::size_t stopping_place(LuaReader& reader) const {
+        const std::vector<LuaToken> tokens = lua_tokens(source_);
+        const auto stops_at = [&](std::size_t last) {
+            const auto error = reader.error_of(source_.substr(0, tokens[last].end()));
+            return error && (error->find("near <eof>") == std::string::npos ||
+                             error->find("unfinished string") != std::string::npos);
+        };
+        std::size_t good = 0, bad = tokens.size();
+        while (good < bad) {
+            const std::size_t middle = (good + bad) / 2;
+            if (stops_at(middle))
+                bad = middle;
+            else
+                good = middle + 1;
+        }
+        return bad < tokens.size() ? tokens[bad].begin : source_.size();
+    }
+
+    void look_at_names() {
+        const WalkedScript walked = walk_script(source_);
+        std::vector<std::string> names = more_names_;
+        std::set<std::string> own(names.begin(), names.end());
+        for (const auto& [name, members] : library_names()) names.push_back(name);
+        for (const GlobalUse& use : walked.globals)
+            if (use.written && own.insert(use.name).second) names.push_back(use.name);
+        names.insert(names.end(), walked.locals.begin(), walked.locals.end());
+        for (const GlobalUse& use : walked.globals) look_at_name(use, own, names);
+        for (const WrittenCall& call : walked.calls)
+            if (!own.contains(call.function)) look_at_options(call);
+        look_at_answers(walked.calls);
+    }
+
+    void look_at_name(const GlobalUse& use, const std::set<std::string>& own, const std::vector<std::string>& names) {
+        const auto known = library_names().find(use.name);
+        if (known == library_names().end()) {
+            if (!own.contains(use.name))
+                add(use.begin, "unknown-name", unknown_name_sentence(use.name, line_at(use.begin), names));
+            return;
+        }
+        if (use.written) return add(use.begin, "library-name", replaced_name_sentence(use.name));
+        const std::vector<std::string>& members = known->second;
+        const bool table = !members.empty() && !own.contains(use.name);
+        if (!table || use.member.empty() || std::find(members.begin(), members.end(), use.member) != members.end())
+            return;
+        const bool by_itself = find_function(use.member) != nullptr;
+        add(use.member_begin, "unknown-name", unknown_member_sentence(use.name, use.member, by_itself, members));
+    }
+
+    std::string line_at(std::size_t offset) const {
+        return line_of(source_, 1 + static_cast<int>(std::count(
+                                        source_.begin(), source_.begin() + static_cast<std::ptrdiff_t>(offset), '\n')));
+    }
+
+    void look_at_options(const WrittenCall& call) {
+        const std::string function = call.function.starts_with("dynlab.") ? call.function.substr(7) : call.function;
+        if (call.arguments.empty() || call.arguments.back().kind != WrittenArgument::Kind::kTable) return;
+        const auto options = options_of_function(function);
+        if (!options || call.arguments.size() <= options->first_place) return;
+        for (const WrittenKey& key : call.arguments.back().keys)
+            if (!options->knows(key.name))
+                add(key.begin, "unknown-option", function + ": " + unknown_option_sentence(key.name, options->names));
+    }
+
+    void look_at_answers(const std::vector<WrittenCall>& calls) {
+        if (header_.answers.empty()) return;
+        std::vector<std::string> declared;
+        for (const ExpectedAnswer& answer : header_.answers) declared.push_back(answer.name);
+        std::set<std::string> given;
+        bool computed = false;  // a name that only a run knows
+        for (const WrittenCall& call : calls) {
+            if (call.function != "answer" || call.arguments.empty()) continue;
+            const WrittenArgument& name = call.arguments.front();
+            computed = computed || name.kind != WrittenArgument::Kind::kText;
+            if (name.kind != WrittenArgument::Kind::kText) continue;
+            given.insert(name.text);
+            if (std::find(declared.begin(), declared.end(), name.text) == declared.end())
+                add(name.begin, "unknown-answer", undeclared_answer_sentence(name.text, declared));
+        }
+        for (const std::string& name : declared)
+            if (!computed && !given.contains(name))
+                add(declaration_of(name), "unused-answer",
+                    fmt::format("the answer \"{0}\" is never handed in: answer(\"{0}\", ...)", name));
+    }
+
+    /// Where the header names the answer.
+    std::size_t declaration_of(const std::string& name) const {
+        int line = 0;
+        bool answers = false;
+        for (const std::string& text : lines_of(source_)) {
+            ++line;
+            answers = answers || text.starts_with("-- answers:");
+            const std::size_t at = answers ? text.find(" " + name + ":") : std::string::npos;
+            if (at != std::string::npos) return offset_of_line(line) + at + 1;
+        }
+        return 0;
+    }
+
+    const std::string& source_;
+    const std::filesystem::path& file_;
+    const std::vector<std::string>& more_names_;
+    ScriptHeader header_;
+    std::vector<LintFinding> found_;
+};
+
+LibraryNames read_library_names() {
+    GnuplotRenderer renderer;
+    Runtime runtime({}, renderer);
+    LibraryNames names;
+    for (const auto& [cell, pieces] : runtime.run_code(kNamesOfLibrary, "names").outputs)
+        for (const CellOutput& piece : pieces)
+            for (const std::string& line : lines_of(piece.printed)) {
+                const std::size_t space = line.find(' ');
+                std::vector<std::string>& members = names[line.substr(0, space)];
+                if (space != std::string::npos) members.push_back(line.substr(space + 1));
+            }
+    return names;
+}
+
+}  // namespace
+
+const LibraryNames& library_names() {
+    static const LibraryNames names = read_library_names();
+    return names;
+}
+
+std::vector<LintFinding> lint_script(const std::string& source, const std::filesystem::path& file,
+                                     const std::vector<std::string>& more_names) {
+    return Linter(source, file, more_names).findings();
+}
+
+}  // namespace dynlab::inline scripting

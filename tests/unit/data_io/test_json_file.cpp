@@ -1,0 +1,89 @@
+// Variables in JSON files. Oracles: the text of the files, written by hand; what was written, read again.
+#include "data_io/json_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "data_io/data_file.h"
+#include "platform/atomic_file.h"
+#include "platform/error.h"
+#include "platform/temporary_folder.h"
+
+namespace dynlab::test {
+namespace test_json_file {
+using testing::HasSubstr;
+
+template <class Call>
+std::string refusal_of(Call call) {
+    try {
+        call();
+    } catch (const EnvironmentError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+class json_file : public testing::Test {
+  protected:
+    std::filesystem::path file(const std::string& text) const {
+        const std::filesystem::path path = folder_.path() / "a.json";
+        write_file_atomically(path, text);
+        return path;
+    }
+    TemporaryFolder folder_;
+};
+
+TEST_F(json_file, gives_numbers_vectors_matrices_and_structs) {
+    const VariableTable read =
+        read_json_file(file("{\"x\": 2.5, \"v\": [1, null, 3], \"M\": [[1, 2], [3, 4], [5, 6]], \"s\": {\"on\": true, "
+                            "\"text\": \"\\u00e9\"},"
+                            " \"mixed\": [1, \"a\"], \"empty\": []}"));
+    EXPECT_EQ(std::get<double>(read.at("x").value), 2.5);
+    const Vector v = std::get<Vector>(read.at("v").value);
+    EXPECT_TRUE(v.size() == 3 && v[0] == 1 && std::isnan(v[1]) && v[2] == 3);
+    const Matrix M = std::get<Matrix>(read.at("M").value);
+    EXPECT_TRUE(M.rows() == 3 && M.cols() == 2 && M(2, 0) == 5 && M(0, 1) == 2);
+    const VariableTable& s = *std::get<std::shared_ptr<VariableTable>>(read.at("s").value);
+    EXPECT_TRUE(std::get<bool>(s.at("on").value));
+    EXPECT_EQ(std::get<std::string>(s.at("text").value), "é");
+    EXPECT_EQ(std::get<std::shared_ptr<VariableList>>(read.at("mixed").value)->size(), 2u);
+    EXPECT_EQ(std::get<Vector>(read.at("empty").value).size(), 0);
+    EXPECT_EQ(read_data_file(folder_.path() / "a.json", true).variables.size(), 6u);
+}
+
+TEST_F(json_file, keeps_every_bit_and_the_same_bytes) {
+    const std::filesystem::path path = folder_.path() / "b.json";
+    Matrix M(2, 2);
+    M << 0.1, 1e-300, -3, 1.0 / 3;
+    const VariableTable written = {
+        {"M", {M}}, {"row", {Matrix(M.row(0))}}, {"x", {INFINITY}}, {"t", {std::string("a\"b")}}};
+    write_json_file(path, written);
+    const VariableTable read = read_json_file(path);
+    EXPECT_EQ(std::get<Matrix>(read.at("M").value), M);
+    EXPECT_EQ(std::get<Vector>(read.at("row").value), Vector(M.row(0)));
+    EXPECT_TRUE(std::isnan(std::get<double>(read.at("x").value)));
+    EXPECT_EQ(std::get<std::string>(read.at("t").value), "a\"b");
+    const std::string bytes = read_file(path);
+    write_json_file(path, written);
+    EXPECT_EQ(read_file(path), bytes);
+}
+
+TEST_F(json_file, refuses_what_is_none_with_its_place) {
+    const auto told = [&](const std::string& text) {
+        const std::filesystem::path path = file(text);
+        return refusal_of([&] { read_json_file(path); });
+    };
+    EXPECT_THAT(told("{\"x\": 1,\n \"y\" 2}"), HasSubstr("a.json is no JSON: line 2, column 6"));
+    EXPECT_THAT(told(""), HasSubstr("is no JSON"));
+    EXPECT_THAT(told("[1, 2]"), HasSubstr("the outermost value must be an object"));
+    EXPECT_THAT(told("{\"x\": 1, \"x\": 2}"), HasSubstr("the name \"x\" occurs twice"));
+    EXPECT_THAT(told("{\"x\": " + std::string(5000, '[') + std::string(5000, ']') + "}"),
+                HasSubstr("more than 100 levels"));
+    EXPECT_THAT(told("{\"x\": \"\xff\"}"), HasSubstr("is no JSON"));
+    EXPECT_THAT(refusal_of([&] { read_json_file(folder_.path() / "none.json"); }), HasSubstr("none.json"));
+}
+
+}  // namespace test_json_file
+}  // namespace dynlab::test
