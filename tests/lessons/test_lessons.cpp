@@ -388,6 +388,17 @@ TEST(lesson_copies, are_french_throughout_where_french_is_asked_for) {
     }
 }
 
+TEST(lesson_copies, have_the_lesson_s_subtitle_where_its_questions_are_answered) {
+    const Workbench bench;
+    for (const Lesson& lesson : dynlab::lessons()) {
+        const ScriptHeader header = read_percent_script(lesson.script()).header;
+        ASSERT_EQ(bench.dynlab({"new", lesson.slug, lesson.slug}).exit_code, 0);
+        EXPECT_EQ(bench.read(lesson.slug + "/report.md").find("\nsubtitle: \"" + header.subtitle + "\"\n") !=
+                      std::string::npos,
+                  header.template_name == "lesson");
+    }
+}
+
 // Oracle: the labels of figures and tables, and their references, as they are written.
 TEST(lesson_copies, mention_what_they_show) {
     for (const Lesson& lesson : dynlab::lessons()) {
