@@ -230,7 +230,8 @@ TEST(architecture, every_room_of_the_core_has_its_own_test) {
     std::vector<std::string> untested;
     for (const char* room : {"statistics", "filters", "criteria", "fit", "estimators"}) {
         for (const fs::path& file : files_below(kRoot / "engine/numerics" / room, {".cpp"})) {
-            const fs::path test = kRoot / "tests/unit" / room / ("test_" + file.filename().string());
+            const fs::path folder = fs::relative(file.parent_path(), kRoot / "engine/numerics");
+            const fs::path test = kRoot / "tests/unit" / folder / ("test_" + file.filename().string());
             if (!fs::exists(test)) untested.push_back(place_of(file));
         }
     }
@@ -386,7 +387,8 @@ TEST(architecture, every_method_has_its_files_test_and_lua_name) {
         const fs::path source = kRoot / "engine/numerics/estimators" / method.file;
         EXPECT_TRUE(fs::exists(source.string() + ".h")) << method.file;
         EXPECT_TRUE(fs::exists(source.string() + ".cpp")) << method.file;
-        EXPECT_TRUE(fs::exists(kRoot / "tests/unit/estimators" / ("test_" + method.file + ".cpp"))) << method.file;
+        const fs::path test = kRoot / "tests/unit/estimators" / method.file;
+        EXPECT_TRUE(fs::exists(test.parent_path() / ("test_" + test.filename().string() + ".cpp"))) << method.file;
         for (const std::string& name : method.lua_names) EXPECT_TRUE(lua_names.contains(name)) << name;
     }
 }
