@@ -1,6 +1,6 @@
 -- ---
 -- title: From a record to a model, and back again
--- subtitle: Lesson 3 – the workflow of identification on two simulated processes and a real one
+-- subtitle: Lesson 3.1 – the workflow of identification on two simulated processes and a real one
 -- lesson: 03_workflow
 -- template: lesson
 -- language: en

@@ -196,6 +196,10 @@ void check_examples(const Workbench& bench, const std::map<std::string, std::str
     for (const MethodEntry& method : method_catalogue())
         EXPECT_THAT(bare_text_of(pages.at("methods.html")), HasSubstr(bare(method.reference))) << method.file;
     EXPECT_GT(attributes(pages.at("gallery.html"), "src").size(), 60u);
+    // Formulas in captions stay formulas.
+    EXPECT_THAT(pages.at("gallery.html"), HasSubstr("<math"));
+    const std::string& contents = pages.at("index.html");
+    EXPECT_LT(contents.find("lesson-03_workflow.html"), contents.find("lesson-03_crane.html"));
 }
 
 class Reader {
