@@ -12,6 +12,7 @@ namespace dynlab::test {
 class Workbench {
   public:
     /// kShared: what lessons computed once is recalled by other tests of this build, as by a user's second run.
+    /// kOwn: nothing is, but the formats of LaTeX, which take a second to make and are named after all that makes them.
     enum class Memory { kOwn, kShared };
 
     std::filesystem::path path(const std::string& name = "") const { return folder_.path() / "work" / name; }
@@ -27,6 +28,7 @@ class Workbench {
     void set_home(const std::filesystem::path& home) { home_ = home.string(); }
 
     explicit Workbench(Memory memory = Memory::kOwn);
+    ~Workbench();
 
   private:
     ChildResult run(std::vector<std::string> command) const;
