@@ -548,8 +548,8 @@ local ellipse_b = 2 + r*(cab/math.sqrt(va)*cos(phi)
 local function cloud(name)
     local theta = high[name].theta
     return plot(theta:col(1), theta:col(3), ellipse_a, ellipse_b,
-                {style = {"points", "line"}, colour = {0, 1}, title = name,
-                 x_range = {1, 8}, y_range = {0.5, 4},
+                {style = {"points", "line"}, colour = {5, 2}, dash = 0,
+                 title = name, x_range = {1, 8}, y_range = {0.5, 4},
                  xlabel = "a_{1}", ylabel = "b_{0}"}):mark(4, 2, "truth")
 end
 local panels = subplot(1, 3, {cloud("LSSVF"), cloud("IVSVF"), cloud("TFSRIVC")})

@@ -14,6 +14,7 @@
 #include "documents/document_rules.h"
 #include "documents/solutions.h"
 #include "documents/text_lines.h"
+#include "line_ends.h"
 #include "numerics/rigs/crane.h"
 #include "numerics/rigs/thruster.h"
 #include "page_ends.h"
@@ -57,6 +58,7 @@ TEST_P(lessons, report_is_whole) {
     std::vector<std::string> sections = section_titles(read_file(source));
     sections.insert(sections.end(), {"Five questions to check yourself", "Answers to the questions"});
     if (!slides) expect_full_pages(bench, GetParam() + ".pdf", sections);
+    expect_whole_quantities(bench, GetParam() + ".pdf");
 }
 
 TEST_P(lessons, equations_have_the_same_numbers_with_and_without_the_solutions) {
@@ -257,6 +259,7 @@ std::vector<std::string> pages_of(const Workbench& bench, const std::string& les
     if (language == "fr" && bench.shell("kpsewhich french.ldf").exit_code != 0) return pages;
     const ChildResult made = bench.dynlab({"report", lesson, "--lang", language});
     EXPECT_EQ(made.exit_code, 0) << made.error_output;
+    expect_whole_quantities(bench, lesson + ".pdf");
     std::istringstream text(text_of_pdf(bench, lesson + ".pdf"));
     for (std::string page; std::getline(text, page, '\f');) pages.push_back(page);
     const std::string all = std::accumulate(pages.begin(), pages.end(), std::string());
