@@ -45,11 +45,11 @@ void add_bands(Panel& magnitude, Panel& phase, const std::vector<NamedModel>& mo
 /// Logarithmic, from the lowest to the highest frequency of the responses and the corners of the models.
 Vector chosen_frequencies(const std::vector<NamedModel>& models, const std::vector<NamedResponse>& responses) {
     double low = std::numeric_limits<double>::infinity(), high = 0;
-    for (const NamedResponse& response : responses) {
-        low = std::min(low, response.data.w.minCoeff());
-        high = std::max(high, response.data.w.maxCoeff());
-    }
     if (responses.empty()) return joint_frequency_grid(models, kBodePoints);
+    for (const NamedResponse& response : responses)
+        for (const double w : response.data.w)
+            if (w > 0) low = std::min(low, w), high = std::max(high, w);
+    if (!(high > 0)) throw InvalidArgument("there is no frequency above zero to draw");
     return Vector::LinSpaced(kBodePoints, std::log(low), std::log(high)).array().exp().max(low).min(high);
 }
 

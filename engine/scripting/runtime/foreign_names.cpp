@@ -191,6 +191,7 @@ constexpr std::array kNames = {
     NameHint{"shadedplot", "write figure{curves = {{x = t, y = low, y_upper = high}}}"},
     NameHint{"sidgpmf", "write n4sid(data, order) in discrete time, lsgpmf(data, {na, nb, nk}, lambda) otherwise"},
     NameHint{"simc", "write sim(G, u, Ts, {snr = 10}), snr in dB"},
+    NameHint{"spafdr", "write spa(data, {w = frequencies})"},
     NameHint{"ssest", "write n4sid(data, order)"},
     NameHint{"ssregest", "write n4sid(data, order)"},
     NameHint{"tfdata", "write G.num and G.den"},

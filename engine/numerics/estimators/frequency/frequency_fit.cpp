@@ -123,13 +123,19 @@ class FrequencySearch {
             Searched found = once(start, options_.rough(kRoughIterations, kRoughTolerance), stable_alone);
             if (!best || found.fit.loss < best->fit.loss) best = std::move(found);
         }
-        Searched end = once(best->end, options_, stable_alone);
+        Searched end = continued(*best, options_, stable_alone);
         if (end.fit.termination == Termination::kIterationLimit && options_.goes_on)
-            end = once(end.end, options_.limited(kMostIterations, options_.tolerance), stable_alone);
+            end = continued(end, options_.limited(kMostIterations, options_.tolerance), stable_alone);
         return end;
     }
 
   private:
+    Searched continued(const Searched& before, const FitOptions& options, bool stable_alone) const {
+        Searched end = once(before.end, options, stable_alone);
+        end.fit.trace.insert(end.fit.trace.begin(), before.fit.trace.begin(), before.fit.trace.end());
+        return end;
+    }
+
     Searched once(const Start& start, const FitOptions& options, bool stable_alone) const {
         FrequencyOutput model(data_, structure_, start.coefficients, range_.least, range_.largest);
         if (stable_alone) model.keep_stable();

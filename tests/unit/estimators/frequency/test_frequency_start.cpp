@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
+
 #include "numerics/criteria/frequency_output.h"
 #include "numerics/linalg/polynomial.h"
 #include "numerics/simulation/frequency_response.h"
