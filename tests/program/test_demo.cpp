@@ -40,7 +40,7 @@ TEST(demo, list_names_each_demonstration_in_order) {
     std::vector<std::string> names;
     for (const std::string& line : lines_of(result.output)) names.push_back(line.substr(0, line.find(' ')));
     EXPECT_THAT(names, testing::ElementsAre("getting_started", "delays", "order_selection", "irregular_sampling",
-                                            "inside_srivc", "monte_carlo", "robot_arm"));
+                                            "inside_srivc", "monte_carlo", "robot_arm", "frequency"));
     EXPECT_EQ(names.size(), scripts().size());
     EXPECT_THAT(result.output, HasSubstr("A dead time that is not a whole number of samples\n"));
     EXPECT_EQ(bench.dynlab({"demo"}).output, result.output);
@@ -108,6 +108,13 @@ TEST(demo, what_their_texts_claim_is_true) {
          "  assert(math.abs(study.srivc.reported_std[k]/study.srivc.std[k] - 1) < 0.1)\n"
          "end\n"
          "assert(study.runs == 200)\n"},
+        // Second route: the poles and the gain of the system that made the records.
+        {"frequency",
+         "for k, true_value in ipairs({0.8, 4}) do assert(math.abs(G.param[k] - true_value) < 4*G.std[k]) end\n"
+         "assert(sum(F.odd.distortion) > 20*math.abs(sum(F.even.distortion)) and sum(F.odd.power) > "
+         "3*sum(F.odd.noise))\n"
+         "assert(F.output_power > 100*F.noise_power and dcgain(G) > dcgain(Gs) + 3*G.std[3]/4)\n"
+         "assert(math.abs(dcgain(Gs) - 1) < 0.05 and dcgain(G) > 1.05)\n"},
         // Second routes: the output error of a difference equation, and peaks of a spectrum without any model.
         {"robot_arm",
          "assert(A.report.prediction_fit_percent > 97.5 and A.report.prediction_fit_percent < 98.5)\n"

@@ -63,6 +63,7 @@ const char* const kExpressions[] = {
     "tf({2}, {1, 1})",
     "idproc('P2D', {Kp = 2, Tp1 = 3, Tp2 = 1, Td = 0.5})",
     "ss(tf({2}, {1, 3, 1}))",
+    "idfrd({{1, 2}, {3, -4}}, {1, 2}, {variance = {0.1, 0.2}, Ts = 0.5, InterSample = 'zoh'})",
     "(function() local u = prbs(4, 50) return arx(iddata(lsim(tf({1}, {1, 1}), u, 0.05) + 0.1*randn(#u), u, 0.05), {1, "
     "1, 1}) end)()",
     "(function() local u = prbs(4, 50) return srivc(iddata(lsim(tf({1}, {1, 1}), u, 0.05) + 0.1*randn(#u), u, 0.05), "

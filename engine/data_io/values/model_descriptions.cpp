@@ -34,6 +34,17 @@ void check_value(const IdData& data, const ValueLimits&) {
         throw InvalidArgument("its channels and their names and units differ in number");
 }
 
+void check_value(const FrequencyData& data, const ValueLimits&) {
+    const auto fits = [&](Index size) { return size == 0 || size == data.w.size(); };
+    const bool all_fit = fits(data.variance.size()) && fits(data.noise_variance.size()) &&
+                         fits(data.distortion.size()) && fits(data.coherence.size()) &&
+                         fits(data.noise_spectrum.size());
+    if (data.response.size() != data.w.size() || !all_fit)
+        throw InvalidArgument("a response and its frequencies differ in number");
+    for (const OutputLevels* levels : {&data.excited, &data.odd, &data.even})
+        if (levels->power.size() != levels->w.size()) throw InvalidArgument("levels and frequencies differ in number");
+}
+
 void check_value(const TransferFunctionMembers& members, const ValueLimits& limits) {
     check_coefficients(members.num, limits);
     check_coefficients(members.den, limits);

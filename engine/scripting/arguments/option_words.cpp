@@ -30,6 +30,7 @@ constexpr std::array kOptionWords = {
     OptionWord{"breakpoints", "Breakpoints"},
     OptionWord{"block_rows", "BlockRows"},
     OptionWord{"weighting", "Weighting"},
+    OptionWord{"transient", "transient"},
 };
 
 }  // namespace

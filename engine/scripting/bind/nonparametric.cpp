@@ -6,12 +6,12 @@
 #include "numerics/estimators/etfe.h"
 #include "numerics/estimators/impulseest.h"
 #include "numerics/estimators/spa.h"
-#include "numerics/simulation/frequency_response.h"
 #include "scripting/arguments/table_fields.h"
 #include "scripting/arguments/told_sentences.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/figure_object.h"
+#include "scripting/objects/frequency_object.h"
 #include "scripting/objects/model.h"
 
 namespace dynlab::inline scripting {
@@ -57,22 +57,11 @@ void print_message(const Call& call, const std::string& message, const std::vect
 }
 
 int give_spectral(const Call& call, const Options& options, SpectralModels& read, const SpectralEstimate& estimate,
-                  const char* method) {
+                  const char* method, bool smoothed) {
     name_models(options, read.models);
     print_message(call, estimate.message, estimate.warnings);
     give_figure(call, spectral_plot(estimate, method, read.models, confidence_of(options)));
-    lua_createtable(call.state(), 0, 8);
-    set_field(call, "w", estimate.w);
-    set_field(call, "response", estimate.response);
-    set_field(call, "magnitude", estimate.response.cwiseAbs());
-    set_field(call, "phase", phase_degrees_unwrapped(estimate.response));
-    if (estimate.std.size() > 0) {
-        set_field(call, "std", estimate.std);
-        set_field(call, "coherence", estimate.coherence);
-        set_field(call, "noise_spectrum", estimate.noise_spectrum);
-    }
-    set_field(call, "message", told(call, estimate.message));
-    set_field(call, "warnings", told(call, estimate.warnings));
+    push_object(call.state(), frequency_data_of(estimate, read.data, method, smoothed));
     return 2;
 }
 
@@ -101,7 +90,7 @@ int ratio_of_transforms(Call& call) {
     EtfeOptions wanted;
     wanted.smooth = options.size("smooth", 0);
     wanted.remove_mean = options.flag("remove_mean", true);
-    return give_spectral(call, options, read, etfe(read.data, wanted), "etfe");
+    return give_spectral(call, options, read, etfe(read.data, wanted), "etfe", wanted.smooth > 0);
 }
 
 int spectral_analysis(Call& call) {
@@ -111,7 +100,7 @@ int spectral_analysis(Call& call) {
     wanted.window = options.size("window", 0);
     if (options.has("w")) wanted.w = options.vector("w");
     wanted.remove_mean = options.flag("remove_mean", true);
-    return give_spectral(call, options, read, spa(read.data, wanted), "spa");
+    return give_spectral(call, options, read, spa(read.data, wanted), "spa", true);
 }
 
 int regression_on_past_inputs(Call& call) {
@@ -140,12 +129,11 @@ int correlation_analysis(Call& call) {
 
 constexpr const char* kNonparametricArea = "nonparametric";
 constexpr std::array kNonparametricFunctions = {
-    FunctionEntry{"etfe", kNonparametricArea,
-                  "etfe(data, G1, ..., {smooth =, remove_mean =, confidence =, labels =}) -> fig, table",
-                  "frequency response as the ratio of the Fourier transforms of output and input",
-                  guarded<ratio_of_transforms>},
+    FunctionEntry{
+        "etfe", kNonparametricArea, "etfe(data, G1, ..., {smooth =, remove_mean =, confidence =, labels =}) -> fig, F",
+        "frequency response as the ratio of the Fourier transforms of output and input", guarded<ratio_of_transforms>},
     FunctionEntry{"spa", kNonparametricArea,
-                  "spa(data, G1, ..., {window =, w =, remove_mean =, confidence =, labels =}) -> fig, table",
+                  "spa(data, G1, ..., {window =, w =, remove_mean =, confidence =, labels =}) -> fig, F",
                   "frequency response with errors, from smoothed correlations", guarded<spectral_analysis>},
     FunctionEntry{"impulseest", kNonparametricArea,
                   "impulseest(data, G1, ..., {lags =, smooth =, confidence =, labels =}) -> fig, table",

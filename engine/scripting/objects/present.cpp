@@ -115,7 +115,10 @@ std::string channel_lines(const TransferFunction& G, const std::optional<ModelUn
 
 std::string estimate_lines(const Estimate& estimate) {
     std::string text = fmt::format("Estimated by {}", estimate.method);
+    const bool of_response = std::any_of(estimate.numbers.begin(), estimate.numbers.end(),
+                                         [](const auto& number) { return number.first == "frequencies"; });
     for (const auto& [name, value] : estimate.numbers) {
+        if (of_response) break;  // its message says it
         if (name == "fit_percent")
             text += fmt::format(", fit to the estimation data {} % (simulation)", number_text(value, 4));
         if (name == "noise_variance") text += fmt::format(", noise variance {}", number_text(value, 4));

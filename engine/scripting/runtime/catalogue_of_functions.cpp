@@ -1,5 +1,6 @@
 #include "scripting/bind/bindings.h"
 #include "scripting/bind/control_bindings.h"
+#include "scripting/bind/frequency/frequency_bindings.h"
 #include "scripting/bind/study_bindings.h"
 
 namespace dynlab::inline scripting {
@@ -17,13 +18,14 @@ const std::vector<FunctionEntry>& catalogue_of_functions() {
                                      estimator_functions(),     transfer_estimator_functions(),
                                      noise_model_functions(),   discrete_estimator_functions(),
                                      subspace_functions(),      hammerstein_functions(),
-                                     nonparametric_functions(), advice_functions(),
-                                     regression_functions(),    validation_functions(),
-                                     residual_functions(),      prediction_functions(),
-                                     order_functions(),         study_functions(),
-                                     figure_functions(),        control_functions(),
-                                     report_functions(),        answer_functions(),
-                                     program_functions(),       help_functions()})
+                                     nonparametric_functions(), frequency_functions(),
+                                     advice_functions(),        regression_functions(),
+                                     validation_functions(),    residual_functions(),
+                                     prediction_functions(),    order_functions(),
+                                     study_functions(),         figure_functions(),
+                                     control_functions(),       report_functions(),
+                                     answer_functions(),        program_functions(),
+                                     help_functions()})
             all.insert(all.end(), area.begin(), area.end());
         return all;
     }();
