@@ -21,7 +21,7 @@ struct DriveParameters {
     double motor_constant = 0.1;  ///< N m/A, and V s/rad
     double inertia = 2e-3;        ///< kg m^2
     double friction = 1e-3;       ///< N m s
-    double load_std = 0.03;       ///< standard deviation of the load's torque, N m
+    double load_std = 0.02;       ///< standard deviation of the load's torque, N m
     double load_time = 0.3;       ///< its correlation time, s
     double noise_std = 0.4;       ///< of the tachometer, rad/s
     double resolution = 0.05;     ///< of its reading, rad/s; 0 for none
