@@ -25,7 +25,7 @@ local folder = PANDOC_SCRIPT_FILE:match("^(.*)/") or "."
 local canvas = dofile(folder .. "/canvas.lua")
 local shapes = dofile(folder .. "/shapes.lua")
 
-local names = { "crane", "heat_exchanger", "heat_rig", "suspension", "thruster" }
+local names = { "crane", "drifting_process", "drive", "heat_exchanger", "heat_rig", "suspension", "thruster", "two_tanks" }
 
 -- The drawing of that name for `language`; nothing, and all names, where there is none. inlines_of(Markdown) sets what is
 -- written in it.

@@ -37,6 +37,37 @@ RigValues crane_theory(std::uint32_t specimen) {
             {"time_constant", truth.time_constant}};
 }
 
+RigValues drifting_process_record(const RigChoice& choice) {
+    return input_and_output(simulate_drifting_process(drifting_process_specimen(choice.specimen), {}, choice.seed));
+}
+
+RigValues drifting_process_theory(std::uint32_t specimen) {
+    const DriftingProcessParameters rig = drifting_process_specimen(specimen);
+    const RigRecord record = simulate_drifting_process(rig, {}, 1);
+    const Vector& t = record.t;
+    return {{"noise_std", rig.noise_std},
+            {"cleaning_time", rig.cleaning_time},
+            {"t", t},
+            {"gain", Vector(t.unaryExpr([&rig](double time) { return rig.gain(time); }))},
+            {"time_constant", Vector(t.unaryExpr([&rig](double time) { return rig.time_constant(time); }))}};
+}
+
+RigValues drive_record(const RigChoice& choice) {
+    RigValues values;
+    for (DriveRecord& experiment : simulate_drive(drive_specimen(choice.specimen), {}, choice.seed))
+        values.push_back({experiment.name, RigValues{{"t", std::move(experiment.t)},
+                                                     {"r", std::move(experiment.r)},
+                                                     {"u", std::move(experiment.u)},
+                                                     {"y", std::move(experiment.y)}}});
+    return values;
+}
+
+RigValues drive_theory(std::uint32_t specimen) {
+    const DriveParameters rig = drive_specimen(specimen);
+    return {{"G", drive_plant(rig)},    {"load", drive_load(rig)},    {"controller", drive_controller(rig)},
+            {"load_std", rig.load_std}, {"load_time", rig.load_time}, {"noise_std", rig.noise_std}};
+}
+
 RigValues heat_exchanger_record(const RigChoice& choice) {
     return input_and_output(simulate_heat_exchanger(heat_exchanger_specimen(choice.specimen), choice.seed));
 }
@@ -143,6 +174,35 @@ RigValues thruster_theory(std::uint32_t specimen) {
             {"thrust", thrust}};
 }
 
+RigValues two_tanks_record(const RigChoice& choice) {
+    const TwoTanksRecords records = simulate_two_tanks(two_tanks_specimen(choice.specimen), {}, choice.seed);
+    RigValues values = input_and_output(records.estimation);
+    add_part(values, records.validation, "_val");
+    return values;
+}
+
+RigValues two_tanks_theory(std::uint32_t specimen) {
+    const TwoTanksParameters rig = two_tanks_specimen(specimen);
+    const double voltage = TwoTanksExperiments().mean_voltage;
+    const TwoTanksTruth truth = two_tanks_truth(rig, voltage);
+    return {{"k1", rig.k1},
+            {"k2", rig.k2},
+            {"k3", rig.k3},
+            {"k4", rig.k4},
+            {"overflow_part", rig.overflow_part},
+            {"sensor_offset", rig.sensor_offset},
+            {"sensor_gain", rig.sensor_gain},
+            {"height", rig.height},
+            {"noise_std", rig.noise_std},
+            {"mean", RigValues{{"voltage", voltage},
+                               {"upper_level", truth.upper_level},
+                               {"lower_level", truth.lower_level},
+                               {"output", truth.output},
+                               {"gain", truth.gain},
+                               {"upper", truth.upper},
+                               {"lower", truth.lower}}}};
+}
+
 std::vector<Rig> all_rigs() {
     return {
         {"crane",
@@ -152,6 +212,20 @@ std::vector<Rig> all_rigs() {
          CraneExperiments().Ts,
          crane_record,
          crane_theory},
+        {"drifting_process",
+         "A water heater that furs up",
+         {{"t", "s"}, {"u", "%"}, {"y", "K"}},
+         {},
+         DriftingProcessExperiments().Ts,
+         drifting_process_record,
+         drifting_process_theory},
+        {"drive",
+         "Drive with speed control",
+         {{"t", "s"}, {"r", "rad/s"}, {"u", "V"}, {"y", "rad/s"}},
+         {"tracking", "validation", "regulation", "open_loop"},
+         DriveParameters().Ts,
+         drive_record,
+         drive_theory},
         {"heat_exchanger",
          "Step response of a heat exchanger",
          {{"t", "s"}, {"u", "%"}, {"y", "°C"}},
@@ -202,6 +276,13 @@ std::vector<Rig> all_rigs() {
          ThrusterExperiments().Ts,
          thruster_record,
          thruster_theory},
+        {"two_tanks",
+         "Two tanks, records for estimation and validation",
+         {{"t", "s"}, {"u", "V"}, {"y", "V"}, {"t_val", "s"}, {"u_val", "V"}, {"y_val", "V"}},
+         {},
+         TwoTanksExperiments().Ts,
+         two_tanks_record,
+         two_tanks_theory},
     };
 }
 

@@ -32,6 +32,27 @@ CraneParameters crane_specimen(std::uint32_t number) {
     return p;
 }
 
+DriftingProcessParameters drifting_process_specimen(std::uint32_t number) {
+    DriftingProcessParameters p;
+    Variation variation(number);
+    variation.change(p.clean_gain, 0.2);
+    variation.change(p.clean_time_constant, 0.2);
+    variation.change(p.lost_gain, 0.1);
+    variation.change(p.more_time, 0.15);
+    variation.change(p.growth_time, 0.2);
+    variation.change(p.cleaning_time, 0.15);
+    return p;
+}
+
+DriveParameters drive_specimen(std::uint32_t number) {
+    DriveParameters p;
+    Variation variation(number);
+    variation.change(p.motor_constant, 0.1);
+    variation.change(p.inertia, 0.15);
+    variation.change(p.inductance, 0.15);
+    return p;
+}
+
 HeatExchangerParameters heat_exchanger_specimen(std::uint32_t number) {
     HeatExchangerParameters p;
     Variation variation(number);
@@ -88,6 +109,22 @@ ThrusterParameters thruster_specimen(std::uint32_t number) {
     variation.change(p.forward_thrust, 0.08);
     variation.change(p.reverse_thrust, 0.08);
     variation.change(p.cell_frequency, 0.1);
+    return p;
+}
+
+TwoTanksParameters two_tanks_specimen(std::uint32_t number) {
+    TwoTanksParameters p;
+    Variation variation(number);
+    double upper = 1, lower = 1;  // one over the tanks' areas
+    variation.change(upper, 0.15);
+    variation.change(lower, 0.15);
+    p.k1 *= upper;
+    p.k4 *= upper;
+    p.k2 *= lower;
+    p.k3 *= lower;
+    variation.change(p.k4, 0.08);
+    variation.change(p.k3, 0.08);
+    variation.change(p.overflow_part, 0.2);
     return p;
 }
 

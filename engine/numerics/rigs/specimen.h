@@ -2,24 +2,30 @@
 #include <cstdint>
 
 #include "numerics/rigs/crane.h"
+#include "numerics/rigs/drifting_process.h"
+#include "numerics/rigs/drive.h"
 #include "numerics/rigs/first_order_step.h"
 #include "numerics/rigs/heat_exchanger.h"
 #include "numerics/rigs/heat_transfer.h"
 #include "numerics/rigs/linear_system.h"
 #include "numerics/rigs/suspension.h"
 #include "numerics/rigs/thruster.h"
+#include "numerics/rigs/two_tanks.h"
 
 namespace dynlab::inline numerics {
 
 /// Other specimens of the course's apparatus, as a laboratory with several of them has: what a student estimates is
 /// multiplied by factors drawn uniformly, independently, from 1 - d to 1 + d with d between 0.08 and 0.25 as the source
 /// says. Specimen 0 is the one that the headers describe; equal numbers give equal parameters on every machine.
-CraneParameters crane_specimen(std::uint32_t number);                   ///< cable, friction, trolley, motor
-HeatExchangerParameters heat_exchanger_specimen(std::uint32_t number);  ///< water, flow, power
-HeatTransferParameters heat_transfer_specimen(std::uint32_t number);    ///< capacities, power, dead time
-LinearSystemParameters linear_system_specimen(std::uint32_t number);    ///< gain, zero, poles
-FirstOrderStepParameters step_response_specimen(std::uint32_t number);  ///< gain, time constant
-SuspensionParameters suspension_specimen(std::uint32_t number);         ///< mass, spring, damper
-ThrusterParameters thruster_specimen(std::uint32_t number);             ///< dead band, delay, propeller, load cell
+CraneParameters crane_specimen(std::uint32_t number);                       ///< cable, friction, trolley, motor
+DriftingProcessParameters drifting_process_specimen(std::uint32_t number);  ///< gain, time constant, growth of scale
+DriveParameters drive_specimen(std::uint32_t number);                       ///< motor constant, inertia, inductance
+HeatExchangerParameters heat_exchanger_specimen(std::uint32_t number);      ///< water, flow, power
+HeatTransferParameters heat_transfer_specimen(std::uint32_t number);        ///< capacities, power, dead time
+LinearSystemParameters linear_system_specimen(std::uint32_t number);        ///< gain, zero, poles
+FirstOrderStepParameters step_response_specimen(std::uint32_t number);      ///< gain, time constant
+SuspensionParameters suspension_specimen(std::uint32_t number);             ///< mass, spring, damper
+ThrusterParameters thruster_specimen(std::uint32_t number);                 ///< dead band, delay, propeller, load cell
+TwoTanksParameters two_tanks_specimen(std::uint32_t number);                ///< areas, outlets, pump, overflow
 
 }  // namespace dynlab::inline numerics
