@@ -268,7 +268,7 @@ TEST(engine_sentences, of_the_sources_have_entries) {
         if (!line.starts_with(' ')) known += line + "\n";
     int count = 0;
     for (const char* room : {"criteria", "estimators", "fit", "models", "validation"})
-        for (const auto& entry : std::filesystem::directory_iterator(root / "engine/numerics" / room)) {
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(root / "engine/numerics" / room)) {
             if (tables.contains(entry.path().filename().string()) || entry.path().extension() != ".cpp") continue;
             for (const std::string& sentence : sentences_in(entry.path())) {
                 ++count;

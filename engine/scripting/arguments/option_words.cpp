@@ -30,6 +30,8 @@ constexpr std::array kOptionWords = {
     OptionWord{"breakpoints", "Breakpoints"},
     OptionWord{"block_rows", "BlockRows"},
     OptionWord{"weighting", "Weighting"},
+    OptionWord{"noise_variance", "NoiseVariance"},
+    OptionWord{"history_points", "HistoryPoints"},
 };
 
 }  // namespace
