@@ -32,9 +32,10 @@ Study study_of(const Method& method) {
         std.row(k) = fit.std.transpose();
     }
     const Vector mean = theta.colwise().mean();
-    const Vector scatter = ((theta.rowwise() - mean.transpose()).colwise().squaredNorm() / (kRecords - 1)).cwiseSqrt();
+    const Vector scatter =
+        ((theta.rowwise() - mean.transpose()).colwise().squaredNorm().transpose() / (kRecords - 1)).cwiseSqrt();
     return {(mean - kTruth).cwiseQuotient(scatter / std::sqrt(double(kRecords))),
-            std.colwise().squaredNorm().transpose().cwiseSqrt().cwiseQuotient(scatter) / std::sqrt(double(kRecords))};
+            (std.colwise().squaredNorm().transpose() / kRecords).cwiseSqrt().cwiseQuotient(scatter)};
 }
 
 SvfOptions cutoff() {

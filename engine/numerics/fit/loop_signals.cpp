@@ -15,9 +15,10 @@ namespace dynlab::inline numerics {
 namespace {
 
 constexpr Index kFewestWeights = 8, kMostWeights = 128;  // of the projection; doubled in between
-constexpr double kRidge = 1e-10;    // of the largest diagonal: weights that a held reference cannot tell apart
-constexpr double kBelieved = 50;    // per cent of u that C (r - y) must explain
-constexpr double kExplains = 0.02;  // least part of u's variance
+constexpr double kHeldReference = 1e-10;    // of the largest diagonal: weights that a held reference cannot tell apart
+constexpr double kBelievedController = 50;  // per cent of u that C (r - y) must explain
+constexpr double kTimesChance = 4;          // times what as many weights explain of anything by chance
+constexpr double kLeastExplained = 0.02;    // least part of u's variance
 
 /// Sums over all experiments, each without its means; the reference is zero before its first sample.
 struct ProjectionSums {
@@ -61,7 +62,7 @@ Projection best_projection(const IdData& data) {
     double least = kInfinity;
     for (Index count = std::min(kFewestWeights, longest);; count = std::min(2 * count, longest)) {
         Matrix gram = sums.gram.topLeftCorner(count, count);
-        gram.diagonal().array() += kRidge * gram.diagonal().maxCoeff();
+        gram.diagonal().array() += kHeldReference * gram.diagonal().maxCoeff();
         const Vector weights = solve_semidefinite(gram, sums.products.head(count));
         const double left = std::max(sums.energy - weights.dot(sums.products.head(count)), 1e-12 * sums.energy);
         const double bic = N * std::log(left / N) + static_cast<double>(count) * std::log(N);
@@ -145,7 +146,7 @@ void LoopSignals::judge_controller(bool find_delay) {
             explained = later;
         }
     }
-    if (!(explained > kBelieved))
+    if (!(explained > kBelievedController))
         warning_ = "The recorded input is not what this controller makes of reference minus output (it explains " +
                    number_text(std::max(explained, 0.0), 2) +
                    " %): look at its sign, its gain, its sampling and what was removed from the signals.";
@@ -171,7 +172,9 @@ LoopSignals::All LoopSignals::of_model(const TransferFunction& model) const {
 const std::vector<Vector>& LoopSignals::projected_inputs() const {
     if (!projected_.empty()) return projected_;
     const Projection projection = best_projection(data_);
-    if (!(projection.explained > kExplains))
+    const double chance =
+        kTimesChance * static_cast<double>(projection.weights.size()) / static_cast<double>(data_.sample_count());
+    if (!(projection.explained > std::max(kLeastExplained, chance)))
         throw InvalidArgument(method_ + ": the reference explains no more than " +
                               number_text(100 * std::max(projection.explained, 0.0), 2) +
                               " % of the input, so that nothing can be learnt from it: is it this loop's reference?");

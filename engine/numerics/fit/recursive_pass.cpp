@@ -19,7 +19,7 @@ namespace dynlab::inline numerics {
 namespace {
 
 constexpr Index kSamplesBetweenQuestions = 4096;  // whether to stop
-constexpr Index kSamplesPerParameter = 20;
+constexpr Index kFirstSamplesPerParameter = 20;
 constexpr double kFilterMemories = 20;  // of the first batch
 
 /// The record as the loop sees it.
@@ -99,7 +99,8 @@ bool is_stable(const EvolvingModel& model) {
 /// The samples of the first batch, and the model that ivsvf, or lssvf where that one fails, makes of them.
 Index first_batch(const IdData& data, Index parameters, double lambda) {
     const double steps = kFilterMemories / (lambda * data.mean_step());
-    const Index wanted = std::max<Index>(kSamplesPerParameter * parameters, static_cast<Index>(std::min(steps, 1e15)));
+    const Index wanted =
+        std::max<Index>(kFirstSamplesPerParameter * parameters, static_cast<Index>(std::min(steps, 1e15)));
     return std::min(wanted, data.sample_count());
 }
 
@@ -247,8 +248,8 @@ Index history_stride(Index samples, Index points) {
 }
 
 template <class OnePass>
-Fit run(OnePass pass, const RecursiveName& method, const IdData& data, const TransferStructure& structure,
-        const RecursiveOptions& options) {
+Fit run_pass(OnePass pass, const RecursiveName& method, const IdData& data, const TransferStructure& structure,
+             const RecursiveOptions& options) {
     const Index N = data.sample_count(), d = structure.parameter_count();
     const Index stride = history_stride(N, options.history_points), points = (N - 1) / stride + 1;
     const Vector t = data.time();
@@ -304,7 +305,7 @@ Fit pass_of_size(const RecursiveName& method, const IdData& data, const Transfer
         const Index batch = first_batch(data, d, options.lambda);
         pass.begin_with(first_model(data, structure, options, batch), batch);
     }
-    return run(std::move(pass), method, data, structure, options);
+    return run_pass(std::move(pass), method, data, structure, options);
 }
 
 template <RecursiveMethod kMethod>
@@ -318,7 +319,7 @@ Fit pass_of_method(const RecursiveName& method, const IdData& data, const Transf
     return pass_of_size<kMethod, Eigen::Dynamic, Eigen::Dynamic>(method, data, structure, options, samples);
 }
 
-void check_data(const RecursiveName& method, const IdData& data, const TransferStructure& structure) {
+void check_recursive_data(const RecursiveName& method, const IdData& data, const TransferStructure& structure) {
     if (structure.free_delays)
         throw InvalidArgument(method.name + ": delays are fixed here; srivc and coe estimate them");
     if (data.experiments.size() != 1)
@@ -333,7 +334,7 @@ void check_data(const RecursiveName& method, const IdData& data, const TransferS
                               std::to_string(structure.poles.front()) + " were asked for");
 }
 
-void check_model(const RecursiveName& method, const TransferFunction& model, const TransferStructure& structure) {
+void check_fixed_model(const RecursiveName& method, const TransferFunction& model, const TransferStructure& structure) {
     if (!model.continuous() || model.pole_count() != structure.poles.front() ||
         model.zero_count() > structure.channels.front().zeros)
         throw InvalidArgument(method.name + ": model must be in continuous time with " +
@@ -371,9 +372,9 @@ void RecursiveOptions::validate(const std::string& method, Index parameters) con
 
 Fit recursive_pass(const RecursiveName& method, RecursiveMethod kind, const IdData& data,
                    const TransferStructure& structure, const RecursiveOptions& options) {
-    check_data(method, data, structure);
+    check_recursive_data(method, data, structure);
     options.validate(method.name, structure.parameter_count());
-    if (options.model) check_model(method, *options.model, structure);
+    if (options.model) check_fixed_model(method, *options.model, structure);
     const Samples samples = samples_of(method, data, structure.channels.front().delay, options.hold_y);
     switch (kind) {
         case RecursiveMethod::kLeastSquares:

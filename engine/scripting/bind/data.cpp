@@ -172,7 +172,7 @@ void tell_sampling_time(const Call& call) {
 /// One column for each reference.
 Matrix reference_of(const Options& options) {
     lua_State* L = options.call().state();
-    if (const NumericBlock* block = to_matrix(L, options.push("Reference")))
+    if (NumericBlock* block = to_matrix(L, options.push("Reference")))
         return MatrixMap(block->data(), block->rows, block->columns);
     return options.vector("Reference");
 }

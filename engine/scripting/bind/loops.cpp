@@ -13,8 +13,8 @@
 namespace dynlab::inline scripting {
 namespace {
 
-constexpr std::array kCarxOrders = {kNa, kNb, kNk};
-constexpr std::array kOutputErrorOrders = {kNb, kNf, kNk};
+constexpr std::array kLoopEquationOrders = {kNa, kNb, kNk};
+constexpr std::array kLoopOutputOrders = {kNb, kNf, kNk};
 
 /// simloop(G, C, r, Ts, {noise =, ComputingDelay =, hold =}) -> data, x
 int simulate_loop(Call& call) {
@@ -33,19 +33,19 @@ int simulate_loop(Call& call) {
 
 Estimation read_clivsvf(const Call& call) {
     call.at_most(4);
-    const auto orders = order_lists(call, 2, kCarxOrders);
+    const auto orders = order_lists(call, 2, kLoopEquationOrders);
     const Options options(call, 4, {"controller", "ComputingDelay", "hold_r", "hold_y"});
     SvfOptions wanted;
     wanted.lambda = call.number(3, "lambda");
     wanted.hold_y = hold_y_of(options);
     return
-        [structure = structure_of_orders(kCarxOrders, orders, Denominators::kPerOutput), wanted,
+        [structure = structure_of_orders(kLoopEquationOrders, orders, Denominators::kPerOutput), wanted,
          known = loop_knowledge(options)](const IdData& data) { return clivsvf(data, structure(data), wanted, known); };
 }
 
 Estimation read_clsrivc(const Call& call) {
     call.at_most(3);
-    const auto orders = order_lists(call, 2, kOutputErrorOrders);
+    const auto orders = order_lists(call, 2, kLoopOutputOrders);
     const Options options(call, 3,
                           {"controller", "ComputingDelay", "hold_r", "route", "lambda", "hold_y", "MaxIter", "Tol"});
     FitOptions wanted;
@@ -53,7 +53,7 @@ Estimation read_clsrivc(const Call& call) {
     constexpr std::array kRoutes = {LoopRoute::kAuxiliary, LoopRoute::kDirect, LoopRoute::kIndirect,
                                     LoopRoute::kTwoStage};
     const LoopRoute route = kRoutes[options.choice("route", {"auxiliary", "direct", "indirect", "two-stage"}, 0)];
-    return [structure = structure_of_orders(kOutputErrorOrders, orders, Denominators::kPerChannel), wanted,
+    return [structure = structure_of_orders(kLoopOutputOrders, orders, Denominators::kPerChannel), wanted,
             known = loop_knowledge(options),
             route](const IdData& data) { return clsrivc(data, structure(data), wanted, known, route); };
 }
@@ -75,15 +75,14 @@ int estimate_clsrivc(Call& call) {
 
 constexpr NamedReader kLoopReaders[] = {{"clivsvf", read_clivsvf}, {"clsrivc", read_clsrivc}};
 
-constexpr const char* kContinuousArea = "continuous time";
+constexpr const char* kLoopsArea = "continuous time";
 constexpr std::array kLoopFunctions = {
     FunctionEntry{"simloop", "simulation", "simloop(G, C, r, Ts, {noise =, ComputingDelay =, hold =}) -> data, x",
                   "record of a closed loop u = C (r - y), with noise on the output", guarded<simulate_loop>},
-    FunctionEntry{"clivsvf", kContinuousArea,
+    FunctionEntry{"clivsvf", kLoopsArea,
                   "clivsvf(data, {na, nb, nk}, lambda, {controller =, ComputingDelay =, ...}) -> G",
                   "ivsvf for a record in closed loop, with the reference as instrument", guarded<estimate_clivsvf>},
-    FunctionEntry{"clsrivc", kContinuousArea,
-                  "clsrivc(data, {nb, nf, nk}, {controller =, route =, lambda =, ...}) -> G",
+    FunctionEntry{"clsrivc", kLoopsArea, "clsrivc(data, {nb, nf, nk}, {controller =, route =, lambda =, ...}) -> G",
                   "srivc for a record in closed loop, by four routes", guarded<memoized_call<estimate_clsrivc>>},
 };
 

@@ -15,8 +15,8 @@
 namespace dynlab::inline scripting {
 namespace {
 
-constexpr std::array kCarxOrders = {kNa, kNb, kNk};
-constexpr std::array kOutputErrorOrders = {kNb, kNf, kNk};
+constexpr std::array kRecursiveEquationOrders = {kNa, kNb, kNk};
+constexpr std::array kRecursiveOutputOrders = {kNb, kNf, kNk};
 
 /// One number for all parameters or one for each, taken as variances of steps from sample to sample.
 Vector drift_of(const Options& options) {
@@ -42,7 +42,7 @@ RecursiveOptions recursive_options(const Call& call, const Options& options) {
 template <auto kMethod, bool kCarx>
 Estimation read_recursive(const Call& call) {
     call.at_most(4);
-    const auto& entries = kCarx ? kCarxOrders : kOutputErrorOrders;
+    const auto& entries = kCarx ? kRecursiveEquationOrders : kRecursiveOutputOrders;
     const auto orders = order_lists(call, 2, entries);
     const Options options(call, 4, {"forgetting", "drift", "NoiseVariance", "HistoryPoints", "model", "hold_y"});
     return [structure = structure_of_orders(entries, orders, Denominators::kPerOutput),
@@ -78,7 +78,7 @@ std::map<std::string, Vector> truth_of(const Options& options) {
         const std::string name = lua_tostring(L, -2);
         if (lua_type(L, -1) == LUA_TNUMBER)
             truth[name] = Vector::Constant(1, lua_tonumber(L, -1));
-        else if (const NumericBlock* values = to_vector(L, -1))
+        else if (NumericBlock* values = to_vector(L, -1))
             truth[name] = values->vector();
         else
             throw InvalidArgument(
@@ -105,15 +105,15 @@ constexpr NamedReader kRecursiveReaders[] = {{"rlssvf", read_recursive<rlssvf, t
                                              {"rivsvf", read_recursive<rivsvf, true>},
                                              {"rsrivc", read_recursive<rsrivc, false>}};
 
-constexpr const char* kContinuousArea = "continuous time";
+constexpr const char* kRecursiveArea = "continuous time";
 constexpr std::array kRecursiveFunctions = {
-    FunctionEntry{"rlssvf", kContinuousArea, "rlssvf(data, {na, nb, nk}, lambda, {forgetting =, drift =, ...}) -> G",
+    FunctionEntry{"rlssvf", kRecursiveArea, "rlssvf(data, {na, nb, nk}, lambda, {forgetting =, drift =, ...}) -> G",
                   "lssvf sample by sample, for parameters that change",
                   guarded<memoized_call<estimate_recursively<rlssvf, true>>>},
-    FunctionEntry{"rivsvf", kContinuousArea, "rivsvf(data, {na, nb, nk}, lambda, {forgetting =, drift =, ...}) -> G",
+    FunctionEntry{"rivsvf", kRecursiveArea, "rivsvf(data, {na, nb, nk}, lambda, {forgetting =, drift =, ...}) -> G",
                   "ivsvf sample by sample, for parameters that change",
                   guarded<memoized_call<estimate_recursively<rivsvf, true>>>},
-    FunctionEntry{"rsrivc", kContinuousArea, "rsrivc(data, {nb, nf, nk}, lambda, {forgetting =, drift =, ...}) -> G",
+    FunctionEntry{"rsrivc", kRecursiveArea, "rsrivc(data, {nb, nf, nk}, lambda, {forgetting =, drift =, ...}) -> G",
                   "srivc sample by sample, for parameters that change",
                   guarded<memoized_call<estimate_recursively<rsrivc, false>>>},
     FunctionEntry{"plot_history", "figures", "plot_history(G, {truth =, confidence =}) -> fig",

@@ -9,7 +9,7 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr int kPasses = 3;
+constexpr int kLoopPasses = 3;
 
 }  // namespace
 
@@ -25,7 +25,7 @@ Fit clivsvf(const IdData& data, const TransferStructure& structure, const SvfOpt
     estimate.theta = solve_equations(group.svf(E));
     bool in_loop = false;
     LoopEquations equations;
-    for (int pass = 0; pass < kPasses && estimate.theta.allFinite(); ++pass) {
+    for (int pass = 0; pass < kLoopPasses && estimate.theta.allFinite(); ++pass) {
         const LoopSignals::All clean = signals.of_model(structure.models(estimate.theta).front());
         in_loop = clean.in_loop;
         equations = loop_equations(group, E, clean);

@@ -16,7 +16,7 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-double relative_change(const Vector& now, const Vector& before) {
+double largest_change(const Vector& now, const Vector& before) {
     return ((now - before).array() / now.array().abs().max(1e-12 * now.cwiseAbs().maxCoeff())).abs().maxCoeff();
 }
 
@@ -52,7 +52,7 @@ Fit by_passes(const IdData& data, const TransferStructure& structure, const FitO
             throw InvalidArgument(
                 "clsrivc: the equations have no unique solution: the reference does not excite the loop enough for " +
                 std::to_string(structure.parameter_count()) + " parameters");
-        const double change = relative_change(next, estimate.theta);
+        const double change = largest_change(next, estimate.theta);
         estimate.theta = next;
         estimate.trace.push_back({next, 0, change});
         if (change > options.tolerance) continue;

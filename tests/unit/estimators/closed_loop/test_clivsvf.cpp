@@ -86,7 +86,7 @@ TEST(clivsvf, refuses_what_it_cannot_use) {  // oracle: the sentence names metho
     EXPECT_THAT(refused(without, {}), HasSubstr("clivsvf needs the reference of the loop"));
     EXPECT_THAT(refused(constant, {}), HasSubstr("the reference never changes"));
     EXPECT_THAT(refused(strange, {}), HasSubstr("is it this loop's reference?"));
-    EXPECT_THAT(refused(data.range(1, 6), {}), HasSubstr("at least 9 samples are needed"));
+    EXPECT_THAT(refused(data.range(33, 40), {}), HasSubstr("at least 9 samples are needed"));
     EXPECT_THAT(refused(data, {LoopController{TransferFunction(values({1}), values({1}), 0.1)}}),
                 HasSubstr("sampling time 0.1 s"));
     EXPECT_THAT(thrown_message([&] { clivsvf(data, kPlant, cutoff(-1)); }), HasSubstr("lambda"));

@@ -108,9 +108,8 @@ TEST(rlssvf, refuses_what_it_cannot_use) {  // oracle: the sentence names method
     EXPECT_THAT(refused(data, TransferStructure::single(2, 0, 0.0137), recursive(3)),
                 HasSubstr("whole number of sampling times"));
     IdData still = data;
-    still.experiments.front().y = lsim(TransferFunction(values({2}), values({1, 4, 3})), Vector::Ones(1500), 0.01);
     still.experiments.front().u.setOnes();
-    still.experiments.front().y.setLinSpaced(1500, 0, 1);
+    still.experiments.front().y = Vector::LinSpaced(1500, 0, 1);
     EXPECT_THAT(refused(still, TransferStructure::single(5, 4), recursive(3)),
                 HasSubstr("do not determine the parameters"));
 }
