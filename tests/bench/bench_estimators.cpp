@@ -10,6 +10,9 @@
 #include "numerics/estimators/frequency/bla.h"
 #include "numerics/estimators/ivsvf.h"
 #include "numerics/estimators/lssvf.h"
+#include "numerics/estimators/recursive/rivsvf.h"
+#include "numerics/estimators/recursive/rlssvf.h"
+#include "numerics/estimators/recursive/rsrivc.h"
 #include "numerics/estimators/srivc.h"
 #include "numerics/signals/prbs.h"
 #include "numerics/signals/random.h"
@@ -176,6 +179,21 @@ void measure_memory(const std::string& what, Method method, Report& report) {
         {"peak memory of " + what + ", N = 1e7 (MB)", "the data and 64 MB", peak, megabytes + 64, 1, 0});
 }
 
+/// One pass with forgetting, against what a sample may cost.
+template <class Method>
+void measure_recursive(const std::string& what, Method method, const Record& record, Report& report) {
+    constexpr double kSecondsPerSample = 200e-9;
+    RecursiveOptions options;
+    options.lambda = kCutoff;
+    options.forgetting = 0.999;
+    double check = 0;
+    const double seconds =
+        median_seconds(5, [&] { check += method(record.data, TransferStructure::single(2, 0), options).theta[0]; });
+    if (check == 0) throw std::logic_error("nothing was estimated");
+    report.results.push_back({what + ", N = 1e6 (s)", "200 ns a sample (s)", seconds,
+                              kSecondsPerSample * static_cast<double>(record.u.size()), 1, 0});
+}
+
 }  // namespace
 
 void measure_estimators(Report& report) {
@@ -191,6 +209,9 @@ void measure_estimators(Report& report) {
     const Record million(kLong), ten_million(kVeryLong);
     measure_lssvf(million, ten_million, report);
     measure_srivc(million, "SRIVC, N = 1e6 (s)", 1.0 / 80, 11, report);
+    measure_recursive("recursive LSSVF", rlssvf, million, report);
+    measure_recursive("recursive IVSVF", rivsvf, million, report);
+    measure_recursive("recursive SRIVC", rsrivc, million, report);
     measure_growth("LSSVF", lssvf_theta, ten_million, report);
     measure_growth("SRIVC", srivc_theta, ten_million, report);
 }

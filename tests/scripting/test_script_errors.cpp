@@ -60,7 +60,7 @@ TEST(script_errors, lead_from_the_toolboxes_functions_to_those_here) {
     for (const char* name :
          {"tfest",    "procest", "ssest",   "polyest",   "pem",        "idtf",     "idpoly", "idss",    "spafdr",
           "frd",      "idinput", "misdata", "simc",      "conv",       "comparec", "residc", "getpvec", "getcov",
-          "isstable", "zpplot",  "zpk",     "tfdata",    "nlhw",       "nlarx",    "rlssvf", "rsrivc",  "roots",
+          "isstable", "zpplot",  "zpk",     "tfdata",    "nlhw",       "nlarx",    "rarx",   "rpem",    "roots",
           "xcorr",    "filter",  "etime",   "allmargin", "shadedplot", "sidgpmf",  "hsrivc", "poly",    "os"}) {
         const std::string said = error_of(std::string(name) + "()");
         const std::string::size_type hint = said.find(" here; ");

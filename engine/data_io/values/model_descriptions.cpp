@@ -23,7 +23,9 @@ void check_value(const IdData& data, const ValueLimits&) {
                                         : IdData(experiment.y, experiment.u, experiment.t);
         const bool same_channels =
             part.input_count() == data.input_count() && part.output_count() == data.output_count();
-        if (!same_channels) throw InvalidArgument("its experiments have different channels");
+        if (experiment.r.size() > 0) part.with_reference(experiment.r);
+        if (!same_channels || experiment.r.cols() != data.reference_count())
+            throw InvalidArgument("its experiments have different channels");
         if (data.Ts > 0 && experiment.t.size() > 0) throw InvalidArgument("regular data have no instants of their own");
     }
     const auto fit = [](const std::vector<std::string>& names, Index wanted) {

@@ -20,7 +20,7 @@ constexpr std::array<const char*, 2> names_of(Hold) {
     return {"zoh", "foh"};
 }
 
-DYNLAB_DESCRIBE(Experiment, y, u, t, start_time, name)
+DYNLAB_DESCRIBE(Experiment, y, u, t, start_time, name, r)
 DYNLAB_DESCRIBE(IdData, experiments, Ts, hold, input_names, output_names, input_units, output_units, time_unit)
 void check_value(const IdData& data, const ValueLimits& limits);
 

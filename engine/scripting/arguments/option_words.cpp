@@ -31,6 +31,8 @@ constexpr std::array kOptionWords = {
     OptionWord{"block_rows", "BlockRows"},
     OptionWord{"weighting", "Weighting"},
     OptionWord{"transient", "transient"},
+    OptionWord{"noise_variance", "NoiseVariance"},
+    OptionWord{"history_points", "HistoryPoints"},
 };
 
 }  // namespace

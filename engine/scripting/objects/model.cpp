@@ -6,6 +6,8 @@ std::size_t Boxed<Model>::outside_bytes(const Model& model) {
     std::size_t numbers = static_cast<std::size_t>(model.G.num().size() + model.G.den().size());
     if (model.estimate)
         for (const auto& [name, values] : model.estimate->vectors) numbers += static_cast<std::size_t>(values.size());
+    if (model.estimate && model.estimate->history)
+        numbers += static_cast<std::size_t>(2 * model.estimate->history->theta.size());
     return numbers * sizeof(double);
 }
 

@@ -1,0 +1,58 @@
+// Oracle: the truth. 200 records with noise: what recursive instrumental variables end with is as little biased as what
+// their batch methods give, and scatters as they do and as its standard errors say.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "numerics/estimators/recursive/rivsvf.h"
+#include "numerics/estimators/recursive/rlssvf.h"
+#include "numerics/estimators/recursive/rsrivc.h"
+#include "support/recursive_cases.h"
+
+namespace test_recursive_statistics {
+
+using namespace dynlab;
+using namespace dynlab::test;
+
+constexpr int kRecords = 200;
+const Vector kTruth = values({4, 3, 2});
+
+struct Study {
+    Vector bias;      ///< in standard errors of the mean
+    Vector reported;  ///< root mean square of the standard errors, relative to the scatter
+};
+
+template <class Method>
+Study study_of(const Method& method) {
+    Matrix theta(kRecords, 3), std(kRecords, 3);
+    for (int k = 0; k < kRecords; ++k) {
+        const Fit fit = method(course_record(0.2, static_cast<std::uint32_t>(k + 1)), TransferStructure::single(2, 0),
+                               recursive(3));
+        theta.row(k) = fit.theta.transpose();
+        std.row(k) = fit.std.transpose();
+    }
+    const Vector mean = theta.colwise().mean();
+    const Vector scatter =
+        ((theta.rowwise() - mean.transpose()).colwise().squaredNorm().transpose() / (kRecords - 1)).cwiseSqrt();
+    return {(mean - kTruth).cwiseQuotient(scatter / std::sqrt(double(kRecords))),
+            (std.colwise().squaredNorm().transpose() / kRecords).cwiseSqrt().cwiseQuotient(scatter)};
+}
+
+TEST(recursive_statistics, least_squares_are_biased) {
+    const Study study = study_of(rlssvf);
+    EXPECT_GT(study.bias.cwiseAbs().minCoeff(), 10) << study.bias.transpose();
+}
+
+TEST(recursive_statistics, instrumental_variables_are_not) {
+    const Study study = study_of(rivsvf);
+    EXPECT_LT(study.bias.cwiseAbs().maxCoeff(), 3) << study.bias.transpose();
+}
+
+TEST(recursive_statistics, refined_ones_are_not_and_know_their_scatter) {
+    const Study study = study_of(rsrivc);
+    EXPECT_LT(study.bias.cwiseAbs().maxCoeff(), 3) << study.bias.transpose();
+    EXPECT_NEAR(study.reported.minCoeff(), 1, 0.15) << study.reported.transpose();
+    EXPECT_NEAR(study.reported.maxCoeff(), 1, 0.15) << study.reported.transpose();
+}
+
+}  // namespace test_recursive_statistics
