@@ -30,6 +30,20 @@ constexpr std::array kOptionWords = {
     OptionWord{"breakpoints", "Breakpoints"},
     OptionWord{"block_rows", "BlockRows"},
     OptionWord{"weighting", "Weighting"},
+    OptionWord{"degree", "degree"},
+    OptionWord{"terms", "terms"},
+    OptionWord{"threshold", "threshold"},
+    OptionWord{"weak", "weak"},
+    OptionWord{"window", "window"},
+    OptionWord{"width", "width"},
+    OptionWord{"rank", "rank"},
+    OptionWord{"delays", "delays"},
+    OptionWord{"x0", "x0"},
+    OptionWord{"runs", "runs"},
+    OptionWord{"kind", "kind"},
+    OptionWord{"confidence", "confidence"},
+    OptionWord{"points", "points"},
+    OptionWord{"range", "range"},
 };
 
 }  // namespace
