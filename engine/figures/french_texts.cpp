@@ -15,6 +15,7 @@ constexpr std::array kTexts = {
     Words{"best model at each delay", "meilleur modèle à chaque retard"},
     Words{"beyond the bound", "hors de la borne"},
     Words{"by hand", "à la main"},
+    Words{"by the standard error", "d'après l'erreur type"},
     Words{"chosen", "retenu"},
     Words{"delay", "retard"},
     Words{"distortion", "distorsion"},

@@ -33,6 +33,20 @@ constexpr std::array kOptionWords = {
     OptionWord{"transient", "transient"},
     OptionWord{"noise_variance", "NoiseVariance"},
     OptionWord{"history_points", "HistoryPoints"},
+    OptionWord{"degree", "degree"},
+    OptionWord{"terms", "terms"},
+    OptionWord{"threshold", "threshold"},
+    OptionWord{"weak", "weak"},
+    OptionWord{"window", "window"},
+    OptionWord{"width", "width"},
+    OptionWord{"rank", "rank"},
+    OptionWord{"delays", "delays"},
+    OptionWord{"x0", "x0"},
+    OptionWord{"runs", "runs"},
+    OptionWord{"kind", "kind"},
+    OptionWord{"confidence", "confidence"},
+    OptionWord{"points", "points"},
+    OptionWord{"range", "range"},
 };
 
 }  // namespace

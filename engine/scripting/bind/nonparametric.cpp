@@ -103,14 +103,35 @@ int spectral_analysis(Call& call) {
     return give_spectral(call, options, read, spa(read.data, wanted), "spa", true);
 }
 
+/// The number of lags where it stands behind the data, which is taken off the arguments; else 0.
+Index take_lags(Call& call) {
+    if (call.type(2) != LUA_TNUMBER) return 0;
+    const Index lags = call.size(2, "lags");
+    lua_remove(call.state(), 2);
+    call = Call(call.state());
+    return lags;
+}
+
 int regression_on_past_inputs(Call& call) {
+    const Index lags = take_lags(call);
     SpectralModels read = comparison_arguments(call);
-    const Options options(call, read.options, {"lags", "smooth", "confidence", "labels"});
+    const Options options(call, read.options, {"lags", "smooth", "Kernel", "confidence", "labels"});
     ImpulseestOptions wanted;
-    wanted.lags = options.size("lags", 0);
+    wanted.lags = options.size("lags", lags);
     wanted.smooth = options.flag("smooth", true);
+    wanted.kernel = std::array{ResponseKernel::kTc, ResponseKernel::kDc,
+                               ResponseKernel::kSs}[options.choice("Kernel", {"TC", "DC", "SS"}, 0)];
+    if (!wanted.smooth && options.has("Kernel"))
+        throw InvalidArgument("option 'Kernel' is of the smooth estimate, and 'smooth' is false");
     wanted.confidence = confidence_of(options);
-    return give_impulse(call, options, read, impulseest(read.data, wanted));
+    const RegressedResponse result = impulseest(read.data, wanted);
+    give_impulse(call, options, read, result);
+    set_field(call, "covariance", result.covariance);
+    if (!result.prior) return 2;
+    set_field(call, "scale", result.prior_scale);
+    set_field(call, "decay", result.prior->decay);
+    if (wanted.kernel == ResponseKernel::kDc) set_field(call, "correlation", result.prior->correlation);
+    return 2;
 }
 
 int correlation_analysis(Call& call) {
@@ -136,7 +157,7 @@ constexpr std::array kNonparametricFunctions = {
                   "spa(data, G1, ..., {window =, w =, remove_mean =, confidence =, labels =}) -> fig, F",
                   "frequency response with errors, from smoothed correlations", guarded<spectral_analysis>},
     FunctionEntry{"impulseest", kNonparametricArea,
-                  "impulseest(data, G1, ..., {lags =, smooth =, confidence =, labels =}) -> fig, table",
+                  "impulseest(data, n, G1, ..., {Kernel =, lags =, smooth =, confidence =, labels =}) -> fig, table",
                   "impulse response by regression on past inputs, and the dead time it shows",
                   guarded<regression_on_past_inputs>},
     FunctionEntry{"cra", kNonparametricArea,

@@ -13,6 +13,7 @@
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/frequency_object.h"
 #include "scripting/objects/model.h"
+#include "scripting/objects/simulated_model.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -27,10 +28,21 @@ int simulate_system(Call& call, const StateSpace& system, const Options& options
     return y.cols() == 1 ? call.give_vector(y.col(0)) : call.give_matrix(y);
 }
 
+/// From rest or from x0. Of a model without inputs u says by its length how many samples are wanted.
+int simulate_freely(Call& call, const FreeRunModel& model, const Options& options, const VectorView& x0) {
+    const MatrixMap u = call.matrix(2, "u");
+    const IdData data = inputs_alone(model.input_count() == 0 ? Matrix(u.rows(), 0) : Matrix(u), call.number(3, "Ts"),
+                                     hold_option(options, Hold::kZoh));
+    const FreeRun run = model.free_run(data, 0, x0);
+    if (run.lost_at) throw InvalidArgument(divergence_text(data, 0, *run.lost_at));
+    return run.output.cols() == 1 ? call.give_vector(run.output.col(0)) : call.give_matrix(run.output);
+}
+
 int simulate(Call& call) {
     call.at_most(4);
     const Options options(call, 4, {"hold", "x0"});
     const Vector x0 = options.has("x0") ? Vector(options.vector("x0")) : Vector();
+    if (const SimulatedModel* model = simulated_model(call, 1)) return simulate_freely(call, *model->run, options, x0);
     if (const StateSpace* system = to_object<StateSpace>(call.state(), 1))
         return simulate_system(call, *system, options, x0);
     const Model model = model_argument(call, 1, "G");
