@@ -30,6 +30,9 @@ constexpr std::array kOptionWords = {
     OptionWord{"breakpoints", "Breakpoints"},
     OptionWord{"block_rows", "BlockRows"},
     OptionWord{"weighting", "Weighting"},
+    OptionWord{"relative_tolerance", "RelTol"},
+    OptionWord{"starts", "starts"},
+    OptionWord{"outputs", "outputs"},
 };
 
 }  // namespace

@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include "numerics/signals/interpolation.h"
+#include "numerics/validation/grey_comparison.h"
 #include "scripting/arguments/table_fields.h"
+#include "scripting/objects/grey_object.h"
 #include "scripting/objects/model.h"
 
 namespace dynlab::inline scripting {
@@ -17,6 +19,17 @@ std::vector<TransferFunction> channels_argument(const Call& call, int index, con
     if (index <= call.count())
         if (const Model* model = to_object<Model>(call.state(), index)) return channels_of(*model);
     return {model_argument(call, index, what).G};
+}
+
+Comparison comparison_argument(const Call& call, int index, const char* what, const IdData& data,
+                               const Options& options) {
+    if (const GreyEstimate grey = to_grey_box(call, index)) {
+        const std::string start = options.text("InitialState", "auto");
+        return compare_grey(data, *grey, start == "auto" ? usual_start(*grey) : parse_grey_start(start));
+    }
+    IdData storage;
+    return compare_all(driving_data(call, index, data, storage), channels_argument(call, index, what),
+                       compare_options(options));
 }
 
 NoisyModel noisy_model_argument(const Call& call, int index, const char* what) {

@@ -15,6 +15,10 @@ CompareOptions compare_options(const Options& options, const char* initial_state
 /// The transfer functions of a model argument, one per input.
 std::vector<TransferFunction> channels_argument(const Call& call, int index, const char* what);
 
+/// A model argument simulated on data, as the options InitialState and Offset say.
+Comparison comparison_argument(const Call& call, int index, const char* what, const IdData& data,
+                               const Options& options);
+
 /// A model argument with what it says of its noise.
 NoisyModel noisy_model_argument(const Call& call, int index, const char* what);
 

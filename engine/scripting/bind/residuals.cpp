@@ -12,6 +12,7 @@
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/figure_object.h"
+#include "scripting/objects/grey_object.h"
 #include "scripting/objects/model.h"
 
 namespace dynlab::inline scripting {
@@ -73,6 +74,22 @@ ModelDoubts doubts_of(const Call& call, int index) {
     return {undetermined_names(estimate.names, estimate.theta, estimate.std), missed_option_among(estimate.warnings)};
 }
 
+ResidualTests tests_of_model(const Call& call, const IdData& data, const Options& options,
+                             const ResidualOptions& wanted) {
+    if (to_grey_box(call, 2) != nullptr) {
+        const Comparison comparison = comparison_argument(call, 2, "G", data, options);
+        std::vector<Matrix> simulated;
+        for (std::size_t k = 0; k < data.experiments.size(); ++k) simulated.push_back(comparison.outputs(k));
+        return residual_tests(data, std::move(simulated), wanted);
+    }
+    const CompareOptions start = compare_options(options);
+    IdData storage;
+    const IdData& driven = driving_data(call, 2, data, storage);
+    if (options.flag("prediction", false))
+        return prediction_error_tests(driven, predict(driven, noisy_model_argument(call, 2, "G"), {1, start}), wanted);
+    return residual_tests(driven, channels_argument(call, 2, "G"), start, wanted, doubts_of(call, 2));
+}
+
 int test_residuals(Call& call) {
     call.at_most(3);
     const IdData& data = object_argument<IdData>(call, 1, "data");
@@ -81,13 +98,7 @@ int test_residuals(Call& call) {
     ResidualOptions wanted;
     wanted.lags = options.size("lags", wanted.lags);
     wanted.confidence = options.number("confidence", wanted.confidence);
-    const CompareOptions start = compare_options(options);
-    IdData storage;
-    const IdData& driven = driving_data(call, 2, data, storage);
-    const ResidualTests tests =
-        options.flag("prediction", false)
-            ? prediction_error_tests(driven, predict(driven, noisy_model_argument(call, 2, "G"), {1, start}), wanted)
-            : residual_tests(driven, channels_argument(call, 2, "G"), start, wanted, doubts_of(call, 2));
+    const ResidualTests tests = tests_of_model(call, data, options, wanted);
     if (!quiet) call.print(told(call, tests.verdict) + "\n");
     bool drawable = false;
     for (const OutputResiduals& output : tests.outputs) drawable = drawable || !output.exact;

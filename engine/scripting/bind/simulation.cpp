@@ -9,8 +9,10 @@
 #include "numerics/simulation/frequency_response.h"
 #include "numerics/simulation/lsim.h"
 #include "numerics/simulation/time_response.h"
+#include "scripting/arguments/table_fields.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/figure_object.h"
+#include "scripting/objects/grey_object.h"
 #include "scripting/objects/model.h"
 
 namespace dynlab::inline scripting {
@@ -26,10 +28,22 @@ int simulate_system(Call& call, const StateSpace& system, const Options& options
     return y.cols() == 1 ? call.give_vector(y.col(0)) : call.give_matrix(y);
 }
 
+/// By a grey box's own equations.
+int simulate_grey_box(Call& call, const GreyFit& grey, const Options& options, const Vector& x0) {
+    GreyInputs inputs{call.matrix(2, "u"), {}, hold_option(options, Hold::kZoh)};
+    const Index N = inputs.u.rows();
+    if (call.type(3) == LUA_TNUMBER)
+        inputs.t = call.number(3, "Ts") * Vector::LinSpaced(N, 0, static_cast<double>(N - 1));
+    else
+        inputs.t = call.vector(3, "t or Ts");
+    return give_columns(call, grey_response(grey, inputs, x0));
+}
+
 int simulate(Call& call) {
     call.at_most(4);
     const Options options(call, 4, {"hold", "x0"});
     const Vector x0 = options.has("x0") ? Vector(options.vector("x0")) : Vector();
+    if (const GreyEstimate grey = to_grey_box(call, 1)) return simulate_grey_box(call, *grey, options, x0);
     if (const StateSpace* system = to_object<StateSpace>(call.state(), 1))
         return simulate_system(call, *system, options, x0);
     const Model model = model_argument(call, 1, "G");
@@ -74,8 +88,9 @@ void name_models(const Call& call, const Options& options, std::vector<NamedMode
             models[i].name = labels[i];
         } else if (models.size() > 1) {
             const Model* model = to_object<Model>(call.state(), static_cast<int>(i + 1));
-            models[i].name =
-                model != nullptr && model->estimate ? model->estimate->method : fmt::format("model {}", i + 1);
+            models[i].name = to_grey_box(call, static_cast<int>(i + 1)) != nullptr ? "greyest"
+                             : model != nullptr && model->estimate                 ? model->estimate->method
+                                                                                   : fmt::format("model {}", i + 1);
         }
     }
 }

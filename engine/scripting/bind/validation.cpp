@@ -10,6 +10,7 @@
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/figure_object.h"
+#include "scripting/objects/grey_object.h"
 #include "scripting/objects/model.h"
 
 namespace dynlab::inline scripting {
@@ -17,6 +18,7 @@ namespace {
 
 std::string model_name(const Call& call, int index, const std::vector<std::string>& labels, std::size_t number) {
     if (number < labels.size()) return labels[number];
+    if (to_grey_box(call, index) != nullptr) return "greyest";
     const Model* model = to_object<Model>(call.state(), index);
     return model != nullptr && model->estimate ? model->estimate->method : fmt::format("model {}", number + 1);
 }
@@ -68,12 +70,14 @@ int draw_comparison(Call& call, const IdData& data, int first, int options_index
     std::vector<ModelOutputs> models;
     for (int i = first; holds_model(call, i); ++i) {
         const std::string name = model_name(call, i, labels, models.size()) + steps_text(steps);
-        const CompareOptions start = compare_options(options);
+        if (!steps) {
+            models.push_back(model_outputs(name, comparison_argument(call, i, "G", data, options)));
+            continue;
+        }
         IdData storage;
         const IdData& driven = driving_data(call, i, data, storage);
-        models.push_back(steps
-                             ? model_outputs(name, predict(driven, noisy_model_argument(call, i, "G"), {steps, start}))
-                             : model_outputs(name, compare_all(driven, channels_argument(call, i, "G"), start)));
+        models.push_back(model_outputs(
+            name, predict(driven, noisy_model_argument(call, i, "G"), {steps, compare_options(options)})));
     }
     if (models.empty()) wrong_argument(call.state(), first, "G", "model");
     return give_figure(call, comparison_figure(data, models));
@@ -99,12 +103,15 @@ int fit(Call& call) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
     read_steps_as_option(call, 3);
     const Options options(call, 3, {"k", "InitialState", "Offset"});
-    const CompareOptions start = compare_options(options);
-    IdData storage;
-    const IdData& driven = driving_data(call, 2, data, storage);
     const auto steps = steps_option(options, std::nullopt);
-    const Vector percents = steps ? predict(driven, noisy_model_argument(call, 2, "G"), {steps, start}).fit_percent
-                                  : compare_all(driven, channels_argument(call, 2, "G"), start).fit_percent;
+    Vector percents;
+    if (steps) {
+        IdData storage;
+        const IdData& driven = driving_data(call, 2, data, storage);
+        percents = predict(driven, noisy_model_argument(call, 2, "G"), {steps, compare_options(options)}).fit_percent;
+    } else {
+        percents = comparison_argument(call, 2, "G", data, options).fit_percent;
+    }
     for (const double percent : percents) lua_pushnumber(call.state(), percent);
     return static_cast<int>(percents.size());
 }

@@ -1,5 +1,6 @@
 #include "scripting/bind/bindings.h"
 #include "scripting/bind/control_bindings.h"
+#include "scripting/bind/grey_box/grey_bindings.h"
 #include "scripting/bind/study_bindings.h"
 
 namespace dynlab::inline scripting {
@@ -17,6 +18,7 @@ const std::vector<FunctionEntry>& catalogue_of_functions() {
                                      estimator_functions(),     transfer_estimator_functions(),
                                      noise_model_functions(),   discrete_estimator_functions(),
                                      subspace_functions(),      hammerstein_functions(),
+                                     idgrey_functions(),        greyest_functions(),
                                      nonparametric_functions(), advice_functions(),
                                      regression_functions(),    validation_functions(),
                                      residual_functions(),      prediction_functions(),
