@@ -81,7 +81,7 @@ int main(int argc, char** argv) {
         {"program", measure_program},   {"grading", measure_grading},       {"course", measure_course},
         {"live", measure_live},         {"workbench", measure_workbench},   {"manual", measure_manual},
         {"numerics", measure_numerics}, {"estimators", measure_estimators}, {"lua", measure_lua},
-        {"searches", measure_searches}, {"advice", measure_advice}};
+        {"searches", measure_searches}, {"advice", measure_advice},         {"grey_box", measure_grey_box}};
     const std::vector<std::string> named(argv + 1, argv + argc);
     for (const std::string& name : named) {
         if (std::any_of(groups.begin(), groups.end(), [&](const auto& group) { return group.first == name; })) continue;

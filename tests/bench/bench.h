@@ -36,5 +36,6 @@ void measure_manual(Report& report);     ///< as well
 void measure_lua(Report& report);
 void measure_searches(Report& report);
 void measure_advice(Report& report);
+void measure_grey_box(Report& report);
 
 }  // namespace dynlab::bench

@@ -47,6 +47,9 @@ constexpr std::array kOptionWords = {
     OptionWord{"confidence", "confidence"},
     OptionWord{"points", "points"},
     OptionWord{"range", "range"},
+    OptionWord{"relative_tolerance", "RelTol"},
+    OptionWord{"starts", "starts"},
+    OptionWord{"outputs", "outputs"},
 };
 
 }  // namespace

@@ -15,8 +15,9 @@ CompareOptions compare_options(const Options& options, const char* initial_state
 /// The transfer functions of a model argument, one per input.
 std::vector<TransferFunction> channels_argument(const Call& call, int index, const char* what);
 
-/// What compare_all() gives of a model argument on the data; of a free run that is lost it prints when.
-Comparison comparison_argument(const Call& call, int index, const IdData& data, const CompareOptions& options);
+/// A model argument simulated on data, as the options InitialState and Offset say; of a free run that is lost it
+/// prints when.
+Comparison comparison_argument(const Call& call, int index, const IdData& data, const Options& options);
 
 /// A model argument with what it says of its noise.
 NoisyModel noisy_model_argument(const Call& call, int index, const char* what);

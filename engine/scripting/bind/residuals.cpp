@@ -74,14 +74,16 @@ ModelDoubts doubts_of(const Call& call, int index) {
 }
 
 /// Of the model at argument 2.
-ResidualTests tests_of_model(const Call& call, const IdData& data, const CompareOptions& start,
-                             const ResidualOptions& wanted, bool of_predictions) {
-    if (!of_predictions && simulated_model(call, 2) != nullptr) {
-        const Comparison comparison = comparison_argument(call, 2, data, start);
+ResidualTests tests_of_model(const Call& call, const IdData& data, const Options& options,
+                             const ResidualOptions& wanted) {
+    const bool of_predictions = options.flag("prediction", false);
+    if (!of_predictions && runs_freely(call, 2)) {
+        const Comparison comparison = comparison_argument(call, 2, data, options);
         std::vector<Matrix> outputs;
         for (std::size_t k = 0; k < data.experiments.size(); ++k) outputs.push_back(comparison.outputs(k));
         return residual_tests(data, std::move(outputs), wanted);
     }
+    const CompareOptions start = compare_options(options);
     IdData storage;
     const IdData& driven = driving_data(call, 2, data, storage);
     if (of_predictions)
@@ -97,8 +99,7 @@ int test_residuals(Call& call) {
     ResidualOptions wanted;
     wanted.lags = options.size("lags", wanted.lags);
     wanted.confidence = options.number("confidence", wanted.confidence);
-    const CompareOptions start = compare_options(options);
-    const ResidualTests tests = tests_of_model(call, data, start, wanted, options.flag("prediction", false));
+    const ResidualTests tests = tests_of_model(call, data, options, wanted);
     if (!quiet) call.print(told(call, tests.verdict) + "\n");
     bool drawable = false;
     for (const OutputResiduals& output : tests.outputs) drawable = drawable || !output.exact;

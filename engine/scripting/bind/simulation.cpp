@@ -9,9 +9,11 @@
 #include "numerics/simulation/frequency_response.h"
 #include "numerics/simulation/lsim.h"
 #include "numerics/simulation/time_response.h"
+#include "scripting/arguments/table_fields.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/frequency_object.h"
+#include "scripting/objects/grey_object.h"
 #include "scripting/objects/model.h"
 #include "scripting/objects/simulated_model.h"
 
@@ -38,10 +40,22 @@ int simulate_freely(Call& call, const FreeRunModel& model, const Options& option
     return run.output.cols() == 1 ? call.give_vector(run.output.col(0)) : call.give_matrix(run.output);
 }
 
+/// By a grey box's own equations.
+int simulate_grey_box(Call& call, const GreyFit& grey, const Options& options, const Vector& x0) {
+    GreyInputs inputs{call.matrix(2, "u"), {}, hold_option(options, Hold::kZoh)};
+    const Index N = inputs.u.rows();
+    if (call.type(3) == LUA_TNUMBER)
+        inputs.t = call.number(3, "Ts") * Vector::LinSpaced(N, 0, static_cast<double>(N - 1));
+    else
+        inputs.t = call.vector(3, "t or Ts");
+    return give_columns(call, grey_response(grey, inputs, x0));
+}
+
 int simulate(Call& call) {
     call.at_most(4);
     const Options options(call, 4, {"hold", "x0"});
     const Vector x0 = options.has("x0") ? Vector(options.vector("x0")) : Vector();
+    if (const GreyEstimate grey = to_grey_box(call, 1)) return simulate_grey_box(call, *grey, options, x0);
     if (const SimulatedModel* model = simulated_model(call, 1)) return simulate_freely(call, *model->run, options, x0);
     if (const StateSpace* system = to_object<StateSpace>(call.state(), 1))
         return simulate_system(call, *system, options, x0);
@@ -87,8 +101,8 @@ std::vector<std::string> labels_of(const Options& options, std::size_t count, co
 }
 
 std::string usual_name(const Call& call, int index) {
-    const Model* model = to_object<Model>(call.state(), index);
-    return model != nullptr && model->estimate ? model->estimate->method : fmt::format("model {}", index);
+    const std::string method = method_of_model(call, index);
+    return method.empty() ? fmt::format("model {}", index) : method;
 }
 
 void name_models(const Call& call, const Options& options, std::vector<NamedModel>& models) {

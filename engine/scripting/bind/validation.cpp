@@ -68,9 +68,9 @@ int draw_comparison(Call& call, const IdData& data, int first, int options_index
     std::vector<ModelOutputs> models;
     for (int i = first; holds_comparable_model(call, i); ++i) {
         const std::string name = model_name(call, i, labels, models.size()) + steps_text(steps);
-        const CompareOptions start = compare_options(options);
-        models.push_back(steps ? model_outputs(name, prediction_argument(call, i, data, {steps, start}))
-                               : model_outputs(name, comparison_argument(call, i, data, start)));
+        models.push_back(
+            steps ? model_outputs(name, prediction_argument(call, i, data, {steps, compare_options(options)}))
+                  : model_outputs(name, comparison_argument(call, i, data, options)));
     }
     if (models.empty()) wrong_argument(call.state(), first, "G", "model");
     return give_figure(call, comparison_figure(data, models));
@@ -96,10 +96,9 @@ int fit(Call& call) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
     read_steps_as_option(call, 3);
     const Options options(call, 3, {"k", "InitialState", "Offset"});
-    const CompareOptions start = compare_options(options);
     const auto steps = steps_option(options, std::nullopt);
-    const Vector percents = steps ? prediction_argument(call, 2, data, {steps, start}).fit_percent
-                                  : comparison_argument(call, 2, data, start).fit_percent;
+    const Vector percents = steps ? prediction_argument(call, 2, data, {steps, compare_options(options)}).fit_percent
+                                  : comparison_argument(call, 2, data, options).fit_percent;
     for (const double percent : percents) lua_pushnumber(call.state(), percent);
     return static_cast<int>(percents.size());
 }
@@ -123,9 +122,9 @@ MeasuredModel measured_model(const Call& call, int index) {
 int measure_fit(Call& call) {
     call.at_most(3);
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    const CompareOptions start = compare_options(Options(call, 3, {"InitialState", "Offset"}));
+    const Options options(call, 3, {"InitialState", "Offset"});
     const MeasuredModel model = measured_model(call, 2);
-    const Comparison comparison = comparison_argument(call, 2, data, start);
+    const Comparison comparison = comparison_argument(call, 2, data, options);
     const LevelledOutputs pair = levelled_outputs(data, comparison);
     const Vector &y = pair.measured, &simulated = pair.simulated;
     const double mean_square = (y - simulated).squaredNorm() / static_cast<double>(y.size());

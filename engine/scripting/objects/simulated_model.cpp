@@ -4,6 +4,7 @@
 
 #include "scripting/arguments/table_fields.h"
 #include "scripting/arguments/told_sentences.h"
+#include "scripting/objects/grey_object.h"
 #include "scripting/objects/text_form.h"
 
 namespace dynlab::inline scripting {
@@ -57,12 +58,17 @@ const SimulatedModel* simulated_model(const Call& call, int index) {
     return index <= call.count() ? to_object<SimulatedModel>(call.state(), index) : nullptr;
 }
 
+bool runs_freely(const Call& call, int index) {
+    return simulated_model(call, index) != nullptr || to_grey_box(call, index) != nullptr;
+}
+
 bool holds_comparable_model(const Call& call, int index) {
-    return simulated_model(call, index) != nullptr || holds_model(call, index);
+    return runs_freely(call, index) || holds_model(call, index);
 }
 
 std::string method_of_model(const Call& call, int index) {
     if (const SimulatedModel* model = simulated_model(call, index)) return model->estimate->method;
+    if (to_grey_box(call, index) != nullptr) return "greyest";
     const Model* model = to_object<Model>(call.state(), index);
     return model != nullptr && model->estimate ? model->estimate->method : "";
 }

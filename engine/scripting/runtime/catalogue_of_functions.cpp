@@ -1,6 +1,7 @@
 #include "scripting/bind/bindings.h"
 #include "scripting/bind/control_bindings.h"
 #include "scripting/bind/frequency/frequency_bindings.h"
+#include "scripting/bind/grey_box/grey_bindings.h"
 #include "scripting/bind/intervals/interval_bindings.h"
 #include "scripting/bind/learning/learning_bindings.h"
 #include "scripting/bind/study_bindings.h"
@@ -21,6 +22,7 @@ const std::vector<FunctionEntry>& catalogue_of_functions() {
                                      noise_model_functions(), loop_functions(),
                                      recursive_functions(),   discrete_estimator_functions(),
                                      subspace_functions(),    hammerstein_functions(),
+                                     idgrey_functions(),      greyest_functions(),
                                      learning_functions(),    nonparametric_functions(),
                                      frequency_functions(),   advice_functions(),
                                      regression_functions(),  validation_functions(),
