@@ -2,8 +2,8 @@
 
 #include "numerics/error.h"
 #include "numerics/fit/diagnosis.h"
-#include "numerics/fit/loop_equations.h"
-#include "numerics/fit/loop_search.h"
+#include "numerics/fit/loops/loop_equations.h"
+#include "numerics/fit/loops/loop_search.h"
 
 namespace dynlab::inline numerics {
 

@@ -9,7 +9,7 @@
 #include "numerics/criteria/grey_output.h"
 #include "numerics/error.h"
 #include "numerics/fit/diagnosis.h"
-#include "numerics/fit/identifiability.h"
+#include "numerics/fit/grey_box/identifiability.h"
 #include "numerics/fit/output_error.h"
 #include "numerics/linalg/decompositions.h"
 #include "numerics/number_text.h"

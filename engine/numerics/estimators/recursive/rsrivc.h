@@ -1,5 +1,5 @@
 #pragma once
-#include "numerics/fit/recursive_pass.h"
+#include "numerics/fit/recursive/recursive_pass.h"
 
 namespace dynlab::inline numerics {
 

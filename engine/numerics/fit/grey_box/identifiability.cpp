@@ -1,4 +1,4 @@
-#include "numerics/fit/identifiability.h"
+#include "numerics/fit/grey_box/identifiability.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "numerics/fit/loop_search.h"
+#include "numerics/fit/loops/loop_search.h"
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "numerics/fit/identifiability.h"
+#include "numerics/fit/grey_box/identifiability.h"
 #include "numerics/signals/random.h"
 
 namespace test_identifiability {
