@@ -16,7 +16,7 @@ constexpr double kTs = 0.05;
 /// A pendulum that swings far, its angle in units of 1/angle rad, time in units of 1/time s, the torque in 1/torque N
 /// m.
 GreyModel scaled_pendulum(double time, double angle, double torque) {
-    const double w0 = 7 / (time * time), gain = 4 * angle / (time * time * torque), friction = 1 / time;
+    const double w0 = 8 / (time * time), gain = 2.5 * angle / (time * time * torque), friction = 0.5 / time;
     return grey_model(
         {{"a", w0}, {"b", gain}, {"c", friction}}, {"phi", "w"},
         [angle](const Variables& v) -> std::vector<Term> {
@@ -28,7 +28,7 @@ GreyModel scaled_pendulum(double time, double angle, double torque) {
 GreyFit fit(double time, double angle, double torque) {
     const Vector u = prbs(5, 6), t = kTs * Vector::LinSpaced(u.size(), 0, static_cast<double>(u.size() - 1));
     const Matrix y =
-        GreySimulator(scaled_pendulum(1, 1, 1), 1, {}, 1e-10).run(Vector{{9, 6, 0.4}}, {Matrix(u), t}, {}, false).y;
+        GreySimulator(scaled_pendulum(1, 1, 1), 1, {}, 1e-10).run(Vector{{9, 3, 0.4}}, {Matrix(u), t}, {}, false).y;
     const Vector noisy = y.col(0) + 0.05 * RandomStream(7).normal(u.size());
     const IdData data(Matrix(angle * noisy), Matrix(torque * u), time * kTs);
     GreyOptions options;

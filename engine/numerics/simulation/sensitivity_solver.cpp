@@ -40,10 +40,11 @@ constexpr double kImplicitError[kImplicitStages] = {
     -2260. / 8211 + 3700637. / 11593932,         1. / 4 - 61727. / 225920};
 
 constexpr double kSafety = 0.9, kSlowest = 0.2, kFastest = 5;
-/// Steps of an interval, and those of them that no step short enough was found for: beyond, its equation has jumps.
-constexpr int kMostSteps = 20'000, kMostMissed = 20;
+/// Steps of an interval, those tried in vain, and those that no step short enough was found for: beyond, its equation
+/// has jumps.
+constexpr int kMostSteps = 20'000, kMostRejected = 200, kMostMissed = 20;
 constexpr double kRoughShare = 1. / 64,
-                 kLeastShare = 1. / 4096;  // of an interval, for steps taken whatever their error
+                 kLeastShare = 1e-10;  // of an interval, for steps taken whatever their error
 constexpr std::size_t kRoughTimes = 10;
 constexpr double kStabilityBound = 3.25;  // of h times the largest eigenvalue, of the explicit pair
 constexpr int kStiffSteps = 15, kOtherSteps = 6, kNewtonSteps = 12;
@@ -98,7 +99,7 @@ double SensitivitySolver::scaled_error(const double* weights, std::size_t stages
         if (weights[j] != 0) error_ += weights[j] * stages_[j].k;
     double largest = 0;
     for (Index i = 0; i < n_; ++i) {
-        const double size = std::max({size_[i], std::abs(end[i]), h * std::abs(stages_[0].k[i])});
+        const double size = std::max(size_[i], std::abs(end[i]));
         const double error = std::abs(h * error_[i]);
         if (!std::isfinite(end[i]) || !std::isfinite(error)) return kInfinity;
         if (error > 0) largest = std::max(largest, error / (tolerance_ * size));
@@ -185,7 +186,7 @@ void SensitivitySolver::look_for_stiffness(double h) {
         rates += std::pow((stages_[6].k[i] - stages_[5].k[i]) / size_[i], 2);
         states += std::pow((stages_[6].x[i] - stages_[5].x[i]) / size_[i], 2);
     }
-    const bool bound = states > 0 && h * std::sqrt(rates / states) > kStabilityBound;
+    const bool bound = !has_jumps_ && states > 0 && h * std::sqrt(rates / states) > kStabilityBound;
     if (bound) {
         other_steps_ = 0;
         if (++stiff_steps_ >= kStiffSteps) implicit_ = true;
@@ -220,12 +221,13 @@ void SensitivitySolver::advance(double t_begin, double t_end, const double* u_be
     const Interval over{t_begin, t_end - t_begin, u_begin, u_end};
     const double least = kLeastShare * over.length;
     size_ = size_.cwiseMax(x.cwiseAbs());
-    first_is_known_ = false;
+    first_is_known_ = has_jumps_ = false;
     double t = t_begin;
     if (!(next_step_ > 0)) next_step_ = over.length;
-    for (int steps = 0, missed = 0; t < t_end; ++steps) {
+    for (int steps = 0, missed = 0, rejected = 0; t < t_end; ++steps) {
         const double left = t_end - t;
-        const bool rough = steps >= kMostSteps || missed >= kMostMissed, last = next_step_ >= left;
+        const bool rough = steps >= kMostSteps || rejected >= kMostRejected || missed >= kMostMissed;
+        const bool last = next_step_ >= left;
         double h = last ? left : std::min(next_step_, 0.5 * left);
         if (rough) h = std::min(left, std::max(h, kRoughShare * over.length));
         const bool by_implicit = implicit_;
@@ -234,16 +236,18 @@ void SensitivitySolver::advance(double t_begin, double t_end, const double* u_be
         const double factor =
             error > 0 ? std::clamp(kSafety * std::pow(error, -1 / order), kSlowest, kFastest) : kFastest;
         const bool tolerated = error <= 1;
-        if (!tolerated && !std::isfinite(error) && (rough || h <= least)) {
-            if (!by_implicit) break_down(over, t);
-            implicit_ = false;  // no root for a step, however short: an equation with jumps
+        if (!tolerated && !rough && h > least) {
+            next_step_ = std::max(least, h * factor);
+            ++rejected;
+            continue;
+        }
+        if (!tolerated && by_implicit) {  // it finds no step, however short: an equation with jumps
+            implicit_ = false;
+            has_jumps_ = true;
             first_is_known_ = false;
             continue;
         }
-        if (!tolerated && !rough && h > least) {
-            next_step_ = std::max(least, h * factor);
-            continue;
-        }
+        if (!std::isfinite(error)) break_down(over, t);
         if (!tolerated) {
             ++missed;
             if (rough_times_.size() < kRoughTimes) rough_times_.push_back(t);

@@ -66,6 +66,7 @@ class SensitivitySolver {
     RowMatrix sensitivity_sum_;
     std::array<Stage, 7> stages_;
     bool implicit_ = false, first_is_known_ = false;
+    bool has_jumps_ = false;  ///< in the present interval, where neither method finds a step
     int stiff_steps_ = 0, other_steps_ = 0;
     std::vector<double> rough_times_;
 };

@@ -199,6 +199,7 @@ int make_grey_model(Call& call) {
 
     std::string reason;
     std::optional<TracedFunctions> traced = trace_functions(equations, reason);
+    if (traced && equations.inputs < 0) equations.inputs = traced->inputs;
     CalledFunctions called = call_functions(equations, model.start());
     if (traced && !agree(*traced, called, model.start())) {
         reason =

@@ -340,8 +340,10 @@ bool agree(const TracedFunctions& traced, const CalledFunctions& called, const V
     const Vector start = called.initial_state(p);
     evaluation->initial_state(Derivatives::kNone, at);
     if (!same(at.values, start)) return false;
-    for (const double shift : {0., 0.37, -0.61, 1.83}) {
-        const Vector x = start.array() + shift, u = Vector::Constant(std::max(traced.inputs, called.inputs), shift);
+    const std::array<std::array<double, 2>, 6> places = {
+        {{0, 0}, {0.37, 0.37}, {-0.61, -0.61}, {1.83, 0}, {0, 1.83}, {-0.29, 0}}};
+    for (const auto& [shift, input] : places) {
+        const Vector x = start.array() + shift, u = Vector::Constant(std::max(traced.inputs, called.inputs), input);
         const Vector own_u = u.head(called.inputs);
         try {
             evaluation->rates(shift, x.data(), u.data(), Derivatives::kNone, at);
