@@ -52,16 +52,16 @@ TEST(script_frequency, models_of_responses_are_the_system) {
 }
 
 TEST(script_frequency, spectral_estimates_are_responses) {
-    EXPECT_EQ(said("rng(1)\nlocal G1 = tf({2}, {1, 1.2, 4})\nlocal u = prbs(9, 4)\nu = vector{u, u}\n"
-                   "local y = lsim(G1, u, 0.1)\nlocal N = #u // 2\n"
-                   "local _, E = etfe(iddata(y:range(N + 1, 2*N), u:range(N + 1, 2*N), 0.1))\n"
-                   "local G = coe(E, {1, 2, 0})\n"
-                   "near(G.param[1], 1.2, 1e-4) near(G.param[2], 4, 1e-4) near(G.param[3], 2, 1e-4)\n"
-                   "local _, S = spa(iddata(y + 0.05*randn(#y), u, 0.1), {window = 100})\n"
-                   "local g = srivc(S, {1, 2, 0})\n"
-                   "near(g.param[2], 4, 0.2) assert(S.method == 'spa' and S.variance and S.coherence)\n"
-                   "assert(S.nothing == nil or true)"),
-              testing::Not(HasSubstr("ERROR")));
+    EXPECT_THAT(said("rng(1)\nlocal G1 = tf({2}, {1, 1.2, 4})\nlocal u = prbs(9, 4)\nu = vector{u, u}\n"
+                     "local y = lsim(G1, u, 0.1)\nlocal N = #u // 2\n"
+                     "local _, E = etfe(iddata(y:range(N + 1, 2*N), u:range(N + 1, 2*N), 0.1))\n"
+                     "local G = coe(E, {1, 2, 0})\n"
+                     "near(G.param[1], 1.2, 1e-4) near(G.param[2], 4, 1e-4) near(G.param[3], 2, 1e-4)\n"
+                     "local _, S = spa(iddata(y + 0.05*randn(#y), u, 0.1), {window = 100})\n"
+                     "local g = srivc(S, {1, 2, 0})\n"
+                     "near(g.param[2], 4, 0.2) assert(S.method == 'spa' and S.variance and S.coherence)\n"
+                     "print(g.report.warnings[#g.report.warnings])"),
+                HasSubstr("\nNeighbouring values of a smoothed response share their errors"));
 }
 
 TEST(script_frequency, drawings_take_responses_and_models_in_any_order) {
@@ -73,18 +73,18 @@ TEST(script_frequency, drawings_take_responses_and_models_in_any_order) {
 }
 
 TEST(script_frequency, approximations_come_with_their_levels) {
-    EXPECT_EQ(said("rng(2)\nlocal parts = {}\n"
-                   "for m = 1, 6 do\n"
-                   "  local u = multisine(256, {lines = range(1, 60), odd = true, periods = 5})\n"
-                   "  local x = lsim(tf({2}, {1, 1.2, 4}), u, 0.1)\n"
-                   "  parts[m] = iddata(x + 0.05*x^2 + 0.001*randn(#u), u, 0.1)\n"
-                   "end\n"
-                   "local B, figure = bla(merge(table.unpack(parts)), {period = 256, transient = 2})\n"
-                   "assert(#B.w == 30 and B.noise_variance and B.distortion and B.noise_power < 0.01*B.output_power)\n"
-                   "assert(sum(B.even.distortion) > 0.9*B.distortion_power and figure)\n"
-                   "near(coe(B, {1, 2, 0}).param[2], 4, 0.02)\n"
-                   "near(B.excited.power[1] + 0, B.excited.power[1])"),
-              testing::Not(HasSubstr("ERROR")));
+    EXPECT_THAT(
+        said("rng(2)\nlocal parts = {}\n"
+             "for m = 1, 6 do\n"
+             "  local u = multisine(256, {lines = range(1, 60), odd = true, periods = 5})\n"
+             "  local x = lsim(tf({2}, {1, 1.2, 4}), u, 0.1)\n"
+             "  parts[m] = iddata(x + 0.05*x^2 + 0.001*randn(#u), u, 0.1)\n"
+             "end\n"
+             "local B, figure = bla(merge(table.unpack(parts)), {period = 256, transient = 2})\n"
+             "assert(#B.w == 30 and B.noise_variance and B.distortion and B.noise_power < 0.01*B.output_power)\n"
+             "assert(sum(B.even.distortion) > 0.9*B.distortion_power and figure)\n"
+             "near(coe(B, {1, 2, 0}).param[2], 4, 0.02)\n"),
+        StartsWith("Best linear approximation at 30 frequencies from 6 realisations of 3 periods. Noise lies"));
 }
 
 TEST(script_frequency, multisines_follow_the_stream_or_a_seed) {
