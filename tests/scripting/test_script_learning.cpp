@@ -97,7 +97,8 @@ TEST(script_learning, bad_input_is_refused_in_words) {
     expect(kSindyRecord + "sindy(data, {library = function(x) return 3 end})", "must return a list of vectors");
     expect(kSindyRecord + "sindy(data, {library = function(x) return {x[1], vector{1, 2}} end})",
            "function 2 of the library gave 2 values for 400 samples");
-    expect(kSindyRecord + "sindy(data, {library = function(x) return {x[1], 'a'} end})", "must give a vector or a number");
+    expect(kSindyRecord + "sindy(data, {library = function(x) return {x[1], 'a'} end})",
+           "must give a vector or a number");
     expect(kSindyRecord + "sindy(data, {library = function(x) return {log(-x[1])} end})", "is NaN at sample 1");
     expect(kSindyRecord + "sindy(data, {library = function(x) return {x[1]} end, names = {'a', 'b'}})",
            "'names' has 2 texts, and the library gives 1 functions");
@@ -136,9 +137,10 @@ for _, kernel in ipairs{"TC", "DC", "SS"} do
   print(#H.t, H.decay > 0 and H.decay < 1, H.scale > 0)
 end
 )")
-                  .size() > 100,
+                      .size() > 100,
               true);
-    EXPECT_THAT(printed("impulseest(iddata(randn(50), randn(50), 1), 30)"), HasSubstr("30 lags need at least 90 samples"));
+    EXPECT_THAT(printed("impulseest(iddata(randn(50), randn(50), 1), 30)"),
+                HasSubstr("30 lags need at least 90 samples"));
     EXPECT_THAT(printed("impulseest(iddata(randn(50), randn(50), 1), {Kernel = 'AB'})"), HasSubstr("Kernel"));
 }
 

@@ -125,8 +125,8 @@ double usual_width(const IdData& data) {
     };
     const double start = correlation(0);
     Index lag = 1;
-    while (2 * lag < most && correlation(lag) > start / 2) lag += 1 + lag / 20;
-    return static_cast<double>(std::clamp(2 * lag, kLeast, most)) * data.mean_step();
+    while (lag < most && correlation(lag) > start / 2) lag += 1 + lag / 20;
+    return static_cast<double>(std::clamp(lag, kLeast, most)) * data.mean_step();
 }
 
 }  // namespace dynlab::inline numerics

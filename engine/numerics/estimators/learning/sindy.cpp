@@ -49,37 +49,34 @@ Rotated rotated_equations(const IdData& data, const FunctionLibrary& library, co
 /// The coefficients of one state, with those of small contributions at zero.
 struct Sparse {
     Vector coefficients;
-    double loss = 0, condition_number = 0;
-    bool settled = false;
+    double loss = 0, condition_number = 1;
 };
+
+/// What each term explains that the others cannot, |xi_j| |theta_j without its projection on the others|: the root of
+/// what the sum of squares rises by without it. Terms that cancel each other have large coefficients and explain
+/// little.
+Vector own_contributions(const LeastSquares& solution) {
+    return solution.solution.cwiseAbs().cwiseQuotient(solution.inverse_gram.diagonal().cwiseSqrt());
+}
 
 Sparse thresholded(const Matrix& R, Index functions, Index state, const SindyOptions& options) {
     const auto b = R.col(functions + state);
     const double size = b.norm();
-    Sparse found;
+    Sparse found{Vector::Zero(functions), size * size};
     std::vector<Index> active;
-    for (Index j = 0; j < functions; ++j)
+    for (Index j = 0; j < functions && size > 0; ++j)
         if (R.col(j).norm() > 0) active.push_back(j);
-    for (int pass = 0; pass <= options.max_iterations; ++pass) {
-        found.coefficients = Vector::Zero(functions);
-        found.loss = size * size;
-        found.condition_number = 1;
-        found.settled = true;
-        if (active.empty() || size == 0) break;
-        Matrix columns(R.rows(), static_cast<Index>(active.size()));
-        for (std::size_t i = 0; i < active.size(); ++i) columns.col(static_cast<Index>(i)) = R.col(active[i]);
-        const LeastSquares solution = solve_least_squares(columns, b);
+    while (!active.empty()) {
+        const LeastSquares solution = solve_least_squares(R(Eigen::all, active), b);
+        Index least = 0;
+        if (own_contributions(solution).minCoeff(&least) < options.threshold * size) {
+            active.erase(active.begin() + least);
+            continue;
+        }
+        found.coefficients(active) = solution.solution;
         found.loss = solution.residuals.squaredNorm();
         found.condition_number = solution.condition_number;
-        std::vector<Index> kept;
-        for (std::size_t i = 0; i < active.size(); ++i) {
-            const double value = solution.solution[static_cast<Index>(i)];
-            found.coefficients[active[i]] = value;
-            if (std::abs(value) * R.col(active[i]).norm() >= options.threshold * size) kept.push_back(active[i]);
-        }
-        if (kept.size() == active.size()) break;
-        found.settled = false;
-        active = std::move(kept);
+        break;
     }
     return found;
 }
@@ -227,8 +224,6 @@ void SindyOptions::validate() const {
         throw InvalidArgument("sindy: `window` must be an odd number of samples from 3 on, and is " +
                               std::to_string(window));
     if (width && !(*width > 0)) throw InvalidArgument("sindy: `width` must be positive, and is " + number_text(*width));
-    if (max_iterations < 1)
-        throw InvalidArgument("sindy: `max_iterations` must be at least 1, and is " + std::to_string(max_iterations));
 }
 
 SindyFit sindy(const IdData& data, const FunctionLibrary& library, const SindyOptions& options) {
@@ -244,7 +239,6 @@ SindyFit sindy(const IdData& data, const FunctionLibrary& library, const SindyOp
         Xi.col(i) = sparse.coefficients;
         squares += sparse.loss;
         found.fit.condition_number = std::max(found.fit.condition_number, sparse.condition_number);
-        if (!sparse.settled) found.fit.termination = Termination::kIterationLimit;
     }
     found.fit.loss = squares / static_cast<double>(rows * states);
     found.model = std::make_shared<SindyModel>(library, Xi, data.input_count(), largest_states(data));

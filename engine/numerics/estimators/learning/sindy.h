@@ -35,12 +35,11 @@ class SindyModel : public FreeRunModel {
 };
 
 struct SindyOptions {
-    /// A term goes when the root mean square of what it contributes is less than this share of that of the rate.
-    double threshold = 0.05;
+    /// A term goes when the root mean square of what it alone explains is less than this share of that of the rate.
+    double threshold = 0.02;
     bool weak = false;            ///< integrals against test functions in place of derivatives
     int window = 5;               ///< samples (odd) over which a polynomial gives state and derivative
     std::optional<double> width;  ///< time unit; half the length of a test function, from the data unless given
-    int max_iterations = 20;      ///< passes of thresholding
 
     /// Throws InvalidArgument naming the option.
     void validate() const;
@@ -55,8 +54,10 @@ struct SindyFit {
 };
 
 /// Sparse identification of nonlinear dynamics: dx/dt = Xi' theta(x, u) with few terms of a library of functions, the
-/// outputs of the data being the states. Least squares over all functions; then, state by state, those whose
-/// contribution is below the threshold go and the rest is solved again, until none goes. Equations:
+/// outputs of the data being the states. Least squares over all functions; then, state by state, the function goes that
+/// explains least beyond the others, and the rest is solved again, as long as that is below the threshold (sequential
+/// thresholding, where what is compared has neither the unit of a coefficient nor trouble with functions that are much
+/// alike). Equations:
 /// * derivatives (default): state and derivative from a polynomial of degree 4 (at most) over the `window` around each
 ///   sample; where a held input jumps within the window the sample is left out;
 /// * weak: for bump functions phi of compact support, -int phi' x dt = int phi theta(x, u) dt by the trapezoidal rule,

@@ -87,13 +87,12 @@ FunctionLibrary library_option(const Call& call, const Options& options, const I
 int estimate_sindy(Call& call) {
     call.at_most(2);
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    const Options options(call, 2, {"library", "names", "degree", "threshold", "weak", "window", "width", "MaxIter"});
+    const Options options(call, 2, {"library", "names", "degree", "threshold", "weak", "window", "width"});
     SindyOptions wanted;
     wanted.threshold = options.number("threshold", wanted.threshold);
     wanted.weak = options.flag("weak", wanted.weak);
     wanted.window = static_cast<int>(options.size("window", wanted.window));
     wanted.width = options.optional_number("width");
-    wanted.max_iterations = static_cast<int>(options.size("MaxIter", wanted.max_iterations));
     const SindyFit found = sindy(data, library_option(call, options, data), wanted);
     Estimate estimate = learned_estimate("sindy", found.fit);
     if (found.width) estimate.numbers.emplace_back("width", *found.width);
@@ -129,7 +128,7 @@ int estimate_dmdc(Call& call) {
 constexpr const char* kLearningArea = "learning from data";
 constexpr std::array kLearningFunctions = {
     FunctionEntry{"sindy", kLearningArea,
-                  "sindy(data, {library =, names =, degree =, threshold =, weak =, window =, width =, MaxIter =}) -> G",
+                  "sindy(data, {library =, names =, degree =, threshold =, weak =, window =, width =}) -> G",
                   "sparse differential equations from a library of functions, the outputs being the states",
                   guarded<estimate_sindy>},
     FunctionEntry{"dmdc", kLearningArea, "dmdc(data, {rank =, delays =}) -> G",

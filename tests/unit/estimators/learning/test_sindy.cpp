@@ -63,33 +63,28 @@ TEST(sindy, finds_lotka_volterra_without_noise) {
 
 TEST(sindy, finds_lorenz_under_noise_in_weak_form) {
     const IdData clean = lorenz_record(0.005, 6000);
-    for (std::uint32_t seed = 1; seed <= 20; ++seed)
-        expect_equations(polynomials(with_relative_noise(clean, 0.01, seed), 2, weakly()), kLorenz, 5);
+    for (std::uint32_t seed = 1; seed <= 10; ++seed)
+        for (const int degree : {2, 3})
+            expect_equations(polynomials(with_relative_noise(clean, 0.01, seed), degree, weakly()), kLorenz, 5);
 }
 
 TEST(sindy, finds_lotka_volterra_under_noise_in_weak_form) {
     const IdData clean = lotka_volterra_record(0.05, 1200);
-    for (std::uint32_t seed = 1; seed <= 20; ++seed)
-        expect_equations(polynomials(with_relative_noise(clean, 0.01, seed), 2, weakly()), kLotkaVolterra, 5);
+    for (std::uint32_t seed = 1; seed <= 10; ++seed)
+        for (const int degree : {2, 3})
+            expect_equations(polynomials(with_relative_noise(clean, 0.01, seed), degree, weakly()), kLotkaVolterra, 5);
 }
 
-TEST(sindy, weak_form_bears_more_noise_than_derivatives) {  // oracle: errors against the equations put in
-    const IdData noisy = with_relative_noise(lotka_volterra_record(0.05, 1200), 0.02, 3);
-    SindyOptions two = weakly();
-    two.threshold = 0;
-    const auto error = [&](const SindyOptions& options) {
-        const SindyFit found = polynomials(noisy, 2, options);
-        double worst = 0;
-        for (std::size_t i = 0; i < found.fit.names.size(); ++i) {
-            const auto truth = kLotkaVolterra.find(found.fit.names[i]);
-            if (truth != kLotkaVolterra.end())
-                worst = std::max(worst, std::abs(found.fit.theta[static_cast<Index>(i)] / truth->second - 1));
-        }
-        return worst;
-    };
-    SindyOptions derivatives;
-    derivatives.threshold = 0;
-    EXPECT_LT(error(two) * 5, error(derivatives));
+TEST(sindy, weak_form_bears_more_noise_than_derivatives) {  // oracle: the support put in, 10 seeds
+    const IdData clean = lorenz_record(0.005, 6000);
+    int weak = 0, plain = 0;
+    for (std::uint32_t seed = 1; seed <= 10; ++seed) {
+        const IdData noisy = with_relative_noise(clean, 0.03, seed);
+        weak += polynomials(noisy, 2, weakly()).fit.names.size() == kLorenz.size();
+        plain += polynomials(noisy, 2).fit.names.size() == kLorenz.size();
+    }
+    EXPECT_EQ(weak, 10);
+    EXPECT_LT(plain, 8);
 }
 
 /// A tank: dh/dt = 0.5 u - 0.3 sqrt(h) with a held input, exact between samples by 50 steps of Runge and Kutta.
