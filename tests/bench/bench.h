@@ -27,6 +27,7 @@ std::pair<double, double> paired_medians(int repetitions, const std::function<vo
 
 void measure_numerics(Report& report);
 void measure_estimators(Report& report);
+void measure_irregular(Report& report);
 void measure_program(Report& report);
 void measure_grading(Report& report);
 void measure_course(Report& report);

@@ -1,0 +1,180 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "numerics/simulation/companion_series.h"
+
+namespace dynlab::inline numerics {
+
+constexpr Index kSideBySide = 8;
+using Eight = Eigen::Array<double, kSideBySide, 1>;
+
+/// What steps of eight lengths, side by side, do to a companion system of kOrder states x, and (kTwice) to a second one
+/// w behind it, for an input that begins at u and runs with slope s (1/s):
+///     x -> x + E x + G u + R s,   w -> w + L x + E w + H u + S s.
+/// A map is the entries of E (row by row), G, L, H, R, S. Long steps are halved before and doubled behind.
+template <int kOrder, bool kTwice>
+class EightSteps {
+  public:
+    static constexpr int kStates = kOrder == Eigen::Dynamic ? Eigen::Dynamic : (kTwice ? 2 : 1) * kOrder;
+    using States = Eigen::Array<double, kSideBySide, kStates>;
+
+    EightSteps(const CompanionSeries& series, bool ramps) : series_(series), ramps_(ramps) {
+        const Index n = order();
+        const auto add_row = [&](Index row, Index input) {
+            for (Index j = 0; j < n; ++j) own_.push_back(row + j);
+            own_.push_back(input);
+        };
+        for (Index i = n - 1; i >= 0; i -= gap()) {
+            add_row(i * n, place_of_G() + i);
+            if (kTwice) add_row(place_of_L() + i * n, place_of_H() + i);
+        }
+        without_ramps_ = static_cast<Index>(own_.size());
+        for (Index i = n - 1; ramps && i >= 0; i -= gap()) {
+            own_.push_back(place_of_R() + i);
+            if (kTwice) own_.push_back(place_of_S() + i);
+        }
+        doubled_.resize(own_.size());
+    }
+
+    Index states() const { return kStates == Eigen::Dynamic ? (kTwice ? 2 : 1) * order() : kStates; }
+    Index entries() const { return place_of_S() + order(); }
+
+    /// For steps of `length` (s), none longer than those of the plan.
+    void set(const Eight& length, const StepPlan& plan, Eight* map) {
+        Eight part = length * plan.part;
+        sum_series(part, plan.last_term, map);
+        fill(map);
+        for (int i = 0; i < plan.doublings; ++i, part *= 2) {
+            double_rows(part, map);
+            fill(map);
+        }
+    }
+
+    /// The states behind the steps.
+    [[gnu::always_inline]] void advance(const Eight* map, const Eight& u, const Eight& slope, States& x) const {
+        const Index n = order();
+        const auto times = [&](Index row, Index state, Eight sum) __attribute__((always_inline)) {
+            for (Index j = 0; j < n; ++j) sum += map[row + j] * x.col(state + j);
+            return sum;
+        };
+        States next(kSideBySide, states());
+        for (Index i = 0; i < n; ++i) {
+            Eight sum = x.col(i) + map[place_of_G() + i] * u;
+            if (ramps_) sum += map[place_of_R() + i] * slope;
+            next.col(i) = times(i * n, 0, sum);
+        }
+        for (Index i = 0; kTwice && i < n; ++i) {
+            Eight sum = x.col(n + i) + map[place_of_H() + i] * u;
+            if (ramps_) sum += map[place_of_S() + i] * slope;
+            next.col(n + i) = times(i * n, n, times(place_of_L() + i * n, 0, sum));
+        }
+        for (Index i = 0; i < states(); ++i) x.col(i) = next.col(i);
+    }
+
+    /// For one of the steps, without input.
+    template <class Row>
+    Row behind(const Eight* map, Index step, const Row& x) const {
+        const Index n = order();
+        Row next = x;
+        for (Index i = 0; i < n; ++i)
+            for (Index j = 0; j < n; ++j) {
+                next[i] += map[i * n + j][step] * x[j];
+                if (kTwice) next[n + i] += map[place_of_L() + i * n + j][step] * x[j] + map[i * n + j][step] * x[n + j];
+            }
+        return next;
+    }
+
+  private:
+    static constexpr Index kRamps = kTwice ? 2 : 1;  // of a row
+    static constexpr Index kTogether = kOrder == Eigen::Dynamic ? CompanionSeries::kTogether : kRamps * (kOrder + 1);
+
+    Index gap() const { return kOrder == Eigen::Dynamic ? series_.gap : kOrder; }
+    Index order() const { return kOrder == Eigen::Dynamic ? series_.order : kOrder; }
+    Index place_of_G() const { return order() * order(); }
+    Index place_of_L() const { return place_of_G() + order(); }
+    Index place_of_H() const { return place_of_L() + (kTwice ? order() * order() : 0); }
+    Index place_of_R() const { return place_of_H() + (kTwice ? order() : 0); }
+    Index place_of_S() const { return place_of_R() + order(); }
+
+    [[gnu::always_inline]] void sum_series(const Eight& length, Index last, Eight* map) const {
+        const auto all = static_cast<Index>(own_.size());
+        for (Index row = 0; row < without_ramps_; row += kTogether) sum_together<kTogether>(row, length, last, map);
+        for (Index row = without_ramps_; row < all; row += kRamps) sum_together<kRamps>(row, length, last, map);
+    }
+    template <Index kCount>
+    [[gnu::always_inline]] void sum_together(Index row, const Eight& length, Index last, Eight* map) const {
+        const Index stride = series_.terms.rows();
+        const double* term = series_.terms.data() + row + last * stride;
+        Eight sums[kCount];
+        for (Index i = 0; i < kCount; ++i) sums[i].setZero();
+        for (Index k = last; k >= 0; --k, term -= stride)
+            for (Index i = 0; i < kCount; ++i) sums[i] = sums[i] * length + term[i];
+        const Index left = static_cast<Index>(own_.size()) - row;
+        for (Index i = 0; i < (kOrder == Eigen::Dynamic ? std::min(kCount, left) : kCount); ++i)
+            map[own_[static_cast<std::size_t>(row + i)]] = sums[i];
+    }
+
+    /// The rows in between.
+    [[gnu::always_inline]] void fill(Eight* map) const {
+        const Index n = order();
+        Eight *const G = map + place_of_G(), *const L = map + place_of_L(), *const H = map + place_of_H();
+        for (Index i = n - 1; i > 0; --i) {
+            if ((n - i) % gap() == 0) continue;  // the row above has its own series
+            const double integral = series_.integral[i - 1];
+            fill_row(map + i * n, i - 1);
+            G[i - 1] = integral * map[i * n];
+            if (kTwice) {
+                fill_row(L + i * n, i - 1);
+                L[(i - 1) * n + series_.driving] += series_.drive[i - 1] * map[i * n];
+                H[i - 1] = integral * L[i * n];
+            }
+            if (ramps_) map[place_of_R() + i - 1] = integral * G[i];
+            if (ramps_ && kTwice) map[place_of_S() + i - 1] = integral * H[i];
+        }
+    }
+    /// The row above this one, row `above`, without what drives it.
+    [[gnu::always_inline]] void fill_row(Eight* row, Index above) const {
+        const Index n = order();
+        for (Index j = 0; j < n; ++j) {
+            row[j - n] = series_.first(above, j) * row[0];
+            if (j + 1 < n) row[j - n] += series_.next(above, j) * row[j + 1];
+        }
+    }
+
+    /// The rows of series for twice the `length` of the map.
+    void double_rows(const Eight& length, Eight* map) {
+        const Index n = order();
+        const Eight *const E = map, *const G = map + place_of_G(), *const L = map + place_of_L(),
+                           *const H = map + place_of_H(), *const R = map + place_of_R(), *const S = map + place_of_S();
+        const auto times = [&](const Eight* row, const Eight* column, Index stride, Eight sum)
+            __attribute__((always_inline)) {
+            for (Index i = 0; i < n; ++i) sum += row[i] * column[i * stride];
+            return sum;
+        };
+        Eight* doubled = doubled_.data();
+        for (Index i = n - 1; i >= 0; i -= gap()) {
+            const Eight *const row = E + i * n, *const share = L + i * n;
+            for (Index j = 0; j < n; ++j) *doubled++ = times(row, E + j, n, 2 * row[j]);
+            *doubled++ = times(row, G, 1, 2 * G[i]);
+            if (!kTwice) continue;
+            for (Index j = 0; j < n; ++j) *doubled++ = times(share, E + j, n, times(row, L + j, n, 2 * share[j]));
+            *doubled++ = times(share, G, 1, times(row, H, 1, 2 * H[i]));
+        }
+        for (Index i = n - 1; ramps_ && i >= 0; i -= gap()) {
+            const Eight *const row = E + i * n, *const share = L + i * n;
+            *doubled++ = times(row, R, 1, 2 * R[i] + length * G[i]);
+            if (kTwice) *doubled++ = times(share, R, 1, times(row, S, 1, 2 * S[i] + length * H[i]));
+        }
+        for (std::size_t i = 0; i < own_.size(); ++i) map[own_[i]] = doubled_[i];
+    }
+
+    const CompanionSeries& series_;
+    bool ramps_;
+    std::vector<Index> own_;  // places in a map of what has its own series, in their order
+    Index without_ramps_ = 0;
+    std::vector<Eight> doubled_;
+};
+
+}  // namespace dynlab::inline numerics
