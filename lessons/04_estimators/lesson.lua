@@ -815,7 +815,7 @@ do
         estimators = {{"lssvf", {2, 1, 0}, lambda, label = "LSSVF"},
                       {"ivsvf", {2, 1, 0}, lambda, label = "IVSVF"}}}
     local cloud = M:scatter("a1", "b0"):set{x_range = {0, 8}, y_range = {0, 4}}
-    report.figure("lambda_by_hand", subplot(1, 2, {weight, cloud}):set{height = 7},
+    report.figure("lambda_by_hand", subplot(1, 2, {weight, cloud}):set{height = 8},
                   "The filter and the estimates")
 end
 

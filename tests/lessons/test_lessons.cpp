@@ -137,6 +137,8 @@ TEST(lesson_03_workflow, models_agree_with_the_simulators_and_with_an_independen
 
     EXPECT_EQ(number(record, "linear_poles"), 3);
     EXPECT_EQ(number(record, "linear_zeros"), 1);
+    EXPECT_EQ(number(record, "linear_fit_poles"), 5) << "the largest structure has the best fit to its own record";
+    EXPECT_EQ(number(record, "linear_fit_zeros"), 3);
     for (const auto& [name, truth] :
          {std::pair("a1", 3.05), {"a2", 11.25}, {"a3", 11.25}, {"b0", 5.625}, {"b1", 22.5}, {"td", 0.0}})
         expect_near(std::string("linear_") + name, truth);
