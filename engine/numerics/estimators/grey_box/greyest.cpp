@@ -22,7 +22,7 @@ namespace {
 constexpr int kRoughIterations = 15;
 constexpr double kRoughTolerance = 1e-3;
 constexpr int kWeightings = 20;           // of the outputs, at most
-constexpr double kSettledWeights = 1e-5;  // of their ratios
+constexpr double kSettledWeights = 1e-4;  // of their ratios
 constexpr double kLeastError = 1e-12;     // of an output's errors beside what it varies, for its weight
 constexpr double kConfidence = 0.95;
 
