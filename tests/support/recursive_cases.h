@@ -1,6 +1,6 @@
 #pragma once
 #include "numerics/estimators/lssvf.h"
-#include "numerics/fit/recursive_pass.h"
+#include "numerics/fit/recursive/recursive_pass.h"
 #include "support/transfer_cases.h"
 
 namespace dynlab::test {

@@ -23,9 +23,11 @@ TEST(catalogue, every_file_is_a_method) {  // oracle: the source tree
     std::set<std::string> known{"catalogue"};
     for (const MethodEntry& method : method_catalogue()) known.insert(method.file);
     const std::filesystem::path folder = std::filesystem::path(DYNLAB_SOURCE_DIR) / "engine/numerics/estimators";
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
-        if (entry.is_regular_file())
-            EXPECT_TRUE(known.count(relative(entry.path(), folder).replace_extension().string())) << entry.path();
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+        if (!entry.is_regular_file()) continue;
+        const std::filesystem::path file = std::filesystem::relative(entry.path(), folder).replace_extension();
+        EXPECT_TRUE(known.count(file.string())) << entry.path();
+    }
 }
 
 TEST(catalogue, names_are_unique_and_found) {  // oracle: definition

@@ -1,4 +1,4 @@
-#include "numerics/fit/loop_signals.h"
+#include "numerics/fit/closed_loop/loop_signals.h"
 
 #include <algorithm>
 #include <cmath>

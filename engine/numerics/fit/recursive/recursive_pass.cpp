@@ -1,4 +1,4 @@
-#include "numerics/fit/recursive_pass.h"
+#include "numerics/fit/recursive/recursive_pass.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "numerics/error.h"
 #include "numerics/filters/evolving_filter.h"
 #include "numerics/fit/diagnosis.h"
-#include "numerics/fit/instrument_array.h"
+#include "numerics/fit/recursive/instrument_array.h"
 #include "numerics/fit/srivc_iteration.h"
 #include "numerics/linalg/matrix_exponential.h"
 #include "numerics/linalg/polynomial.h"

@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "numerics/fit/instrument_array.h"
+#include "numerics/fit/recursive/instrument_array.h"
 #include "numerics/signals/random.h"
 
 namespace test_instrument_array {

@@ -1,6 +1,6 @@
 #pragma once
+#include "numerics/fit/closed_loop/loop_signals.h"
 #include "numerics/fit/fit.h"
-#include "numerics/fit/loop_signals.h"
 
 namespace dynlab::inline numerics {
 
