@@ -308,7 +308,8 @@ std::vector<std::string> literals_of(const std::string& source) {
 
 /// Names of options as scripts write them, MaxIter, of all bindings, but for the field's own symbols.
 std::set<std::string> option_words_of_lua() {
-    const std::set<std::string> symbols = {"Kp", "Td", "Ts", "Tw", "Tz", "Zeta"};
+    const std::set<std::string> symbols = {"Kp", "Td",   "Ts",       "Tw",
+                                           "Tz", "Zeta", "Reference"};  // "Reference: Ljung ..."
     std::set<std::string> words;
     for (const fs::path& file : sources_below(kRoot / "engine/scripting/bind"))
         for (const std::string& list : matches(text_of(file), R"rx(Options[^;{}]*\(\s*call,[^;{}]*\{([^}]*)\})rx"))

@@ -50,7 +50,7 @@ Panel panel_of(const ParameterHistory& history, Index parameter, const std::stri
         line.y = truth.size() == 1 ? Vector(Vector::Constant(2, truth[0])) : truth;
         line.colour = style::kGreyColour;
         line.dash = 1;
-        line.label = "truth";
+        line.label = "true value";
         panel.curves.push_back(std::move(line));
     }
     const Vector half_width = normal_half_width(level) * history.std.col(parameter);

@@ -1,5 +1,5 @@
 #pragma once
-#include "numerics/fit/loops/loop_signals.h"
+#include "numerics/fit/closed_loop/loop_signals.h"
 #include "scripting/arguments/arguments.h"
 
 namespace dynlab::inline scripting {

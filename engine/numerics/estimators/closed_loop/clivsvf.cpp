@@ -1,9 +1,9 @@
 #include "numerics/estimators/closed_loop/clivsvf.h"
 
 #include "numerics/error.h"
+#include "numerics/fit/closed_loop/loop_equations.h"
+#include "numerics/fit/closed_loop/loop_search.h"
 #include "numerics/fit/diagnosis.h"
-#include "numerics/fit/loops/loop_equations.h"
-#include "numerics/fit/loops/loop_search.h"
 
 namespace dynlab::inline numerics {
 

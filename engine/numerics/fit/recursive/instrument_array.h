@@ -1,8 +1,8 @@
 #pragma once
 #include <array>
 #include <cmath>
-#include <utility>
 
+#include "numerics/fit/recursive/small_equations.h"
 #include "numerics/linalg/decompositions.h"
 
 namespace dynlab::inline numerics {
@@ -45,9 +45,7 @@ class InstrumentArray {
         double left = y;
         if constexpr (kInstruments)
             for (std::size_t j = 0; j < d; ++j) left -= phi[j] * theta_[j];
-        const double weight = silent ? 1 : forgetting;
-        squares_ = weight * squares_ + left * left;
-        rows_ = weight * rows_ + 1;
+        count_error(left, silent ? 1 : forgetting);
     }
 
     /// The parameters walk: their covariance grows by variance times diag(steps), theta stays.
@@ -73,10 +71,13 @@ class InstrumentArray {
 
     bool known() const { return known_; }        ///< theta is determined
     const Row& theta() const { return theta_; }  ///< of the last sample that determined it
-    double rows() const { return rows_; }        ///< sum of the weights
-    double squares() const { return squares_; }  ///< weighted, of the errors
-    /// squares/(rows - parameters); infinite without more rows than parameters.
-    double variance() const { return rows_ > count_ ? squares_ / (rows_ - count_) : kInfinity; }
+    /// Of the errors; infinite without more rows than parameters. Least squares: that of all rows and the last theta,
+    /// to rounding. Instruments: of the later half to three quarters of the rows, each with the theta of then, for the
+    /// first errors are those of a theta that is hardly known.
+    double variance() const {
+        const double rows = rows_ + earlier_rows_ - (kInstruments ? 0 : count_);
+        return known_ && rows > 0 ? (squares_ + earlier_squares_) / rows : kInfinity;
+    }
 
     /// (C'C)^-1, d x d; without meaning unless known.
     Matrix inverse_gram() const {
@@ -91,12 +92,21 @@ class InstrumentArray {
 
   private:
     static constexpr double kSilent = 1e-6;
-    static constexpr double kRank = 1e-9;  // a pivot against the size of its column
 
     std::size_t size() const { return static_cast<std::size_t>(kCount > 0 ? kCount : count_); }
     double regressors(std::size_t i, std::size_t j) const {
         if constexpr (kInstruments) return C_[i][j];
         return j < i ? 0 : R_[i][j];
+    }
+    void count_error(double error, double weight) {
+        squares_ = weight * squares_ + error * error;
+        rows_ = weight * rows_ + 1;
+        earlier_squares_ *= weight;
+        earlier_rows_ *= weight;
+        if (!kInstruments || rows_ < 2 * earlier_rows_ || !known_) return;
+        earlier_squares_ = squares_;
+        earlier_rows_ = rows_;
+        squares_ = rows_ = 0;
     }
     static void rotate(double cosine, double sine, double& kept, double& left) {
         const double before = kept;
@@ -119,46 +129,15 @@ class InstrumentArray {
         c_[i] -= factor * c_[j];
     }
 
-    /// theta of C theta = c by elimination with row pivots; it stays where C is singular.
+    /// theta of C theta = c; it stays where C is singular.
     void solve() {
-        const std::size_t d = size();
-        std::array<Row, kMost> A = kInstruments ? C_ : R_;
-        Row b = c_;
-        Row columns{};
-        for (std::size_t j = 0; j < d; ++j)
-            for (std::size_t i = 0; i < (kInstruments ? d : j + 1); ++i) columns[j] += std::abs(A[i][j]);
-        known_ = false;
-        for (std::size_t j = 0; j < d; ++j) {
-            if constexpr (kInstruments) {
-                std::size_t pivot = j;
-                for (std::size_t i = j + 1; i < d; ++i)
-                    if (std::abs(A[i][j]) > std::abs(A[pivot][j])) pivot = i;
-                if (pivot != j) {
-                    std::swap(A[pivot], A[j]);
-                    std::swap(b[pivot], b[j]);
-                }
-            }
-            if (!(std::abs(A[j][j]) > kRank * columns[j])) return;
-            if constexpr (kInstruments) {
-                const double reciprocal = 1 / A[j][j];
-                for (std::size_t i = j + 1; i < d; ++i) {
-                    const double factor = A[i][j] * reciprocal;
-                    for (std::size_t l = j + 1; l < d; ++l) A[i][l] -= factor * A[j][l];
-                    b[i] -= factor * b[j];
-                }
-            }
-        }
-        for (std::size_t i = d; i-- > 0;) {
-            for (std::size_t j = i + 1; j < d; ++j) b[i] -= A[i][j] * theta_[j];
-            theta_[i] = b[i] / A[i][i];
-        }
-        known_ = true;
+        known_ = kInstruments ? solve_small(C_, c_, size(), theta_) : solve_triangular(R_, c_, size(), theta_);
     }
 
     int count_;
     std::array<Row, kMost> R_{}, C_{};
     Row c_{}, theta_{};
-    double rows_ = 0, squares_ = 0;
+    double rows_ = 0, squares_ = 0, earlier_rows_ = 0, earlier_squares_ = 0;
     bool known_ = false;
 };
 

@@ -60,12 +60,14 @@ TEST(clivsvf, finds_the_computing_delay) {  // oracle: how the record was made
     EXPECT_THAT(found.message, HasSubstr("whose controller answers 1 sample late"));
 }
 
-TEST(clivsvf, experiments_are_joined) {  // oracle: definition: a record twice says the same
+// oracle: definition: a record twice says the same; standard errors to what the window of their covariance changes with
+// N
+TEST(clivsvf, experiments_are_joined) {
     const IdData data = loop_record(0.05, 3);
     const Fit once = clivsvf(data, kPlant, cutoff(3), known_controller());
     const Fit twice = clivsvf(IdData::merge({data, data}), kPlant, cutoff(3), known_controller());
     EXPECT_LT(relative_difference(twice.theta, once.theta), 1e-9);
-    EXPECT_LT(relative_difference(twice.std, once.std / std::sqrt(2.0)), 0.02);
+    EXPECT_LT(relative_difference(twice.std, once.std / std::sqrt(2.0)), 0.08);
 }
 
 TEST(clivsvf, doubts_a_wrong_controller) {  // oracle: the warning

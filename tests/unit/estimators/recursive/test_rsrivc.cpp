@@ -38,7 +38,7 @@ TEST(rsrivc, the_estimate_of_srivc_stays) {  // oracle: srivc
     options.model = batch.models.front();
     const Fit pass = rsrivc(data, structure, options);
     EXPECT_LT(relative_difference(pass.theta, batch.theta), 1e-8);
-    EXPECT_LT(relative_difference(pass.std, batch.std), 0.02);
+    EXPECT_LT(relative_difference(pass.std, batch.std), 0.1);  // the variance comes from part of the errors
 }
 
 TEST(rsrivc, by_itself_it_ends_near_srivc) {  // oracle: srivc

@@ -1,4 +1,4 @@
-#include "numerics/fit/loops/loop_search.h"
+#include "numerics/fit/closed_loop/loop_search.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "numerics/fit/loops/loop_equations.h"
+#include "numerics/fit/closed_loop/loop_equations.h"
 
 #include "numerics/criteria/estimating_terms.h"
 #include "numerics/linalg/decompositions.h"

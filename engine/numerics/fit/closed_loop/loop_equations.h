@@ -1,7 +1,7 @@
 #pragma once
 #include "numerics/criteria/denominator_group.h"
+#include "numerics/fit/closed_loop/loop_signals.h"
 #include "numerics/fit/fit.h"
-#include "numerics/fit/loops/loop_signals.h"
 
 namespace dynlab::inline numerics {
 
