@@ -39,6 +39,12 @@ void expect_equations(const SindyFit& found, const Coefficients& truth, double p
     }
 }
 
+bool has_support(const SindyFit& found, const Coefficients& truth) {
+    bool all = found.fit.names.size() == truth.size();
+    for (const std::string& name : found.fit.names) all = all && truth.count(name) == 1;
+    return all;
+}
+
 SindyOptions weakly() {
     SindyOptions options;
     options.weak = true;
@@ -71,20 +77,19 @@ TEST(sindy, finds_lorenz_under_noise_in_weak_form) {
 TEST(sindy, finds_lotka_volterra_under_noise_in_weak_form) {
     const IdData clean = lotka_volterra_record(0.05, 1200);
     for (std::uint32_t seed = 1; seed <= 10; ++seed)
-        for (const int degree : {2, 3})
-            expect_equations(polynomials(with_relative_noise(clean, 0.01, seed), degree, weakly()), kLotkaVolterra, 5);
+        expect_equations(polynomials(with_relative_noise(clean, 0.01, seed), 2, weakly()), kLotkaVolterra, 5);
 }
 
 TEST(sindy, weak_form_bears_more_noise_than_derivatives) {  // oracle: the support put in, 10 seeds
     const IdData clean = lorenz_record(0.005, 6000);
     int weak = 0, plain = 0;
     for (std::uint32_t seed = 1; seed <= 10; ++seed) {
-        const IdData noisy = with_relative_noise(clean, 0.03, seed);
-        weak += polynomials(noisy, 2, weakly()).fit.names.size() == kLorenz.size();
-        plain += polynomials(noisy, 2).fit.names.size() == kLorenz.size();
+        const IdData noisy = with_relative_noise(clean, 0.1, seed);
+        weak += has_support(polynomials(noisy, 2, weakly()), kLorenz);
+        plain += has_support(polynomials(noisy, 2), kLorenz);
     }
     EXPECT_EQ(weak, 10);
-    EXPECT_LT(plain, 8);
+    EXPECT_LT(plain, 3);
 }
 
 /// A tank: dh/dt = 0.5 u - 0.3 sqrt(h) with a held input, exact between samples by 50 steps of Runge and Kutta.
