@@ -64,15 +64,16 @@ CompanionSeries::CompanionSeries(const Matrix& A) {
 
 void CompanionSeries::set_terms(const Matrix& A) {
     gap = order > kMostOfOneRow ? 2 : order;
+    std::array<double, kLastTerm + 3> largest = {};  // coefficients of h^k, inputs in units of A
     const Index n = order, systems = twice ? 2 : 1, rows = (n + gap - 1) / gap, inputs = rows * systems;
     const Index count = inputs * (n + 2);
     terms = Matrix::Zero((count + kTogether - 1) / kTogether * kTogether, kLastTerm + 1);
     const double rate = A.cwiseAbs().colwise().sum().maxCoeff();
     for (Index i = 0; i < rows; ++i) {
         const Index first_term = i * systems * (n + 1), first_ramp = inputs * (n + 1) + i * systems;
-        Eigen::RowVectorXd row = Eigen::RowVectorXd::Unit(A.rows(), A.rows() - 1 - i * gap);
+        Eigen::RowVectorXd row = Eigen::RowVectorXd::Unit(A.rows(), A.rows() - 1 - i * gap), next_row = row;
         Eigen::Vector2d input = Eigen::Vector2d::Zero(), ramp = Eigen::Vector2d::Zero();  // of both systems
-        for (Index k = 0; k < static_cast<Index>(largest.size()); ++k) {
+        for (Index k = 0; k <= kLastTerm + 2; ++k) {
             double& most = largest[static_cast<std::size_t>(k)];
             most = std::max({most, row.cwiseAbs().maxCoeff(), rate * input.cwiseAbs().maxCoeff(),
                              rate * rate * ramp.cwiseAbs().maxCoeff()});
@@ -86,32 +87,22 @@ void CompanionSeries::set_terms(const Matrix& A) {
             const double next_term = static_cast<double>(k + 1);
             ramp = input / next_term;
             input = Eigen::Vector2d(row[A.rows() - n], twice ? row[0] : 0) / next_term;
-            row = (row.lazyProduct(A) / next_term).eval();
+            next_row.noalias() = row.lazyProduct(A);
+            row = next_row / next_term;
         }
     }
+    // Every other term may be zero.
+    const auto reach_of = [&](std::size_t k) { return std::pow(4e-17 / largest[k], 1 / static_cast<double>(k)); };
+    for (std::size_t last = 0; last < reach.size(); ++last)
+        reach[last] = std::min(reach_of(last + 1), reach_of(last + 2));
 }
 
 StepPlan::StepPlan(const CompanionSeries& series, double longest) {
-    constexpr double kNothing = 4e-17;
     constexpr int kMostDoublings = 1000;  // more than numbers have
-    constexpr Index kLast = CompanionSeries::kLastTerm;
-    std::array<double, kLast + 3> terms;
-    const auto set_terms = [&] {
-        double power = 1;
-        for (std::size_t k = 0; k < terms.size(); ++k, power *= longest) terms[k] = series.largest[k] * power;
-    };
-    // Every other term may be zero.
-    const auto suffices = [&](Index last) {
-        const auto next = static_cast<std::size_t>(last + 1);
-        return terms[next] <= kNothing && terms[next + 1] <= kNothing;
-    };
-    for (set_terms(); !suffices(kLast) && doublings < kMostDoublings; set_terms()) {
-        longest /= 2;
-        ++doublings;
-    }
+    for (; longest > series.reach.back() && doublings < kMostDoublings; longest /= 2) ++doublings;
     part = std::ldexp(1.0, -doublings);
-    last_term = kLast;
-    while (last_term > 2 && suffices(last_term - 1)) --last_term;
+    last_term = CompanionSeries::kLastTerm;
+    while (last_term > 2 && longest <= series.reach[static_cast<std::size_t>(last_term - 1)]) --last_term;
 }
 
 }  // namespace dynlab::inline numerics

@@ -25,9 +25,9 @@ struct CompanionSeries {
     /// Column k: the coefficients of h^k; for each such row those of exp(A h) - I's row, of its constant input, and
     /// with a second system of its share of the first and constant input; behind them the ramps of all, then zeros.
     Matrix terms;
-    static constexpr Index kTogether = 4, kLastTerm = 14;  // the rows of `terms` are a multiple of kTogether
-    /// The largest coefficient of h^k in these, inputs in units of A; two more than there are columns.
-    std::array<double, kLastTerm + 3> largest = {};
+    static constexpr Index kTogether = 4, kLastTerm = 20;  // the rows of `terms` are a multiple of kTogether
+    /// Steps up to reach[k] (s) need the terms up to the k-th: what is left out is 4e-17 of the state.
+    std::array<double, kLastTerm + 1> reach = {};
     /// Entry j of row i - 1 of exp(A h) - I: first(i - 1, j) times entry 0 of row i and next(i - 1, j) times entry j
     /// + 1.
     Matrix first, next;

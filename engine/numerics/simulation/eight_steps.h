@@ -73,17 +73,22 @@ class EightSteps {
         for (Index i = 0; i < states(); ++i) x.col(i) = next.col(i);
     }
 
-    /// For one of the steps, without input.
-    template <class Row>
-    Row behind(const Eight* map, Index step, const Row& x) const {
+    /// Where stretches begin that follow each other, of which these are the maps and `from_rest` what inputs make of
+    /// each: the first at begin's first row, which is given.
+    void chain(const Eight* map, const States& from_rest, States& begin) const {
         const Index n = order();
-        Row next = x;
-        for (Index i = 0; i < n; ++i)
-            for (Index j = 0; j < n; ++j) {
-                next[i] += map[i * n + j][step] * x[j];
-                if (kTwice) next[n + i] += map[place_of_L() + i * n + j][step] * x[j] + map[i * n + j][step] * x[n + j];
+        for (Index lane = 0; lane + 1 < kSideBySide; ++lane)
+            for (Index i = 0; i < n; ++i) {
+                double sum = from_rest(lane, i) + begin(lane, i), second = 0;
+                if (kTwice) second = from_rest(lane, n + i) + begin(lane, n + i);
+                for (Index j = 0; j < n; ++j) {
+                    const double E = map[i * n + j][lane];
+                    sum += E * begin(lane, j);
+                    if (kTwice) second += map[place_of_L() + i * n + j][lane] * begin(lane, j) + E * begin(lane, n + j);
+                }
+                begin(lane + 1, i) = sum;
+                if (kTwice) begin(lane + 1, n + i) = second;
             }
-        return next;
     }
 
   private:
@@ -144,7 +149,7 @@ class EightSteps {
     }
 
     /// The rows of series for twice the `length` of the map.
-    void double_rows(const Eight& length, Eight* map) {
+    [[gnu::always_inline]] void double_rows(const Eight& length, Eight* map) {
         const Index n = order();
         const Eight *const E = map, *const G = map + place_of_G(), *const L = map + place_of_L(),
                            *const H = map + place_of_H(), *const R = map + place_of_R(), *const S = map + place_of_S();

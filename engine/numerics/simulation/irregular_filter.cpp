@@ -115,10 +115,7 @@ void IrregularFilter::run_sized(const Events& events, Vector start, Matrix& stat
         }
         steps.set(seconds, StepPlan(series_, seconds.maxCoeff()), whole);
         begin.row(0) = start.transpose();
-        for (Index lane = 0; lane + 1 < kSideBySide; ++lane) {
-            const Vector behind = steps.behind(whole, lane, Vector(begin.row(lane).transpose()));
-            begin.row(lane + 1) = behind.transpose().array() + x.row(lane);
-        }
+        steps.chain(whole, x, begin);
         x = begin;
         for (Index i = 0; i < kStretch; ++i) {
             const Index first = block + i * kSideBySide;
