@@ -48,7 +48,7 @@ TEST(demo, list_names_each_demonstration_in_order) {
 
 TEST(demo, each_runs_without_a_terminal_and_tells_everything_its_script_says) {
     for (const auto& [name, script] : scripts()) {
-        const Workbench bench;
+        const Workbench bench(Workbench::Memory::kShared);
         const ChildResult result = bench.dynlab({"demo", name});
         EXPECT_EQ(result.exit_code, 0) << name;
         EXPECT_THAT(result.error_output, IsEmpty()) << name;
@@ -151,7 +151,7 @@ TEST(demo, what_their_texts_claim_is_true) {
          "assert(not left.white and left.outputs[1].inputs[1].p_value > 0.05)\n"
          "assert(fit(second, N, {k = 1}) > fit(second, G) + 1.5 and fit(second, N) < fit(second, G))\n"},
     };
-    const Workbench bench;
+    const Workbench bench(Workbench::Memory::kShared);
     for (const auto& [name, script] : scripts()) {
         ASSERT_TRUE(claims.count(name)) << name;
         bench.write("claim.lua", read_file(script) + "\n-- %% id=claims\n" + claims.at(name));

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "platform/atomic_file.h"
+#include "platform/error.h"
 
 namespace dynlab::test {
 
@@ -105,6 +106,16 @@ ChildResult Workbench::dynlab(std::vector<std::string> arguments) const {
 
 ChildResult Workbench::shell(const std::string& command) const {
     return run({"/bin/bash", "-c", command});
+}
+
+std::filesystem::path page_of_lesson(const std::string& lesson) {
+    const fs::path page = memory_of_tests() / "pages" / (lesson + ".html");
+    fs::create_directories(page.parent_path());
+    const std::string file = "'" + page.string();
+    const ChildResult made = Workbench(Workbench::Memory::kShared)
+                                 .shell("flock " + file + ".lock' \"$DYNLAB\" report " + lesson + " -o " + file + "'");
+    if (made.exit_code != 0) throw EnvironmentError(made.error_output);
+    return page;
 }
 
 }  // namespace dynlab::test

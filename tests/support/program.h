@@ -38,4 +38,8 @@ class Workbench {
     std::filesystem::path cache_;
 };
 
+/// The page that `dynlab report` makes of a lesson: once for all tests of this build, as long as nothing changes.
+/// Throws what the program says when it fails.
+std::filesystem::path page_of_lesson(const std::string& lesson);
+
 }  // namespace dynlab::test
