@@ -44,7 +44,7 @@ local z = lsim(G, u, 1, {x0 = {y[1], y[2]}})
 print(max(abs(z - y)) < 1e-6)
 print(tostring(G):match("y1%(k%) =") ~= nil)
 )"),
-              "5\ttrue\ttrue\ntrue\ttrue\ntrue\ntrue\ntrue\n");
+              "4\ttrue\ttrue\ntrue\ttrue\ntrue\ntrue\ntrue\n");
 }
 
 TEST(script_learning, sindy_takes_degrees_and_libraries) {
@@ -58,7 +58,7 @@ print(#H.names, H.names[1])
 local a, b = fit(data, H)
 print(a > 99, b > 99)
 local z = lsim(H, zeros(10), Ts, {x0 = {10, 5}})
-print(math.abs(z[10][1] - p[10]) < 0.01)
+print(math.abs(z[{10, 1}] - p[10]) < 0.01)
 )"),
               "dprey/dt = 1.1*prey - 0.4*prey*hunters\ndhunters/dt = -0.4*hunters + 0.1*prey*hunters\n"
               "4\tprey: x\ntrue\ttrue\ntrue\n");
@@ -69,8 +69,8 @@ TEST(script_learning, dmdc_is_a_state_space_model) {
 local u = prbs(7, 3)
 local y = lsim(tf({2}, {1, 1, 3}), u, 0.2)
 local data = iddata(y, u, 0.2)
-local G = dmdc(data, {delays = 3, rank = 3})
-print(#G.B, fit(data, G) > 99, dcgain(G) - 2/3 < 1e-3)
+local G = dmdc(data, {delays = 2})
+print(G.B.rows, fit(data, G) > 99, dcgain(G) - 2/3 < 1e-3)
 print(#lsim(ss(G), u, 0.2) == #u)
 )"),
               "3\ttrue\ttrue\ntrue\n");
@@ -99,13 +99,13 @@ TEST(script_learning, bad_input_is_refused_in_words) {
            "function 2 of the library gave 2 values for 400 samples");
     expect(kSindyRecord + "sindy(data, {library = function(x) return {x[1], 'a'} end})",
            "must give a vector or a number");
-    expect(kSindyRecord + "sindy(data, {library = function(x) return {log(-x[1])} end})", "is NaN at sample 1");
+    expect(kSindyRecord + "sindy(data, {library = function(x) return {1/(x[1] - x[1][1])} end})", "is Inf at sample 1");
     expect(kSindyRecord + "sindy(data, {library = function(x) return {x[1]} end, names = {'a', 'b'}})",
            "'names' has 2 texts, and the library gives 1 functions");
     expect(kSindyRecord + "sindy(data, {library = function(x) return {x[1]} end, degree = 2})", "exclude each other");
     expect(kSindyRecord + "sindy(data, {library = function(x) error('own') end})", "own");
     expect(kSindyRecord + "local G = sindy(data) bode(G)", "simulated model");
-    expect(kNarxRecord + "dmdc(data, {rank = 5})", "`rank`");
+    expect(kNarxRecord + "dmdc(data, {rank = 5})", "rank is 5, and a snapshot holds only 1");
 }
 
 TEST(script_learning, intervals_of_an_estimate) {

@@ -40,10 +40,10 @@ Rotated rotated_equations(const IdData& data, const FunctionLibrary& library, co
     }
     rotated.R = factor.R();
     if (rotated.rows > functions) return rotated;
-    const std::string found = "sindy: too few samples: " + std::to_string(functions) +
-                              " functions need more equations than that, and there are " + std::to_string(rotated.rows);
-    throw InvalidArgument(found + (width ? ": take a shorter `width` or fewer functions"
-                                         : ": take fewer functions, or `weak` where the input jumps often"));
+    throw InvalidArgument("sindy: too few samples: " + std::to_string(functions) +
+                          " functions need more equations than that, and there are " + std::to_string(rotated.rows) +
+                          (width ? ": take a shorter `width` or fewer functions"
+                                 : ": take fewer functions, or `weak` where the input jumps often"));
 }
 
 /// The coefficients of one state, with those of small contributions at zero.
