@@ -121,6 +121,13 @@ TEST(engine_sentences, of_estimators_are_french) {
     for (const char* call : calls) expect_told_in_french(kRecord + "say(" + call + ")");
 }
 
+TEST(engine_sentences, of_records_are_french) {
+    expect_told_in_french(
+        "local u = randn(20)\nprint(iddata(u, u, 0.5), iddata(matrix{u, u}, matrix{u, u}, 0.5))\n"
+        "print(merge(iddata(u, u, 0.5), iddata(u, u, 0.5)))\nprint(iddata(u, u, nil, {SamplingInstants = cumsum(u^2 + "
+        "1)}))");
+}
+
 TEST(engine_sentences, of_step_tests_and_regressions_are_french) {
     expect_told_in_french(
         "local t = range(0, 0.05, 20)\nlocal u = t*0 + 1\n"

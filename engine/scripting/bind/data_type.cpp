@@ -4,6 +4,7 @@
 #include "numerics/number_text.h"
 #include "numerics/signals/preprocess.h"
 #include "scripting/arguments/table_fields.h"
+#include "scripting/arguments/told_sentences.h"
 #include "scripting/bind/preprocess_bindings.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/text_form.h"
@@ -164,7 +165,7 @@ constexpr std::array kDataTypeMethods = {
     Member{"keep", guarded<keep_parts>},
     Member{"discard", guarded<discard_parts>},
 };
-constexpr std::array kDataTypeOperators = {Member{"__tostring", field<IdData, data_text>}};
+constexpr std::array kDataTypeOperators = {Member{"__tostring", told_field<IdData, data_text>}};
 
 }  // namespace
 
