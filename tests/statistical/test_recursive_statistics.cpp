@@ -17,6 +17,14 @@ using namespace dynlab::test;
 constexpr int kRecords = 200;
 const Vector kTruth = values({4, 3, 2});
 
+/// 2/(s^2 + 4s + 3), prbs(7, 20), Ts = 0.05 s: every stretch of it excites the system.
+IdData rich_record(std::uint32_t seed) {
+    const Vector u = prbs(7, 20);
+    const Vector y =
+        lsim(TransferFunction(values({2}), values({1, 4, 3})), u, 0.05) + 0.1 * RandomStream(seed).normal(u.size());
+    return IdData(Matrix(y), Matrix(u), 0.05);
+}
+
 struct Study {
     Vector bias;      ///< in standard errors of the mean
     Vector reported;  ///< root mean square of the standard errors, relative to the scatter
@@ -26,8 +34,8 @@ template <class Method>
 Study study_of(const Method& method) {
     Matrix theta(kRecords, 3), std(kRecords, 3);
     for (int k = 0; k < kRecords; ++k) {
-        const Fit fit = method(course_record(0.2, static_cast<std::uint32_t>(k + 1)), TransferStructure::single(2, 0),
-                               recursive(3));
+        const Fit fit =
+            method(rich_record(static_cast<std::uint32_t>(k + 1)), TransferStructure::single(2, 0), recursive(3));
         theta.row(k) = fit.theta.transpose();
         std.row(k) = fit.std.transpose();
     }

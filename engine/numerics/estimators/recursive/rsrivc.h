@@ -8,6 +8,8 @@ namespace dynlab::inline numerics {
 /// options.model the filters stay, and with forgetting 1 and no drift the end is one pass of srivc from that model:
 /// srivc's own theta is where such a pass stays. Sizes, options and what is thrown: fit/recursive/recursive_pass.h.
 /// Reference: Young (2011), chapters 6 and 7.
+/// The first stretch must excite the system: samples that went through filters of a poor first model stay in mind
+/// until they are forgotten.
 Fit rsrivc(const IdData& data, const TransferStructure& structure, const RecursiveOptions& options);
 
 }  // namespace dynlab::inline numerics
