@@ -75,7 +75,7 @@ TEST_P(own_records_of_many, cost_the_worked_solution_no_points) {
 // one whose limits are hard to notice, and a thruster with 8 % more reverse thrust.
 INSTANTIATE_TEST_SUITE_P(all, own_records,
                          ::testing::Values(GroupsOfLesson{"03_crane", {4, 7, 9, 50, 56}},
-                                           GroupsOfLesson{"05_thruster", {7}}),
+                                           GroupsOfLesson{"05_thruster", {7}}, GroupsOfLesson{"07_feedback", {7, 12}}),
                          [](const auto& groups) { return groups.param.lesson; });
 
 std::vector<GroupsOfLesson> a_hundred_groups_of_each() {

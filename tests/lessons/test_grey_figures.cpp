@@ -36,7 +36,8 @@ TEST_P(grey_figures, neighbouring_curves_are_told_apart) {
         }
 }
 
-INSTANTIATE_TEST_SUITE_P(all, grey_figures, testing::Values("01", "02", "03_workflow", "03_crane", "04", "05"));
+INSTANTIATE_TEST_SUITE_P(all, grey_figures,
+                         testing::Values("01", "02", "03_workflow", "03_crane", "04", "05", "06", "07"));
 
 }  // namespace test_grey_figures
 }  // namespace dynlab::test

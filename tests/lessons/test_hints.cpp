@@ -42,7 +42,7 @@ TEST(hints, are_two_or_three_for_each_question_of_each_lesson_and_in_french_wher
             ++read;
         }
     }
-    EXPECT_EQ(read, 8u);
+    EXPECT_EQ(read, 12u);
 }
 
 TEST(hints, are_read_stage_by_stage) {

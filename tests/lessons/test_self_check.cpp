@@ -61,7 +61,7 @@ TEST(self_check, is_the_end_of_the_sheet_and_no_part_of_the_copy) {
 
 TEST(self_check, and_tasks_are_french_where_french_is_asked_for) {
     const Workbench bench(Workbench::Memory::kShared);
-    for (const Lesson& lesson : {find_lesson("03_crane"), find_lesson("05")}) {
+    for (const Lesson& lesson : {find_lesson("03_crane"), find_lesson("05"), find_lesson("06"), find_lesson("07")}) {
         SCOPED_TRACE(lesson.slug);
         const ChildResult made = bench.dynlab({"sheet", lesson.slug, "--lang", "fr", "-o", "sheet.pdf"});
         ASSERT_EQ(made.exit_code, 0) << made.error_output;

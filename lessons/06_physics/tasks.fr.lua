@@ -1,0 +1,144 @@
+-- ---
+-- title: Des boîtes noires à la physique et à l'apprentissage
+-- subtitle: Leçon 6 – une grue, deux réservoirs, et des modèles jugés en simulation libre
+-- language: fr
+-- ---
+
+-- %% [markdown]
+-- Une boîte noire demande un enregistrement et rien d'autre. À une *boîte grise* on dit les équations, en laissant ouverts quelques nombres : longueurs, frottements, débits. Dans la leçon 3.2 il restait quelque chose
+-- qu'aucun modèle linéaire n'explique ; ici la physique trouve ce que c'est. Puis deux réservoirs sont modélisés par un modèle linéaire, par six paramètres physiques, et par deux méthodes qui
+-- *apprennent* un modèle non linéaire des seules données. Tous sont jugés en simulation libre : on donne au modèle l'entrée et le départ, et plus jamais une sortie mesurée.
+--
+-- Grue et réservoirs sont *simulés* : ce que vous trouvez peut être comparé à la vérité. Le travail est prévu pour deux séances de trois heures :
+--
+-- | séance | questions, avec minutes | but |
+-- |--------------|-------------------------|------------------------|
+-- | La grue | 1 (20), 2 (50), 3 (40), 4 (30) | écrire la physique, l'estimer, dire ce qu'explique chaque terme |
+-- | Deux réservoirs | 5 (25), 6 (35), 7 (40), 8 (30), 9 (30), 10 (20) | savoir ce qu'un enregistrement ne peut dire ; comparer physique et apprentissage |
+--
+-- # La grue : ce que laisse le modèle linéaire
+--
+-- La grue de la leçon 3.2 a un chariot, tiré par un moteur, et une charge qui balance (@fig:crane). `estimation` et `validation` sont deux enregistrements
+-- avec une tension binaire de ±2 V ; dans `steps` on la pousse, et elle s'arrête entre les poussées.
+--
+-- ::: {.drawing name=crane}
+-- La grue : la tension $u$ du moteur, la position $x$ du chariot et l'angle $\theta$ de la tige {#fig:crane}
+-- :::
+
+-- %% [markdown]
+-- **Question 1.** Estimez sur `estimation` le modèle linéaire de l'angle, trois pôles et un zéro, et simulez-le sur `validation`. Combien reste-t-il, et quel est le bruit du capteur
+-- au repos ? Devinez d'abord.
+
+-- %% [markdown]
+-- BEGIN SOLUTION
+-- END SOLUTION
+--
+-- ## Des équations dans un script
+--
+-- Avec $v$ la vitesse du chariot et $w$ celle de l'angle $\varphi$, toutes les forces divisées par des masses,
+--
+-- $$ \dot v + c\,\cos\varphi\;\dot w = g_u u - d\,v - \mu\,\operatorname{sign} v + c\,\sin\varphi\; w^2 , \qquad
+--    \dot w + \frac{\cos\varphi}{l}\,\dot v = -\frac{g}{l}\sin\varphi - (\rho + \kappa\,|w|)\,w . $$ {#eq:crane}
+--
+-- Sept nombres sont ouverts : `gain` $g_u$, `viscous` $d$, `dry` $\mu$, `coupling` $c$, `length` $l$, `pivot` $\rho$, `air` $\kappa$. `idgrey(f, parameters, options)` fait un modèle d'une fonction `f(t, x, u, p)` qui rend les
+-- dérivées des états ; les sorties sont une fonction elles aussi. `f` est appelée une fois, avec des valeurs qui notent ce qu'on fait d'elles, puis tourne sous forme compilée. Elle ne doit donc pas se diviser par `if` : `where(c, a, b)` vaut $a$ là où
+-- $c > 0$, et $b$ ailleurs.
+--
+-- **Question 2.** Écrivez @eq:crane comme une telle fonction, résolue pour les deux accélérations. `tanh(v/0.005)` suffit pour le signe. Qu'un choix prenne l'angle pour son sinus, et 1 pour son cosinus, comme un modèle linéaire.
+
+-- %% [markdown]
+-- **Question 3.** Estimez quatre variantes sur `estimation` par `greyest` : linéaire (`dry` et `air` fixés à 0), avec frottement sec, avec grands balancements et air, avec tout. Comparez les
+-- adéquations sur `validation` et sur `steps`. Quel terme explique l'angle, et lequel la position ?
+
+-- %% [markdown]
+-- BEGIN SOLUTION
+-- END SOLUTION
+--
+-- **Question 4.** Que disent les paramètres ? Donnez la longueur et la tension que prend le frottement sec (`dry/gain`) avec leurs écarts types, et comparez avec ce que dit
+-- `rig_truth("crane")` : la pulsation $\sqrt{g/l}$ des petits balancements, et `dry_voltage`.
+
+-- %% [markdown]
+-- BEGIN SOLUTION
+-- END SOLUTION
+--
+-- # Deux réservoirs
+--
+-- Une pompe remplit le réservoir supérieur, il se vide dans l'inférieur, et celui-ci dans le bac (@fig:tanks). L'entrée est la tension de la pompe, la sortie la lecture d'un capteur dans le réservoir
+-- inférieur, 0,5 V/cm. Les deux ont 20 cm de haut, et ce qui est de trop déborde : une part du débordement du réservoir supérieur tombe dans l'inférieur. Le niveau supérieur n'est pas mesuré. Le procédé ressemble à celui qui
+-- fut publié comme banc d'essai de l'identification non linéaire [@schoukens2017] ; les nombres sont les nôtres.
+--
+-- ::: {.drawing name=two_tanks}
+-- Les réservoirs : la tension $u$ de la pompe, les niveaux $h_1$ et $h_2$, et la lecture $y$ {#fig:tanks}
+-- :::
+--
+-- `two_tanks` a deux enregistrements de 1024 échantillons, toutes les 4 s : `t`, `u`, `y` pour l'estimation, `t_val`, `u_val`, `y_val` pour la validation. La tension est la somme de 59 sinus dont les phases furent tirées au sort, coupée à 0 et 5 V.
+
+-- %% [markdown]
+-- **Question 5.** Que se passe-t-il aux plus hautes lectures ? Estimez des modèles linéaires, jusqu'à quatre pôles (état initial et décalage estimés aussi), et choisissez-en un. Quelle est son erreur en simulation libre sur
+-- `validation`, racine de la moyenne des carrés, en volts ?
+
+-- %% [markdown]
+-- BEGIN SOLUTION
+-- END SOLUTION
+--
+-- ## Ce qu'un enregistrement ne peut dire
+--
+-- La loi de Torricelli dit qu'un réservoir se vide selon la racine de son niveau,
+--
+-- $$ \dot h_1 = -k_1 \sqrt{h_1} + k_4 u , \qquad \dot h_2 = k_2 \sqrt{h_1} - k_3 \sqrt{h_2} , \qquad y = y_0 + 0{,}5\,h_2 , $$ {#eq:tanks}
+--
+-- les niveaux en centimètres.
+--
+-- **Question 6.** Écrivez @eq:tanks pour `idgrey`, les deux niveaux du départ estimés (`x0`). Lesquels des cinq nombres l'enregistrement ne peut-il distinguer ? Que faudrait-il faire de $k_1$, $k_2$, $k_4$ si l'on comptait $h_1$ en pouces ?
+
+-- %% [markdown]
+-- BEGIN SOLUTION
+-- END SOLUTION
+--
+-- **Question 7.** Maintenant les bords. Ce qui arrive en trop déborde : un débit `spill = 5*max(h1 - 20, 0)` (cm/s) quitte le réservoir supérieur, et la part $q$ en atteint l'inférieur, qui a un tel bord lui aussi. Estimez les six
+-- paramètres $k_1$, $k_2$, $k_3$, $k_4$, $q$, $y_0$. Quelle est l'erreur en simulation libre ? Comparez-la au bruit du capteur, et les paramètres à la vérité.
+
+-- %% [markdown]
+-- BEGIN SOLUTION
+-- END SOLUTION
+--
+-- ## Apprendre sans équations
+--
+-- **Question 8.** Un modèle NARX polynomial prédit $y_k$ à partir de lectures et tensions passées et de leurs produits [@billings2013] : `narx(data, {na, nb, nk}, {degree =, terms =})` choisit les termes un à un. Essayez retards et degrés. Quelle est son erreur à un
+-- échantillon, et en simulation libre ?
+
+-- %% [markdown]
+-- BEGIN SOLUTION
+-- END SOLUTION
+--
+-- **Question 9.** SINDy cherche des équations différentielles [@brunton2016] : il écrit les dérivées des états comme sommes de peu de fonctions d'une bibliothèque que vous donnez. Le niveau supérieur n'est pas mesuré ; prenez pour états la lecture et sa dérivée
+-- (la pente d'une droite par quelques échantillons de part et d'autre). Essayez une bibliothèque de polynômes et une qui contient les racines de la loi de Torricelli.
+
+-- %% [markdown]
+-- BEGIN SOLUTION
+-- END SOLUTION
+--
+-- **Question 10.** Quel modèle recommandez-vous, et pour quoi ? Un enregistrement est un seul coup de dés : que tous les modèles simulent dix autres enregistrements de validation, `rig("two_tanks", {seed = 2})` et ainsi de suite, sans rien réestimer.
+
+-- %% [markdown]
+-- BEGIN SOLUTION
+-- END SOLUTION
+--
+-- # Ce qu'on a appris
+--
+-- BEGIN SOLUTION
+-- END SOLUTION
+--
+-- # Ce que vous rendez
+--
+-- ::: {.note}
+-- Là où cette leçon est notée, `answer(nom, valeur)` rend vos résultats, et `dynlab check` dit ce qui manque : `crane`, la longueur (m) et la tension (V) que prend le frottement sec ; `crane_fit`, l'adéquation (%) de l'angle de
+-- `validation`, simulé par les équations de la grue avec tous les termes ; `tanks`, les six paramètres $k_1$, $k_2$, $k_3$, $k_4$, $q$, $y_0$ ; `free_run`, les erreurs (V) en simulation libre sur l'enregistrement de validation du modèle linéaire, de celui à six paramètres et du modèle
+-- NARX ; et `simulated`, ce que le modèle à six paramètres dit de la lecture aux échantillons de `validation`. Votre script sera exécuté sur les enregistrements d'une autre grue et d'autres réservoirs. Les figures que l'on cherche sont `left` et `free_run`.
+-- :::
+
+-- %% [markdown]
+-- # Annexe : bibliographie
+--
+-- ::: references
+-- :::

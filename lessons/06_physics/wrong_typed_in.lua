@@ -1,0 +1,12 @@
+-- expects: simulated: This is the measured reading itself
+-- expects: free_run: away from what was expected
+-- expects: crane_follows: they must be computed, not typed in
+-- expects: tanks_follow: they must be computed, not typed in
+-- What SOURCE.md says, and a measured record in place of a simulated one.
+answer("crane", vector{0.3724, 0.24})
+answer("crane_fit", 98.1)
+answer("tanks", vector{0.1, 0.102, 0.104, 0.14, 0.6, 0.3})
+answer("free_run", vector{0.7, 0.03, 0.5})
+answer("simulated", load("two_tanks").y_val)
+report.figure("left", plot(load("crane").validation.t, load("crane").validation.theta), "Angle")
+report.figure("free_run", plot(load("two_tanks").t_val, load("two_tanks").y_val), "Reading")

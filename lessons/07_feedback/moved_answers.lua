@@ -1,0 +1,21 @@
+-- How a test moves the answers of the worked solution on their way out: `move[name]` is a function of an answer, `e` the
+-- sign, and `inside` whether the answer must stay within what checks.lua allows or leave it; `scaled(near, far)` and
+-- `shifted(near, far)` do either by the first inside and by the second outside.
+local record = load("drive").tracking
+-- A model of another record, as hands that wrote it down leave no estimate.
+local function estimated(method, near, far)
+    return function()
+        local factor = 1 + e*(inside and near or far)
+        return method(record.y*factor)
+    end
+end
+move.G_direct = estimated(function(y) return srivc(iddata(y, record.u, 0.01), {1, 2, 0}) end, 1e-3, 0.05)
+move.own_instruments = scaled(1e-3, 0.2)
+local function through_reference(y)
+    local S = srivc(iddata(record.u, record.r, 0.01), {4, 3, 1})
+    return srivc(iddata(y, lsim(S, record.r, 0.01), 0.01), {1, 2, 0})
+end
+move.G_two_stage = estimated(through_reference, 1e-3, 0.8)
+move.G_final = estimated(through_reference, 1e-3, 0.8)
+move.before_cleaning = scaled(0.02, 0.6)
+move.after_cleaning = scaled(0.02, 0.6)

@@ -1,0 +1,174 @@
+-- ---
+-- title: Identification en boucle et au fil du temps
+-- subtitle: Leçon 7 – la boucle, trois remèdes, et un procédé qui dérive
+-- language: fr
+-- ---
+
+-- %% [markdown]
+-- La plupart des procédés ne peuvent être sortis de leur boucle pour un essai : le produit serait perdu, ou le procédé s'emballerait. L'enregistrement se fait donc pendant qu'un régulateur travaille,
+-- et l'entrée n'est plus ce que quelqu'un a choisi. Et la plupart des procédés ne sont plus les mêmes un mois après. Cette leçon a un enregistrement pour chaque cas : un entraînement
+-- réglé en vitesse (@fig:drive), et un chauffe-eau qui s'entartre (@fig:heater). Les deux sont *simulés*, de sorte que ce que vous trouvez peut être comparé à la vérité.
+--
+-- ::: {.drawing name=drive}
+-- L'entraînement : l'ordinateur compare la consigne $r$ à la vitesse $y$ que lit le tachymètre et fixe la tension $u$ du moteur ; un couple de la charge perturbe {#fig:drive}
+-- :::
+--
+-- Le travail est prévu pour deux séances de trois heures :
+--
+-- | séance | questions, avec minutes | but |
+-- |--------------|-------------------------|------------------------|
+-- | En boucle | 1 (15), 2 (25), 3 (25), 4 (15), 5 (40), 6 (20), 7 (30) | voir le biais de la voie directe, dire d'où il vient, le guérir trois fois |
+-- | Certitude et temps | 8 (40), 9 (25), 10 (60), 11 (45) | comparer les voies sur beaucoup d'enregistrements ; suivre un procédé qui dérive |
+--
+-- # Un entraînement réglé en vitesse
+--
+-- | enregistrement | ce qui a été fait |
+-- |-------------|----------------|
+-- | `tracking`, `validation` | la boucle est fermée, la consigne saute entre ±8 rad/s, dans deux ordres différents |
+-- | `regulation` | la boucle est fermée, la consigne est au repos à zéro |
+-- | `open_loop` | la boucle est ouverte et la tension saute entre ±1,2 V |
+--
+-- Chacun contient `t` (s), `r` (rad/s), `u` (V) et `y` (rad/s), toutes les 0,01 s ; la tension est maintenue entre les échantillons. Le régulateur est connu :
+--
+-- $$ u_k = 0{,}12\,e_{k-1} + 0{,}6\,T_s \sum_{i<k} e_i , \qquad e = r - y . $$ {#eq:controller}
+--
+-- Il calcule pendant un échantillon, d'où $e_{k-1}$ et non $e_k$. De la tension à la vitesse, la physique attend deux pôles, du courant et de la vitesse, et aucun zéro,
+--
+-- $$ G(p) = \frac{b_0}{p^2 + a_1 p + a_2} . $$ {#eq:plant}
+
+-- %% [markdown]
+-- **Question 1.** Montrez consigne, tension et vitesse de `tracking` à côté de ceux de `regulation`. Dans `regulation` personne n'excite rien : qu'est-ce qui meut la tension ?
+
+-- %% [markdown]
+-- BEGIN SOLUTION
+-- END SOLUTION
+--
+-- ## La voie directe
+--
+-- Le plus simple est de prendre $u$ et $y$ comme s'il n'y avait pas de boucle.
+--
+-- **Question 2.** Estimez @eq:plant par LSSVF, $\lambda = 10$ rad/s, et par SRIVC, chacun sur `open_loop` et sur `tracking`. Comparez gain et paramètres à la vérité, `rig_truth("drive").G`.
+-- Devinez d'abord : de combien le gain que SRIVC trouve en boucle est-il faux ?
+
+-- %% [markdown]
+-- BEGIN SOLUTION
+-- END SOLUTION
+--
+-- **Question 3.** D'où cela vient-il ? Prenez le vrai $G$ et calculez ce qu'il laisse dans `tracking` et dans `open_loop`, $v = y - G u$. Corrélez $v$ avec les tensions antérieures et
+-- ultérieures. Quel côté n'est pas nul, et à quoi ressemblerait-il sans boucle ?
+
+-- %% [markdown]
+-- BEGIN SOLUTION
+-- END SOLUTION
+--
+-- **Question 4.** Que trouve la voie directe dans `regulation`, où seule la perturbation meut la boucle ? Estimez la réponse fréquentielle (`etfe` avec lissage, ou `spa`) de $u$ à $y$ et comparez-la à
+-- $G$ et à ce qui reste de l'équation de la boucle quand $r = 0$.
+
+-- %% [markdown]
+-- BEGIN SOLUTION
+-- END SOLUTION
+--
+-- ## Premier remède : des instruments faits de la consigne
+--
+-- La consigne est ce que quelqu'un a choisi. Elle meut la tension et la vitesse, et elle est indépendante de la perturbation : c'est tout ce qu'on demande à un instrument.
+--
+-- **Question 5.** Écrivez la régression de la leçon 4, $Z^T Y = Z^T \Phi\,\theta$, avec les colonnes $p^2 r_f$, $p\,r_f$, $r_f$ de la consigne filtrée comme instruments (`svf`, `solve` ; $\lambda = 10$ rad/s). Une tension
+-- n'a pas de dérivée seconde : `svf(r, 4, lambda, ...)` donne assez de colonnes d'un filtre plus lisse. Essayez ensuite `clivsvf`.
+
+-- %% [markdown]
+-- BEGIN SOLUTION
+-- END SOLUTION
+--
+-- ## Deuxième remède : la boucle comme modèle auxiliaire
+--
+-- **Question 6.** Le régulateur est connu. Un modèle du procédé donne alors un modèle de toute la boucle, dont la tension $\hat u$ et la vitesse $\hat x$ simulées, sans bruit, font de meilleurs instruments, et son dénominateur
+-- fait le filtre. C'est CLSRIVC [@gilson2008] : `clsrivc(data, {nb, nf, nk}, {controller = C})`. Écrivez @eq:controller comme fonction de transfert en $z$, et estimez.
+
+-- %% [markdown]
+-- BEGIN SOLUTION
+-- END SOLUTION
+--
+-- ## Troisième remède : deux étapes
+--
+-- **Question 7.** On n'a rien à savoir du régulateur : estimez d'abord comment la consigne meut la tension, $\hat u = S r$ (un problème en boucle ouverte : quels ordres lui faut-il ?), puis le procédé de
+-- $\hat u$ à $y$ par une méthode ordinaire. Pourquoi celle-ci est-elle juste maintenant ? Comparez avec `clsrivc` et sa `route = "two-stage"`.
+
+-- %% [markdown]
+-- BEGIN SOLUTION
+-- END SOLUTION
+--
+-- ## Quel remède ? {#sec:which}
+--
+-- ::: note
+-- Ici commence la seconde séance : *certitude et temps*.
+-- :::
+--
+-- **Question 8.** Un enregistrement est un seul coup de dés. `rig("drive", {seed = 2})` répète les essais avec un autre ordre de bits et une autre charge. Répétez toutes les voies quarante
+-- fois. Lesquelles sont biaisées, et de combien de leurs erreurs types ? Quel remède se disperse le moins, et pourquoi ?
+
+-- %% [markdown]
+-- BEGIN SOLUTION
+-- END SOLUTION
+--
+-- # Un procédé qui dérive
+--
+-- De l'eau traverse une résistance électrique sur laquelle croît le tartre ; une fois, on l'a détartrée (@fig:heater). L'entrée est la puissance de chauffe $u$ (%), la sortie l'échauffement $y$ de l'eau (K),
+-- un échantillon par seconde. À tout instant le chauffe-eau est du premier ordre,
+--
+-- $$ \dot y = -a\,y + b\,u , \qquad T = 1/a , \qquad K = b/a , $$ {#eq:heater}
+--
+-- mais gain $K$ et constante de temps $T$ changent pendant l'heure et demie de l'enregistrement.
+--
+-- ::: {.drawing name=drifting_process}
+-- Le chauffe-eau : le tartre lui prend de la puissance et le ralentit {#fig:heater}
+-- :::
+
+-- %% [markdown]
+-- **Question 9.** Estimez un seul modèle de @eq:heater sur tout l'enregistrement, et un sur chaque morceau de 850 s (`data[{i, j}]`). Que décrit le modèle unique ? Quand a-t-on détartré ?
+
+-- %% [markdown]
+-- BEGIN SOLUTION
+-- END SOLUTION
+--
+-- ## Une estimation à chaque échantillon
+--
+-- Les moindres carrés récursifs corrigent l'estimation à chaque échantillon. Avec les régresseurs $\varphi_k = (-y_f, u_f)^T$ et le membre de gauche $d_k = p\,y_f$ à l'échantillon $k$,
+--
+-- $$ L_k = \frac{P_{k-1} z_k}{f + \varphi_k^T P_{k-1} z_k} , \quad \hat\theta_k = \hat\theta_{k-1} + L_k\,(d_k - \varphi_k^T\hat\theta_{k-1}) , \quad
+-- P_k = \frac{1}{f}\,(P_{k-1} - L_k \varphi_k^T P_{k-1}) , $$ {#eq:recursion}
+--
+-- où $z_k = \varphi_k$ pour les moindres carrés, et un instrument sinon. Le *facteur d'oubli* $f$, un peu inférieur à un, pèse par $f^n$ un échantillon vieux de $n$ échantillons ; ce qui
+-- compte, ce sont les $1/(1 - f)$ derniers.
+--
+-- **Question 10.** Écrivez la récursion pour @eq:heater ($\lambda = 0{,}05$ rad/s, $f = 0{,}99$). Prenez ensuite comme instrument la sortie du modèle unique de la question 9 au lieu de $y$. Tracez gain et constante de temps au
+-- fil du temps à côté de la vérité, `rig_truth("drifting_process")`. Quelle est la différence entre les deux ?
+
+-- %% [markdown]
+-- BEGIN SOLUTION
+-- END SOLUTION
+--
+-- **Question 11.** Quel facteur d'oubli est le meilleur ? Essayez $f =$ 0,98, 0,99, 0,995, 0,998, 0,999 et 1. Prenez ensuite `rlssvf`, `rivsvf` et `rsrivc` de la bibliothèque [@young2011] : elles gardent toute l'histoire dans `G.history`, avec des écarts types. Au bout de combien de temps
+-- chacune a-t-elle oublié le tartre qu'on a ôté ?
+
+-- %% [markdown]
+-- BEGIN SOLUTION
+-- END SOLUTION
+--
+-- # Ce qu'on a appris
+--
+-- BEGIN SOLUTION
+-- END SOLUTION
+--
+-- # Ce que vous rendez
+--
+-- ::: {.note}
+-- Là où cette leçon est notée, `answer(nom, valeur)` rend vos résultats, et `dynlab check` dit ce qui manque : `G_direct`, le modèle biaisé que SRIVC trouve dans `tracking` comme s'il n'y avait pas de boucle ; `own_instruments`, ce que vos propres instruments y
+-- trouvent ($a_1$, $a_2$, $b_0$ ; $\lambda = 10$ rad/s) ; `G_two_stage`, le modèle du troisième remède ; `G_final`, le modèle de l'entraînement que vous recommandez ; `before_cleaning` et `after_cleaning`, gain (K/%) et constante de temps (s) du chauffe-eau à
+-- 2600 s et à 4500 s. Votre script sera exécuté sur les enregistrements d'un autre entraînement et d'un autre chauffe-eau. Les figures que l'on cherche sont `correlation` et `tracking`.
+-- :::
+
+-- %% [markdown]
+-- # Annexe : bibliographie
+--
+-- ::: references
+-- :::

@@ -1,0 +1,22 @@
+-- expects: direct: was it estimated from the open loop
+-- expects: own_instruments: The signs of a1 and a2 are turned round
+-- expects: before_cleaning: which follows nothing
+-- expects: after_cleaning: The order is gain, time constant
+-- expects: heater_follows: On a record that you have not seen
+-- expects: figures: There is no figure
+-- The heater stands still in time, two numbers are interchanged, a minus is forgotten, and the wrong record was taken.
+local d, S = load("drive"), 0.01
+answer("G_direct", srivc(iddata(d.open_loop.y, d.open_loop.u, S), {1, 2, 0}))
+local t = d.tracking
+local P, Q, R = svf(t.y, 2, 10, {Ts = S, hold = "foh"}), svf(t.u, 2, 10, {Ts = S, hold = "zoh"}), svf(t.r, 4, 10, {Ts = S, hold = "zoh"})
+local z = matrix{R:col(3), R:col(4), R:col(5)}:t()
+answer("own_instruments", solve(z*matrix{P:col(2), P:col(3), Q:col(3)}, z*P:col(1)))
+local stage = srivc(iddata(t.u, t.r, S), {4, 3, 1})
+local two = srivc(iddata(t.y, lsim(stage, t.r, S), S), {1, 2, 0})
+answer("G_two_stage", two)
+answer("G_final", two)
+local f = load("drifting_process")
+local one = srivc(iddata(f.y, f.u, 1), {1, 1, 0}, {InitialState = "estimate"})
+answer("before_cleaning", vector{dcgain(one), 1/one.den[2]})
+local late = srivc(iddata(f.y, f.u, 1)[{4200, 4800}], {1, 1, 0}, {InitialState = "estimate"})
+answer("after_cleaning", vector{1/late.den[2], dcgain(late)})
