@@ -3,43 +3,24 @@
 #include <cmath>
 #include <vector>
 
-#include "numerics/simulation/companion_series.h"
+#include "numerics/simulation/step_map.h"
 
 namespace dynlab::inline numerics {
 
 constexpr Index kSideBySide = 8;
 using Eight = Eigen::Array<double, kSideBySide, 1>;
 
-/// What steps of eight lengths, side by side, do to a companion system of kOrder states x, and (kTwice) to a second one
-/// w behind it, for an input that begins at u and runs with slope s (1/s):
-///     x -> x + E x + G u + R s,   w -> w + L x + E w + H u + S s.
-/// A map is the entries of E (row by row), G, L, H, R, S. Long steps are halved before and doubled behind.
+/// The maps of eight steps, side by side. Long steps are halved before and doubled behind.
 template <int kOrder, bool kTwice>
-class EightSteps {
+class EightSteps : public StepMap<kOrder, kTwice> {
+    using Map = StepMap<kOrder, kTwice>;
+
   public:
-    static constexpr int kStates = kOrder == Eigen::Dynamic ? Eigen::Dynamic : (kTwice ? 2 : 1) * kOrder;
+    using Map::order, Map::states, Map::kStates;
     using States = Eigen::Array<double, kSideBySide, kStates>;
 
-    EightSteps(const CompanionSeries& series, bool ramps) : series_(series), ramps_(ramps) {
-        const Index n = order();
-        const auto add_row = [&](Index row, Index input) {
-            for (Index j = 0; j < n; ++j) own_.push_back(row + j);
-            own_.push_back(input);
-        };
-        for (Index i = n - 1; i >= 0; i -= gap()) {
-            add_row(i * n, place_of_G() + i);
-            if (kTwice) add_row(place_of_L() + i * n, place_of_H() + i);
-        }
-        without_ramps_ = static_cast<Index>(own_.size());
-        for (Index i = n - 1; ramps && i >= 0; i -= gap()) {
-            own_.push_back(place_of_R() + i);
-            if (kTwice) own_.push_back(place_of_S() + i);
-        }
-        doubled_.resize(own_.size());
-    }
-
-    Index states() const { return kStates == Eigen::Dynamic ? (kTwice ? 2 : 1) * order() : kStates; }
-    Index entries() const { return place_of_S() + order(); }
+    EightSteps(const CompanionSeries& series, bool ramps)
+        : Map(series, ramps), series_(series), ramps_(ramps), doubled_(this->own().size()) {}
 
     /// For steps of `length` (s), none longer than those of the plan.
     void set(const Eight& length, const StepPlan& plan, Eight* map) {
@@ -92,21 +73,15 @@ class EightSteps {
     }
 
   private:
+    using Map::gap, Map::own, Map::without_ramps;
+    using Map::place_of_G, Map::place_of_L, Map::place_of_H, Map::place_of_R, Map::place_of_S;
     static constexpr Index kRamps = kTwice ? 2 : 1;  // of a row
     static constexpr Index kTogether = kOrder == Eigen::Dynamic ? CompanionSeries::kTogether : kRamps * (kOrder + 1);
 
-    Index gap() const { return kOrder == Eigen::Dynamic ? series_.gap : kOrder; }
-    Index order() const { return kOrder == Eigen::Dynamic ? series_.order : kOrder; }
-    Index place_of_G() const { return order() * order(); }
-    Index place_of_L() const { return place_of_G() + order(); }
-    Index place_of_H() const { return place_of_L() + (kTwice ? order() * order() : 0); }
-    Index place_of_R() const { return place_of_H() + (kTwice ? order() : 0); }
-    Index place_of_S() const { return place_of_R() + order(); }
-
     [[gnu::always_inline]] void sum_series(const Eight& length, Index last, Eight* map) const {
-        const auto all = static_cast<Index>(own_.size());
-        for (Index row = 0; row < without_ramps_; row += kTogether) sum_together<kTogether>(row, length, last, map);
-        for (Index row = without_ramps_; row < all; row += kRamps) sum_together<kRamps>(row, length, last, map);
+        const auto all = static_cast<Index>(own().size());
+        for (Index row = 0; row < without_ramps(); row += kTogether) sum_together<kTogether>(row, length, last, map);
+        for (Index row = without_ramps(); row < all; row += kRamps) sum_together<kRamps>(row, length, last, map);
     }
     template <Index kCount>
     [[gnu::always_inline]] void sum_together(Index row, const Eight& length, Index last, Eight* map) const {
@@ -116,9 +91,9 @@ class EightSteps {
         for (Index i = 0; i < kCount; ++i) sums[i].setZero();
         for (Index k = last; k >= 0; --k, term -= stride)
             for (Index i = 0; i < kCount; ++i) sums[i] = sums[i] * length + term[i];
-        const Index left = static_cast<Index>(own_.size()) - row;
+        const Index left = static_cast<Index>(own().size()) - row;
         for (Index i = 0; i < (kOrder == Eigen::Dynamic ? std::min(kCount, left) : kCount); ++i)
-            map[own_[static_cast<std::size_t>(row + i)]] = sums[i];
+            map[own()[static_cast<std::size_t>(row + i)]] = sums[i];
     }
 
     /// The rows in between.
@@ -172,13 +147,11 @@ class EightSteps {
             *doubled++ = times(row, R, 1, 2 * R[i] + length * G[i]);
             if (kTwice) *doubled++ = times(share, R, 1, times(row, S, 1, 2 * S[i] + length * H[i]));
         }
-        for (std::size_t i = 0; i < own_.size(); ++i) map[own_[i]] = doubled_[i];
+        for (std::size_t i = 0; i < own().size(); ++i) map[own()[i]] = doubled_[i];
     }
 
     const CompanionSeries& series_;
     bool ramps_;
-    std::vector<Index> own_;  // places in a map of what has its own series, in their order
-    Index without_ramps_ = 0;
     std::vector<Eight> doubled_;
 };
 
