@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "numerics/signals/interpolation.h"
-#include "numerics/validation/grey_comparison.h"
+#include "numerics/validation/grey_box/grey_comparison.h"
 #include "scripting/arguments/table_fields.h"
 #include "scripting/objects/grey_object.h"
 #include "scripting/objects/model.h"

@@ -1,4 +1,4 @@
-#include "numerics/validation/grey_comparison.h"
+#include "numerics/validation/grey_box/grey_comparison.h"
 
 #include "numerics/number_text.h"
 #include "numerics/validation/fit_measures.h"

@@ -1,4 +1,4 @@
-#include "numerics/fit/identifiability.h"
+#include "numerics/statistics/identifiability.h"
 
 #include <cmath>
 
