@@ -76,6 +76,7 @@ Figure history_plot(const ParameterHistory& history, const std::vector<std::stri
         const auto known = truth.find(name);
         figure.panels.push_back(panel_of(history, i, name, known == truth.end() ? Vector() : known->second, level));
     }
+    figure.rows = static_cast<int>(figure.panels.size());
     figure.panels.back().x_label = "time (s)";
     return figure;
 }

@@ -9,11 +9,11 @@
 #include "numerics/criteria/grey_output.h"
 #include "numerics/error.h"
 #include "numerics/fit/diagnosis.h"
-#include "numerics/fit/grey_box/identifiability.h"
 #include "numerics/fit/output_error.h"
 #include "numerics/linalg/decompositions.h"
 #include "numerics/number_text.h"
 #include "numerics/simulation/sensitivity_solver.h"
+#include "numerics/statistics/identifiability.h"
 #include "numerics/statistics/student_t.h"
 
 namespace dynlab::inline numerics {

@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "numerics/fit/grey_box/identifiability.h"
 #include "numerics/signals/random.h"
+#include "numerics/statistics/identifiability.h"
 
 namespace test_identifiability {
 

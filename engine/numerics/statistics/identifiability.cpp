@@ -1,4 +1,4 @@
-#include "numerics/fit/grey_box/identifiability.h"
+#include "numerics/statistics/identifiability.h"
 
 #include <cmath>
 
