@@ -1,5 +1,5 @@
-// Oracle: the truth. 200 records with noise: what recursive instrumental variables end with is as little biased as what
-// their batch methods give, and scatters as they do and as its standard errors say.
+// Oracle: the truth. The means over 200 records with noise: recursive instrumental variables end within three standard
+// errors of it, recursive least squares more than ten away.
 #include <gtest/gtest.h>
 
 #include <cmath>
