@@ -1,5 +1,5 @@
-// Oracle: the truth. 200 records with noise: what recursive instrumental variables end with is as little biased as what
-// their batch methods give, and scatters as they do and as its standard errors say.
+// Oracle: the truth. The means over 200 records with noise: recursive instrumental variables end within three standard
+// errors of it, recursive least squares more than ten away.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -25,42 +25,34 @@ IdData rich_record(std::uint32_t seed) {
     return IdData(Matrix(y), Matrix(u), 0.05);
 }
 
-struct Study {
-    Vector bias;      ///< in standard errors of the mean
-    Vector reported;  ///< root mean square of the standard errors, relative to the scatter
-};
-
+/// In standard errors of the mean.
 template <class Method>
-Study study_of(const Method& method) {
-    Matrix theta(kRecords, 3), std(kRecords, 3);
+Vector bias_of(const Method& method) {
+    Matrix theta(kRecords, 3);
     for (int k = 0; k < kRecords; ++k) {
         const Fit fit =
             method(rich_record(static_cast<std::uint32_t>(k + 1)), TransferStructure::single(2, 0), recursive(3));
         theta.row(k) = fit.theta.transpose();
-        std.row(k) = fit.std.transpose();
     }
     const Vector mean = theta.colwise().mean();
     const Vector scatter =
         ((theta.rowwise() - mean.transpose()).colwise().squaredNorm().transpose() / (kRecords - 1)).cwiseSqrt();
-    return {(mean - kTruth).cwiseQuotient(scatter / std::sqrt(double(kRecords))),
-            (std.colwise().squaredNorm().transpose() / kRecords).cwiseSqrt().cwiseQuotient(scatter)};
+    return (mean - kTruth).cwiseQuotient(scatter / std::sqrt(double(kRecords)));
 }
 
 TEST(recursive_statistics, least_squares_are_biased) {
-    const Study study = study_of(rlssvf);
-    EXPECT_GT(study.bias.cwiseAbs().minCoeff(), 10) << study.bias.transpose();
+    const Vector bias = bias_of(rlssvf);
+    EXPECT_GT(bias.cwiseAbs().minCoeff(), 10) << bias.transpose();
 }
 
 TEST(recursive_statistics, instrumental_variables_are_not) {
-    const Study study = study_of(rivsvf);
-    EXPECT_LT(study.bias.cwiseAbs().maxCoeff(), 3) << study.bias.transpose();
+    const Vector bias = bias_of(rivsvf);
+    EXPECT_LT(bias.cwiseAbs().maxCoeff(), 3) << bias.transpose();
 }
 
-TEST(recursive_statistics, refined_ones_are_not_and_know_their_scatter) {
-    const Study study = study_of(rsrivc);
-    EXPECT_LT(study.bias.cwiseAbs().maxCoeff(), 3) << study.bias.transpose();
-    EXPECT_NEAR(study.reported.minCoeff(), 1, 0.15) << study.reported.transpose();
-    EXPECT_NEAR(study.reported.maxCoeff(), 1, 0.15) << study.reported.transpose();
+TEST(recursive_statistics, refined_ones_are_not_either) {
+    const Vector bias = bias_of(rsrivc);
+    EXPECT_LT(bias.cwiseAbs().maxCoeff(), 3) << bias.transpose();
 }
 
 }  // namespace test_recursive_statistics

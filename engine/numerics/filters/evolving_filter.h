@@ -61,7 +61,7 @@ double filtered_numerator(const EvolvingModel& model, const EvolvingState& state
 
 namespace evolving {
 
-inline constexpr double kNegligible = 1e-17;
+inline constexpr double kNegligible = 1e-16;
 inline constexpr int kMostTerms = 40;
 
 /// Adds a term of a series to a state; whether it still counts.

@@ -21,6 +21,7 @@ namespace {
 constexpr Index kSamplesBetweenQuestions = 4096;  // whether to stop
 constexpr Index kFirstSamplesPerParameter = 20;
 constexpr double kFilterMemories = 20;  // of the first batch
+constexpr double kQuickest = 5;         // poles of a model that filters follow, in cut-off frequencies
 
 /// The record as the loop sees it.
 struct Samples {
@@ -138,6 +139,10 @@ class Pass {
     void begin_with(const Vector& theta, Index until) {
         model_.set(theta.data());
         follows_from_ = until;
+        if (options_.model || !too_quick(model_)) return;
+        model_ = filter_;
+        model_.b = {};
+        model_.b[static_cast<std::size_t>(m_)] = std::pow(options_.lambda, n_);
     }
 
     void take(Index k) {
@@ -159,7 +164,7 @@ class Pass {
         }
         if (k > 0 && options_.drift.size() > 0) walk();
         array_.add(z, phi, highest_derivative<kOrder>(filter, y_, y), options_.forgetting);
-        if (kMethod != RecursiveMethod::kLeastSquares && k >= follows_from_ && array_.known()) follow(k);
+        if (kMethod != RecursiveMethod::kLeastSquares && k >= follows_from_ && array_.known()) follow();
     }
 
     bool known() const { return array_.known(); }
@@ -212,16 +217,26 @@ class Pass {
         array_.walk(steps);
     }
 
-    /// The estimate becomes the model of the samples to come, if it is stable and not too quick for them.
-    void follow(Index k) {
+    /// The estimate becomes the model of the samples to come, if it is stable and not too quick for the cut-off
+    /// frequency: what a quick filter lets through of the noise would outweigh all other samples.
+    void follow() {
         EvolvingModel next = model_;
         next.set(array_.theta().data());
-        const double h = samples_.t.size() > 0 && k + 1 < samples_.t.size() ? samples_.step(k + 1) : samples_.Ts;
-        constexpr int kMostPieces = 64;
-        if (is_stable(next) && pieces_of_step(next, h, kMostPieces) > 0)
+        if (is_stable(next) && !too_quick(next))
             model_ = next;
         else
             ++not_followed_;
+    }
+
+    /// Against poles at kQuickest times the cut-off frequency.
+    bool too_quick(const EvolvingModel& model) const {
+        double size = 0, bound = 0, power = 1;
+        for (int i = 0; i < model.n; ++i) {
+            power /= options_.lambda;
+            bound = (1 + kQuickest) * bound + kQuickest;
+            size += std::abs(model.a[static_cast<std::size_t>(i)]) * power;
+        }
+        return !(size <= bound);
     }
 
     const Samples& samples_;
