@@ -41,7 +41,6 @@ constexpr std::array kOptionWords = {
     OptionWord{"width", "width"},
     OptionWord{"rank", "rank"},
     OptionWord{"delays", "delays"},
-    OptionWord{"x0", "x0"},
     OptionWord{"runs", "runs"},
     OptionWord{"kind", "kind"},
     OptionWord{"confidence", "confidence"},

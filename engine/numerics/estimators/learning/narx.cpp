@@ -215,7 +215,7 @@ FreeRun NarxModel::free_run(const IdData& data, std::size_t experiment, const Ve
         throw InvalidArgument("narx: the run begins after " + std::to_string(first) +
                               " samples, and the record holds only " + std::to_string(N));
     if (x0.size() != 0 && x0.size() != first)
-        throw InvalidArgument("narx: `x0` holds the first " + std::to_string(first) + " outputs of the run, and has " +
+        throw InvalidArgument("narx: x0 holds the first " + std::to_string(first) + " outputs of the run, and has " +
                               std::to_string(x0.size()) + " values");
     FreeRun run{Matrix::Constant(N, 1, kNaN), {}, "from the recorded first " + counted(first, "sample")};
     auto y = run.output.col(0);

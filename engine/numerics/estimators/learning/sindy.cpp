@@ -172,7 +172,7 @@ FreeRun SindyModel::free_run(const IdData& data, std::size_t experiment, const V
     const Vector t = data.time(experiment);
     const Index N = t.size(), n = output_count();
     if (x0.size() != 0 && x0.size() != n)
-        throw InvalidArgument("sindy: `x0` holds the " + std::to_string(n) + " states at the first sample, and has " +
+        throw InvalidArgument("sindy: x0 holds the " + std::to_string(n) + " states at the first sample, and has " +
                               std::to_string(x0.size()) + " values");
     FreeRun run{Matrix::Constant(N, n, kNaN), {}, "from the recorded first sample"};
     OdeState x = OdeState::Zero(n);

@@ -145,7 +145,7 @@ TEST(narx, refuses_what_cannot_be_fitted) {
     faster.Ts = 0.1;
     EXPECT_THAT(thrown_message([&] { found.model->free_run(faster, 0, Vector()); }), HasSubstr("sampled every 0.5 s"));
     EXPECT_THAT(thrown_message([&] { found.model->free_run(data, 0, Vector::Ones(3)); }),
-                HasSubstr("`x0` holds the first 2"));
+                HasSubstr("x0 holds the first 2"));
     const IdData two(Matrix::Random(50, 2), Matrix::Random(50, 1), 1);
     EXPECT_THAT(thrown_message([&] { narx(two, kLags); }), HasSubstr("needs one output"));
 }
