@@ -1,5 +1,6 @@
 -- expects: two_stage: the second stage needs the voltage
 -- expects: final_model: The direct route is biased by the loop
+-- expects: final_is_estimated: away from what was expected
 -- expects: drive_follows: the direct route again
 -- The loop is ignored throughout.
 local r, T = load("drive").tracking, 0.01
