@@ -9,10 +9,10 @@ local function rms(e) return norm(e)/math.sqrt(#e) end
 local official = load("two_tanks")
 local spread = std(official.y_val)
 
--- Length within 2 %, the voltage of dry friction within 0.06 V.
+-- Length within 2 %; dry friction was found within 0.1 V on other cranes, and is some 0.24 V.
 local function crane_found(found, facts)
     if #found ~= 2 then return judge("Wanted are two numbers: the length and the voltage.") end
-    return all_of(near(found[1], facts[1], {rel = 0.02, half = 0.04}), near(found[2], facts[2], {abs = 0.06, half = 0.12}))
+    return all_of(near(found[1], facts[1], {rel = 0.02, half = 0.04}), near(found[2], facts[2], {abs = 0.15, half = 0.2}))
 end
 
 check { id = "crane", points = 2, about = "The crane's length and dry friction",
