@@ -9,10 +9,10 @@ local function rms(e) return norm(e)/math.sqrt(#e) end
 local official = load("two_tanks")
 local spread = std(official.y_val)
 
--- Length within 2 %, the voltage of dry friction within 0.06 V.
+-- Length within 2 %; dry friction was found within 0.1 V on other cranes, and is some 0.24 V.
 local function crane_found(found, facts)
     if #found ~= 2 then return judge("Wanted are two numbers: the length and the voltage.") end
-    return all_of(near(found[1], facts[1], {rel = 0.02, half = 0.04}), near(found[2], facts[2], {abs = 0.06, half = 0.12}))
+    return all_of(near(found[1], facts[1], {rel = 0.02, half = 0.04}), near(found[2], facts[2], {abs = 0.15, half = 0.2}))
 end
 
 check { id = "crane", points = 2, about = "The crane's length and dry friction",
@@ -46,10 +46,7 @@ check { id = "tanks", points = 3, about = "The six parameters of the tanks",
     test = function(a) return tanks_found(a.tanks, truth(a, "two_tanks")) end,
     mistakes = {
         {when = function(a) return a.tanks[6] > 1 end, say = "The reading of an empty tank is a few tenths of a volt; so much is no offset."},
-        {when = function(a)
-             local facts = truth(a, "two_tanks")
-             return near(a.tanks[1]*a.tanks[2]/a.tanks[4], facts.k1*facts.k2/facts.k4, {rel = 0.3}) and not near(a.tanks[1], facts.k1, {rel = 0.3})
-         end,
+        {when = function(a) return math.abs(a.tanks[4]/truth(a, "two_tanks").k4 - 1) > 0.5 end,
          say = "The unit of the hidden level is free: without its rim at 20 cm, k1, k2 and k4 are not told apart."},
     },
     hint = "greyest with both rims; the levels at the start are estimated as well." }
@@ -59,11 +56,11 @@ check { id = "free_run", points = 2, about = "Free-run errors of three models",
         if #a.free_run ~= 3 then return judge("Wanted are three numbers: linear, six parameters, NARX.") end
         local sensor = truth(a, "two_tanks").noise_std
         return all_of(points_between(-a.free_run[1]/spread, -0.6, -0.45), points_between(-a.free_run[2]/sensor, -3, -1.6),
-                      near(a.free_run[2], rms(official.y_val - a.simulated), {rel = 0.02, half = 0.1}),
+                      near(a.free_run[2], rms(official.y_val - a.simulated), {abs = 0.003, half = 0.01}),
                       points_between(-a.free_run[3]/spread, -0.7, -0.45))
     end,
     mistakes = {
-        {when = function(a) return a.free_run[3] < 1.5*a.free_run[2] end,
+        {when = function(a) return a.free_run[3] < 0.06*spread end,
          say = "So good is NARX one sample ahead only: in free run it never sees a measured reading."},
         {when = function(a) return min(a.free_run) > 10 end, say = "These seem to be fits in percent; errors in volts are wanted."},
     },
@@ -94,10 +91,9 @@ check { id = "crane_follows", points = 3, rerun = "crane", about = "Another cran
     },
     hint = "Estimate from what load(\"crane\") gives." }
 
-check { id = "tanks_follow", points = 5, rerun = "two_tanks", about = "Other tanks: parameters, and a record that nobody has seen in free run",
+check { id = "tanks_follow", points = 5, rerun = "two_tanks", about = "Other tanks: their six parameters",
     test = function(a, b)
-        local e = rms(hidden("two_tanks").y_val - b.simulated)
-        return all_of(differs(a.tanks, b.tanks), tanks_found(b.tanks, truth(b)), points_between(-e/truth(b).noise_std, -6, -2))
+        return all_of(differs(a.tanks, b.tanks), differs(a.simulated, b.simulated), tanks_found(b.tanks, truth(b)))
     end,
     mistakes = {
         {when = function(a, b) return near(a.tanks, b.tanks, {rel = 1e-9}) end,

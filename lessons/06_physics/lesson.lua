@@ -200,8 +200,8 @@ report.value("true_dry", truth.dry_voltage, "%.3f")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- The length comes out as `length`{.value} ± `length_error`{.value} mm, `true_length`{.value} mm being true, and dry friction takes `dry_voltage`{.value} V of the voltage (`true_dry`{.value} V). Nobody measured either: the record knew them. A black box has coefficients;
--- a grey box has numbers that can be checked with a ruler, and that stay the same when another load is hung on the rod.
+-- The length comes out as `length`{.value} ± `length_error`{.value} mm, `true_length`{.value} mm being true, and dry friction takes `dry_voltage`{.value} V of the voltage (`true_dry`{.value} V). Nobody measured either: the record knew them. The length is off by more than
+-- its standard error, which supposes that the equations are right: the belt is not quite rigid, and the motor has an inductance. A black box has coefficients; a grey box has numbers that can be checked with a ruler.
 -- END SOLUTION
 --
 -- # Two tanks

@@ -1,8 +1,8 @@
 -- expects: crane: is it fixed at zero
 -- expects: crane_fit: are swings taken for small
 -- expects: tanks: without its rim at 20 cm
--- expects: free_run: away from what was expected
--- expects: simulated: away from what was expected
+-- expects: free_run: It comes to
+-- expects: simulated: It comes to
 -- expects: crane_follows: On a record that you have not seen
 -- expects: tanks_follow: On a record that you have not seen
 -- Swings are taken for small, nothing is dry, and the tanks have no rims.

@@ -601,8 +601,8 @@ report.table("forgetting", forgetting_rows)
 -- :::
 --
 -- There is no best one (@tbl:forgetting). A short memory follows quickly and scatters, a long one is smooth and late: with $f = 1$ the scale is remembered to the end. The gain, which every sample tells, wants a shorter memory than the time constant, which
--- only the switchings tell. A forgetting factor has to serve both; a random walk of the parameters (`drift`, here $10^{-6}$ for the variance of a step of each) says how far they may move from one sample to the next. RLSSVF has the bias of least squares, the others have
--- less. RSRIVC lets its filter follow the estimate: with a memory of a hundred samples a bad moment of the estimate makes a bad filter, and it may lose its way; it wants a longer memory or the walk.
+-- only the switchings tell. A forgetting factor has to serve both; a random walk of the parameters (`drift`, here $10^{-6}$ for the variance of a step of each) says how far they may move from one sample to the next. RLSSVF has the bias of least squares, RIVSVF less. The walk
+-- follows the cleaning within half a minute, and pays by a time constant that is too small on the average. RSRIVC lets its filter follow the estimate: with a memory of a hundred samples a bad moment of the estimate makes a bad filter, and it may lose its way; it wants a longer memory or the walk.
 -- END SOLUTION
 --
 -- # What was learnt
