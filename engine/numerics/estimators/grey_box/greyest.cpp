@@ -278,7 +278,10 @@ void set_measures(GreyFit& result, const GreyOutput& criterion, const Fit& end, 
         squares += (data.experiments[result.outputs.size()].y - run.y).colwise().squaredNorm().transpose();
         result.outputs.push_back(std::move(run.y));
         result.states.push_back(std::move(run.states));
-        if (rough.empty()) rough = std::move(run.rough_times);
+        // At its first sample a state that begins at zero has no size yet that its errors could be small beside.
+        const double begin = data.time(result.outputs.size() - 1)[0];
+        for (const double t : run.rough_times)
+            if (t > begin) rough.push_back(t);
     }
     fit.noise_variance = squares / degrees;
     fit.loss = squares.sum() / (N * ny);
