@@ -12,7 +12,7 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr double kRounding = 1e-9;  // of frequencies that were computed to lie at pi/Ts
+constexpr double kNyquistRounding = 1e-9;  // of frequencies that were computed to lie at pi/Ts
 
 std::string place_of(Index k) {
     return "frequency " + std::to_string(k + 1);
@@ -31,7 +31,7 @@ void check_sizes(const std::string& caller, const FrequencyData& data) {
 }
 
 void check_frequencies(const std::string& caller, const FrequencyData& data) {
-    const double end = data.Ts > 0 ? std::numbers::pi / data.Ts * (1 + kRounding) : kInfinity;
+    const double end = data.Ts > 0 ? std::numbers::pi / data.Ts * (1 + kNyquistRounding) : kInfinity;
     for (Index k = 0; k < data.w.size(); ++k) {
         const double w = data.w[k];
         if (!std::isfinite(w)) throw InvalidArgument(caller + ": " + place_of(k) + " is not a finite number");

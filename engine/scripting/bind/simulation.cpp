@@ -92,7 +92,7 @@ std::vector<NamedModel> models_to_draw(const Call& call, int& next) {
 }
 
 /// Option labels: none, or one for each of the curves.
-std::vector<std::string> labels_of(const Options& options, std::size_t count, const char* what) {
+std::vector<std::string> given_labels(const Options& options, std::size_t count, const char* what) {
     std::vector<std::string> labels = options.texts("labels");
     if (!labels.empty() && labels.size() != count)
         throw InvalidArgument(
@@ -106,7 +106,7 @@ std::string usual_name(const Call& call, int index) {
 }
 
 void name_models(const Call& call, const Options& options, std::vector<NamedModel>& models) {
-    const std::vector<std::string> labels = labels_of(options, models.size(), "models");
+    const std::vector<std::string> labels = given_labels(options, models.size(), "models");
     for (std::size_t i = 0; i < models.size(); ++i) {
         if (!labels.empty())
             models[i].name = labels[i];
@@ -172,7 +172,7 @@ int draw_bode(Call& call) {
     refuse_option_texts(call, next);
     call.at_most(next);
     const Options options(call, next, {"labels", "confidence"});
-    const std::vector<std::string> labels = labels_of(options, static_cast<std::size_t>(count), "models");
+    const std::vector<std::string> labels = given_labels(options, static_cast<std::size_t>(count), "models");
     const std::optional<double> level = confidence_level(options);
     std::vector<NamedModel> models;
     std::vector<NamedResponse> responses;

@@ -19,8 +19,8 @@
 namespace dynlab::inline numerics {
 namespace {
 
-constexpr int kRoughIterations = 15;
-constexpr double kRoughTolerance = 1e-3;
+constexpr int kFollowedIterations = 15;
+constexpr double kFollowedTolerance = 1e-3;
 constexpr int kWeightings = 20;           // of the outputs, at most
 constexpr double kSettledWeights = 1e-4;  // of their ratios
 constexpr double kLeastError = 1e-12;     // of an output's errors beside what it varies, for its weight
@@ -138,8 +138,8 @@ struct Beginning {
 Beginning best_start(const Problem& problem, const Vector& weights) {
     const std::vector<Vector> starts = starts_of(problem.model, problem.options);
     const FitOptions search = problem.search_options();
-    const FitOptions rough =
-        search.rough(std::min(kRoughIterations, search.max_iterations), std::max(kRoughTolerance, search.tolerance));
+    const FitOptions rough = search.rough(std::min(kFollowedIterations, search.max_iterations),
+                                          std::max(kFollowedTolerance, search.tolerance));
     Beginning best;
     double smallest = kInfinity;
     for (const Vector& start : starts) {

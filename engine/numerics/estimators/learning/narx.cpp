@@ -14,7 +14,7 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr Index kMostTerms = 50, kBlock = 2048;
+constexpr Index kMostTerms = 50, kRowsAtOnce = 2048;
 constexpr double kDependent = 1e-12;  // of a candidate's power, what the others leave of it
 constexpr double kOutOfBounds = 1e3;  // times the largest output of the record
 
@@ -25,8 +25,8 @@ Matrix candidates_and_output(const IdData& data, const NarxLags& lags, const Mon
         const Index first = lags.first();
         if (experiment.y.rows() <= first) continue;
         const Matrix past = lags.past_values(experiment.y.col(0), experiment.u);
-        for (Index row = 0; row < past.rows(); row += kBlock) {
-            const Index rows = std::min(kBlock, past.rows() - row);
+        for (Index row = 0; row < past.rows(); row += kRowsAtOnce) {
+            const Index rows = std::min(kRowsAtOnce, past.rows() - row);
             Matrix block(rows, monomials.count() + 1);
             block.leftCols(monomials.count()) = monomials.values(past.middleRows(row, rows));
             block.col(monomials.count()) = experiment.y.col(0).segment(first + row, rows);

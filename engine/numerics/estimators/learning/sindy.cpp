@@ -16,8 +16,8 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr Index kMostStates = 8;      // of the integrator
-constexpr double kOutOfBounds = 1e3;  // times the largest value of a state in the record
+constexpr Index kMostIntegratedStates = 8;  // of the integrator
+constexpr double kStateOutOfBounds = 1e3;   // times the largest value of a state in the record
 
 /// R of [Theta B] over all experiments: the equations, as far as least squares ask.
 struct Rotated {
@@ -109,8 +109,8 @@ void judge(SindyFit& found, const IdData& data) {
 void check(const IdData& data, const FunctionLibrary& library, const SindyOptions& options) {
     options.validate();
     if (library.count() == 0) throw InvalidArgument("sindy: the library holds no function");
-    if (data.output_count() < 1 || data.output_count() > kMostStates)
-        throw InvalidArgument("sindy takes the outputs as states, 1 to " + std::to_string(kMostStates) +
+    if (data.output_count() < 1 || data.output_count() > kMostIntegratedStates)
+        throw InvalidArgument("sindy takes the outputs as states, 1 to " + std::to_string(kMostIntegratedStates) +
                               " of them, and the data hold " + std::to_string(data.output_count()));
     const Vector variations = output_variations(data);
     for (Index i = 0; i < variations.size(); ++i)
@@ -186,7 +186,7 @@ FreeRun SindyModel::free_run(const IdData& data, std::size_t experiment, const V
     bool broken = false;  // the library itself
     OdeSolver solver(
         [&](double time, const OdeState& state) -> OdeState {
-            if (!(state.array().abs() <= kOutOfBounds * kOutOfBounds * largest_.array()).all())
+            if (!(state.array().abs() <= kStateOutOfBounds * kStateOutOfBounds * largest_.array()).all())
                 return OdeState::Constant(n, std::numeric_limits<double>::max());
             if (data.hold == Hold::kFoh && u.size() > 0) {
                 const double share = (time - t[k]) / (t[k + 1] - t[k]);
@@ -207,7 +207,7 @@ FreeRun SindyModel::free_run(const IdData& data, std::size_t experiment, const V
             if (broken) throw;
             x.setConstant(kNaN);
         }
-        if (!(x.array().abs() <= kOutOfBounds * largest_.array()).all()) {
+        if (!(x.array().abs() <= kStateOutOfBounds * largest_.array()).all()) {
             run.lost_at = k + 1;
             break;
         }
