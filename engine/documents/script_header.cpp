@@ -123,8 +123,8 @@ bool is_fence(const std::string& line) {
 }  // namespace
 
 const std::vector<std::string>& answer_kinds() {
-    static const std::vector<std::string> kinds = {"number", "text", "truth", "vector",
-                                                   "matrix", "data", "model", "table"};
+    static const std::vector<std::string> kinds = {"number", "text",  "truth",    "vector", "matrix",
+                                                   "data",   "model", "response", "table"};
     return kinds;
 }
 

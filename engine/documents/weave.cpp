@@ -39,11 +39,16 @@ std::string stopped_here(const std::string& language) {
                             : "\nThe script stopped here; nothing below was run.";
 }
 
-/// Text as Markdown that prints it: every mark escaped that could mean something.
+/// Text as Markdown that prints it: every mark escaped that could mean something. Brackets get their numbers, since
+/// \[V\] looks like a formula of LaTeX (latex_remains.h).
 std::string literal(const std::string& text) {
     std::string markdown;
     for (const char c : text) {
-        if (std::string_view("\\`*_{}[]#^~$@<>|").find(c) != std::string_view::npos) markdown += '\\';
+        if (c == '[' || c == ']') {
+            markdown += c == '[' ? "&#91;" : "&#93;";
+            continue;
+        }
+        if (std::string_view("\\`*_{}#^~$@<>|&").find(c) != std::string_view::npos) markdown += '\\';
         markdown += c;
     }
     return markdown;

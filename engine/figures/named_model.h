@@ -2,6 +2,7 @@
 #include <optional>
 #include <string>
 
+#include "numerics/models/frequency_data.h"
 #include "numerics/models/transfer_function.h"
 #include "numerics/validation/uncertainty.h"
 
@@ -18,6 +19,13 @@ struct NamedModel {
     std::string name;
     TransferFunction G;
     std::optional<ModelConfidence> confidence = {};  ///< for bands and ellipses
+};
+
+/// A measured response with the name that the legend shows, and the probability that its bands hold the truth.
+struct NamedResponse {
+    std::string name;
+    FrequencyData data;
+    double level = 0.99;
 };
 
 }  // namespace dynlab::inline figures

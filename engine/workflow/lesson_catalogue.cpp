@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <fstream>
 #include <map>
 #include <sstream>
 
@@ -19,6 +20,29 @@ std::string joined_slugs(const std::vector<Lesson>& found) {
     std::string list;
     for (const Lesson& lesson : found) list += (list.empty() ? "" : ", ") + lesson.slug;
     return list;
+}
+
+/// What the header says below the title, or nothing: "Lesson 3.2 - ...".
+std::string subtitle_of(const Lesson& lesson) {
+    const std::string key = "-- subtitle: ";
+    std::ifstream script(lesson.script());
+    int marks = 0;
+    for (std::string line; marks < 2 && std::getline(script, line); marks += line == "-- ---")
+        if (line.starts_with(key)) return line.substr(key.size());
+    return "";
+}
+
+/// Lessons of one number stand in the order that their subtitles tell; others keep theirs.
+void put_in_order(std::vector<Lesson>& lessons) {
+    const auto number = [](const Lesson& lesson) { return lesson.slug.substr(0, lesson.slug.find('_')); };
+    for (auto first = lessons.begin(); first != lessons.end();) {
+        const auto end =
+            std::find_if(first, lessons.end(), [&](const Lesson& one) { return number(one) != number(*first); });
+        if (end - first > 1)
+            std::stable_sort(first, end,
+                             [](const Lesson& a, const Lesson& b) { return subtitle_of(a) < subtitle_of(b); });
+        first = end;
+    }
 }
 
 }  // namespace
@@ -47,6 +71,7 @@ std::vector<Lesson> lessons() {
             if (auto lesson = lesson_in(entry.path())) found.try_emplace(lesson->slug, *std::move(lesson));
     std::vector<Lesson> all;
     for (auto& [slug, lesson] : found) all.push_back(std::move(lesson));
+    put_in_order(all);
     return all;
 }
 

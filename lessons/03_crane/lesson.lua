@@ -166,9 +166,9 @@ local function direct(record, y)
 end
 local from, against = crane.estimation, crane.validation
 local tried = {
-    {"position", "F", direct(from, from.x), direct(against, against.x), say("integrator inexact", "intégr. inexact")},
-    {"position", "s F", integrated(from, from.x), integrated(against, against.x), say("chosen", "retenu")},
-    {"angle", "F", direct(from, from.theta), direct(against, against.theta), say("chosen", "retenu")},
+    {"position", "$F$", direct(from, from.x), direct(against, against.x), say("integrator inexact", "intégr. inexact")},
+    {"position", "$sF$", integrated(from, from.x), integrated(against, against.x), say("chosen", "retenu")},
+    {"angle", "$F$", direct(from, from.theta), direct(against, against.theta), say("chosen", "retenu")},
 }
 local shown = {{{1, 0}, {2, 0}, {4, 2}}, {{1, 0}, {3, 2}, {4, 3}}, {{2, 1}, {3, 0}, {3, 1}, {4, 2}}}
 local function remark(row)
@@ -181,7 +181,7 @@ local function remark(row)
     end
     return ""
 end
-local orders = {{say("output", "sortie"), say("denom.", "dénom."), say("poles of F", "pôles de F"),
+local orders = {{say("output", "sortie"), say("denom.", "dénom."), say("poles of $F$", "pôles de $F$"),
                  say("zeros", "zéros"), "YIC", "BIC", say("fit (%)", "adéq. (%)"), say("val. (%)", "valid. (%)"),
                  say("remark", "remarque")}}
 for k, case in ipairs(tried) do
@@ -257,11 +257,11 @@ end
 -- The rows of the table of parameters; question 9 adds to them how far each one scatters.
 local rows = {}
 for k, name in ipairs{"a1", "a2", "a3"} do
-    rows[k] = {({"a₁", "a₂", "a₃"})[k], with_error(position, name), with_error(angle, name), with_error(joint, name)}
+    rows[k] = {"$a_" .. k .. "$", with_error(position, name), with_error(angle, name), with_error(joint, name)}
 end
 for k, name in ipairs{"b0", "b1", "b2"} do
-    rows[3 + k] = {({"b₀", "b₁", "b₂"})[k], with_error(position, name), "", with_error(joint, name .. "_y1")}
-    rows[6 + k] = {({"c₀", "c₁", "c₂"})[k], "", k < 3 and with_error(angle, name) or "", with_error(joint, name .. "_y2")}
+    rows[3 + k] = {"$b_" .. k - 1 .. "$", with_error(position, name), "", with_error(joint, name .. "_y1")}
+    rows[6 + k] = {"$c_" .. k - 1 .. "$", "", k < 3 and with_error(angle, name) or "", with_error(joint, name .. "_y2")}
 end
 report.value("weight_x", 1e3/output_weights[1], "%.1f")
 report.value("weight_theta", 1e3/output_weights[2], "%.1f")
@@ -628,8 +628,8 @@ local friction = grey_box(variant(linear, {dry = 0.1}), {"gain", "viscous", "dry
 local wide = grey_box(variant(linear, {}), {"gain", "viscous", "coupling", "length", "pivot", "air"}, true)
 local physical = grey_box(variant(friction, {}), {"gain", "viscous", "dry", "coupling", "length", "pivot", "air"}, true)
 
-local nonlinear_rows = {{say("model", "modèle"), say("parameters", "paramètres"), "x (%)", "θ (%)", say("θ left (mrad)", "reste θ (mrad)"),
-                         "steps x (%)", "steps θ (%)"}}
+local nonlinear_rows = {{say("model", "modèle"), say("parameters", "paramètres"), "$x$ (%)", "$\\theta$ (%)", say("$\\theta$ left (mrad)", "reste $\\theta$ (mrad)"),
+                         "steps $x$ (%)", "steps $\\theta$ (%)"}}
 local left_in_angle = {}
 for k, case in ipairs{{linear, false, 5, say("linear", "linéaire")}, {friction, false, 6, say("+ dry friction", "+ frottement sec")},
                       {wide, true, 6, say("+ large swings, air", "+ grands angles, air")},

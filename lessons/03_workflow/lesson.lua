@@ -1,6 +1,6 @@
 -- ---
 -- title: From a record to a model, and back again
--- subtitle: Lesson 3 – the workflow of identification on two simulated processes and a real one
+-- subtitle: Lesson 3.1 – the workflow of identification on two simulated processes and a real one
 -- lesson: 03_workflow
 -- template: lesson
 -- language: en
@@ -185,8 +185,15 @@ local largest = choice(V, "validation_fit", 1)
 report.value("linear_largest_gain", largest.validation_fit - V.best.validation_fit, "%.2f")
 report.value("linear_largest_poles", largest.poles, "%d")
 report.value("linear_largest_zeros", largest.zeros, "%d")
-report.value("linear_aic_poles", choice(V, "aic", -1).poles, "%d")
-report.value("linear_aic_zeros", choice(V, "aic", -1).zeros, "%d")
+local of_fit, of_aic = choice(V, "fit_percent", 1), choice(V, "aic", -1)
+report.value("linear_fit_poles", of_fit.poles, "%d")
+report.value("linear_fit_zeros", of_fit.zeros, "%d")
+report.value("linear_aic_poles", of_aic.poles, "%d")
+report.value("linear_aic_zeros", of_aic.zeros == 1 and "1 zero" or of_aic.zeros .. " zeros", "%s")
+local aic = {}
+for _, row in ipairs(V.rows) do table.insert(aic, row.aic) end
+table.sort(aic)
+report.value("linear_aic_gap", aic[2] - aic[1], "%.4f")
 report.value("linear_bic_poles", choice(V, "bic", -1).poles, "%d")
 report.value("linear_bic_zeros", choice(V, "bic", -1).zeros, "%d")
 report.value("linear_yic_poles", choice(V, "yic", -1).poles, "%d")
@@ -208,8 +215,9 @@ report.value("linear_yic_fit", choice(V, "yic", -1).validation_fit, "%.1f")
 -- model of all on the second record, with `linear_largest_poles`{.value} poles and `linear_largest_zeros`{.value} zeros, is ahead by `linear_largest_gain`{.value}
 -- points, and its parameters are undetermined or cancel each other. The criteria do not agree:
 --
--- * the fit to the record itself and AIC go on to `linear_aic_poles`{.value} poles and `linear_aic_zeros`{.value} zeros; the price that AIC asks for a parameter is low;
--- * BIC, whose price grows with the length of the record, stops at `linear_bic_poles`{.value} poles and `linear_bic_zeros`{.value} zero;
+-- * the fit to the record itself hardly ever falls when a parameter is added: it goes on to `linear_fit_poles`{.value} poles and `linear_fit_zeros`{.value} zeros;
+-- * AIC, whose price for a parameter is low, chooses `linear_aic_poles`{.value} poles and `linear_aic_zeros`{.value}, but the next best structure is only `linear_aic_gap`{.value} behind;
+-- * BIC, whose price grows with the length of the record, clearly stops at `linear_bic_poles`{.value} poles and `linear_bic_zeros`{.value} zero;
 -- * YIC, which weighs the error that is left against the uncertainty of the parameters, stops at `linear_yic_poles`{.value} poles,
 --   although that model reaches only `linear_yic_fit`{.value} % on the second record. It is meant for choosing among models whose $R_T^2$ is good already.
 --

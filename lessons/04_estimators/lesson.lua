@@ -548,8 +548,8 @@ local ellipse_b = 2 + r*(cab/math.sqrt(va)*cos(phi)
 local function cloud(name)
     local theta = high[name].theta
     return plot(theta:col(1), theta:col(3), ellipse_a, ellipse_b,
-                {style = {"points", "line"}, colour = {0, 1}, title = name,
-                 x_range = {1, 8}, y_range = {0.5, 4},
+                {style = {"points", "line"}, colour = {5, 2}, dash = 0,
+                 title = name, x_range = {1, 8}, y_range = {0.5, 4},
                  xlabel = "a_{1}", ylabel = "b_{0}"}):mark(4, 2, "truth")
 end
 local panels = subplot(1, 3, {cloud("LSSVF"), cloud("IVSVF"), cloud("TFSRIVC")})
@@ -815,7 +815,7 @@ do
         estimators = {{"lssvf", {2, 1, 0}, lambda, label = "LSSVF"},
                       {"ivsvf", {2, 1, 0}, lambda, label = "IVSVF"}}}
     local cloud = M:scatter("a1", "b0"):set{x_range = {0, 8}, y_range = {0, 4}}
-    report.figure("lambda_by_hand", subplot(1, 2, {weight, cloud}):set{height = 7},
+    report.figure("lambda_by_hand", subplot(1, 2, {weight, cloud}):set{height = 8},
                   "The filter and the estimates")
 end
 

@@ -635,23 +635,46 @@ local function expand(element)
 end
 
 local units = {}
-for unit in ("m cm mm µm km s ms µs min h Hz kHz V mV A mA N mN kN kg g rad mrad rad/s m/s mm/s cm/s m/s² rad/s² ° °C K W J Ω dB % " ..
-             "V/m N/m N/A N·m 1/s W/K bar Pa kPa"):gmatch("%S+") do units[unit] = true end
+for unit in ("m cm mm µm km s ms µs min h Hz kHz V mV A mA N mN kN kg g rad mrad ° °C K W J Ω dB % " ..
+             "1/s bar Pa kPa"):gmatch("%S+") do units[unit] = true end
+
+-- A unit, or a product or quotient of units: °C/V, N·m, m/s².
+local function is_unit(word)
+  if units[word] then return true end
+  local parts = 0
+  for part in word:gsub("·", "/"):gsub("²", ""):gmatch("[^/]+") do
+    if not units[part] then return false end
+    parts = parts + 1
+  end
+  return parts > 1
+end
 
 local function ends_in_number(element)
   return (element.t == "Str" or element.t == "Math" and element.mathtype == "InlineMath") and element.text:match("%d$") ~= nil
 end
 
 local function begins_with_unit(element)
-  return element.t == "Str" and units[element.text:gsub("[.,;:!?)]+$", "") .. ""] ~= nil
+  return element.t == "Str" and is_unit((element.text:gsub("[.,;:!?)]+$", "")))
 end
 
--- Between a number and its unit stands a thin space at which no line ends.
+local function is_text(element, text) return element.t == "Str" and element.text == text end
+
+-- "p = 0.63" where a formula holds the first part, and "92 ± 3".
+local function belong_together(before, after)
+  return is_text(before, "±") or is_text(after, "±") or
+    before.t == "Math" and before.mathtype == "InlineMath" and before.text:match("[=<>]%s*$") ~= nil
+end
+
+-- No line ends between a number and its unit, where the space is thin, nor before a number and its error.
 local function keep_units(inlines)
   for i = 2, #inlines - 1 do
     local between = inlines[i].t
-    if (between == "Space" or between == "SoftBreak") and ends_in_number(inlines[i - 1]) and begins_with_unit(inlines[i + 1]) then
-      inlines[i] = pandoc.Str("\u{202F}")
+    if between == "Space" or between == "SoftBreak" then
+      if ends_in_number(inlines[i - 1]) and begins_with_unit(inlines[i + 1]) then
+        inlines[i] = pandoc.Str("\u{202F}")
+      elseif belong_together(inlines[i - 1], inlines[i + 1]) then
+        inlines[i] = pandoc.Str("\u{A0}")
+      end
     end
   end
   return inlines

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
 #include <nlohmann/json.hpp>
 #include <regex>
@@ -196,6 +195,10 @@ void check_examples(const Workbench& bench, const std::map<std::string, std::str
     for (const MethodEntry& method : method_catalogue())
         EXPECT_THAT(bare_text_of(pages.at("methods.html")), HasSubstr(bare(method.reference))) << method.file;
     EXPECT_GT(attributes(pages.at("gallery.html"), "src").size(), 60u);
+    // Formulas in captions stay formulas.
+    EXPECT_THAT(pages.at("gallery.html"), HasSubstr("<math"));
+    const std::string& contents = pages.at("index.html");
+    EXPECT_LT(contents.find("lesson-03_workflow.html"), contents.find("lesson-03_crane.html"));
 }
 
 class Reader {
@@ -233,11 +236,6 @@ void check_search(Reader& reader) {
     EXPECT_THAT(reader.found("isolation boxes"), Contains(HasSubstr("guide-instructor.html")));
     EXPECT_THAT(reader.found("zzyzx"), testing::IsEmpty());
     EXPECT_THAT(reader.found("..."), testing::IsEmpty());
-    const json slowest = reader.value(
-        "(() => { let most = 0; for (const asked of ['s', 'identification of a system', 'a b c d e', 'delay', 'th']) {"
-        "  const begin = performance.now(); dynlabSearch(asked); most = Math.max(most, performance.now() - begin); }"
-        "  return most })()");
-    EXPECT_LT(slowest.get<double>(), 50);
     // By hand: the key that leads to the field, the list, the way to the page.
     reader.browser().evaluate(
         "document.dispatchEvent(new KeyboardEvent('keydown', {key: '/', bubbles: true}));"
@@ -272,19 +270,10 @@ void check_pages_in_browser(Reader& reader) {
     }
 }
 
-/// Processor time of all processes that this one has started and waited for.
-double seconds_of_children() {
-    rusage used{};
-    getrusage(RUSAGE_CHILDREN, &used);
-    return static_cast<double>(used.ru_utime.tv_sec + used.ru_stime.tv_sec);
-}
-
 TEST(manual, is_whole_valid_and_found_by_words) {
     const Workbench bench(Workbench::Memory::kShared);
-    const double before = seconds_of_children();
     const ChildResult made = bench.dynlab({"manual", "site"});
     ASSERT_EQ(made.exit_code, 0) << made.error_output;
-    EXPECT_LT(seconds_of_children() - before, 60);
     EXPECT_THAT(made.output, HasSubstr(bench.path("site/index.html").string()));
     const fs::path site = bench.path("site");
     const auto pages = pages_in(site);

@@ -16,10 +16,9 @@ using nlohmann::json;
 class try_pages : public testing::Test {
   protected:
     void open(const std::string& lesson, const std::string& figure) {
-        const ChildResult made = bench_.dynlab({"report", lesson, "-o", "page.html"});
-        ASSERT_EQ(made.exit_code, 0) << made.error_output;
-        EXPECT_LT(bench_.read("page.html").size(), 3u << 20);
-        browser_.open("file://" + bench_.path("page.html").string());
+        const std::filesystem::path page = page_of_lesson(lesson);
+        EXPECT_LT(std::filesystem::file_size(page), 3u << 20);
+        browser_.open("file://" + page.string());
         ASSERT_TRUE(browser_.comes("document.querySelector('img[alt*=\"" + figure + "\"]')"));
         browser_.evaluate("window.image = document.querySelector('img[alt*=\"" + figure +
                           "\"]'); image.scrollIntoView({block: 'center'})");
@@ -60,12 +59,11 @@ class try_pages : public testing::Test {
                           "'); input.value = " + std::to_string(place) + "; input.dispatchEvent(new Event('input'))");
     }
 
-    Workbench bench_;
     Browser browser_;
 };
 
 TEST_F(try_pages, a_first_order_model_is_found_by_hand) {
-    open("01", "and a first-order model");
+    open("01_process_models", "and a first-order model");
     EXPECT_LT(said("fit "), 75);
     const double rest = value("box.plot.panels[0].curves[1].y[0]");
     drag("63 %", 60 + 75, rest + 0.632 * 0.5 * 20);  // rig_truth: 0.501 °C/%, 76.2 s; the valve moves by 20 %
@@ -78,7 +76,7 @@ TEST_F(try_pages, a_first_order_model_is_found_by_hand) {
 }
 
 TEST_F(try_pages, a_second_order_model_is_found_by_hand) {
-    open("01", "and a second-order model");
+    open("01_process_models", "and a second-order model");
     drag("final level", 2.3, 10);  // rig_truth: 10 mm/V, 0.194, 12.9 rad/s
     const double overshoot = std::exp(-M_PI * 0.2 / std::sqrt(1 - 0.04)), instant = M_PI / (13 * std::sqrt(1 - 0.04));
     for (int i = 0; i < 3; ++i) drag("first peak", instant, 10 * (1 + overshoot));  // its instant depends on z, too
@@ -89,7 +87,7 @@ TEST_F(try_pages, a_second_order_model_is_found_by_hand) {
 }
 
 TEST_F(try_pages, more_samples_leave_the_bias_and_less_noise_does_not) {
-    open("02", "errors of a hundred");
+    open("02_least_squares", "errors of a hundred");
     const double bias = said("bias "), scatter = said("scatter ");
     move("N", 4);
     EXPECT_NEAR(said("bias "), bias, scatter);
@@ -104,7 +102,7 @@ TEST_F(try_pages, more_samples_leave_the_bias_and_less_noise_does_not) {
 }
 
 TEST_F(try_pages, lambda_moves_the_filter_and_the_estimates) {
-    open("04", "colours the equation error; right");
+    open("04_estimators", "colours the equation error; right");
     const auto cloud = [&](int curve) {  // standard deviation of its abscissas
         const std::vector<double> x = value("box.plot.panels[1].curves[" + std::to_string(curve) + "].x");
         double mean = 0, square = 0;

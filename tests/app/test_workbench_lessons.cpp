@@ -37,8 +37,24 @@ class workbench_lessons : public workbench_page {
                          value + "')).value; list.dispatchEvent(new Event('change'))");
         ASSERT_TRUE(is_ready(browser)) << value;
     }
+    /// A page as wide as a picture of the lessons may be, with more dots than a screen has.
+    void as_on_paper(Browser& browser, int width, int height) const {
+        browser.devtools("Emulation.setDeviceMetricsOverride", "{\"width\":" + std::to_string(width) +
+                                                                   ",\"height\":" + std::to_string(height) +
+                                                                   ",\"deviceScaleFactor\":1.5,\"mobile\":false}");
+    }
+    /// The smallest type that is to be seen, in mm, where the page is 160 mm wide.
+    double smallest_type(Browser& browser) const {
+        return std::stod(browser.evaluate(
+            "const seen = [...document.querySelectorAll('body *')].filter((one) => {"
+            "  const box = one.getBoundingClientRect();"
+            "  return [...one.childNodes].some((node) => node.nodeType === 3 && node.data.trim()) && box.width > 0 &&"
+            "    box.bottom > 0 && box.top < innerHeight && box.right > 0 && box.left < innerWidth; });"
+            "return Math.min(...seen.map((one) => parseFloat(getComputedStyle(one).fontSize))) * 160 / innerWidth"));
+    }
     void photograph(Browser& browser, const fs::path& picture) const {
         const fs::path taken = file("taken.png");
+        EXPECT_GT(smallest_type(browser), 2.1) << "six points";
         browser.evaluate("document.getElementById('views').scrollTop = 0");
         browser.photograph(taken);
         if (std::getenv("DYNLAB_PICTURES") != nullptr)
@@ -60,7 +76,8 @@ TEST_F(workbench_lessons, the_heat_exchanger_of_lesson_1) {
     const std::string text = read_text(lesson("01_process_models") / "lesson.lua");
     EXPECT_THAT(text, HasSubstr("`dynlab app heat_exchanger`"));
     const auto program = app("heat_exchanger");
-    Browser browser(960, 800);
+    Browser browser(760, 780);
+    as_on_paper(browser, 760, 780);
     browser.open(program->address());
     ASSERT_TRUE(view_comes(browser, "record"));
     open_as_told(browser, text, "Read by hand");
@@ -81,13 +98,17 @@ TEST_F(workbench_lessons, the_heat_exchanger_of_lesson_1) {
     EXPECT_TRUE(script_has(browser, "G1 = procsrivc(estimation, \"P1\", {InitialState = \"steady\"})"));
     ASSERT_TRUE(view_comes(browser, "compare"));
     ASSERT_TRUE(is_ready(browser));
+    browser.evaluate(
+        "[...document.querySelectorAll('#steps summary')].find((one) => one.textContent.startsWith('Read by "
+        "hand')).scrollIntoView(true)");
     photograph(browser, lesson("01_process_models") / "workbench.png");
 }
 
 TEST_F(workbench_lessons, the_known_system_of_lesson_4) {
     const std::string text = read_text(lesson("04_estimators") / "lesson.lua");
     const auto program = app("");
-    Browser browser(960, 700);
+    Browser browser(760, 740);
+    as_on_paper(browser, 760, 740);
     browser.open(program->address());
     ASSERT_TRUE(is_ready(browser));
     open_as_told(browser, text, "Known system");

@@ -27,13 +27,16 @@ std::pair<double, double> paired_medians(int repetitions, const std::function<vo
 
 void measure_numerics(Report& report);
 void measure_estimators(Report& report);
+void measure_irregular(Report& report);
 void measure_program(Report& report);
 void measure_grading(Report& report);
 void measure_course(Report& report);
 void measure_live(Report& report);       ///< needs Chromium and its driver
 void measure_workbench(Report& report);  ///< as well
+void measure_manual(Report& report);     ///< as well
 void measure_lua(Report& report);
 void measure_searches(Report& report);
 void measure_advice(Report& report);
+void measure_grey_box(Report& report);
 
 }  // namespace dynlab::bench

@@ -7,11 +7,16 @@
 
 #include "bench/bench.h"
 #include "bench/peers.h"
+#include "numerics/estimators/frequency/bla.h"
 #include "numerics/estimators/ivsvf.h"
 #include "numerics/estimators/lssvf.h"
+#include "numerics/estimators/recursive/rivsvf.h"
+#include "numerics/estimators/recursive/rlssvf.h"
+#include "numerics/estimators/recursive/rsrivc.h"
 #include "numerics/estimators/srivc.h"
 #include "numerics/signals/prbs.h"
 #include "numerics/signals/random.h"
+#include "numerics/signals/random_phase_multisine.h"
 #include "numerics/simulation/lsim.h"
 #include "support/peak_memory.h"
 
@@ -148,12 +153,45 @@ void measure_growth(const std::string& what, Method method, const Record& ten_mi
     report.results.push_back({what + ", N = 1e7 (s)", "ten records of N = 1e6 (s)", measured, reference, 1.2, 0});
 }
 
+/// Five realisations of four periods, noise and distortion included.
+void measure_response(Report& report) {
+    constexpr Index kPeriod = 50'000, kPeriods = 4, kRealisations = 5;
+    RandomStream random(1);
+    Vector u(kLong);
+    for (Index m = 0; m < kRealisations; ++m)
+        u.segment(m * kPeriods * kPeriod, kPeriods * kPeriod) =
+            random_phase_multisine(kPeriod, {}, random).u.replicate(kPeriods, 1);
+    const Vector x = lsim(TransferFunction(Vector::Constant(1, 2.0), Eigen::Vector3d(1, 4, 3)), u, kSamplingTime);
+    const IdData data(Matrix(x + kNoise * random.normal(kLong)), Matrix(u), kSamplingTime);
+    BlaOptions options;
+    options.period = kPeriod, options.realisations = kRealisations;
+    double check = 0;
+    const double measured = median_seconds(11, [&] { check += bla(data, options).variance.sum(); });
+    if (!(check > 0)) throw std::logic_error("nothing was estimated");
+    report.results.push_back({"frequency response by bla, N = 1e6 (s)", "0.2 s", measured, 0.2, 1, 0});
+}
+
 void measure_memory(const std::string& what, Method method, Report& report) {
     const IdData data = std::move(Record(kVeryLong).data);
     const double megabytes = 2.0 * static_cast<double>(kVeryLong) * sizeof(double) / (1 << 20);
     const double peak = test::peak_memory([&] { method(data); });
     report.results.push_back(
         {"peak memory of " + what + ", N = 1e7 (MB)", "the data and 64 MB", peak, megabytes + 64, 1, 0});
+}
+
+/// One pass with forgetting, against what a sample may cost.
+template <class Method>
+void measure_recursive(const std::string& what, Method method, const Record& record, Report& report) {
+    constexpr double kSecondsPerSample = 200e-9;
+    RecursiveOptions options;
+    options.lambda = kCutoff;
+    options.forgetting = 0.999;
+    double check = 0;
+    const double seconds =
+        median_seconds(5, [&] { check += method(record.data, TransferStructure::single(2, 0), options).theta[0]; });
+    if (check == 0) throw std::logic_error("nothing was estimated");
+    report.results.push_back({what + ", N = 1e6 (s)", "200 ns a sample (s)", seconds,
+                              kSecondsPerSample * static_cast<double>(record.u.size()), 1, 0});
 }
 
 }  // namespace
@@ -165,11 +203,15 @@ void measure_estimators(Report& report) {
         measure_starts(record, report);
         measure_monte_carlo(record, report);
     }
+    measure_response(report);
     measure_memory("LSSVF", lssvf_theta, report);
     measure_memory("SRIVC", srivc_theta, report);
     const Record million(kLong), ten_million(kVeryLong);
     measure_lssvf(million, ten_million, report);
     measure_srivc(million, "SRIVC, N = 1e6 (s)", 1.0 / 80, 11, report);
+    measure_recursive("recursive LSSVF", rlssvf, million, report);
+    measure_recursive("recursive IVSVF", rivsvf, million, report);
+    measure_recursive("recursive SRIVC", rsrivc, million, report);
     measure_growth("LSSVF", lssvf_theta, ten_million, report);
     measure_growth("SRIVC", srivc_theta, ten_million, report);
 }

@@ -5,19 +5,15 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <regex>
 #include <string>
 #include <vector>
 
 #include "platform/atomic_file.h"
 #include "platform/box.h"
+#include "support/lesson_list.h"
 #include "support/program.h"
 
 namespace dynlab::test {
-
-inline std::filesystem::path lesson_folder(const std::string& lesson) {
-    return std::filesystem::path(DYNLAB_SOURCE_DIR) / "lessons" / lesson;
-}
 
 /// All lessons with a checks.lua, in order.
 inline std::vector<std::string> lessons_with_checks() {
@@ -26,15 +22,6 @@ inline std::vector<std::string> lessons_with_checks() {
         if (std::filesystem::exists(entry.path() / "checks.lua")) lessons.push_back(entry.path().filename());
     std::sort(lessons.begin(), lessons.end());
     return lessons;
-}
-
-/// A lesson's worked solution. Repeated experiments, where it makes any, take most of its time and lead to no answer:
-/// there are two.
-inline std::string quick_solution_of(const std::string& lesson) {
-    static const std::regex repetitions("\nlocal repetitions = \\d+\n");
-    const std::string script = read_file(lesson_folder(lesson) / "lesson.lua");
-    EXPECT_EQ(std::regex_search(script, repetitions), script.find("repetitions = ") != std::string::npos);
-    return std::regex_replace(script, repetitions, "\nlocal repetitions = 2\n");
 }
 
 /// A course of one small lesson, 99_small, and a folder of submissions, graded by the built program.

@@ -8,15 +8,15 @@ namespace test_lessons_anywhere {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// A lesson of one's own with its record, in a folder `mine/07_rc`.
+/// A lesson of one's own with its record, in a folder `mine/08_rc`.
 class lessons_anywhere : public ::testing::Test {
   protected:
     lessons_anywhere() {
-        bench_.write("mine/07_rc/lesson.lua", kHeader + kStart + "-- BEGIN SOLUTION\n" + kGain + "-- END SOLUTION\n");
-        bench_.write("mine/07_rc/rc.csv", "t,u,y\n0,1,2\n0.1,2,4\n0.2,3,6\n");
-        bench_.write("mine/07_rc/data/further/SOURCE.md", "Another one.\n");
-        bench_.write("mine/07_rc/data/further/further.csv", "t,u,y\n0,1,2\n0.1,2,4\n");
-        bench_.write("mine/07_rc/checks.lua",
+        bench_.write("mine/08_rc/lesson.lua", kHeader + kStart + "-- BEGIN SOLUTION\n" + kGain + "-- END SOLUTION\n");
+        bench_.write("mine/08_rc/rc.csv", "t,u,y\n0,1,2\n0.1,2,4\n0.2,3,6\n");
+        bench_.write("mine/08_rc/data/further/SOURCE.md", "Another one.\n");
+        bench_.write("mine/08_rc/data/further/further.csv", "t,u,y\n0,1,2\n0.1,2,4\n");
+        bench_.write("mine/08_rc/checks.lua",
                      "local d = load('rc')\ncheck{id = 'K', points = 4, test = function(a) return near(a.K, "
                      "mean(d.y)/mean(d.u)) end}\n"
                      "check{id = 'further', test = function(a) return load('further').y[2] == 4 end}\n");
@@ -24,7 +24,7 @@ class lessons_anywhere : public ::testing::Test {
 
     static std::string level() { return GradingBench::level(); }
 
-    const std::string kHeader = "-- ---\n-- title: RC circuit\n-- lesson: 07_rc\n-- answers:\n--   K: number\n-- ---\n";
+    const std::string kHeader = "-- ---\n-- title: RC circuit\n-- lesson: 08_rc\n-- answers:\n--   K: number\n-- ---\n";
     const std::string kStart = "-- %%\nlocal d, f = load('rc'), load('further')\n";
     const std::string kGain = "answer('K', mean(d.y)/mean(d.u))\n";
     Workbench bench_;
@@ -32,10 +32,10 @@ class lessons_anywhere : public ::testing::Test {
 
 // oracle: the record that lies beside the lesson
 TEST_F(lessons_anywhere, are_used_by_the_path_of_their_folder) {
-    const std::string lesson = "mine/07_rc";
+    const std::string lesson = "mine/08_rc";
     EXPECT_EQ(bench_.dynlab({"report", lesson, "-o", "lesson.md"}).exit_code, 0);
     ASSERT_EQ(bench_.dynlab({"new", lesson, "work"}).exit_code, 0);
-    EXPECT_EQ(bench_.read("work/data/rc/rc.csv"), bench_.read("mine/07_rc/rc.csv"));
+    EXPECT_EQ(bench_.read("work/data/rc/rc.csv"), bench_.read("mine/08_rc/rc.csv"));
     EXPECT_THAT(bench_.read("work/analysis.lua"), Not(HasSubstr("mean(d.y)")));
     bench_.write("work/analysis.lua", kHeader + kStart + kGain);
     EXPECT_EQ(bench_.dynlab({"run", "work/analysis.lua"}).exit_code, 0);
@@ -52,21 +52,21 @@ TEST_F(lessons_anywhere, are_used_by_the_path_of_their_folder) {
     };
     EXPECT_EQ(score("right"), 5);
     EXPECT_EQ(score("typed"), 1);
-    bench_.write("mine/07_rc/rc.csv", "t,u,y\n0,1,3\n0.1,2,6\n");
+    bench_.write("mine/08_rc/rc.csv", "t,u,y\n0,1,3\n0.1,2,6\n");
     bench_.dynlab({"grade", "in", "--lesson", lesson, "--out", "out", "--isolation", level(), "--no-pdf"});
     EXPECT_EQ(score("typed"), 5);
 }
 
 TEST_F(lessons_anywhere, are_listed_in_folders_that_a_variable_names) {
-    bench_.write("others/07_rc/lesson.lua", "-- ---\n-- title: In the second folder\n-- ---\n");
+    bench_.write("others/08_rc/lesson.lua", "-- ---\n-- title: In the second folder\n-- ---\n");
     bench_.write("others/08_more/lesson.lua", "-- ---\n-- title: More\n-- ---\n");
     const std::string own = "export DYNLAB_LESSONS=mine:others; ";
     const std::string list = bench_.shell(own + "$DYNLAB lessons").output;
-    EXPECT_THAT(list, HasSubstr("07_rc                  RC circuit\n"));
+    EXPECT_THAT(list, HasSubstr("08_rc                  RC circuit\n"));
     EXPECT_THAT(list, HasSubstr("08_more                More\n"));
     EXPECT_THAT(list, HasSubstr("04_estimators"));
     EXPECT_THAT(list, Not(HasSubstr("In the second folder")));
-    EXPECT_EQ(bench_.shell(own + "$DYNLAB new 07 work && $DYNLAB checks try --lesson 07").exit_code, 0);
+    EXPECT_EQ(bench_.shell(own + "$DYNLAB new 08 work && $DYNLAB checks try --lesson 08").exit_code, 0);
     const ChildResult missing = bench_.shell("DYNLAB_LESSONS=nowhere $DYNLAB lessons");
     EXPECT_EQ(missing.exit_code, 1);
     EXPECT_THAT(missing.error_output, HasSubstr("DYNLAB_LESSONS: there is no folder 'nowhere'"));
@@ -74,16 +74,16 @@ TEST_F(lessons_anywhere, are_listed_in_folders_that_a_variable_names) {
 
 // oracle: the points that grade gives where the lesson is known
 TEST_F(lessons_anywhere, bring_their_checks_to_students_in_the_bundle) {
-    ASSERT_EQ(bench_.dynlab({"bundle", "mine/07_rc"}).exit_code, 0);
-    ASSERT_EQ(bench_.shell("mkdir home && cd home && unzip -q ../07_rc.zip && mv ../mine ../away").exit_code, 0);
-    EXPECT_EQ(bench_.read("home/07_rc/data/further/further.csv"), "t,u,y\n0,1,2\n0.1,2,4\n");
-    bench_.write("home/07_rc/report.md", "---\ntitle: A\n---\n\nThe gain was read off the record of the experiment.\n");
-    bench_.write("home/07_rc/analysis.lua", kHeader + kStart + "answer('K', 2.5)\n");
-    const ChildResult wrong = bench_.dynlab({"check", "home/07_rc"});
-    EXPECT_THAT(wrong.output, HasSubstr("checks of lesson 07_rc: 1 of 5 points"));
+    ASSERT_EQ(bench_.dynlab({"bundle", "mine/08_rc"}).exit_code, 0);
+    ASSERT_EQ(bench_.shell("mkdir home && cd home && unzip -q ../08_rc.zip && mv ../mine ../away").exit_code, 0);
+    EXPECT_EQ(bench_.read("home/08_rc/data/further/further.csv"), "t,u,y\n0,1,2\n0.1,2,4\n");
+    bench_.write("home/08_rc/report.md", "---\ntitle: A\n---\n\nThe gain was read off the record of the experiment.\n");
+    bench_.write("home/08_rc/analysis.lua", kHeader + kStart + "answer('K', 2.5)\n");
+    const ChildResult wrong = bench_.dynlab({"check", "home/08_rc"});
+    EXPECT_THAT(wrong.output, HasSubstr("checks of lesson 08_rc: 1 of 5 points"));
     EXPECT_THAT(wrong.output, HasSubstr("check-failed"));
-    bench_.write("home/07_rc/analysis.lua", kHeader + kStart + kGain);
-    EXPECT_THAT(bench_.dynlab({"check", "home/07_rc"}).output, HasSubstr("checks of lesson 07_rc: 5 of 5 points"));
+    bench_.write("home/08_rc/analysis.lua", kHeader + kStart + kGain);
+    EXPECT_THAT(bench_.dynlab({"check", "home/08_rc"}).output, HasSubstr("checks of lesson 08_rc: 5 of 5 points"));
 }
 
 // oracle: the record that dynlab new writes for the same seed

@@ -11,7 +11,7 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-constexpr const char* kLesson = "my-course/lessons/07_springs";
+constexpr const char* kLesson = "my-course/lessons/08_springs";
 
 /// The first commands of the guide.
 std::string commands_of_guide() {
@@ -49,9 +49,9 @@ TEST_F(own_course, skeleton_is_tested_reported_copied_checked_and_graded) {
         "");
     EXPECT_THAT(made_->output, HasSubstr("\ntexts: in order\nchecks: in order\ndocuments: in order\n"));
 
-    EXPECT_THAT(in_course("lessons").output, HasSubstr("07_springs             A spring and its stiffness\n"));
-    EXPECT_THAT(bench().dynlab({"lessons"}).output, Not(HasSubstr("07_springs")));
-    EXPECT_THAT(bench().shell("pdftotext 07_springs.pdf -").output,
+    EXPECT_THAT(in_course("lessons").output, HasSubstr("08_springs             A spring and its stiffness\n"));
+    EXPECT_THAT(bench().dynlab({"lessons"}).output, Not(HasSubstr("08_springs")));
+    EXPECT_THAT(bench().shell("pdftotext 08_springs.pdf -").output,
                 testing::ContainsRegex("The stiffness is 2[.][45]"));
     ASSERT_EQ(in_course("new 07 travail --lang fr").exit_code, 0);
     EXPECT_THAT(bench().read("travail/analysis.lua"), HasSubstr("Quelle est la raideur du ressort"));
@@ -62,7 +62,7 @@ TEST_F(own_course, skeleton_is_tested_reported_copied_checked_and_graded) {
                   "mkdir in/wrong && cp " +
                   std::string(kLesson) + "/wrong_compliance.lua in/wrong/analysis.lua");
     const ChildResult graded =
-        in_course("grade in --lesson 07 --out out --no-pdf --isolation " + GradingBench::level());
+        in_course("grade in --lesson 08 --out out --no-pdf --isolation " + GradingBench::level());
     ASSERT_EQ(graded.exit_code, 0) << graded.error_output;
     const auto score = [](const std::string& name) {
         return nlohmann::json::parse(bench().read("out/results/" + name + "/results.json")).at("score");
@@ -113,17 +113,17 @@ std::string replaced_once(std::string text, const std::string& from, const std::
 }
 
 void expect_told(const Workbench& bench, const std::string& part, const Planted& planted) {
-    bench.shell(std::string("rm -rf faulty && mkdir faulty && cp -r ") + kLesson + " faulty/07_springs");
-    const std::string file = std::string("faulty/07_springs/") + planted.file;
+    bench.shell(std::string("rm -rf faulty && mkdir faulty && cp -r ") + kLesson + " faulty/08_springs");
+    const std::string file = std::string("faulty/08_springs/") + planted.file;
     bench.write(file, replaced_once(bench.read(file), planted.from, planted.to));
-    const ChildResult tested = bench.dynlab({"test-lesson", "faulty/07_springs", "--part", part});
+    const ChildResult tested = bench.dynlab({"test-lesson", "faulty/08_springs", "--part", part});
     EXPECT_EQ(tested.exit_code, 1) << planted.told;
-    EXPECT_THAT(tested.output, HasSubstr(std::string("/faulty/07_springs/") + planted.told)) << tested.error_output;
+    EXPECT_THAT(tested.output, HasSubstr(std::string("/faulty/08_springs/") + planted.told)) << tested.error_output;
 }
 
 TEST_F(own_course, texts_with_faults_are_named_with_file_and_line) {
     for (const Planted& planted : {
-             Planted{"lesson.lua", "-- lesson: 07_springs", "-- lesson: 08_springs",
+             Planted{"lesson.lua", "-- lesson: 08_springs", "-- lesson: 09_springs",
                      "lesson.lua: the header names the lesson"},
              {"lesson.lua", "-- seed: 1", "-- sede: 1", "lesson.lua:6: "},
              {"lesson.lua", "local stiffness = 1/compliance", "local stiffness = 1/complaince",
@@ -138,9 +138,9 @@ TEST_F(own_course, texts_with_faults_are_named_with_file_and_line) {
              {"tasks.fr.lua", "-- %% [markdown]\n-- # Ce qu'on a appris", "-- # Ce qu'on a appris", "tasks.fr.lua: "},
          })
         expect_told(bench(), "texts", planted);
-    const ChildResult whole = bench().dynlab({"test-lesson", "faulty/07_springs"});
-    EXPECT_THAT(whole.error_output, HasSubstr("1 fault in 07_springs; nothing was run"));
-    EXPECT_EQ(bench().dynlab({"test-lesson", "faulty/07_springs", "--part", "prose"}).exit_code, 2);
+    const ChildResult whole = bench().dynlab({"test-lesson", "faulty/08_springs"});
+    EXPECT_THAT(whole.error_output, HasSubstr("1 fault in 08_springs; nothing was run"));
+    EXPECT_EQ(bench().dynlab({"test-lesson", "faulty/08_springs", "--part", "prose"}).exit_code, 2);
     EXPECT_EQ(bench().dynlab({"test-lesson", "nowhere"}).exit_code, 1);
 }
 
@@ -174,13 +174,13 @@ TEST_F(own_course, documents_with_gaps_and_copies_with_results_are_told) {
 }
 
 TEST_F(own_course, a_report_of_more_pages_than_its_header_allows_is_told) {
-    bench().shell(std::string("rm -rf long && mkdir long && cp -r ") + kLesson + " long/07_springs");
+    bench().shell(std::string("rm -rf long && mkdir long && cp -r ") + kLesson + " long/08_springs");
     std::string report = "---\ntitle: A report\nlang: en\npages: 1\n---\n\n# Springs\n\n";
     for (int i = 0; i < 60; ++i) report += "The spring was loaded, and its elongation read off the scale by eye.\n\n";
-    bench().write("long/07_springs/report.en.md", report);
-    const ChildResult tested = bench().dynlab({"test-lesson", "long/07_springs", "--part", "documents"});
+    bench().write("long/08_springs/report.en.md", report);
+    const ChildResult tested = bench().dynlab({"test-lesson", "long/08_springs", "--part", "documents"});
     EXPECT_EQ(tested.exit_code, 1);
-    EXPECT_THAT(tested.output, testing::ContainsRegex("long/07_springs/report.en.md: its report, page [0-9]+: .*page"));
+    EXPECT_THAT(tested.output, testing::ContainsRegex("long/08_springs/report.en.md: its report, page [0-9]+: .*page"));
 }
 
 }  // namespace test_own_course

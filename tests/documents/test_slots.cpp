@@ -9,6 +9,7 @@ namespace dynlab {
 namespace test_slots {
 
 using test::inspect_pdf;
+using testing::AllOf;
 using slots = DocumentTest;
 using testing::ContainsRegex;
 using testing::HasSubstr;
@@ -27,6 +28,11 @@ TEST_F(slots, a_number_and_its_unit_stay_on_one_line) {
     record_.values["gain"] = {60.5, "60.5"};
     EXPECT_THAT(html("Of `gain`{.value} mm/s, 5\nms; in 2 steps.\n"),
                 HasSubstr("Of 60.5\u202Fmm/s, 5\u202Fms; in 2 steps."));
+    EXPECT_THAT(html("A gain of 5.72 °C/V, 3 mm/V or 2 °C/%; 4 N·m·s and 9 m/s²; 2 a/b, 3 and/or 4 s/x.\n"),
+                HasSubstr("A gain of 5.72\u202F°C/V, 3\u202Fmm/V or 2\u202F°C/%; 4\u202FN·m·s and 9\u202Fm/s²; 2 a/b, "
+                          "3 and/or 4 s/x."));
+    EXPECT_THAT(html("Some 92 ± 3 %, and ($p =$ `gain`{.value}).\n"),
+                AllOf(HasSubstr("92\u00A0±\u00A03\u202F%"), ContainsRegex("</math>\u00A060.5[)]")));
 }
 
 TEST_F(slots, french_numbers_have_a_comma_and_names_keep_their_point) {

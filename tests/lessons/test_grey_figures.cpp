@@ -3,6 +3,7 @@
 
 #include "platform/temporary_folder.h"
 #include "support/grey_looks.h"
+#include "support/lesson_list.h"
 #include "workflow/lesson_catalogue.h"
 #include "workflow/run_script.h"
 
@@ -12,7 +13,8 @@ namespace test_grey_figures {
 class grey_figures : public testing::TestWithParam<const char*> {};
 
 TEST_P(grey_figures, neighbouring_curves_are_told_apart) {
-    const PercentScript script = read_percent_script(find_lesson(GetParam()).script());
+    const std::filesystem::path file = find_lesson(GetParam()).script();
+    const PercentScript script = parse_percent_script(quick_solution_of(file.parent_path().filename()), file);
     const TemporaryFolder out;
     GnuplotRenderer renderer;
     RunRequest request;

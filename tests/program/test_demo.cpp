@@ -40,7 +40,7 @@ TEST(demo, list_names_each_demonstration_in_order) {
     std::vector<std::string> names;
     for (const std::string& line : lines_of(result.output)) names.push_back(line.substr(0, line.find(' ')));
     EXPECT_THAT(names, testing::ElementsAre("getting_started", "delays", "order_selection", "irregular_sampling",
-                                            "inside_srivc", "monte_carlo", "robot_arm"));
+                                            "inside_srivc", "monte_carlo", "robot_arm", "frequency", "recursive"));
     EXPECT_EQ(names.size(), scripts().size());
     EXPECT_THAT(result.output, HasSubstr("A dead time that is not a whole number of samples\n"));
     EXPECT_EQ(bench.dynlab({"demo"}).output, result.output);
@@ -48,7 +48,7 @@ TEST(demo, list_names_each_demonstration_in_order) {
 
 TEST(demo, each_runs_without_a_terminal_and_tells_everything_its_script_says) {
     for (const auto& [name, script] : scripts()) {
-        const Workbench bench;
+        const Workbench bench(Workbench::Memory::kShared);
         const ChildResult result = bench.dynlab({"demo", name});
         EXPECT_EQ(result.exit_code, 0) << name;
         EXPECT_THAT(result.error_output, IsEmpty()) << name;
@@ -108,6 +108,28 @@ TEST(demo, what_their_texts_claim_is_true) {
          "  assert(math.abs(study.srivc.reported_std[k]/study.srivc.std[k] - 1) < 0.1)\n"
          "end\n"
          "assert(study.runs == 200)\n"},
+        // Second route: the poles and the gain of the system that made the records.
+        {"frequency",
+         "for k, true_value in ipairs({0.8, 4}) do assert(math.abs(G.param[k] - true_value) < 4*G.std[k]) end\n"
+         "assert(sum(F.odd.distortion) > 20*math.abs(sum(F.even.distortion)) and sum(F.odd.power) > "
+         "3*sum(F.odd.noise))\n"
+         "assert(F.output_power > 100*F.noise_power and dcgain(G) > dcgain(Gs) + 3*G.std[3]/4)\n"
+         "assert(math.abs(dcgain(Gs) - 1) < 0.05 and dcgain(G) > 1.05)\n"},
+        {"recursive",
+         "assert(average.param[1] > 1.1 and average.param[1] < 1.9)\n"
+         "local function misses(G)\n"
+         "  local h, far, count = G.history, 0, 0\n"
+         "  for i = 1, #h.t do\n"
+         "    local k = math.floor(h.t[i]/Ts + 1.5)\n"
+         "    if k > 500 and math.abs(k - N/2) > 500 then\n"
+         "      count = count + 1\n"
+         "      if math.abs(h.theta[{i, 1}] - a[k]) > 3*h.std[{i, 1}] then far = far + 1 end\n"
+         "    end\n"
+         "  end\n"
+         "  return far/count\n"
+         "end\n"
+         "assert(misses(G) < 0.1 and misses(walk) < 0.2 and misses(slow) > 0.2)\n"
+         "assert(math.abs(G.param[2] - 3) < 4*G.std[2] and quick.std[1] > G.std[1] and G.std[1] > slow.std[1])\n"},
         // Second routes: the output error of a difference equation, and peaks of a spectrum without any model.
         {"robot_arm",
          "assert(A.report.prediction_fit_percent > 97.5 and A.report.prediction_fit_percent < 98.5)\n"
@@ -129,7 +151,7 @@ TEST(demo, what_their_texts_claim_is_true) {
          "assert(not left.white and left.outputs[1].inputs[1].p_value > 0.05)\n"
          "assert(fit(second, N, {k = 1}) > fit(second, G) + 1.5 and fit(second, N) < fit(second, G))\n"},
     };
-    const Workbench bench;
+    const Workbench bench(Workbench::Memory::kShared);
     for (const auto& [name, script] : scripts()) {
         ASSERT_TRUE(claims.count(name)) << name;
         bench.write("claim.lua", read_file(script) + "\n-- %% id=claims\n" + claims.at(name));

@@ -2,6 +2,7 @@
 
 #include "numerics/estimators/cra.h"
 #include "numerics/estimators/etfe.h"
+#include "numerics/estimators/frequency/bla.h"
 #include "numerics/estimators/impulseest.h"
 #include "numerics/estimators/spa.h"
 #include "support/difference_equation.h"
@@ -39,6 +40,15 @@ const Method kMethods[] = {
          return parts(etfe(data, options));
      }},
     {"spa", [](const IdData& data) { return parts(spa(data)); }},
+    {"bla",
+     [](const IdData& data) {
+         BlaOptions options;
+         options.period = data.sample_count();
+         const FrequencyData found = bla(data, options);
+         Vector all(2 * found.w.size());
+         all << found.response.real(), found.response.imag();
+         return all;
+     }},
     {"impulseest", [](const IdData& data) { return parts(impulseest(data)); }},
     {"cra", [](const IdData& data) { return parts(cra(data).impulse); }},
 };

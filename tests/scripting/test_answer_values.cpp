@@ -63,6 +63,7 @@ const char* const kExpressions[] = {
     "tf({2}, {1, 1})",
     "idproc('P2D', {Kp = 2, Tp1 = 3, Tp2 = 1, Td = 0.5})",
     "ss(tf({2}, {1, 3, 1}))",
+    "idfrd({{1, 2}, {3, -4}}, {1, 2}, {variance = {0.1, 0.2}, Ts = 0.5, InterSample = 'zoh'})",
     "(function() local u = prbs(4, 50) return arx(iddata(lsim(tf({1}, {1, 1}), u, 0.05) + 0.1*randn(#u), u, 0.05), {1, "
     "1, 1}) end)()",
     "(function() local u = prbs(4, 50) return srivc(iddata(lsim(tf({1}, {1, 1}), u, 0.05) + 0.1*randn(#u), u, 0.05), "
@@ -87,7 +88,8 @@ TEST_F(answer_values, have_the_form_that_checks_and_people_read) {
     EXPECT_EQ(json::parse(answer("iddata(vector{1, 2}, vector{3, 4}, 0.5)")), json::parse(R"({"kind": "data",
         "Ts": 0.5, "hold": "zoh", "input_names": ["u1"], "output_names": ["y1"], "input_units": [""],
         "output_units": [""], "time_unit": "s", "experiments": [{"name": "", "start_time": 0.0, "t": [],
-        "y": {"rows": 2, "columns": 1, "values": [1.0, 2.0]}, "u": {"rows": 2, "columns": 1, "values": [3.0, 4.0]}}]})"));
+        "y": {"rows": 2, "columns": 1, "values": [1.0, 2.0]}, "u": {"rows": 2, "columns": 1, "values": [3.0, 4.0]},
+        "r": {"rows": 0, "columns": 0, "values": []}}]})"));
 }
 
 TEST_F(answer_values, that_do_not_fit_together_are_refused_with_their_place) {

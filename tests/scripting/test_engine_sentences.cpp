@@ -113,8 +113,19 @@ TEST(engine_sentences, of_estimators_are_french) {
                                  "sriv(d, {2, 2, 3})",
                                  "armax(d, {2, 2, 2, 3})",
                                  "bj(s, {2, 1, 1, 2, 3})",
-                                 "n4sid(d, 3)"};
+                                 "n4sid(d, 3)",
+                                 "narx(s, {2, 2, 3})",
+                                 "sindy(d, {threshold = 0.3})",
+                                 "sindy(d, {weak = true})",
+                                 "dmdc(s, {delays = 3})"};
     for (const char* call : calls) expect_told_in_french(kRecord + "say(" + call + ")");
+}
+
+TEST(engine_sentences, of_records_are_french) {
+    expect_told_in_french(
+        "local u = randn(20)\nprint(iddata(u, u, 0.5), iddata(matrix{u, u}, matrix{u, u}, 0.5))\n"
+        "print(merge(iddata(u, u, 0.5), iddata(u, u, 0.5)))\nprint(iddata(u, u, nil, {SamplingInstants = cumsum(u^2 + "
+        "1)}))");
 }
 
 TEST(engine_sentences, of_step_tests_and_regressions_are_french) {
@@ -167,6 +178,16 @@ delayest(s, {poles = {1, 1}})
 local A = arxstruc(d, {na = {1, 2}, nb = {1, 2}, nk = {1, 3}})
 for _, criterion in ipairs{"loss", "AIC", "BIC"} do selstruc(A, criterion) end
 print(arxstruc(d:range(1, 400), {na = {1, 2}, nb = {1, 2}, nk = {1, 3}, validate = d:range(401, 700)}))
+)");
+}
+
+TEST(engine_sentences, of_intervals_are_french) {
+    expect_told_in_french(kRecord + R"(
+local G = procsrivc(s, "P2UD")
+profile(G, s, "Td", {points = 7})
+bootstrap(G, s, {runs = 20})
+bootstrap(procsrivc(d, "P1"), d, {runs = 20})
+bootstrap(procsrivc(d, "P1"), d, {runs = 20, kind = "parametric"})
 )");
 }
 
@@ -268,7 +289,7 @@ TEST(engine_sentences, of_the_sources_have_entries) {
         if (!line.starts_with(' ')) known += line + "\n";
     int count = 0;
     for (const char* room : {"criteria", "estimators", "fit", "models", "validation"})
-        for (const auto& entry : std::filesystem::directory_iterator(root / "engine/numerics" / room)) {
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(root / "engine/numerics" / room)) {
             if (tables.contains(entry.path().filename().string()) || entry.path().extension() != ".cpp") continue;
             for (const std::string& sentence : sentences_in(entry.path())) {
                 ++count;

@@ -169,7 +169,8 @@ TEST(lint, knows_every_option_that_the_bindings_read) {
     for (const HelpPage& page : help_pages()) pages += std::string(page.text);
     int names = 0;
     for (const char* folder : {"/engine/scripting/bind", "/engine/scripting/arguments"})
-        for (const auto& entry : fs::directory_iterator(std::string(DYNLAB_SOURCE_DIR) + folder)) {
+        for (const auto& entry : fs::recursive_directory_iterator(std::string(DYNLAB_SOURCE_DIR) + folder)) {
+            if (!entry.is_regular_file()) continue;
             const std::string source = read_text(entry.path());
             const std::regex list(R"(Options(?: \w+)?\(call, [^{};]*\{([^}]*)\})"), word("\"(\\w+)\"");
             for (std::sregex_iterator found(source.begin(), source.end(), list), end; found != end; ++found) {

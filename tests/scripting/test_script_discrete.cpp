@@ -36,7 +36,7 @@ TEST(script_discrete, models_work_like_all_others) {
                           "  #pole(G), stable(G), C.IODelay)\ncompare(data, G)\nbode(G)"),
         "true\ttrue\ttrue\t2\ttrue\t0\n");
     const std::string shown = printed(kRecord + "present(sriv(data, {2, 2, 1}))");
-    for (const char* part : {"polynomial model", "  F     [1 ", "  B     [0 ", "  f1 ", "+-", "Sampling time: 0.2 s",
+    for (const char* part : {"polynomial model", "  F     [1 ", "  B     [0 ", "  f1 ", "±", "Sampling time: 0.2 s",
                              "Estimated by sriv", "Poles:"})
         EXPECT_THAT(shown, HasSubstr(part));
 }

@@ -58,9 +58,9 @@ std::vector<std::string> functions_of(const std::string& hint) {
 // Oracle: the names of the toolboxes' documentation; what a hint calls can be called here.
 TEST(script_errors, lead_from_the_toolboxes_functions_to_those_here) {
     for (const char* name :
-         {"tfest",    "procest", "ssest",   "polyest",   "pem",        "idtf",     "idpoly", "idss",    "idfrd",
+         {"tfest",    "procest", "ssest",   "polyest",   "pem",        "idtf",     "idpoly", "idss",    "spafdr",
           "frd",      "idinput", "misdata", "simc",      "conv",       "comparec", "residc", "getpvec", "getcov",
-          "isstable", "zpplot",  "zpk",     "tfdata",    "nlhw",       "nlarx",    "rlssvf", "rsrivc",  "roots",
+          "isstable", "zpplot",  "zpk",     "tfdata",    "nlhw",       "nlarx",    "rarx",   "rpem",    "roots",
           "xcorr",    "filter",  "etime",   "allmargin", "shadedplot", "sidgpmf",  "hsrivc", "poly",    "os"}) {
         const std::string said = error_of(std::string(name) + "()");
         const std::string::size_type hint = said.find(" here; ");

@@ -55,7 +55,7 @@ TEST(script_estimators, difference_equations_have_robust_errors_too) {
         EXPECT_THAT(printed(kColoured + "local G = " + method +
                             "(data, {1, 2, 7})\nprint(#G.robust_std, G.robust_std[3] > G.std[3], G.report.white)\n"
                             "present(G)"),
-                    AllOf(HasSubstr("3\ttrue\tfalse"), HasSubstr("(robust +- "), HasSubstr("are the ones to use")))
+                    AllOf(HasSubstr("3\ttrue\tfalse"), HasSubstr("(robust ± "), HasSubstr("are the ones to use")))
             << method;
 }
 

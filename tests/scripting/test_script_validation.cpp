@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <regex>
+
 #include "script_run.h"
 
 namespace test_script_validation {
@@ -64,7 +67,7 @@ TEST(script_validation, resid_takes_discrete_models_and_experiments) {
 
 TEST(script_validation, present_shows_robust_errors_for_coloured_noise_only) {
     EXPECT_THAT(printed(kRecord + "present(procsrivc(coloured, 'P2'))"),
-                testing::AllOf(HasSubstr("(robust +- "), HasSubstr("not white")));
+                testing::AllOf(HasSubstr("(robust ± "), HasSubstr("not white")));
     EXPECT_THAT(printed(kRecord + "present(procsrivc(white, 'P2'))"), Not(HasSubstr("robust")));
     EXPECT_EQ(printed(kRecord + "local G = procsrivc(coloured, 'P2')\nprint(#G.robust_std, G.robust_std[1] > G.std[1], "
                                 "math.abs(G.robust_covariance[{1, 1}] - G.robust_std[1]^2) < 1e-12)"),
@@ -74,7 +77,7 @@ TEST(script_validation, present_shows_robust_errors_for_coloured_noise_only) {
 TEST(script_validation, present_gives_no_error_of_a_delay_at_its_bound) {
     const std::string shown = printed(kRecord + "present(tfsrivc(white, 2, 0, {TdMax = 0.3}))");
     EXPECT_THAT(shown, HasSubstr("  Td               0  (at its bound)\n"));
-    EXPECT_THAT(shown, Not(HasSubstr("+- 0\n")));
+    EXPECT_THAT(shown, Not(HasSubstr("± 0\n")));
 }
 
 TEST(script_validation, present_tells_errors_of_gain_and_time_constants) {  // oracle: the gain's own standard error
@@ -83,9 +86,19 @@ TEST(script_validation, present_tells_errors_of_gain_and_time_constants) {  // o
                                      "print(string.format('KP %.2g T %.2g', G.robust_std[1], G.robust_std[2]))");
     const auto errors = text.substr(text.find("KP ") + 3);
     const std::string gain = errors.substr(0, errors.find(' ')), T = errors.substr(errors.find("T ") + 2);
-    EXPECT_THAT(text, testing::ContainsRegex("Steady-state gain: [0-9.]+ \\+- " + gain + "\n"));
-    EXPECT_THAT(text, HasSubstr(" +- " + T));
-    EXPECT_THAT(printed("present(tf({2}, {1, 4}))"), Not(HasSubstr("+-")));
+    EXPECT_THAT(text, testing::ContainsRegex("Steady-state gain: [0-9.]+ ± " + gain + "\n"));
+    EXPECT_THAT(text, HasSubstr(" ± " + T));
+    EXPECT_THAT(printed("present(tf({2}, {1, 4}))"), Not(HasSubstr("±")));
+}
+
+// Oracle: the place of the last digit that is printed, against the error beside it.
+TEST(script_validation, present_writes_no_digits_below_the_error) {
+    const std::string text = printed(kRecord + "present(procsrivc(white, 'P2'))\npresent(srivc(coloured, {2, 2, 0}))");
+    static const std::regex kPair(R"(\d+(?:\.(\d+))? +± (\d+(?:\.\d+)?(?:e-?\d+)?))");
+    int pairs = 0;
+    for (std::sregex_iterator pair(text.begin(), text.end(), kPair), end; pair != end; ++pair, ++pairs)
+        EXPECT_GE(std::pow(10, -static_cast<double>((*pair)[1].length())), 1e-3 * std::stod((*pair)[2])) << pair->str();
+    EXPECT_GT(pairs, 10);
 }
 
 TEST(script_validation, figures_carry_bands_unless_refused) {

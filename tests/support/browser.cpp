@@ -57,7 +57,7 @@ class Browser::Work {
         json options = {{"args", arguments}};
         if (kind == Kind::kWithoutDesktop && std::filesystem::exists(kShell)) options["binary"] = kShell;
         const json wanted = {{"capabilities", {{"alwaysMatch", {{"goog:chromeOptions", options}}}}}};
-        for (int i = 0; i < 100 && !client_.Get("/status"); ++i) std::this_thread::sleep_for(100ms);
+        for (int i = 0; i < 1000 && !client_.Get("/status"); ++i) std::this_thread::sleep_for(10ms);
         session_ = "/session/" + post("/session", wanted)["sessionId"].get<std::string>();
     }
     ~Work() { client_.Delete(session_); }

@@ -40,13 +40,14 @@ inline Figure line_in_the_look_of(const Panel& panel, int shown) {
 inline std::vector<int> darkness(const std::filesystem::path& pdf) {
     ChildOptions child;
     child.command = {"pdftoppm", "-gray", "-r", "150", pdf.string()};
-    std::istringstream image(run_child(child, "poppler-utils").output);
+    const std::string image = run_child(child, "poppler-utils").output;
+    std::istringstream head(image);
     std::string kind;
     int width = 0, height = 0, white = 0;
-    image >> kind >> width >> height >> white;
-    image.get();
+    head >> kind >> width >> height >> white;
+    const std::size_t begin = static_cast<std::size_t>(head.tellg()) + 1;
     std::vector<int> result(static_cast<std::size_t>(width * height));
-    for (int& value : result) value = white - image.get();
+    for (std::size_t i = 0; i < result.size(); ++i) result[i] = white - static_cast<unsigned char>(image.at(begin + i));
     return result;
 }
 
@@ -69,7 +70,7 @@ class GreyLooks {
             const bool band = curve.style == CurveStyle::kBand;
             if (of == Of::kBands ? band : !curve.label.empty() && !band) named.push_back(i);
         }
-        if (named.size() < 2) named.clear();  // nothing to be told apart
+        if (named.size() < 2) return;  // nothing to be told apart
         named.push_back(-1);
         for (const int i : named) renderer.draw(line_in_the_look_of(panel, i), file(i), FigureFormat::kPdf);
         renderer.finish();
@@ -78,7 +79,7 @@ class GreyLooks {
             for (std::vector<int>& points : drawn_)
                 for (int& point : points) point = point > kDarkestFill ? point : 0;
     }
-    std::size_t size() const { return drawn_.size() - 1; }
+    std::size_t size() const { return drawn_.empty() ? 0 : drawn_.size() - 1; }
     /// 0 for equal looks, 2 for marks that nowhere meet.
     double difference(std::size_t i, std::size_t k) const {
         const double ink = distance(drawn_[i], drawn_.back()) + distance(drawn_[k], drawn_.back());

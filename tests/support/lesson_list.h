@@ -1,9 +1,14 @@
 #pragma once
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <string>
 #include <vector>
+
+#include "platform/atomic_file.h"
 
 namespace dynlab::test {
 
@@ -27,6 +32,19 @@ inline std::vector<std::string> lesson_slugs(bool with_report) {
         if (report == with_report) names.push_back(name);
     }
     return names;
+}
+
+inline std::filesystem::path lesson_folder(const std::string& lesson) {
+    return std::filesystem::path(DYNLAB_SOURCE_DIR) / "lessons" / lesson;
+}
+
+/// A lesson's worked solution. Repeated experiments, where it makes any, take most of its time and lead to no answer
+/// (tests/course/test_lesson_checks.cpp): there are two.
+inline std::string quick_solution_of(const std::string& lesson) {
+    static const std::regex repetitions("\nlocal repetitions = \\d+\n");
+    const std::string script = read_file(lesson_folder(lesson) / "lesson.lua");
+    EXPECT_EQ(std::regex_search(script, repetitions), script.find("repetitions = ") != std::string::npos);
+    return std::regex_replace(script, repetitions, "\nlocal repetitions = 2\n");
 }
 
 }  // namespace dynlab::test

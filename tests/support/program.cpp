@@ -1,19 +1,59 @@
 #include "support/program.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdlib>
 
 #include "platform/atomic_file.h"
+#include "platform/error.h"
 
 namespace dynlab::test {
 
 namespace fs = std::filesystem;
+namespace {
+
+constexpr char kFormats[] = "dynlab/latex-formats";
+
+fs::path memory_of_tests() {
+    return fs::path(DYNLAB_PROGRAM).parent_path().parent_path() / "memory_of_tests";
+}
+
+/// The formats that tests of this build have made, as links in a cache that is empty.
+void lend_formats(const fs::path& cache) {
+    std::error_code error;
+    fs::create_directories(cache / kFormats);
+    for (fs::directory_iterator format(memory_of_tests() / kFormats, error), end; !error && format != end;
+         format.increment(error))
+        fs::create_directory_symlink(format->path(), cache / kFormats / format->path().filename());
+}
+
+/// Those that were made in a cache of its own, for later tests; the first of two wins.
+void keep_formats(const fs::path& cache) {
+    const fs::path memory = memory_of_tests() / "dynlab", unfinished = memory / (".new-" + std::to_string(::getpid()));
+    std::error_code error;
+    fs::create_directories(memory_of_tests() / kFormats, error);
+    for (fs::directory_iterator format(cache / kFormats, error), end; !error && format != end;
+         format.increment(error)) {
+        std::error_code failed;
+        if (format->is_symlink(failed) || !format->is_directory(failed)) continue;
+        fs::copy(format->path(), unfinished, fs::copy_options::recursive, failed);
+        if (!failed) fs::rename(unfinished, memory_of_tests() / kFormats / format->path().filename(), failed);
+        fs::remove_all(unfinished, failed);
+    }
+}
+
+}  // namespace
 
 Workbench::Workbench(Memory memory)
     : path_variable_(std::getenv("PATH")),
-      cache_(memory == Memory::kShared ? fs::path(DYNLAB_PROGRAM).parent_path().parent_path() / "memory_of_tests"
-                                       : folder_.path() / "cache") {
+      cache_(memory == Memory::kShared ? memory_of_tests() : folder_.path() / "cache") {
     fs::create_directory(path());
+    if (memory == Memory::kOwn) lend_formats(cache_);
+}
+
+Workbench::~Workbench() {
+    if (cache_ != memory_of_tests()) keep_formats(cache_);
 }
 
 void Workbench::write(const std::string& name, const std::string& text) const {
@@ -66,6 +106,16 @@ ChildResult Workbench::dynlab(std::vector<std::string> arguments) const {
 
 ChildResult Workbench::shell(const std::string& command) const {
     return run({"/bin/bash", "-c", command});
+}
+
+std::filesystem::path page_of_lesson(const std::string& lesson) {
+    const fs::path page = memory_of_tests() / "pages" / (lesson + ".html");
+    fs::create_directories(page.parent_path());
+    const std::string file = "'" + page.string();
+    const ChildResult made = Workbench(Workbench::Memory::kShared)
+                                 .shell("flock " + file + ".lock' \"$DYNLAB\" report " + lesson + " -o " + file + "'");
+    if (made.exit_code != 0) throw EnvironmentError(made.error_output);
+    return page;
 }
 
 }  // namespace dynlab::test

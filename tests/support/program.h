@@ -12,6 +12,7 @@ namespace dynlab::test {
 class Workbench {
   public:
     /// kShared: what lessons computed once is recalled by other tests of this build, as by a user's second run.
+    /// kOwn: nothing is, but the formats of LaTeX, which take a second to make and are named after all that makes them.
     enum class Memory { kOwn, kShared };
 
     std::filesystem::path path(const std::string& name = "") const { return folder_.path() / "work" / name; }
@@ -27,6 +28,7 @@ class Workbench {
     void set_home(const std::filesystem::path& home) { home_ = home.string(); }
 
     explicit Workbench(Memory memory = Memory::kOwn);
+    ~Workbench();
 
   private:
     ChildResult run(std::vector<std::string> command) const;
@@ -35,5 +37,9 @@ class Workbench {
     std::string path_variable_, home_;
     std::filesystem::path cache_;
 };
+
+/// The page that `dynlab report` makes of a lesson: once for all tests of this build, as long as nothing changes.
+/// Throws what the program says when it fails.
+std::filesystem::path page_of_lesson(const std::string& lesson);
 
 }  // namespace dynlab::test

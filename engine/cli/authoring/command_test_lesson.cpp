@@ -83,7 +83,7 @@ void add_test_lesson(CLI::App& app, Action& action) {
         "checks: the worked solution gets full marks, the untouched starter none, right_*.lua all; each wrong_*.lua\n"
         "fails what its lines \"-- expects: CHECK: words\" name, with these words, and nothing else.\n"
         "documents: in each language the report is whole and fits its pages, and the student's copy runs and has one.\n"
-        "Example:  dynlab new lesson lessons/07_springs && dynlab test-lesson lessons/07_springs\n"
+        "Example:  dynlab new lesson lessons/08_springs && dynlab test-lesson lessons/08_springs\n"
         "Exit codes: 0 all is in order, 1 something is not, 2 wrong usage.");
     command->callback([words, &action] { action = [words] { return test_lesson(*words); }; });
 }

@@ -33,10 +33,10 @@ DYNLAB_DESCRIBE(FitIteration, theta, loss, change)
 /// Of transfer functions: studies keep no other fits.
 template <Is<Fit> T, class V>
 void describe(T& object, V& member) {
-    auto& [structure, models, process, orders, polynomial, characteristic, noise, names, theta, std, covariance,
-           noise_covariance, noise_variance, fit_percent, prediction_fit_percent, loss, condition_number, at_bound,
-           start, initial_values, offsets, removed, output, delay_grid, delay_loss, termination, trace, warnings,
-           message] = object;
+    auto& [structure, models, process, orders, polynomial, characteristic, noise, history, names, theta, std,
+           covariance, noise_covariance, noise_variance, fit_percent, prediction_fit_percent, loss, condition_number,
+           at_bound, start, initial_values, offsets, removed, output, delay_grid, delay_loss, termination, trace,
+           warnings, message] = object;
     member("structure", structure), member("theta", theta), member("std", std), member("names", names);
     member("models", models), member("covariance", covariance), member("noise_variance", noise_variance);
     member("fit_percent", fit_percent), member("loss", loss), member("condition_number", condition_number);

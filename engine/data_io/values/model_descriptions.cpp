@@ -23,7 +23,9 @@ void check_value(const IdData& data, const ValueLimits&) {
                                         : IdData(experiment.y, experiment.u, experiment.t);
         const bool same_channels =
             part.input_count() == data.input_count() && part.output_count() == data.output_count();
-        if (!same_channels) throw InvalidArgument("its experiments have different channels");
+        if (experiment.r.size() > 0) part.with_reference(experiment.r);
+        if (!same_channels || experiment.r.cols() != data.reference_count())
+            throw InvalidArgument("its experiments have different channels");
         if (data.Ts > 0 && experiment.t.size() > 0) throw InvalidArgument("regular data have no instants of their own");
     }
     const auto fit = [](const std::vector<std::string>& names, Index wanted) {
@@ -32,6 +34,17 @@ void check_value(const IdData& data, const ValueLimits&) {
     if (!fit(data.input_names, data.input_count()) || !fit(data.input_units, data.input_count()) ||
         !fit(data.output_names, data.output_count()) || !fit(data.output_units, data.output_count()))
         throw InvalidArgument("its channels and their names and units differ in number");
+}
+
+void check_value(const FrequencyData& data, const ValueLimits&) {
+    const auto fits = [&](Index size) { return size == 0 || size == data.w.size(); };
+    const bool all_fit = fits(data.variance.size()) && fits(data.noise_variance.size()) &&
+                         fits(data.distortion.size()) && fits(data.coherence.size()) &&
+                         fits(data.noise_spectrum.size());
+    if (data.response.size() != data.w.size() || !all_fit)
+        throw InvalidArgument("a response and its frequencies differ in number");
+    for (const OutputLevels* levels : {&data.excited, &data.odd, &data.even})
+        if (levels->power.size() != levels->w.size()) throw InvalidArgument("levels and frequencies differ in number");
 }
 
 void check_value(const TransferFunctionMembers& members, const ValueLimits& limits) {

@@ -5,6 +5,7 @@
 
 #include "data_io/values/described.h"
 #include "numerics/error.h"
+#include "numerics/models/frequency_data.h"
 #include "numerics/models/polynomial_model.h"
 #include "numerics/models/process_model.h"
 #include "numerics/models/state_space.h"
@@ -19,9 +20,19 @@ constexpr std::array<const char*, 2> names_of(Hold) {
     return {"zoh", "foh"};
 }
 
-DYNLAB_DESCRIBE(Experiment, y, u, t, start_time, name)
+DYNLAB_DESCRIBE(Experiment, y, u, t, start_time, name, r)
 DYNLAB_DESCRIBE(IdData, experiments, Ts, hold, input_names, output_names, input_units, output_units, time_unit)
 void check_value(const IdData& data, const ValueLimits& limits);
+
+constexpr std::array<const char*, 3> names_of(InterSample) {
+    return {"bl", "zoh", "foh"};
+}
+
+DYNLAB_DESCRIBE(OutputLevels, w, power, noise, distortion)
+DYNLAB_DESCRIBE(FrequencyData, w, response, variance, Ts, inter_sample, input_name, output_name, input_unit,
+                output_unit, neighbours_share_errors, noise_variance, distortion, coherence, noise_spectrum, excited,
+                odd, even, method, message, warnings)
+void check_value(const FrequencyData& data, const ValueLimits& limits);
 
 /// Read by the constructor, which leaves what another one made as it is.
 struct TransferFunctionMembers {

@@ -42,6 +42,49 @@ void add_bands(Panel& magnitude, Panel& phase, const std::vector<NamedModel>& mo
     limit_to_readable(phase, models.size(), kLeastDegrees);
 }
 
+/// Logarithmic, from the lowest to the highest frequency of the responses and the corners of the models.
+Vector chosen_frequencies(const std::vector<NamedModel>& models, const std::vector<NamedResponse>& responses) {
+    double low = std::numeric_limits<double>::infinity(), high = 0;
+    if (responses.empty()) return joint_frequency_grid(models, kBodePoints);
+    for (const NamedResponse& response : responses)
+        for (const double w : response.data.w)
+            if (w > 0) low = std::min(low, w), high = std::max(high, w);
+    if (!(high > 0)) throw InvalidArgument("there is no frequency above zero to draw");
+    return Vector::LinSpaced(kBodePoints, std::log(low), std::log(high)).array().exp().max(low).min(high);
+}
+
+/// Within half a turn of the model, or without jumps.
+Vector phase_beside(const FrequencyData& data, const std::vector<NamedModel>& models) {
+    constexpr double kTurn = 360;
+    Vector phase = phase_degrees_unwrapped(data.response);
+    if (models.empty()) return phase;
+    const Vector beside = phase_degrees_unwrapped(frequency_response(models.front().G, data.w));
+    for (Index k = 0; k < phase.size(); ++k) phase[k] -= kTurn * std::round((phase[k] - beside[k]) / kTurn);
+    return phase;
+}
+
+void add_responses(Panel& magnitude, Panel& phase, const std::vector<NamedResponse>& responses,
+                   const std::vector<NamedModel>& models) {
+    for (std::size_t i = 0; i < responses.size(); ++i) {
+        const FrequencyData& data = responses[i].data;
+        Curve curve;
+        curve.x = data.w;
+        curve.label = responses[i].name;
+        curve.style = CurveStyle::kPoints;
+        curve.colour = static_cast<int>(models.size() + i), curve.marker = static_cast<int>(i);
+        curve.y = magnitude_db(data.response);
+        magnitude.curves.push_back(curve);
+        curve.y = phase_beside(data, models);
+        phase.curves.push_back(std::move(curve));
+        if (data.variance.size() == 0) continue;
+        const Vector relative = normal_half_width(responses[i].level) *
+                                (0.5 * data.variance).cwiseSqrt().cwiseQuotient(data.response.cwiseAbs());
+        const std::size_t line = magnitude.curves.size() - 1;
+        add_confidence_band(magnitude, line, 20 / std::numbers::ln10 * relative, responses[i].level);
+        add_confidence_band(phase, line, 180 / std::numbers::pi * relative, responses[i].level);
+    }
+}
+
 }  // namespace
 
 Vector joint_frequency_grid(const std::vector<NamedModel>& models, Index count) {
@@ -64,11 +107,11 @@ FrequencyPanels frequency_panels() {
     return panels;
 }
 
-Figure bode_plot(const std::vector<NamedModel>& models, const Vector& w) {
-    if (models.empty()) throw InvalidArgument("there are no models to plot");
+Figure bode_plot(const std::vector<NamedModel>& models, const Vector& w, const std::vector<NamedResponse>& responses) {
+    if (models.empty() && responses.empty()) throw InvalidArgument("there are no models to plot");
     if (w.size() > 0 && !(w.minCoeff() > 0))
         throw InvalidArgument(fmt::format("frequencies must be positive, but the smallest is {}", w.minCoeff()));
-    const Vector grid = w.size() > 0 ? w : joint_frequency_grid(models, kBodePoints);
+    const Vector grid = w.size() > 0 ? w : chosen_frequencies(models, responses);
     auto [magnitude, phase] = frequency_panels();
     for (const NamedModel& model : models) {
         Curve curve;
@@ -86,6 +129,7 @@ Figure bode_plot(const std::vector<NamedModel>& models, const Vector& w) {
     fix_colours(magnitude);
     fix_colours(phase);
     add_bands(magnitude, phase, models);
+    add_responses(magnitude, phase, responses, models);
     choose_phase_axis(phase);
     const std::pair<double, double> range{grid.minCoeff(), grid.maxCoeff()};
     if (range.first < range.second) magnitude.x_range = phase.x_range = range;

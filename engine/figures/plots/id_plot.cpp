@@ -53,6 +53,17 @@ void add_curve(Panel& panel, Curve curve, bool output) {
         same->colour = style::kGreyColour;
 }
 
+/// The reference that a loop's output is to follow.
+Curve reference_curve(const IdData& data, std::size_t experiment, Index number) {
+    Curve curve;
+    curve.x = data.time(experiment);
+    curve.y = data.experiments[experiment].r.col(number);
+    curve.label = "reference";
+    curve.colour = style::kGreyColour;
+    if (data.hold == Hold::kZoh) curve.style = CurveStyle::kStairs;
+    return curve;
+}
+
 Panel panel_of(const Channel& channel, const std::vector<const IdData*>& data, const std::vector<std::string>& labels) {
     Panel panel;
     panel.y_label = label_of(channel, *data.front());
@@ -75,6 +86,8 @@ Panel panel_of(const Channel& channel, const std::vector<const IdData*>& data, c
             }
             curve.colour = index++;
             add_curve(panel, std::move(curve), channel.output);
+            if (channel.output && channel.number < experiment.r.cols())
+                panel.curves.push_back(reference_curve(*data[i], k, channel.number));
         }
     return panel;
 }

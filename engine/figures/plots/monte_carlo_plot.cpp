@@ -116,7 +116,10 @@ Matrix ellipse(const Eigen::Vector2d& centre, const Eigen::Matrix2d& root, doubl
     return points;
 }
 
-constexpr std::size_t kManyPoints = 300;  // are drawn small
+/// Line widths of clouds, and with them the size of their markers: as large as still lets so many be seen.
+double cloud_width(std::size_t points) {
+    return points > 1000 ? 0.6 : points > 300 ? 0.9 : 1.2;
+}
 
 Curve cloud(const MonteCarloResult& result, Index x, Index y, int colour) {
     std::vector<double> xs, ys;
@@ -131,7 +134,7 @@ Curve cloud(const MonteCarloResult& result, Index x, Index y, int colour) {
     curve.style = CurveStyle::kPoints;
     curve.label = result.label;
     curve.colour = colour;
-    curve.line_width = xs.size() > kManyPoints ? 0.6 : 0.9;
+    curve.line_width = cloud_width(xs.size());
     return curve;
 }
 

@@ -7,14 +7,6 @@
 
 namespace dynlab::inline numerics {
 
-namespace {
-
-/// p^n y_f and phi.
-struct FilteredEquation {
-    Vector y;
-    Matrix Phi;
-};
-
 FilteredEquation filtered_equation(const RegressionRecord& record, const VectorView& E, double gain) {
     const Index n = E.size() - 1;
     const Matrix output = gain * chain_outputs({record.y, derivatives_filter(E, n), record.hold_y}, record.sampling);
@@ -31,6 +23,8 @@ FilteredEquation filtered_equation(const RegressionRecord& record, const VectorV
     }
     return equation;
 }
+
+namespace {
 
 /// -p^(n-1) x_f .. -x_f of the model's output x, filtered as y is.
 Matrix auxiliary_instruments(const RegressionRecord& record, const VectorView& E, double gain,

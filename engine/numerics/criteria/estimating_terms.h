@@ -9,6 +9,13 @@ struct CommonDenominator {
     std::vector<Vector> B;
 };
 
+/// The equation p^n y_f = phi' theta with all signals of a record filtered by gain/E, sample by sample: N and N x d.
+struct FilteredEquation {
+    Vector y;
+    Matrix Phi;
+};
+FilteredEquation filtered_equation(const RegressionRecord& record, const VectorView& E, double gain = 1);
+
 /// An estimate solves sum_k z(k) e(k) = 0: the terms of this sum, N x d and N. What its errors scatter by depends on
 /// how the terms depend on each other.
 struct EstimatingTerms {

@@ -5,10 +5,8 @@
 
 #include "numerics/error.h"
 #include "numerics/fit/spectral_estimate.h"
-#include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/least_squares.h"
-#include "numerics/linalg/tall_gram.h"
-#include "numerics/number_text.h"
+#include "numerics/signals/lagged_gram.h"
 #include "numerics/statistics/chi_squared.h"
 
 namespace dynlab::inline numerics {
@@ -54,35 +52,34 @@ Regression regression_of(const IdData& data, Index n) {
     return regression;
 }
 
-/// Phi' Phi, Phi' y and y' y, from few rows at a time: a long record needs no memory for the rest of Phi.
-struct Sums {
-    Matrix gram;
-    Vector projection;
-    double energy = 0;
+/// The signals of an experiment counted from their means, so that the sums below keep their digits.
+struct LevelSignals {
+    Vector u, y;
 };
-Sums sums_of(const IdData& data, Index n) {
-    constexpr Index kRows = 4096;
-    Matrix joint = Matrix::Zero(n + 2, n + 2), Phi(kRows, n + 1);
-    Vector y(kRows);
+LevelSignals level_signals(const Experiment& experiment) {
+    return {experiment.u.col(0).array() - experiment.u.col(0).mean(),
+            experiment.y.col(0).array() - experiment.y.col(0).mean()};
+}
+
+/// Products of all rows without their means, which every experiment has of its own: they cost no more than one row each
+/// and lag.
+ResponseSums sums_of(const IdData& data, Index n) {
+    Matrix joint = Matrix::Zero(n + 2, n + 2);
+    double count = 0;
     for (const Experiment& experiment : data.experiments) {
-        const CentredRows of(experiment, n);
-        for (Index first = 0; first < of.count(); first += kRows) {
-            const Index rows = std::min(kRows, of.count() - first);
-            of.put(first, Phi.topRows(rows), y.head(rows));
-            joint += tall_gram(Phi.topRows(rows), y.head(rows));
-        }
+        const LevelSignals signals = level_signals(experiment);
+        const Index rows = signals.y.size() - n;
+        Vector means(n + 2);
+        for (Index i = 0; i <= n; ++i) means[i] = signals.u.segment(n - i, rows).mean();
+        means[n + 1] = signals.y.tail(rows).mean();
+        joint += lagged_gram({{signals.u, 0, n + 1}, {signals.y, 0, 1}}, n, rows);
+        joint -= static_cast<double>(rows) * means * means.transpose();
+        count += static_cast<double>(rows - 1);
     }
-    return {joint.topLeftCorner(n + 1, n + 1), joint.col(n + 1).head(n + 1), joint(n + 1, n + 1)};
+    return {joint.topLeftCorner(n + 1, n + 1), joint.col(n + 1).head(n + 1), joint(n + 1, n + 1), count};
 }
 
-/// Samples that are fitted, without those which the experiments' c take.
-double free_samples(const IdData& data, Index n) {
-    Index count = 0;
-    for (const Experiment& experiment : data.experiments) count += experiment.y.rows() - n - 1;
-    return static_cast<double>(count);
-}
-
-void fit_plainly(const IdData& data, Index n, ImpulseEstimate& estimate) {
+void fit_plainly(const IdData& data, Index n, double count, RegressedResponse& estimate) {
     const Regression regression = regression_of(data, n);
     const LeastSquares fit = solve_least_squares(regression.Phi, regression.y);
     if (fit.rank < regression.Phi.cols() || fit.condition_number > 1e8)
@@ -92,94 +89,22 @@ void fit_plainly(const IdData& data, Index n, ImpulseEstimate& estimate) {
             " samples of the impulse response; use the smooth estimate, fewer lags, or resample the data to a "
             "lower rate first");
     estimate.response = fit.solution;
-    estimate.noise_variance =
-        fit.residuals.squaredNorm() / std::max(free_samples(data, n) - static_cast<double>(n + 1), 1.0);
-    estimate.std = (estimate.noise_variance * fit.inverse_gram.diagonal().array()).sqrt();
+    estimate.noise_variance = fit.residuals.squaredNorm() / std::max(count - static_cast<double>(n + 1), 1.0);
+    estimate.covariance = estimate.noise_variance * fit.inverse_gram;
+    estimate.std = estimate.covariance.diagonal().cwiseSqrt();
     estimate.null_std = estimate.std;
 }
 
-/// Evidence of one decay lambda. With g = sqrt(kappa) sigma L z, z ~ N(0, 1), L L' the kernel of scale one, and the
-/// eigenvalues d of L' Phi' Phi L with projections b = U' L' Phi' y, all is a function of kappa alone:
-///     sigma^2 = (y'y - sum kappa b^2/(1 + kappa d))/N,  -2 log evidence = N log sigma^2 + sum log(1 + kappa d) + ...
-struct Evidence {
-    Matrix LU;  ///< L U
-    Vector d, b;
-    double energy, count;
-
-    double variance(double kappa) const {
-        return std::max((energy - (kappa * b.array().square() / (1 + kappa * d.array())).sum()) / count,
-                        1e-14 * energy / count);
-    }
-    double loss(double kappa) const { return count * std::log(variance(kappa)) + (1 + kappa * d.array()).log().sum(); }
-};
-
-/// Lower Cholesky factor of the kernel lambda^max(i, j): the kernel is U D U' with U upper triangular ones and
-/// D_i = lambda^i - lambda^(i+1), D_n = lambda^n, so any square root serves.
-Matrix kernel_root(Index size, double lambda) {
-    Matrix root = Matrix::Zero(size, size);
-    for (Index j = 0; j < size; ++j) {
-        const double power = std::pow(lambda, static_cast<double>(j));
-        root.col(j).head(j + 1).setConstant(std::sqrt(j + 1 < size ? power * (1 - lambda) : power));
-    }
-    return root;
-}
-
-struct Choice {
-    Evidence evidence;
-    double kappa = 0, loss = std::numeric_limits<double>::infinity();
-};
-
-/// Smallest loss over kappa: a scan over decades, then golden section.
-void choose_scale(Choice& choice) {
-    const Evidence& evidence = choice.evidence;
-    const double unit = 1 / std::max(evidence.d.maxCoeff(), 1e-300);
-    double best = 0;
-    for (int i = -8; i <= 48; ++i) {
-        const double exponent = 0.5 * i, loss = evidence.loss(unit * std::pow(10, exponent));
-        if (loss < choice.loss) choice.loss = loss, best = exponent;
-    }
-    constexpr double kGolden = 0.6180339887498949;
-    double low = best - 0.5, high = best + 0.5;
-    const auto loss_at = [&](double exponent) { return evidence.loss(unit * std::pow(10, exponent)); };
-    for (int i = 0; i < 25; ++i) {
-        const double left = high - kGolden * (high - low), right = low + kGolden * (high - low);
-        loss_at(left) < loss_at(right) ? high = right : low = left;
-    }
-    choice.kappa = unit * std::pow(10, (low + high) / 2);
-    choice.loss = evidence.loss(choice.kappa);
-}
-
-Choice choice_for(const Sums& sums, double count, double lambda) {
-    const Matrix L = kernel_root(sums.gram.rows(), lambda);
-    const auto [values, vectors] = symmetric_eigen(L.transpose() * sums.gram * L);
-    Choice choice;
-    choice.evidence.LU = L * vectors;
-    choice.evidence.d = values.cwiseMax(0);
-    choice.evidence.b = choice.evidence.LU.transpose() * sums.projection;
-    choice.evidence.energy = sums.energy;
-    choice.evidence.count = count;
-    choose_scale(choice);
-    return choice;
-}
-
-/// Decays are tried so that the prior falls to a thousandth within 3 % to 300 % of the lags.
-void fit_smoothly(const Sums& sums, double count, ImpulseEstimate& estimate) {
-    constexpr int kDecays = 16;
-    Choice best;
-    for (int i = 0; i < kDecays; ++i) {
-        const double span = std::pow(100.0, static_cast<double>(i) / (kDecays - 1) - 0.75) * 3;
-        const double lambda = std::exp(std::log(1e-3) / (span * static_cast<double>(sums.gram.rows())));
-        Choice choice = choice_for(sums, count, lambda);
-        if (choice.loss < best.loss) best = std::move(choice);
-    }
-    const Evidence& e = best.evidence;
-    const Vector shrink = best.kappa / (1 + best.kappa * e.d.array());
-    estimate.response = e.LU * shrink.cwiseProduct(e.b);
-    estimate.noise_variance = e.variance(best.kappa);
-    const Matrix squares = e.LU.cwiseAbs2();
-    estimate.std = (estimate.noise_variance * (squares * shrink)).cwiseSqrt();
-    // scatter of the estimate over noise alone, response zero
-    estimate.null_std = (estimate.noise_variance * (squares * shrink.cwiseAbs2().cwiseProduct(e.d))).cwiseSqrt();
+void fit_smoothly(const ResponseSums& sums, ResponseKernel kernel, RegressedResponse& estimate) {
+    const ResponsePrior prior = most_likely_prior(sums, kernel);
+    const ResponsePosterior posterior = response_posterior(sums, prior);
+    estimate.response = posterior.mean;
+    estimate.noise_variance = posterior.noise_variance;
+    estimate.covariance = posterior.covariance;
+    estimate.std = posterior.covariance.diagonal().cwiseMax(0).cwiseSqrt();
+    estimate.null_std = posterior.null_std;
+    estimate.prior = prior;
+    estimate.prior_scale = posterior.scale;
 }
 
 }  // namespace
@@ -192,19 +117,19 @@ void ImpulseestOptions::validate() const {
     normal_half_width(confidence);
 }
 
-ImpulseEstimate impulseest(const IdData& data, const ImpulseestOptions& options) {
+RegressedResponse impulseest(const IdData& data, const ImpulseestOptions& options) {
     options.validate();
     const IdData record = nonparametric_data("impulseest", data, kFewestSamplesOfImpulseest, false);
     Index shortest = record.sample_count();
     for (const Experiment& experiment : record.experiments) shortest = std::min(shortest, experiment.y.rows());
     const Index n = lags_or_default("impulseest", options.lags, shortest);
-    const Sums sums = sums_of(record, n);
+    const ResponseSums sums = sums_of(record, n);
     if (!(sums.gram.diagonal().maxCoeff() > 0) || !(sums.energy > 0))
         throw InvalidArgument("impulseest: after the first " + std::to_string(n) +
                               " samples nothing changes any more; use fewer lags");
-    ImpulseEstimate estimate;
+    RegressedResponse estimate;
     estimate.t = Vector::LinSpaced(n + 1, 0, static_cast<double>(n)) * data.Ts;
-    options.smooth ? fit_smoothly(sums, free_samples(record, n), estimate) : fit_plainly(record, n, estimate);
+    options.smooth ? fit_smoothly(sums, options.kernel, estimate) : fit_plainly(record, n, sums.count, estimate);
     estimate.message = "Impulse response over " + std::to_string(n) + " lags by " +
                        (options.smooth ? "regularised" : "plain") + " least squares.";
     read_dead_time(estimate, data.Ts, normal_half_width(options.confidence));

@@ -1,6 +1,7 @@
 #include "numerics/filters/filter_chain.h"
 
 #include "numerics/linalg/polynomial.h"
+#include "numerics/linalg/tall_gram.h"
 #include "numerics/simulation/exact_filter.h"
 #include "numerics/simulation/irregular_filter.h"
 
@@ -109,7 +110,7 @@ Matrix chain_products(const std::vector<FilterChain>& chains, const Sampling& sa
         for (const OutputSum::Term& term : sum.terms) outputs.col(place) += term.weight * outputs.col(term.output);
         ++place;
     }
-    return outputs(Eigen::all, left).transpose() * outputs(Eigen::all, right);
+    return tall_gram(outputs.leftCols(count - 1), outputs.col(count - 1))(left, right);
 }
 
 }  // namespace dynlab::inline numerics

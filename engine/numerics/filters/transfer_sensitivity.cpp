@@ -72,7 +72,7 @@ ExactFilter free_motion(const Matrix& A, double Ts) {
 
 IrregularFilter irregular_free_motion(const Matrix& A) {
     const Index n = A.rows();
-    return IrregularFilter(A, Vector::Zero(n), Vector::Unit(n, n - 1).transpose(), Vector::Zero(1), Hold::kZoh);
+    return IrregularFilter(A, Vector::Unit(n, 0), Vector::Unit(n, n - 1).transpose(), Vector::Zero(1), Hold::kZoh);
 }
 
 // The state of cascade_matrix from which the free response with these initial values drives the second half.

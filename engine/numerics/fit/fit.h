@@ -74,6 +74,12 @@ struct StaticCharacteristic {
     double linear_fit_percent = 0;  ///< of the best linear model of the same orders
 };
 
+/// Parameters as a recursive method knew them while the record went by: M instants, d parameters.
+struct ParameterHistory {
+    Vector t;           ///< M, of samples of the record
+    Matrix theta, std;  ///< M x d; NaN where the samples so far do not determine them
+};
+
 /// The result of every estimator with parameters. e are the errors that its model takes as white: of the simulation
 /// (srivc, coe, procsrivc, hammerstein, oe, sriv), of the prediction (rivc, armax, bj), of the equation (arx, iv4,
 /// lssvf, ivsvf).
@@ -84,7 +90,8 @@ struct Fit {
     std::shared_ptr<const PolynomialOrders> orders;  ///< of difference equations, as the model
     std::shared_ptr<const PolynomialModel> polynomial;
     std::optional<StaticCharacteristic> characteristic;
-    std::optional<NoiseModel> noise;  ///< of rivc
+    std::optional<NoiseModel> noise;                  ///< of rivc
+    std::shared_ptr<const ParameterHistory> history;  ///< of rlssvf, rivsvf and rsrivc
 
     std::vector<std::string> names;  ///< of theta
     Vector theta, std;               ///< in seconds and rad/s; see the structure, the process model or the orders

@@ -28,6 +28,20 @@ bool changes(const Matrix& signal) {
 
 }  // namespace
 
+FrequencyData frequency_data_of(const SpectralEstimate& estimate, const IdData& data, const std::string& method,
+                                bool smoothed) {
+    FrequencyData response;
+    response.w = estimate.w, response.response = estimate.response;
+    if (estimate.std.size() > 0) response.variance = 2 * estimate.std.cwiseAbs2();  // of both parts
+    response.Ts = data.Ts, response.inter_sample = inter_sample_of(data.hold);
+    response.input_name = data.input_names.front(), response.output_name = data.output_names.front();
+    response.input_unit = data.input_units.front(), response.output_unit = data.output_units.front();
+    response.neighbours_share_errors = smoothed;
+    response.coherence = estimate.coherence, response.noise_spectrum = estimate.noise_spectrum;
+    response.method = method, response.message = estimate.message, response.warnings = estimate.warnings;
+    return response;
+}
+
 IdData nonparametric_data(const std::string& caller, const IdData& data, Index fewest, bool remove_means) {
     check_channels(caller, data);
     bool input_changes = false, output_changes = false;

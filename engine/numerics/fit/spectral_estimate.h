@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "numerics/models/frequency_data.h"
 #include "numerics/signals/iddata.h"
 
 namespace dynlab::inline numerics {
@@ -17,6 +18,11 @@ struct SpectralEstimate {
     std::string message;
     std::vector<std::string> warnings;
 };
+
+/// The estimate as a measured response, which models are fitted to; `smoothed`: over the frequencies, so that
+/// neighbours share their errors. `method` is the one that gave it, `data` what it was given.
+FrequencyData frequency_data_of(const SpectralEstimate& estimate, const IdData& data, const std::string& method,
+                                bool smoothed);
 
 /// What these methods can work on: one input, one output, regular sampling, at least `fewest` samples in every
 /// experiment, neither signal constant. Throws InvalidArgument that begins with `caller` and says what to do. Returns

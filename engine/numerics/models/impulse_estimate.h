@@ -15,6 +15,7 @@ struct ImpulseEstimate {
     Vector std;       ///< standard errors
     Vector null_std;  ///< what they would be if g were zero: a band around zero that only a real response leaves
     double noise_variance = 0;
+    Matrix covariance;           ///< of g; empty where a method knows none
     std::optional<Index> first;  ///< lag of the first response that is no chance
     std::string message;
     std::vector<std::string> warnings;

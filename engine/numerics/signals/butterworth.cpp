@@ -183,7 +183,7 @@ IdData filter_data(const IdData& data, const PassBand& band, const FilterOptions
     const FilterSections sections = butterworth(band, data.Ts, options);
     IdData result = data;
     for (Experiment& experiment : result.experiments)
-        for (Matrix* signals : {&experiment.y, &experiment.u})
+        for (Matrix* signals : {&experiment.y, &experiment.u, &experiment.r})
             for (auto column : signals->colwise()) {
                 const Vector x = column;
                 column = options.zero_phase ? filter_zero_phase(sections, x)

@@ -7,4 +7,11 @@ namespace dynlab::inline numerics {
 /// factor go through a convolution (Bluestein 1970), so that none is slow. Nothing for no samples.
 ComplexVector fourier_transform(const VectorView& x);
 
+/// Those of two signals of one length, for the price of one: they are the parts of the transform of x + i y that are
+/// equal and opposite at opposite frequencies.
+struct TransformPair {
+    ComplexVector first, second;
+};
+TransformPair fourier_transforms(const VectorView& x, const VectorView& y);
+
 }  // namespace dynlab::inline numerics

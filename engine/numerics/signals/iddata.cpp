@@ -45,6 +45,7 @@ Experiment cut(const IdData& data, const Experiment& experiment, Index first, In
     Experiment part;
     part.y = experiment.y.middleRows(first, count);
     part.u = experiment.u.middleRows(first, count);
+    if (experiment.r.cols() > 0) part.r = experiment.r.middleRows(first, count);
     part.name = experiment.name;
     part.start_time = experiment.start_time + static_cast<double>(first) * data.Ts;
     if (experiment.t.size() > 0) {
@@ -137,6 +138,18 @@ IdData IdData::range(Index first, Index last) const {
     return part;
 }
 
+IdData IdData::with_reference(Matrix r) const {
+    const Index count = only_experiment(*this, "iddata").y.rows();
+    if (r.rows() != count)
+        throw InvalidArgument("iddata: the data have " + std::to_string(count) + " samples but the reference has " +
+                              std::to_string(r.rows()));
+    check_samples("iddata", "the reference", r);
+    check_magnitudes("iddata", "the reference", r);
+    IdData result = *this;
+    result.experiments.front().r = std::move(r);
+    return result;
+}
+
 IdData IdData::select(const std::vector<Index>& outputs, const std::vector<Index>& inputs) const {
     check_selection(outputs, output_count(), "output");
     check_selection(inputs, input_count(), "input");
@@ -188,6 +201,10 @@ IdData IdData::merge(const std::vector<IdData>& parts) {
                 "merge: part " + std::to_string(i + 1) + " has " + std::to_string(part.output_count()) +
                 " outputs and " + std::to_string(part.input_count()) + " inputs, but the first has " +
                 std::to_string(merged.output_count()) + " and " + std::to_string(merged.input_count()));
+        if (part.reference_count() != merged.reference_count())
+            throw InvalidArgument("merge: part " + std::to_string(i + 1) + " has " +
+                                  counted(part.reference_count(), "reference") + ", but the first has " +
+                                  std::to_string(merged.reference_count()));
         if (part.Ts != merged.Ts)
             throw InvalidArgument("merge: part " + std::to_string(i + 1) + " has the sampling time " +
                                   number_text(part.Ts) + " but the first has " + number_text(merged.Ts));

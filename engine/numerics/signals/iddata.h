@@ -16,6 +16,7 @@ struct Experiment {
     Vector t;               ///< sampling instants in time_unit when sampled irregularly, else empty
     double start_time = 0;  ///< time of the first sample
     std::string name;
+    Matrix r = Matrix();  ///< N x nr references of the loop under which the record was taken; empty without
 };
 
 /// Input-output data as the course's `iddata`: one or several experiments with the same channels and sampling
@@ -39,6 +40,7 @@ struct IdData {
     Index sample_count(std::size_t experiment) const { return experiments[experiment].y.rows(); }
     Index output_count() const { return experiments.empty() ? 0 : experiments.front().y.cols(); }
     Index input_count() const { return experiments.empty() ? 0 : experiments.front().u.cols(); }
+    Index reference_count() const { return experiments.empty() ? 0 : experiments.front().r.cols(); }
     bool regular() const { return Ts > 0; }
     Vector time(std::size_t experiment = 0) const;  ///< N sampling instants of one experiment
     double duration(std::size_t experiment) const;  ///< from its first sample to its last
@@ -47,8 +49,11 @@ struct IdData {
 
     IdData range(Index first,
                  Index last) const;  ///< samples first..last (1-based, inclusive), one experiment
+    /// The same, one experiment, taken in a closed loop with the reference `r` (N x nr). Throws InvalidArgument for
+    /// another number of samples, or one that is not finite.
+    IdData with_reference(Matrix r) const;
     IdData select(const std::vector<Index>& outputs,
-                  const std::vector<Index>& inputs) const;   ///< channels, 1-based
+                  const std::vector<Index>& inputs) const;   ///< channels, 1-based; references stay
     std::pair<IdData, IdData> split(double fraction) const;  ///< the first part holds round(fraction N) samples
     IdData shifted(Index samples) const;  ///< input delayed by so many samples (the data's ends are cut)
     static IdData merge(const std::vector<IdData>& parts);  ///< several experiments in one object

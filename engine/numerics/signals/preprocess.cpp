@@ -69,7 +69,12 @@ Detrended remove_initial_level(const IdData& data, Index samples) {
     for (Experiment& experiment : result.data.experiments) {
         const Index count = initial_stretch(experiment, samples);
         const Vector output = remove_first_level(experiment.y, count), input = remove_first_level(experiment.u, count);
-        result.removed.push_back({output, Vector::Zero(output.size()), input, Vector::Zero(input.size())});
+        Trend trend{output, Vector::Zero(output.size()), input, Vector::Zero(input.size())};
+        if (experiment.r.cols() > 0) {
+            trend.reference_offset = remove_first_level(experiment.r, count);
+            trend.reference_slope = Vector::Zero(experiment.r.cols());
+        }
+        result.removed.push_back(std::move(trend));
     }
     return result;
 }
@@ -84,7 +89,9 @@ Detrended detrend(const IdData& data, TrendKind kind) {
         const Vector since_start = time.array() - time(0);
         const Line output = remove_line(experiment.y, since_start, kind);
         const Line input = remove_line(experiment.u, since_start, kind);
-        result.removed.push_back({output.offset, output.slope, input.offset, input.slope});
+        const Line reference = experiment.r.cols() > 0 ? remove_line(experiment.r, since_start, kind) : Line();
+        result.removed.push_back(
+            {output.offset, output.slope, input.offset, input.slope, reference.offset, reference.slope});
     }
     return result;
 }

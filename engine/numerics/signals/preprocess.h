@@ -10,7 +10,7 @@ enum class TrendKind { kConstant, kLinear };
 /// What was taken from one experiment: channel i loses offset_i + slope_i (t - start_time), slopes in units per
 /// time unit.
 struct Trend {
-    Vector output_offset, output_slope, input_offset, input_slope;
+    Vector output_offset, output_slope, input_offset, input_slope, reference_offset = {}, reference_slope = {};
 };
 
 struct Detrended {

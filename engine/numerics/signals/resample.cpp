@@ -86,7 +86,7 @@ IdData resample(const IdData& data, Index up, Index down) {
         if (count < 2)
             throw InvalidArgument("resample: of " + std::to_string(experiment.y.rows()) +
                                   " samples fewer than 2 would be left");
-        for (Matrix* signals : {&experiment.y, &experiment.u}) {
+        for (Matrix* signals : {&experiment.y, &experiment.u, &experiment.r}) {
             Matrix resampled(count, signals->cols());
             for (Index i = 0; i < signals->cols(); ++i) resampled.col(i) = resample_signal(signals->col(i), up, down);
             *signals = std::move(resampled);

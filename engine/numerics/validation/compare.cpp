@@ -295,6 +295,29 @@ Comparison compare_all(const IdData& data, const std::vector<TransferFunction>& 
     return all;
 }
 
+Comparison compare_all(const IdData& data, const FreeRunModel& model) {
+    const Index ny = data.output_count();
+    Comparison all;
+    Vector squares = Vector::Zero(ny), variation = Vector::Zero(ny);
+    for (std::size_t k = 0; k < data.experiments.size(); ++k) {
+        const FreeRun run = model.free_run(data, k, Vector());
+        auto& row = all.results.emplace_back();
+        for (Index i = 0; i < ny; ++i) {
+            const auto y = data.experiments[k].y.col(i);
+            const double errors = (y - run.output.col(i)).squaredNorm(), own = variation_about_mean(y);
+            squares[i] += errors;
+            variation[i] += own;
+            CompareResult& result = row.emplace_back();
+            result.output = run.output.col(i);
+            result.fit_percent = fit_percent_of_sums(errors, own);
+            result.message = "Simulated freely " + run.start + ": fit " + number_text(result.fit_percent, 4) + " %.";
+            if (run.lost_at) result.message += " " + divergence_text(data, k, *run.lost_at);
+        }
+    }
+    all.fit_percent = squares.binaryExpr(variation, &fit_percent_of_sums);
+    return all;
+}
+
 CompareResult compare(const IdData& data, const TransferFunction& G, const CompareOptions& options) {
     if (data.experiments.size() != 1 || data.input_count() != 1 || data.output_count() != 1)
         throw InvalidArgument("compare needs one experiment with one input and one output, and the data hold " +

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "numerics/criteria/initial_conditions.h"
+#include "numerics/models/free_run.h"
 #include "numerics/models/transfer_function.h"
 #include "numerics/signals/iddata.h"
 
@@ -42,6 +43,10 @@ struct Comparison {
 /// Throws InvalidArgument as compare() does, and for another number of channels.
 Comparison compare_all(const IdData& data, const std::vector<TransferFunction>& channels,
                        const CompareOptions& options = {});
+
+/// The same for a model that runs freely and finds in the record how to begin; a run that is lost has a fit of
+/// -infinity, its output is NaN from there on, and the message tells when. Throws InvalidArgument as its free_run().
+Comparison compare_all(const IdData& data, const FreeRunModel& model);
 
 /// The first output of all experiments one after the other, N values, each counted from the mean of its experiment's
 /// measured output.

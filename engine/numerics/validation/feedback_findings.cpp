@@ -113,6 +113,14 @@ JointTest joint_test(const Vector& r, const Vector& R, double N) {
     return test;
 }
 
+const char* remedy_for_feedback(const Experiment& experiment) {
+    if (experiment.r.cols() == 0)
+        return "Record with the loop open, or give iddata the reference, which clsrivc and clivsvf use.";
+    if ((experiment.r.array() == experiment.r(0, 0)).all())
+        return "The reference never changes, so that clsrivc and clivsvf have nothing to go by: let it move.";
+    return "The data have the loop's reference, which clsrivc and clivsvf use.";
+}
+
 }  // namespace
 
 void find_feedback(const FittedRecord& fit, RecordFindings& findings) {
@@ -141,9 +149,8 @@ void find_feedback(const FittedRecord& fit, RecordFindings& findings) {
             (lag == 0   ? "at the same sample"
              : lag == 1 ? "1 sample later"
                         : std::to_string(lag) + " samples later") +
-            "): a controller was running. Noise then enters the input, which biases lssvf, arx, "
-            "ivsvf and srivc; record with the loop open, or with a known reference and much more of "
-            "it than noise.",
+            "): a controller was running. Noise then enters the input, which biases lssvf, arx, ivsvf and srivc. " +
+            remedy_for_feedback(fit.data.experiments.front()),
         largest));
 }
 

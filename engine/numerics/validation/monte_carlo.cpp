@@ -15,6 +15,7 @@
 #include "numerics/number_text.h"
 #include "numerics/signals/random.h"
 #include "numerics/signals/robust_statistics.h"
+#include "numerics/simulation/closed_loop.h"
 #include "numerics/simulation/lsim.h"
 #include "numerics/validation/cramer_rao.h"
 
@@ -48,20 +49,63 @@ Outcome outcome_of(const MonteCarloMethod& method, const IdData& data) {
     return outcome;
 }
 
+/// What the records of a study are made of: the noise-free one, and how the noise enters.
+class NoisyRecords {
+  public:
+    explicit NoisyRecords(const MonteCarloStudy& study) : r_(study.u), Ts_(study.Ts), hold_(study.hold) {
+        if (!study.controller) {
+            clean_ = {study.u, lsim(study.system, study.u, study.Ts, study.hold)};
+        } else {
+            loop_.emplace(study.system, *study.controller, study.Ts, study.hold);
+            if (!loop_->stable())
+                throw InvalidArgument("the loop of system and controller is unstable: lower the controller's gain");
+            clean_ = loop_->to_reference(study.u);
+            hold_ = study.controller->sampled() ? Hold::kZoh : Hold::kFoh;
+        }
+        if (!clean_.x.allFinite())
+            throw InvalidArgument("the output of the system grows beyond all bounds: it is unstable");
+    }
+
+    const Vector& noise_free_output() const { return clean_.x; }
+    IdData empty_record() const {
+        IdData record(Matrix(clean_.x), Matrix(clean_.u), Ts_);
+        record.hold = hold_;
+        return loop_ ? record.with_reference(Matrix(r_)) : record;
+    }
+    void draw(RandomStream& random, double sigma, IdData& record) const {
+        Experiment& one = record.experiments.front();
+        Vector v(one.y.rows());
+        for (double& value : v) value = sigma * random.normal();
+        one.y.col(0) = clean_.x + v;
+        if (!loop_) return;
+        const ClosedLoop::Response response = loop_->to_disturbance(v);
+        one.y.col(0) += response.x;
+        one.u.col(0) = clean_.u + response.u;
+    }
+
+  private:
+    Vector r_;
+    double Ts_;
+    Hold hold_;
+    std::optional<ClosedLoop> loop_;
+    ClosedLoop::Response clean_;
+};
+
 /// Joins what the threads of a study share: the noise-free record, the outcomes, progress and the wish to stop.
 class Runner {
   public:
-    Runner(const MonteCarloStudy& study, const std::vector<MonteCarloMethod>& methods, const Vector& x, double sigma)
+    Runner(const MonteCarloStudy& study, const std::vector<MonteCarloMethod>& methods, const NoisyRecords& records,
+           double sigma)
         : study_(study),
           methods_(methods),
-          x_(x),
+          records_(records),
           sigma_(sigma),
           outcomes_(methods.size(), std::vector<Outcome>(static_cast<std::size_t>(study.runs))) {}
 
     void run() {
         if (any(true)) run_concurrently();
         if (!any(false)) return;
-        IdData record = empty_record();
+        IdData record = records_.empty_record();
         for (int k = 0; k < study_.runs; ++k) one_run(k, false, record);
     }
 
@@ -74,14 +118,8 @@ class Runner {
                            [&](const MonteCarloMethod& method) { return method.concurrent == concurrent; });
     }
 
-    IdData empty_record() const {
-        IdData record(Matrix(x_), Matrix(study_.u), study_.Ts);
-        record.hold = study_.hold;
-        return record;
-    }
-
     void run_concurrently() {
-        tbb::enumerable_thread_specific<IdData> records([this] { return empty_record(); });
+        tbb::enumerable_thread_specific<IdData> records([this] { return records_.empty_record(); });
         tbb::task_arena arena(thread_count(study_.threads));
         arena.execute([&] {
             tbb::parallel_for(
@@ -98,8 +136,7 @@ class Runner {
     void one_run(int k, bool concurrent, IdData& record) {
         if (asked_to_stop()) return;
         RandomStream random(study_.seed + static_cast<std::uint32_t>(k));
-        Matrix& y = record.experiments.front().y;
-        for (Index i = 0; i < y.rows(); ++i) y(i, 0) = x_[i] + sigma_ * random.normal();
+        records_.draw(random, sigma_, record);
         for (std::size_t j = 0; j < methods_.size(); ++j) {
             if (methods_[j].concurrent != concurrent) continue;
             Outcome outcome = outcome_of(methods_[j], record);
@@ -124,7 +161,7 @@ class Runner {
 
     const MonteCarloStudy& study_;
     const std::vector<MonteCarloMethod>& methods_;
-    const Vector& x_;
+    const NoisyRecords& records_;
     double sigma_;
     std::vector<std::vector<Outcome>> outcomes_;  // per method, per run
     std::mutex callbacks_;
@@ -195,6 +232,7 @@ void add_truth(MonteCarloResult& result, const MonteCarloStudy& study, double si
     result.truth = true_parameters(study.system, result.names);
     if (result.truth.size() == 0) return;
     result.bias = result.mean - result.truth;
+    if (study.controller) return;  // how much the noise in u tells is another matter
     const bool free_delay = result.names.back() == "Td";
     const Index coefficients = result.truth.size() - study.system.pole_count() - (free_delay ? 1 : 0);
     if (free_delay && coefficients > study.system.pole_count()) return;  // no bound: the output jumps with the input
@@ -256,15 +294,14 @@ Vector MonteCarloResult::least_spread() const {
 MonteCarlo monte_carlo(const MonteCarloStudy& study, const std::vector<MonteCarloMethod>& methods) {
     study.validate();
     check_methods(methods);
-    const Vector x = lsim(study.system, study.u, study.Ts, study.hold);
-    if (!x.allFinite()) throw InvalidArgument("the output of the system grows beyond all bounds: it is unstable");
-    const double scale = standard_deviation(x);
+    const NoisyRecords records(study);
+    const double scale = standard_deviation(records.noise_free_output());
     if (study.snr && !(scale > 0)) throw InvalidArgument("snr needs a noise-free output that changes; give sigma");
     MonteCarlo all;
     all.runs = study.runs;
     all.sigma = study.sigma ? *study.sigma : scale * std::pow(10.0, -*study.snr / 20);
     all.snr = 20 * std::log10(scale / all.sigma);
-    Runner runner(study, methods, x, all.sigma);
+    Runner runner(study, methods, records, all.sigma);
     runner.run();
     all.cancelled = runner.cancelled();
     for (std::size_t j = 0; j < methods.size(); ++j)

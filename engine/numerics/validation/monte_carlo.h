@@ -7,6 +7,7 @@
 
 #include "numerics/models/transfer_function.h"
 #include "numerics/signals/iddata.h"
+#include "numerics/simulation/closed_loop.h"
 
 namespace dynlab::inline numerics {
 
@@ -27,9 +28,11 @@ struct MonteCarloMethod {
 
 /// The same experiment again and again: the noise-free output x of `system` for the input u, plus white noise. Run
 /// k = 0, 1, ... has y = x + sigma randn with the random stream of seed + k (signals/random.h), whatever the threads.
+/// With a controller u is the reference of a loop, whose records hold input, output and reference; the noise goes
+/// around in the loop.
 struct MonteCarloStudy {
     TransferFunction system;      ///< continuous time; the truth
-    Vector u;                     ///< N samples
+    Vector u;                     ///< N samples; of the reference with a controller
     double Ts = 0;                ///< s between samples
     Hold hold = Hold::kZoh;       ///< of u
     std::optional<double> sigma;  ///< standard deviation of the noise; give this ...
@@ -39,6 +42,7 @@ struct MonteCarloStudy {
     int threads = 0;                                      ///< all cores when 0; never more than there are
     std::function<void(std::size_t done)> progress = {};  ///< estimations done; called by one thread at a time
     std::function<bool()> cancel = {};                    ///< asked before every run, by one thread at a time
+    std::optional<LoopController> controller = {};        ///< of a closed loop
 
     /// Throws InvalidArgument naming the field.
     void validate() const;
@@ -53,11 +57,11 @@ struct MonteCarloResult {
     Vector mean, spread, median, low, high;  ///< d; spread: standard deviation (n - 1); low, high: extremes
     Vector reported;                         ///< d, mean of the reported standard errors; NaN without
     Vector bias;                             ///< d, mean - truth; empty without truth
-    Matrix bound;                            ///< d x d, Cramer-Rao bound of the covariance; empty without truth
-    int estimated = 0;                       ///< runs that gave an estimate
-    int failed = 0;                          ///< runs that threw or gave something not finite
-    int not_converged = 0;                   ///< of the estimated ones
-    std::string first_failure;               ///< what the first failed run said
+    Matrix bound;               ///< d x d, Cramer-Rao bound of the covariance; empty without truth and in a loop
+    int estimated = 0;          ///< runs that gave an estimate
+    int failed = 0;             ///< runs that threw or gave something not finite
+    int not_converged = 0;      ///< of the estimated ones
+    std::string first_failure;  ///< what the first failed run said
 
     /// Standard deviations that no unbiased method can beat; empty without truth.
     Vector least_spread() const;

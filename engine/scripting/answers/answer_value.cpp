@@ -7,6 +7,7 @@
 #include "documents/percent_script.h"
 #include "platform/spelling.h"
 #include "scripting/objects/data_object.h"
+#include "scripting/objects/frequency_object.h"
 #include "scripting/objects/model_description.h"
 
 namespace dynlab::inline scripting {
@@ -130,6 +131,10 @@ class AnswerWriter {
             return "data";
         }
         if (const Model* const model = to_object<Model>(L, index)) return write_members(json_, *model), "model";
+        if (const FrequencyData* const response = to_object<FrequencyData>(L, index)) {
+            count(8 * response->w.size());
+            return write_members(json_, *response), "response";
+        }
         if (const StateSpace* const system = to_object<StateSpace>(L, index)) {
             json_.member("state_space");
             write_value(json_, *system);
@@ -208,6 +213,8 @@ void push_members(lua_State* L, const std::string& kind, ValueReader& answer, in
         call.give_matrix(matrix_members(answer));
     } else if (kind == "data") {
         push_object(L, members_as<IdData>(answer));
+    } else if (kind == "response") {
+        push_object(L, members_as<FrequencyData>(answer));
     } else if (kind == "model" && answer.member("state_space")) {
         push_object(L, read_fresh<StateSpace>(answer));
     } else if (kind == "model") {

@@ -5,7 +5,8 @@ namespace {
 
 std::vector<NamedReader> all_readers() {
     std::vector<NamedReader> all;
-    for (const EstimationReaders readers : {transfer_estimation_readers(), noise_model_readers()})
+    for (const EstimationReaders readers :
+         {transfer_estimation_readers(), noise_model_readers(), loop_readers(), recursive_readers()})
         all.insert(all.end(), readers.begin(), readers.end());
     return all;
 }

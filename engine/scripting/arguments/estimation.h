@@ -21,6 +21,8 @@ using NamedReader = std::pair<const char*, EstimationReader>;
 using EstimationReaders = std::span<const NamedReader>;
 EstimationReaders transfer_estimation_readers();
 EstimationReaders noise_model_readers();
+EstimationReaders loop_readers();
+EstimationReaders recursive_readers();
 
 /// The reader of a method's arguments by its Lua name; nullptr for a method that has none.
 EstimationReader find_estimation_reader(const std::string& method);

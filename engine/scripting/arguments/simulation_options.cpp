@@ -3,8 +3,11 @@
 #include <cmath>
 
 #include "numerics/signals/interpolation.h"
+#include "numerics/validation/grey_box/grey_comparison.h"
 #include "scripting/arguments/table_fields.h"
-#include "scripting/objects/model.h"
+#include "scripting/arguments/told_sentences.h"
+#include "scripting/objects/grey_object.h"
+#include "scripting/objects/simulated_model.h"
 
 namespace dynlab::inline scripting {
 
@@ -19,6 +22,23 @@ std::vector<TransferFunction> channels_argument(const Call& call, int index, con
     return {model_argument(call, index, what).G};
 }
 
+Comparison comparison_argument(const Call& call, int index, const IdData& data, const Options& options) {
+    if (const GreyEstimate grey = to_grey_box(call, index)) {
+        const std::string start = options.text("InitialState", "auto");
+        return compare_grey(data, *grey, start == "auto" ? usual_start(*grey) : parse_grey_start(start));
+    }
+    const SimulatedModel* simulated = simulated_model(call, index);
+    if (simulated == nullptr) {
+        IdData storage;
+        return compare_all(driving_data(call, index, data, storage), channels_argument(call, index, "G"),
+                           compare_options(options));
+    }
+    Comparison comparison = compare_all(data, *simulated->run);
+    for (const auto& outputs : comparison.results)
+        if (!outputs.front().output.allFinite()) call.print(told(call, outputs.front().message) + "\n");
+    return comparison;
+}
+
 NoisyModel noisy_model_argument(const Call& call, int index, const char* what) {
     NoisyModel noisy;
     noisy.channels = channels_argument(call, index, what);
@@ -31,6 +51,11 @@ NoisyModel noisy_model_argument(const Call& call, int index, const char* what) {
     for (const auto& [name, value] : model->estimate->numbers)
         if (name == "Ts") noisy.noise_Ts = value;
     return noisy;
+}
+
+Predictions prediction_argument(const Call& call, int index, const IdData& data, const PredictionOptions& options) {
+    IdData storage;
+    return predict(driving_data(call, index, data, storage), noisy_model_argument(call, index, "G"), options);
 }
 
 namespace {

@@ -15,8 +15,15 @@ CompareOptions compare_options(const Options& options, const char* initial_state
 /// The transfer functions of a model argument, one per input.
 std::vector<TransferFunction> channels_argument(const Call& call, int index, const char* what);
 
+/// A model argument simulated on data, as the options InitialState and Offset say; of a free run that is lost it
+/// prints when.
+Comparison comparison_argument(const Call& call, int index, const IdData& data, const Options& options);
+
 /// A model argument with what it says of its noise.
 NoisyModel noisy_model_argument(const Call& call, int index, const char* what);
+
+/// What predict() gives of a model argument on the data.
+Predictions prediction_argument(const Call& call, int index, const IdData& data, const PredictionOptions& options);
 
 /// The signal that drives the linear part of the model argument: f(u) of one that begins with a static characteristic f
 /// (hammerstein), u itself of all others.

@@ -55,9 +55,7 @@ void set_field(const Call& call, const char* name, const T& value) {
 
 template <class T, auto kGet>
 int give_field(Call& call) {
-    const T* object = to_object<T>(call.state(), 1);
-    if (object == nullptr) wrong_argument(call.state(), 1, Boxed<T>::type.name, Boxed<T>::type.name);
-    return give_value(call, std::invoke(kGet, *object));
+    return give_value(call, std::invoke(kGet, object_itself<T>(call)));
 }
 /// A field that scripts read of a T: kGet(object), or the member that kGet points to.
 template <class T, auto kGet>

@@ -14,7 +14,7 @@ std::vector<std::string> told(const Call& call, const std::vector<std::string>& 
 
 template <class T, auto kGet>
 int give_told_field(Call& call) {
-    return call.give(told(call, std::invoke(kGet, object_argument<T>(call, 1, Boxed<T>::type.name))));
+    return call.give(told(call, std::invoke(kGet, object_itself<T>(call))));
 }
 /// As `field`, of a text that numerics says.
 template <class T, auto kGet>

@@ -16,6 +16,8 @@ FunctionEntries signal_functions();
 FunctionEntries estimator_functions();
 FunctionEntries transfer_estimator_functions();
 FunctionEntries noise_model_functions();
+FunctionEntries loop_functions();
+FunctionEntries recursive_functions();
 FunctionEntries discrete_estimator_functions();
 FunctionEntries subspace_functions();
 FunctionEntries hammerstein_functions();

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "scripting/bind/bindings.h"
-#include "scripting/objects/boxed.h"
+#include "scripting/objects/traced_value.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -73,6 +73,8 @@ double extreme_of(const VectorView& v, Index& place) {
 template <bool kLargest>
 int extreme(Call& call) {
     call.at_most(2);
+    if (const auto trace = trace_among(call))
+        return give_traced_operation(call, trace, kLargest ? Operation::kMaximum : Operation::kMinimum, 2);
     const auto better = [](double x, double y) { return kLargest ? std::fmax(x, y) : std::fmin(x, y); };
     if (call.given(2) && call.type(1) == LUA_TNUMBER && call.type(2) == LUA_TNUMBER)
         return call.give(better(call.number(1, "x"), call.number(2, "y")));

@@ -2,15 +2,32 @@
 #include <array>
 
 #include "scripting/bind/bindings.h"
-#include "scripting/objects/boxed.h"
+#include "scripting/objects/traced_value.h"
 
 namespace dynlab::inline scripting {
 namespace {
+
+/// One where the relation holds between values that are not known yet, zero elsewhere.
+template <class Relation>
+int compare_traced(const Call& call, const std::shared_ptr<Trace>& trace) {
+    const auto x = traced_node(call.state(), 1, trace), y = traced_node(call.state(), 2, trace);
+    const bool above = Relation()(1., 0.), with_equal = Relation()(0., 0.), below = Relation()(0., 1.);
+    if (!x || !y || above == below)
+        throw InvalidArgument(
+            "with a value that is not known yet only gt, lt, ge and le of two numbers can be followed");
+    ExpressionTape& tape = trace->tape;
+    const bool turned = above == with_equal;  // x >= y is what y - x > 0 leaves
+    const auto difference = tape.apply(Operation::kSubtract, turned ? *y : *x, turned ? *x : *y);
+    return give_traced(call, trace,
+                       tape.apply(Operation::kWhere, difference, tape.constant(with_equal ? 0 : 1),
+                                  tape.constant(with_equal ? 1 : 0)));
+}
 
 /// One truth value per element of v: does it stand in the relation to x (a number, or a vector of the same length)?
 template <class Relation>
 int compare_elements(Call& call) {
     call.at_most(2);
+    if (const auto trace = trace_among(call)) return compare_traced<Relation>(call, trace);
     const VectorMap v = call.vector(1, "v");
     const bool number = call.type(2) == LUA_TNUMBER;
     const VectorMap x = number ? v : call.vector(2, "x");

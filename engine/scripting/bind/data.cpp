@@ -169,11 +169,19 @@ void tell_sampling_time(const Call& call) {
     call.print("iddata: no sampling time was given, so one sample a second is taken; write iddata(y, u, Ts)\n");
 }
 
+/// One column for each reference.
+Matrix reference_of(const Options& options) {
+    lua_State* L = options.call().state();
+    if (NumericBlock* block = to_matrix(L, options.push("Reference")))
+        return MatrixMap(block->data(), block->rows, block->columns);
+    return options.vector("Reference");
+}
+
 int make_iddata(Call& call) {
     call.at_most(4);
     const Options options(call, 4,
                           {"InterSample", "InputName", "OutputName", "InputUnit", "OutputUnit", "TimeUnit", "Tstart",
-                           "SamplingInstants"});
+                           "SamplingInstants", "Reference"});
     if (call.holds_vector(3))
         throw InvalidArgument(
             "argument 3 (Ts) must be a number of seconds, but instants were given; where they lie at uneven distances "
@@ -192,6 +200,7 @@ int make_iddata(Call& call) {
     check_names(data);
     data.time_unit = options.text("TimeUnit", data.time_unit);
     data.experiments.front().start_time = options.number("Tstart", data.experiments.front().start_time);
+    if (options.has("Reference")) data = data.with_reference(reference_of(options));
     return give_data(call, std::move(data));
 }
 

@@ -4,6 +4,7 @@
 #include "numerics/number_text.h"
 #include "numerics/signals/preprocess.h"
 #include "scripting/arguments/table_fields.h"
+#include "scripting/arguments/told_sentences.h"
 #include "scripting/bind/preprocess_bindings.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/text_form.h"
@@ -25,6 +26,13 @@ const Experiment& only_experiment(const IdData& data) {
 template <Matrix Experiment::*kSignals>
 int give_channels(Call& call) {
     return give_columns(call, only_experiment(data_self(call)).*kSignals);
+}
+
+int give_reference(Call& call) {
+    const Experiment& experiment = only_experiment(data_self(call));
+    if (experiment.r.cols() == 0)
+        throw InvalidArgument("these data have no reference; iddata(y, u, Ts, {Reference = r}) gives them one");
+    return give_columns(call, experiment.r);
 }
 
 Vector instants(const IdData& data) {
@@ -109,8 +117,9 @@ std::string data_text(const IdData& data) {
     const std::string sampling =
         data.regular() ? "Ts = " + number_text(data.Ts) + " " + data.time_unit : "sampled irregularly";
     const std::size_t experiments = data.experiments.size();
-    return fmt::format("iddata: {} samples, {}, {}, {}{}", data.sample_count(), counted(data.output_count(), "output"),
-                       counted(data.input_count(), "input"), sampling,
+    return fmt::format("iddata: {} samples, {}, {}, {}{}{}", data.sample_count(),
+                       counted(data.output_count(), "output"), counted(data.input_count(), "input"), sampling,
+                       data.reference_count() > 0 ? ", " + counted(data.reference_count(), "reference") : "",
                        experiments > 1 ? fmt::format(", {} experiments", experiments) : "");
 }
 
@@ -129,6 +138,7 @@ void add_numbers(DigestStream& digest, const Numbers& numbers) {
 constexpr std::array kDataTypeFields = {
     Member{"y", guarded<give_channels<&Experiment::y>>},
     Member{"u", guarded<give_channels<&Experiment::u>>},
+    Member{"r", guarded<give_reference>},
     Member{"t", field<IdData, instants>},
     Member{"Ts", field<IdData, &IdData::Ts>},
     Member{"N", field<IdData, [](const IdData& data) { return data.sample_count(); }>},
@@ -155,7 +165,7 @@ constexpr std::array kDataTypeMethods = {
     Member{"keep", guarded<keep_parts>},
     Member{"discard", guarded<discard_parts>},
 };
-constexpr std::array kDataTypeOperators = {Member{"__tostring", field<IdData, data_text>}};
+constexpr std::array kDataTypeOperators = {Member{"__tostring", told_field<IdData, data_text>}};
 
 }  // namespace
 
@@ -165,7 +175,8 @@ const ObjectType Boxed<IdData>::type{"iddata", kDataTypeFields, kDataTypeMethods
 std::size_t Boxed<IdData>::outside_bytes(const IdData& data) {
     std::size_t numbers = 0;
     for (const Experiment& experiment : data.experiments)
-        numbers += static_cast<std::size_t>(experiment.y.size() + experiment.u.size() + experiment.t.size());
+        numbers += static_cast<std::size_t>(experiment.y.size() + experiment.u.size() + experiment.t.size() +
+                                            experiment.r.size());
     return numbers * sizeof(double) + data.experiments.size() * sizeof(Experiment);
 }
 
@@ -174,11 +185,12 @@ Digest Boxed<IdData>::digest(const IdData& data) {
     const auto& [experiments, Ts, hold, input_names, output_names, input_units, output_units, time_unit] = data;
     digest.add(&Ts, sizeof Ts).add(&hold, sizeof hold).add_part(time_unit);
     for (const auto* texts : {&input_names, &output_names, &input_units, &output_units}) add_texts(digest, *texts);
-    for (const auto& [y, u, t, start_time, name] : experiments) {
+    for (const auto& [y, u, t, start_time, name, r] : experiments) {
         digest.add(&start_time, sizeof start_time).add_part(name);
         add_numbers(digest, y);
         add_numbers(digest, u);
         add_numbers(digest, t);
+        add_numbers(digest, r);
     }
     return digest.digest();
 }

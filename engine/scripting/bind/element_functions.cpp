@@ -4,16 +4,26 @@
 
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/model.h"
+#include "scripting/objects/traced_value.h"
 
 namespace dynlab::inline scripting {
 namespace {
 
 enum class Domain { kAll, kFromZero };
 
-/// A function of one number, applied to a number or to every element.
-template <double (*kFunction)(double), Domain kDomain = Domain::kAll>
+/// Of functions that values which are not known yet cannot go through.
+constexpr Operation kNotTraced = Operation::kConstant;
+
+/// A function of one number, applied to a number or to every element; of a traced value its expression.
+template <double (*kFunction)(double), Operation kTraced = kNotTraced, Domain kDomain = Domain::kAll>
 int apply(Call& call) {
     call.at_most(1);
+    if (const auto trace = trace_among(call)) {
+        if (kTraced == kNotTraced)
+            throw InvalidArgument(
+                fmt::format("{} cannot be followed with a value that is not known yet", call.function_name()));
+        return give_traced_operation(call, trace, kTraced, 1);
+    }
     const auto checked = [](double x) {
         if (kDomain == Domain::kFromZero && x < 0)
             throw InvalidArgument(fmt::format("it is not defined for the negative number {:.6g}", x));
@@ -27,7 +37,7 @@ int apply(Call& call) {
 int absolute(Call& call) {
     if (const Complex* z = to_object<Complex>(call.state(), 1)) return call.give(std::abs(*z));
     if (const ComplexVector* z = to_object<ComplexVector>(call.state(), 1)) return call.give_vector(z->cwiseAbs());
-    return apply<std::fabs>(call);
+    return apply<std::fabs, Operation::kAbs>(call);
 }
 
 /// Td of a model -Td s.
@@ -41,7 +51,7 @@ std::optional<double> delay_of(const Model& model) {
 
 int exponential(Call& call) {
     const Model* model = to_object<Model>(call.state(), 1);
-    if (model == nullptr) return apply<std::exp>(call);
+    if (model == nullptr) return apply<std::exp, Operation::kExp>(call);
     const std::optional<double> delay = delay_of(*model);
     if (!delay || *delay < 0)
         throw InvalidArgument(
@@ -55,28 +65,63 @@ double sign(double x) {
     return x > 0 ? 1 : x < 0 ? -1 : x;
 }
 
+/// Numbers and vectors of one length, element by element.
+double element_of(const Call& call, int index, Index i, Index size) {
+    if (call.type(index) == LUA_TNUMBER) return call.number(index, "value");
+    const VectorMap v = call.vector(index, index == 2 ? "a" : "b");
+    if (v.size() != size)
+        throw InvalidArgument(
+            fmt::format("the mask has {} values, but {} has {}", size, index == 2 ? "a" : "b", v.size()));
+    return v[i];
+}
+
+/// where(c, a, b): a where c is positive, b elsewhere; c may be a mask.
+int choose(Call& call) {
+    call.at_most(3);
+    if (const auto trace = trace_among(call)) return give_traced_operation(call, trace, Operation::kWhere, 3);
+    if (MaskBlock* mask = call.given(1) ? to_mask(call.state(), 1) : nullptr) {
+        Vector chosen(mask->size);
+        for (Index i = 0; i < chosen.size(); ++i) chosen[i] = element_of(call, mask->data()[i] ? 2 : 3, i, mask->size);
+        return call.give_vector(chosen);
+    }
+    if (call.type(1) == LUA_TNUMBER)
+        return call.give(value_of(Operation::kWhere, call.number(1, "c"), call.number(2, "a"), call.number(3, "b")));
+    const Vector c = call.vector(1, "c");
+    Vector chosen(c.size());
+    for (Index i = 0; i < c.size(); ++i) chosen[i] = element_of(call, c[i] > 0 ? 2 : 3, i, c.size());
+    return call.give_vector(chosen);
+}
+
 constexpr const char* kElementArea = "vectors";
 constexpr std::array kElementFunctions = {
     FunctionEntry{"abs", kElementArea, "abs(x) -> y", "absolute value of a number or of every element",
                   guarded<absolute>},
     FunctionEntry{"sign", kElementArea, "sign(x) -> y", "-1, 0 or 1, of a number or of every element",
-                  guarded<apply<sign>>},
+                  guarded<apply<sign, Operation::kSign>>},
     FunctionEntry{"round", kElementArea, "round(x) -> y", "the nearest whole number, halves away from zero",
                   guarded<apply<std::round>>},
     FunctionEntry{"floor", kElementArea, "floor(x) -> y", "the whole number at or below", guarded<apply<std::floor>>},
     FunctionEntry{"ceil", kElementArea, "ceil(x) -> y", "the whole number at or above", guarded<apply<std::ceil>>},
     FunctionEntry{"sqrt", kElementArea, "sqrt(x) -> y", "square root of a number or of every element",
-                  guarded<apply<std::sqrt, Domain::kFromZero>>},
+                  guarded<apply<std::sqrt, Operation::kSqrt, Domain::kFromZero>>},
     FunctionEntry{"exp", kElementArea, "exp(x) -> y; exp(-Td*s) -> G",
                   "exponential of a number or of every element; a delay", guarded<exponential>},
     FunctionEntry{"log", kElementArea, "log(x) -> y", "natural logarithm of a number or of every element",
-                  guarded<apply<std::log, Domain::kFromZero>>},
+                  guarded<apply<std::log, Operation::kLog, Domain::kFromZero>>},
     FunctionEntry{"log10", kElementArea, "log10(x) -> y", "logarithm to base 10 of a number or of every element",
-                  guarded<apply<std::log10, Domain::kFromZero>>},
+                  guarded<apply<std::log10, kNotTraced, Domain::kFromZero>>},
     FunctionEntry{"sin", kElementArea, "sin(x) -> y", "sine (radians) of a number or of every element",
-                  guarded<apply<std::sin>>},
+                  guarded<apply<std::sin, Operation::kSin>>},
     FunctionEntry{"cos", kElementArea, "cos(x) -> y", "cosine (radians) of a number or of every element",
-                  guarded<apply<std::cos>>},
+                  guarded<apply<std::cos, Operation::kCos>>},
+    FunctionEntry{"tan", kElementArea, "tan(x) -> y", "tangent (radians) of a number or of every element",
+                  guarded<apply<std::tan, Operation::kTan>>},
+    FunctionEntry{"atan", kElementArea, "atan(x) -> y", "inverse tangent (radians) of a number or of every element",
+                  guarded<apply<std::atan, Operation::kArcTangent>>},
+    FunctionEntry{"tanh", kElementArea, "tanh(x) -> y", "hyperbolic tangent of a number or of every element",
+                  guarded<apply<std::tanh, Operation::kTanh>>},
+    FunctionEntry{"where", kElementArea, "where(c, a, b) -> y", "a where c is positive or true, b elsewhere",
+                  guarded<choose>},
 };
 
 }  // namespace

@@ -86,6 +86,20 @@ int field_channels(Call& call) {
     return give_list(call, rows, give_channels);
 }
 
+/// G.history: a plain table.
+int field_history(Call& call) {
+    const Estimate& estimate = estimate_in(model_self(call));
+    if (!estimate.history)
+        throw InvalidArgument(
+            fmt::format("{} looks at all samples at once; rlssvf, rivsvf and rsrivc give a history", estimate.method));
+    lua_newtable(call.state());
+    set_field(call, "t", estimate.history->t);
+    set_field(call, "theta", estimate.history->theta);
+    set_field(call, "std", estimate.history->std);
+    set_field(call, "names", estimate.names);
+    return 1;
+}
+
 double noise_variance_of(const Model& model) {
     const Estimate& estimate = estimate_in(model);
     for (const auto& [name, value] : estimate.numbers)
@@ -182,6 +196,7 @@ constexpr std::array kModelTypeFields = {
     Member{"robust_covariance", field<Model, [](const Model& model) { return assessment_of(model).covariance; }>},
     Member{"names", field<Model, [](const Model& model) { return parameters_of(model).names; }>},
     Member{"report", guarded<field_report>},
+    Member{"history", guarded<field_history>},
     Member{"Kp", guarded<field_parameter>},
     Member{"Tp1", guarded<field_parameter>},
     Member{"Tp2", guarded<field_parameter>},

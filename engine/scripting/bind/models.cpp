@@ -5,10 +5,12 @@
 #include "numerics/simulation/stability_margins.h"
 #include "scripting/arguments/told_sentences.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/objects/grey_object.h"
 #include "scripting/objects/model.h"
 #include "scripting/objects/numeric_tables.h"
 #include "scripting/objects/present.h"
 #include "scripting/objects/process_structure.h"
+#include "scripting/objects/simulated_model.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -221,6 +223,14 @@ int damp(Call& call) {
 int present(Call& call) {
     if (call.count() == 0) wrong_argument(call.state(), 1, "G", "model");
     for (int i = 1; i <= call.count(); ++i) {
+        if (const GreyEstimate* grey = to_object<GreyEstimate>(call.state(), i)) {
+            call.print(told(call, grey_presentation(**grey)));
+            continue;
+        }
+        if (const SimulatedModel* simulated = simulated_model(call, i)) {
+            call.print(told(call, presentation(*simulated)));
+            continue;
+        }
         const Model* model = to_object<Model>(call.state(), i);
         call.print(told(call, presentation(model != nullptr ? *model : model_argument(call, i, "G"))));
     }

@@ -6,12 +6,12 @@
 #include "numerics/estimators/etfe.h"
 #include "numerics/estimators/impulseest.h"
 #include "numerics/estimators/spa.h"
-#include "numerics/simulation/frequency_response.h"
 #include "scripting/arguments/table_fields.h"
 #include "scripting/arguments/told_sentences.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/figure_object.h"
+#include "scripting/objects/frequency_object.h"
 #include "scripting/objects/model.h"
 
 namespace dynlab::inline scripting {
@@ -57,22 +57,11 @@ void print_message(const Call& call, const std::string& message, const std::vect
 }
 
 int give_spectral(const Call& call, const Options& options, SpectralModels& read, const SpectralEstimate& estimate,
-                  const char* method) {
+                  const char* method, bool smoothed) {
     name_models(options, read.models);
     print_message(call, estimate.message, estimate.warnings);
     give_figure(call, spectral_plot(estimate, method, read.models, confidence_of(options)));
-    lua_createtable(call.state(), 0, 8);
-    set_field(call, "w", estimate.w);
-    set_field(call, "response", estimate.response);
-    set_field(call, "magnitude", estimate.response.cwiseAbs());
-    set_field(call, "phase", phase_degrees_unwrapped(estimate.response));
-    if (estimate.std.size() > 0) {
-        set_field(call, "std", estimate.std);
-        set_field(call, "coherence", estimate.coherence);
-        set_field(call, "noise_spectrum", estimate.noise_spectrum);
-    }
-    set_field(call, "message", told(call, estimate.message));
-    set_field(call, "warnings", told(call, estimate.warnings));
+    push_object(call.state(), frequency_data_of(estimate, read.data, method, smoothed));
     return 2;
 }
 
@@ -101,7 +90,7 @@ int ratio_of_transforms(Call& call) {
     EtfeOptions wanted;
     wanted.smooth = options.size("smooth", 0);
     wanted.remove_mean = options.flag("remove_mean", true);
-    return give_spectral(call, options, read, etfe(read.data, wanted), "etfe");
+    return give_spectral(call, options, read, etfe(read.data, wanted), "etfe", wanted.smooth > 0);
 }
 
 int spectral_analysis(Call& call) {
@@ -111,17 +100,38 @@ int spectral_analysis(Call& call) {
     wanted.window = options.size("window", 0);
     if (options.has("w")) wanted.w = options.vector("w");
     wanted.remove_mean = options.flag("remove_mean", true);
-    return give_spectral(call, options, read, spa(read.data, wanted), "spa");
+    return give_spectral(call, options, read, spa(read.data, wanted), "spa", true);
+}
+
+/// The number of lags where it stands behind the data, which is taken off the arguments; else 0.
+Index take_lags(Call& call) {
+    if (call.type(2) != LUA_TNUMBER) return 0;
+    const Index lags = call.size(2, "lags");
+    lua_remove(call.state(), 2);
+    call = Call(call.state());
+    return lags;
 }
 
 int regression_on_past_inputs(Call& call) {
+    const Index lags = take_lags(call);
     SpectralModels read = comparison_arguments(call);
-    const Options options(call, read.options, {"lags", "smooth", "confidence", "labels"});
+    const Options options(call, read.options, {"lags", "smooth", "Kernel", "confidence", "labels"});
     ImpulseestOptions wanted;
-    wanted.lags = options.size("lags", 0);
+    wanted.lags = options.size("lags", lags);
     wanted.smooth = options.flag("smooth", true);
+    wanted.kernel = std::array{ResponseKernel::kTc, ResponseKernel::kDc,
+                               ResponseKernel::kSs}[options.choice("Kernel", {"TC", "DC", "SS"}, 0)];
+    if (!wanted.smooth && options.has("Kernel"))
+        throw InvalidArgument("option 'Kernel' is of the smooth estimate, and 'smooth' is false");
     wanted.confidence = confidence_of(options);
-    return give_impulse(call, options, read, impulseest(read.data, wanted));
+    const RegressedResponse result = impulseest(read.data, wanted);
+    give_impulse(call, options, read, result);
+    set_field(call, "covariance", result.covariance);
+    if (!result.prior) return 2;
+    set_field(call, "scale", result.prior_scale);
+    set_field(call, "decay", result.prior->decay);
+    if (wanted.kernel == ResponseKernel::kDc) set_field(call, "correlation", result.prior->correlation);
+    return 2;
 }
 
 int correlation_analysis(Call& call) {
@@ -140,15 +150,14 @@ int correlation_analysis(Call& call) {
 
 constexpr const char* kNonparametricArea = "nonparametric";
 constexpr std::array kNonparametricFunctions = {
-    FunctionEntry{"etfe", kNonparametricArea,
-                  "etfe(data, G1, ..., {smooth =, remove_mean =, confidence =, labels =}) -> fig, table",
-                  "frequency response as the ratio of the Fourier transforms of output and input",
-                  guarded<ratio_of_transforms>},
+    FunctionEntry{
+        "etfe", kNonparametricArea, "etfe(data, G1, ..., {smooth =, remove_mean =, confidence =, labels =}) -> fig, F",
+        "frequency response as the ratio of the Fourier transforms of output and input", guarded<ratio_of_transforms>},
     FunctionEntry{"spa", kNonparametricArea,
-                  "spa(data, G1, ..., {window =, w =, remove_mean =, confidence =, labels =}) -> fig, table",
+                  "spa(data, G1, ..., {window =, w =, remove_mean =, confidence =, labels =}) -> fig, F",
                   "frequency response with errors, from smoothed correlations", guarded<spectral_analysis>},
     FunctionEntry{"impulseest", kNonparametricArea,
-                  "impulseest(data, G1, ..., {lags =, smooth =, confidence =, labels =}) -> fig, table",
+                  "impulseest(data, n, G1, ..., {Kernel =, lags =, smooth =, confidence =, labels =}) -> fig, table",
                   "impulse response by regression on past inputs, and the dead time it shows",
                   guarded<regression_on_past_inputs>},
     FunctionEntry{"cra", kNonparametricArea,

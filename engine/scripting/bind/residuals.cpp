@@ -12,7 +12,7 @@
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/figure_object.h"
-#include "scripting/objects/model.h"
+#include "scripting/objects/simulated_model.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -73,6 +73,24 @@ ModelDoubts doubts_of(const Call& call, int index) {
     return {undetermined_names(estimate.names, estimate.theta, estimate.std), missed_option_among(estimate.warnings)};
 }
 
+/// Of the model at argument 2.
+ResidualTests tests_of_model(const Call& call, const IdData& data, const Options& options,
+                             const ResidualOptions& wanted) {
+    const bool of_predictions = options.flag("prediction", false);
+    if (!of_predictions && runs_freely(call, 2)) {
+        const Comparison comparison = comparison_argument(call, 2, data, options);
+        std::vector<Matrix> outputs;
+        for (std::size_t k = 0; k < data.experiments.size(); ++k) outputs.push_back(comparison.outputs(k));
+        return residual_tests(data, std::move(outputs), wanted);
+    }
+    const CompareOptions start = compare_options(options);
+    IdData storage;
+    const IdData& driven = driving_data(call, 2, data, storage);
+    if (of_predictions)
+        return prediction_error_tests(driven, predict(driven, noisy_model_argument(call, 2, "G"), {1, start}), wanted);
+    return residual_tests(driven, channels_argument(call, 2, "G"), start, wanted, doubts_of(call, 2));
+}
+
 int test_residuals(Call& call) {
     call.at_most(3);
     const IdData& data = object_argument<IdData>(call, 1, "data");
@@ -81,13 +99,7 @@ int test_residuals(Call& call) {
     ResidualOptions wanted;
     wanted.lags = options.size("lags", wanted.lags);
     wanted.confidence = options.number("confidence", wanted.confidence);
-    const CompareOptions start = compare_options(options);
-    IdData storage;
-    const IdData& driven = driving_data(call, 2, data, storage);
-    const ResidualTests tests =
-        options.flag("prediction", false)
-            ? prediction_error_tests(driven, predict(driven, noisy_model_argument(call, 2, "G"), {1, start}), wanted)
-            : residual_tests(driven, channels_argument(call, 2, "G"), start, wanted, doubts_of(call, 2));
+    const ResidualTests tests = tests_of_model(call, data, options, wanted);
     if (!quiet) call.print(told(call, tests.verdict) + "\n");
     bool drawable = false;
     for (const OutputResiduals& output : tests.outputs) drawable = drawable || !output.exact;

@@ -102,6 +102,10 @@ CsvTable table_of_data(const IdData& data) {
     if (data.regular()) table.Ts = data.Ts;
     add_channels(table, data.experiments.front().u, data.input_names, data.input_units);
     add_channels(table, data.experiments.front().y, data.output_names, data.output_units);
+    const Index references = data.reference_count();
+    std::vector<std::string> names;
+    for (Index i = 1; i <= references; ++i) names.push_back(references == 1 ? "r" : fmt::format("r{}", i));
+    add_channels(table, data.experiments.front().r, names, {});
     return table;
 }
 

@@ -2,6 +2,8 @@
 
 #include "numerics/signals/excitation.h"
 #include "numerics/signals/prbs.h"
+#include "numerics/signals/random_phase_multisine.h"
+#include "scripting/arguments/table_fields.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/boxed.h"
 
@@ -54,7 +56,32 @@ int make_chirp(Call& call) {
         chirp(call.number(1, "f0"), call.number(2, "f1"), call.number(3, "T"), call.number(4, "Ts"), shape));
 }
 
+/// One period of random phases, repeated: multisine(N, {options})
+int make_random_phases(Call& call) {
+    call.at_most(2);
+    const Options options(call, 2, {"lines", "odd", "detection", "amplitude", "low_crest", "periods", "seed"});
+    RandomPhaseOptions wanted;
+    if (options.has("lines")) wanted.lines = options.vector("lines");
+    wanted.odd = options.flag("odd", false);
+    wanted.detection = options.size("detection", 0);
+    wanted.amplitude = options.number("amplitude", 1);
+    wanted.low_crest = options.flag("low_crest", false);
+    const Index period = call.size(1, "N"), periods = options.size("periods", 1);
+    if (periods < 1) throw InvalidArgument("option 'periods' must be at least 1, but 0 was given");
+    RandomStream own(static_cast<std::uint32_t>(options.size("seed", 1)));
+    const RandomPhaseMultisine signal =
+        random_phase_multisine(period, wanted, options.has("seed") ? own : call.context().random);
+    call.give_vector(signal.u.replicate(periods, 1));
+    lua_createtable(call.state(), 0, 3);
+    set_field(call, "lines", signal.lines);
+    set_field(call, "detection", signal.detection);
+    set_field(call, "crest", signal.crest);
+    return 2;
+}
+
+/// multisine({f1, f2, ...}, T, Ts), or of random phases
 int make_multisine(Call& call) {
+    if (call.type(1) == LUA_TNUMBER && !(call.type(2) == LUA_TNUMBER)) return make_random_phases(call);
     call.at_most(3);
     return call.give_vector(multisine(call.vector(1, "frequencies"), call.number(2, "T"), call.number(3, "Ts")));
 }
@@ -71,8 +98,9 @@ constexpr std::array kSignalsFunctions = {
                   "a sine of f hertz for T seconds", guarded<make_sine>},
     FunctionEntry{"chirp", kSignalsArea, "chirp(f0, f1, T, Ts, {shape = \"sine\" | \"square\"}) -> u",
                   "a sine or square wave whose frequency (hertz) runs from f0 to f1", guarded<make_chirp>},
-    FunctionEntry{"multisine", kSignalsArea, "multisine({f1, f2, ...}, T, Ts) -> u", "a sum of sines with low peaks",
-                  guarded<make_multisine>},
+    FunctionEntry{"multisine", kSignalsArea,
+                  "multisine({f1, f2, ...}, T, Ts) -> u; multisine(N, {lines =, odd =, detection =, ...}) -> u, grid",
+                  "a sum of sines: with low peaks, or one period of random phases", guarded<make_multisine>},
 };
 
 }  // namespace

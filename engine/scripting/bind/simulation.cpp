@@ -9,9 +9,13 @@
 #include "numerics/simulation/frequency_response.h"
 #include "numerics/simulation/lsim.h"
 #include "numerics/simulation/time_response.h"
+#include "scripting/arguments/table_fields.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/figure_object.h"
+#include "scripting/objects/frequency_object.h"
+#include "scripting/objects/grey_object.h"
 #include "scripting/objects/model.h"
+#include "scripting/objects/simulated_model.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -26,10 +30,33 @@ int simulate_system(Call& call, const StateSpace& system, const Options& options
     return y.cols() == 1 ? call.give_vector(y.col(0)) : call.give_matrix(y);
 }
 
+/// From rest or from x0. Of a model without inputs u says by its length how many samples are wanted.
+int simulate_freely(Call& call, const FreeRunModel& model, const Options& options, const VectorView& x0) {
+    const MatrixMap u = call.matrix(2, "u");
+    const IdData data = inputs_alone(model.input_count() == 0 ? Matrix(u.rows(), 0) : Matrix(u), call.number(3, "Ts"),
+                                     hold_option(options, Hold::kZoh));
+    const FreeRun run = model.free_run(data, 0, x0);
+    if (run.lost_at) throw InvalidArgument(divergence_text(data, 0, *run.lost_at));
+    return run.output.cols() == 1 ? call.give_vector(run.output.col(0)) : call.give_matrix(run.output);
+}
+
+/// By a grey box's own equations.
+int simulate_grey_box(Call& call, const GreyFit& grey, const Options& options, const Vector& x0) {
+    GreyInputs inputs{call.matrix(2, "u"), {}, hold_option(options, Hold::kZoh)};
+    const Index N = inputs.u.rows();
+    if (call.type(3) == LUA_TNUMBER)
+        inputs.t = call.number(3, "Ts") * Vector::LinSpaced(N, 0, static_cast<double>(N - 1));
+    else
+        inputs.t = call.vector(3, "t or Ts");
+    return give_columns(call, grey_response(grey, inputs, x0));
+}
+
 int simulate(Call& call) {
     call.at_most(4);
     const Options options(call, 4, {"hold", "x0"});
     const Vector x0 = options.has("x0") ? Vector(options.vector("x0")) : Vector();
+    if (const GreyEstimate grey = to_grey_box(call, 1)) return simulate_grey_box(call, *grey, options, x0);
+    if (const SimulatedModel* model = simulated_model(call, 1)) return simulate_freely(call, *model->run, options, x0);
     if (const StateSpace* system = to_object<StateSpace>(call.state(), 1))
         return simulate_system(call, *system, options, x0);
     const Model model = model_argument(call, 1, "G");
@@ -64,19 +91,27 @@ std::vector<NamedModel> models_to_draw(const Call& call, int& next) {
     return models;
 }
 
-void name_models(const Call& call, const Options& options, std::vector<NamedModel>& models) {
-    const std::vector<std::string> labels = options.texts("labels");
-    if (!labels.empty() && labels.size() != models.size())
+/// Option labels: none, or one for each of the curves.
+std::vector<std::string> labels_of(const Options& options, std::size_t count, const char* what) {
+    std::vector<std::string> labels = options.texts("labels");
+    if (!labels.empty() && labels.size() != count)
         throw InvalidArgument(
-            fmt::format("option 'labels' has {} texts, but there are {} models", labels.size(), models.size()));
+            fmt::format("option 'labels' has {} texts, but there are {} {}", labels.size(), count, what));
+    return labels;
+}
+
+std::string usual_name(const Call& call, int index) {
+    const std::string method = method_of_model(call, index);
+    return method.empty() ? fmt::format("model {}", index) : method;
+}
+
+void name_models(const Call& call, const Options& options, std::vector<NamedModel>& models) {
+    const std::vector<std::string> labels = labels_of(options, models.size(), "models");
     for (std::size_t i = 0; i < models.size(); ++i) {
-        if (!labels.empty()) {
+        if (!labels.empty())
             models[i].name = labels[i];
-        } else if (models.size() > 1) {
-            const Model* model = to_object<Model>(call.state(), static_cast<int>(i + 1));
-            models[i].name =
-                model != nullptr && model->estimate ? model->estimate->method : fmt::format("model {}", i + 1);
-        }
+        else if (models.size() > 1)
+            models[i].name = usual_name(call, static_cast<int>(i + 1));
     }
 }
 
@@ -93,14 +128,25 @@ std::optional<double> confidence_level(const Options& options) {
         "option 'confidence' must be a probability between 0 and 1, such as 0.99, or false, but {} was given", level));
 }
 
+std::optional<ModelConfidence> confidence_of(const Call& call, int index, const std::optional<double>& level) {
+    const Model* model = level ? to_object<Model>(call.state(), index) : nullptr;
+    if (model == nullptr) return std::nullopt;
+    auto uncertain = uncertain_model(*model);
+    if (!uncertain) return std::nullopt;
+    return ModelConfidence{std::move(*uncertain), *level};
+}
+
 void add_confidence(const Call& call, const Options& options, std::vector<NamedModel>& models) {
     const std::optional<double> level = confidence_level(options);
-    if (!level) return;
-    for (std::size_t i = 0; i < models.size(); ++i) {
-        const Model* model = to_object<Model>(call.state(), static_cast<int>(i + 1));
-        if (model == nullptr) continue;
-        if (auto uncertain = uncertain_model(*model)) models[i].confidence = {std::move(*uncertain), *level};
-    }
+    for (std::size_t i = 0; i < models.size(); ++i)
+        models[i].confidence = confidence_of(call, static_cast<int>(i + 1), level);
+}
+
+void refuse_option_texts(const Call& call, int index) {
+    if (call.type(index) == LUA_TSTRING)
+        throw InvalidArgument(
+            "options are written as a table: {confidence = 0.99} for the bands; bode_values(G, w) and step(G, t) give "
+            "standard deviations as numbers");
 }
 
 template <Figure (*kPlot)(const std::vector<NamedModel>&, const Vector&), bool kBands>
@@ -108,15 +154,41 @@ int draw_models(Call& call) {
     int next = 0;
     std::vector<NamedModel> models = models_to_draw(call, next);
     const Vector grid = call.holds_vector(next) ? Vector(call.vector(next++, "t or w")) : Vector();
-    if (kBands && call.type(next) == LUA_TSTRING)
-        throw InvalidArgument(
-            "options are written as a table: {confidence = 0.99} for the bands; bode_values(G, w) and step(G, t) give "
-            "standard deviations as numbers");
+    if (kBands) refuse_option_texts(call, next);
     call.at_most(next);
     const Options options = kBands ? Options(call, next, {"labels", "confidence"}) : Options(call, next, {"labels"});
     name_models(call, options, models);
     if (kBands) add_confidence(call, options, models);
     return give_figure(call, kPlot(models, grid));
+}
+
+/// bode(G1, F1, ...): models and measured responses in any order.
+int draw_bode(Call& call) {
+    int count = 0;
+    while (holds_model(call, count + 1) || holds_response(call, count + 1)) ++count;
+    if (count == 0) wrong_argument(call.state(), 1, "G", "model");
+    int next = count + 1;
+    const Vector grid = call.holds_vector(next) ? Vector(call.vector(next++, "w")) : Vector();
+    refuse_option_texts(call, next);
+    call.at_most(next);
+    const Options options(call, next, {"labels", "confidence"});
+    const std::vector<std::string> labels = labels_of(options, static_cast<std::size_t>(count), "models");
+    const std::optional<double> level = confidence_level(options);
+    std::vector<NamedModel> models;
+    std::vector<NamedResponse> responses;
+    for (int i = 1; i <= count; ++i) {
+        std::string name = labels.empty() ? "" : labels[static_cast<std::size_t>(i - 1)];
+        if (holds_response(call, i)) {
+            FrequencyData data = object_argument<FrequencyData>(call, i, "F");
+            if (labels.empty()) name = data.method.empty() ? "measured" : data.method;
+            if (!level) data.variance.resize(0);
+            responses.push_back({name, std::move(data), level.value_or(0.99)});
+        } else {
+            if (labels.empty() && count > 1) name = usual_name(call, i);
+            models.push_back({name, model_argument(call, i, "G").G, confidence_of(call, i, level)});
+        }
+    }
+    return give_figure(call, bode_plot(models, grid, responses));
 }
 
 int draw_poles_and_zeros(Call& call) {
@@ -170,7 +242,7 @@ constexpr std::array kSimulationFunctions = {
     FunctionEntry{"freqresp", kSimulationArea, "freqresp(G, w) -> complex vector", "frequency response at w (rad/s)",
                   guarded<frequency_response_of>},
     FunctionEntry{"bode", kFigures, "bode(G1, G2, ..., w, {labels =, confidence =}) -> fig",
-                  "magnitude and phase over frequency", guarded<draw_models<bode_plot, true>>},
+                  "magnitude and phase over frequency", guarded<draw_bode>},
     FunctionEntry{"nyquist", kFigures, "nyquist(G1, G2, ..., w, {labels =}) -> fig",
                   "frequency response in the complex plane", guarded<draw_models<nyquist_plot, false>>},
     FunctionEntry{"pzmap", kFigures, "pzmap(G1, G2, ..., {labels =, confidence =}) -> fig",

@@ -4,6 +4,7 @@
 #include "numerics/validation/monte_carlo.h"
 #include "platform/terminal/progress.h"
 #include "scripting/arguments/estimation.h"
+#include "scripting/arguments/loop_arguments.h"
 #include "scripting/bind/study_bindings.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/data_object.h"
@@ -174,11 +175,24 @@ TransferFunction system_of(const Options& options) {
     return model->G;
 }
 
+/// The input of an open loop, or controller and reference of a closed one.
+void read_excitation(const Options& options, MonteCarloStudy& study) {
+    const bool loop = options.has("controller");
+    const char *name = loop ? "reference" : "input", *other = loop ? "input" : "reference";
+    if (options.has(other))
+        throw InvalidArgument(loop ? "in a closed loop the input follows from controller and reference: give no 'input'"
+                                   : "option 'reference' is that of a closed loop: give its 'controller', too");
+    if (!options.has(name)) throw InvalidArgument(fmt::format("option '{0}' is missing: the samples of the {0}", name));
+    study.u = options.vector(name);
+    if (!loop) return;
+    study.controller = controller_at(options.call(), options.push("controller"));
+    study.controller->computing_delay = computing_delay_of(options);
+}
+
 MonteCarloStudy study_of(const Options& options) {
     MonteCarloStudy study;
     study.system = system_of(options);
-    if (!options.has("input")) throw InvalidArgument("option 'input' is missing: the samples of the input");
-    study.u = options.vector("input");
+    read_excitation(options, study);
     const auto Ts = options.optional_number("Ts");
     if (!Ts) throw InvalidArgument("option 'Ts' is missing: the sampling time in seconds");
     study.Ts = *Ts;
@@ -195,7 +209,8 @@ MonteCarloStudy study_of(const Options& options) {
 int run_study(Call& call) {
     call.at_most(1);
     const Options options(call, 1,
-                          {"system", "input", "Ts", "hold", "sigma", "snr", "runs", "seed", "threads", "estimators"});
+                          {"system", "input", "controller", "reference", "ComputingDelay", "Ts", "hold", "sigma", "snr",
+                           "runs", "seed", "threads", "estimators"});
     MonteCarloStudy study = study_of(options);
     const std::vector<MonteCarloMethod> methods = methods_of(call, options.push("estimators"));
     ProgressBar bar("Monte Carlo", static_cast<std::size_t>(study.runs) * methods.size());
@@ -208,7 +223,8 @@ int run_study(Call& call) {
 
 constexpr std::array kStudiesFunctions = {
     FunctionEntry{"montecarlo", "validation",
-                  "montecarlo{system =, input =, Ts =, sigma = | snr =, runs =, seed =, estimators = {...}} -> M",
+                  "montecarlo{system =, input = | controller =, reference =, Ts =, sigma = | snr =, runs =, seed =, "
+                  "estimators = {...}} -> M",
                   "the same experiment many times with fresh noise: bias and scatter of estimators",
                   guarded<memoized_call<run_study>>},
 };

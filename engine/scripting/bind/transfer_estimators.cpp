@@ -9,9 +9,11 @@
 #include "numerics/fit/srivc_iteration.h"
 #include "scripting/arguments/transfer_arguments.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/bind/frequency/frequency_bindings.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/fit_model.h"
+#include "scripting/objects/frequency_object.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -101,8 +103,14 @@ TransferRequest read_transfer_function(const Call& call) {
 
 template <auto kRead>
 int estimate_refined(Call& call) {
+    if (holds_response(call, 1)) return fit_response(call);
     const IdData& data = object_argument<IdData>(call, 1, "data");
     return give_refined(call, data, kRead(call));
+}
+
+int estimate_by_least_squares(Call& call) {
+    if (holds_response(call, 1)) return filter_response(call);
+    return estimate_filtered<lssvf, false, false>(call);
 }
 
 template <auto kRead>
@@ -124,7 +132,7 @@ constexpr const char* kTransferEstimatorsArea = "continuous time";
 constexpr std::array kTransferEstimatorsFunctions = {
     FunctionEntry{"lssvf", kTransferEstimatorsArea, "lssvf(data, {na, nb, nk}, lambda, {hold_y =}) -> G",
                   "A y = B u + e by least squares on state-variable filtered signals",
-                  guarded<estimate_filtered<lssvf, false, false>>},
+                  guarded<estimate_by_least_squares>},
     FunctionEntry{"ivsvf", kTransferEstimatorsArea, "ivsvf(data, {na, nb, nk}, lambda, {hold_y =}) -> G",
                   "the same by instrumental variables, without lssvf's bias",
                   guarded<estimate_filtered<ivsvf, true, false>>},

@@ -10,15 +10,15 @@
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/figure_object.h"
-#include "scripting/objects/model.h"
+#include "scripting/objects/simulated_model.h"
 
 namespace dynlab::inline scripting {
 namespace {
 
 std::string model_name(const Call& call, int index, const std::vector<std::string>& labels, std::size_t number) {
     if (number < labels.size()) return labels[number];
-    const Model* model = to_object<Model>(call.state(), index);
-    return model != nullptr && model->estimate ? model->estimate->method : fmt::format("model {}", number + 1);
+    const std::string method = method_of_model(call, index);
+    return method.empty() ? fmt::format("model {}", number + 1) : method;
 }
 
 /// What one model says of all experiments.
@@ -66,14 +66,11 @@ int draw_comparison(Call& call, const IdData& data, int first, int options_index
     const std::vector<std::string> labels = options.texts("labels");
     const std::optional<Index> steps = steps_option(options, std::nullopt);
     std::vector<ModelOutputs> models;
-    for (int i = first; holds_model(call, i); ++i) {
+    for (int i = first; holds_comparable_model(call, i); ++i) {
         const std::string name = model_name(call, i, labels, models.size()) + steps_text(steps);
-        const CompareOptions start = compare_options(options);
-        IdData storage;
-        const IdData& driven = driving_data(call, i, data, storage);
-        models.push_back(steps
-                             ? model_outputs(name, predict(driven, noisy_model_argument(call, i, "G"), {steps, start}))
-                             : model_outputs(name, compare_all(driven, channels_argument(call, i, "G"), start)));
+        models.push_back(
+            steps ? model_outputs(name, prediction_argument(call, i, data, {steps, compare_options(options)}))
+                  : model_outputs(name, comparison_argument(call, i, data, options)));
     }
     if (models.empty()) wrong_argument(call.state(), first, "G", "model");
     return give_figure(call, comparison_figure(data, models));
@@ -82,7 +79,7 @@ int draw_comparison(Call& call, const IdData& data, int first, int options_index
 int compare_models(Call& call) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
     int next = 2;
-    while (holds_model(call, next)) ++next;
+    while (holds_comparable_model(call, next)) ++next;
     call.at_most(next);
     read_steps_as_option(call, next);
     return draw_comparison(call, data, 2, next);
@@ -99,28 +96,39 @@ int fit(Call& call) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
     read_steps_as_option(call, 3);
     const Options options(call, 3, {"k", "InitialState", "Offset"});
-    const CompareOptions start = compare_options(options);
-    IdData storage;
-    const IdData& driven = driving_data(call, 2, data, storage);
     const auto steps = steps_option(options, std::nullopt);
-    const Vector percents = steps ? predict(driven, noisy_model_argument(call, 2, "G"), {steps, start}).fit_percent
-                                  : compare_all(driven, channels_argument(call, 2, "G"), start).fit_percent;
+    const Vector percents = steps ? prediction_argument(call, 2, data, {steps, compare_options(options)}).fit_percent
+                                  : comparison_argument(call, 2, data, options).fit_percent;
     for (const double percent : percents) lua_pushnumber(call.state(), percent);
     return static_cast<int>(percents.size());
+}
+
+/// What the measures ask of a model with one output.
+struct MeasuredModel {
+    Index parameters = 0;
+    std::shared_ptr<const Estimate> estimate;
+};
+
+MeasuredModel measured_model(const Call& call, int index) {
+    if (const SimulatedModel* simulated = simulated_model(call, index)) {
+        if (simulated->run->output_count() == 1) return {simulated->estimate->theta.size(), simulated->estimate};
+        throw InvalidArgument(
+            fmt::format("fit_measures is of one output, and the model has {}", simulated->run->output_count()));
+    }
+    const Model model = model_argument(call, index, "G");
+    return {parameters_of(model).values.size(), model.estimate};
 }
 
 int measure_fit(Call& call) {
     call.at_most(3);
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    const Model model = model_argument(call, 2, "G");
-    IdData storage;
-    const Comparison comparison = compare_all(driving_data(call, 2, data, storage), {model.G},
-                                              compare_options(Options(call, 3, {"InitialState", "Offset"})));
+    const Options options(call, 3, {"InitialState", "Offset"});
+    const MeasuredModel model = measured_model(call, 2);
+    const Comparison comparison = comparison_argument(call, 2, data, options);
     const LevelledOutputs pair = levelled_outputs(data, comparison);
     const Vector &y = pair.measured, &simulated = pair.simulated;
     const double mean_square = (y - simulated).squaredNorm() / static_cast<double>(y.size());
-    const InformationCriteria criteria =
-        information_criteria(mean_square, y.size(), parameters_of(model).values.size());
+    const InformationCriteria criteria = information_criteria(mean_square, y.size(), model.parameters);
     lua_createtable(call.state(), 0, 10);
     set_field(call, "fit_percent", fit_percent(y, simulated));
     set_field(call, "r_squared_simulation", r_squared_simulation(y, simulated));

@@ -111,6 +111,15 @@ int vector_table(Call& call) {
     return 1;
 }
 
+/// v.k1 of a vector whose values have names; nil of others.
+int vector_named(Call& call) {
+    lua_State* L = call.state();
+    if (lua_type(L, 2) != LUA_TSTRING || lua_getiuservalue(L, 1, 1) != LUA_TTABLE) return lua_pushnil(L), 1;
+    lua_pushvalue(L, 2);
+    lua_rawget(L, -2);
+    return 1;
+}
+
 /// __eq is asked only for two objects of this kind: same length and same values.
 int vector_equal(Call& call) {
     NumericBlock *a = to_vector(call.state(), 1), *b = to_vector(call.state(), 2);
@@ -127,6 +136,7 @@ constexpr std::array kVectorOperators = {
     Member{"__len", guarded<vector_length>},      Member{"__tostring", guarded<vector_tostring>},
     Member{"__lt", guarded<refuse_comparison>},   Member{"__le", guarded<refuse_comparison>},
     Member{"__newindex", guarded<write_element>}, Member{"__eq", guarded<vector_equal>},
+    Member{"__named", guarded<vector_named>},
 };
 
 MaskBlock& mask_self(Call& call) {

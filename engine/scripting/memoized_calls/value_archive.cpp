@@ -7,6 +7,7 @@
 #include "scripting/arguments/table_fields.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/figure_object.h"
+#include "scripting/objects/frequency_object.h"
 #include "scripting/objects/model_description.h"
 #include "scripting/objects/numeric.h"
 
@@ -44,9 +45,9 @@ ObjectCodec codec_of_figures() {
 }
 
 const auto& object_codecs() {
-    static const std::array codecs = {codec_of<IdData>(),        codec_of<Model>(),      codec_of<StateSpace>(),
-                                      codec_of<Complex>(),       codec_of<MonteCarlo>(), codec_of<OrderTable>(),
-                                      codec_of<ComplexVector>(), codec_of_figures()};
+    static const std::array codecs = {codec_of<IdData>(),        codec_of<Model>(),         codec_of<StateSpace>(),
+                                      codec_of<Complex>(),       codec_of<MonteCarlo>(),    codec_of<OrderTable>(),
+                                      codec_of<ComplexVector>(), codec_of<FrequencyData>(), codec_of_figures()};
     return codecs;
 }
 

@@ -92,4 +92,12 @@ Access<T>& object_argument(const Call& call, int index, const char* what) {
     return *object;
 }
 
+/// The object whose field or operator is asked for; unlike object_argument() it takes any that there may be.
+template <class T>
+const T& object_itself(const Call& call) {
+    const T* object = to_object<T>(call.state(), 1);
+    if (object == nullptr) wrong_argument(call.state(), 1, Boxed<T>::type.name, Boxed<T>::type.name);
+    return *object;
+}
+
 }  // namespace dynlab::inline scripting

@@ -65,7 +65,9 @@ Variable signals(const Matrix& columns) {
 
 VariableTable struct_of_experiment(const IdData& data, std::size_t k) {
     const Experiment& one = data.experiments[k];
-    return {{"y", signals(one.y)}, {"u", signals(one.u)}, {"t", {data.time(k)}}, {"Ts", {data.Ts}}};
+    VariableTable fields{{"y", signals(one.y)}, {"u", signals(one.u)}, {"t", {data.time(k)}}, {"Ts", {data.Ts}}};
+    if (one.r.cols() > 0) fields["r"] = signals(one.r);
+    return fields;
 }
 
 }  // namespace

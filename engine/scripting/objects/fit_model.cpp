@@ -72,6 +72,7 @@ Estimate estimate_of(const char* method, const Fit& fit) {
                         {"condition_number", fit.condition_number},
                         {"iterations", static_cast<double>(fit.trace.size())}};
     if (!fit.structure.channels.empty()) add_transfer_fields(estimate, fit);
+    estimate.history = fit.history;
     if (fit.noise) add_noise_fields(estimate, fit);
     if (fit.process) add_process_fields(estimate, fit);
     if (fit.polynomial) add_polynomial_fields(estimate, fit);

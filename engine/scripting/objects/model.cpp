@@ -1,11 +1,16 @@
 #include "scripting/objects/model.h"
 
+#include "numerics/simulation/grey_simulation.h"
+#include "scripting/objects/grey_object.h"
+
 namespace dynlab::inline scripting {
 
 std::size_t Boxed<Model>::outside_bytes(const Model& model) {
     std::size_t numbers = static_cast<std::size_t>(model.G.num().size() + model.G.den().size());
     if (model.estimate)
         for (const auto& [name, values] : model.estimate->vectors) numbers += static_cast<std::size_t>(values.size());
+    if (model.estimate && model.estimate->history)
+        numbers += static_cast<std::size_t>(2 * model.estimate->history->theta.size());
     return numbers * sizeof(double);
 }
 
@@ -16,7 +21,8 @@ std::size_t Boxed<StateSpace>::outside_bytes(const StateSpace& system) {
 
 bool holds_model(const Call& call, int index) {
     return index <= call.count() &&
-           (to_object<Model>(call.state(), index) != nullptr || to_object<StateSpace>(call.state(), index) != nullptr);
+           (to_grey_box(call, index) != nullptr || to_object<Model>(call.state(), index) != nullptr ||
+            to_object<StateSpace>(call.state(), index) != nullptr);
 }
 
 std::string channels_hint(const Model& model) {
@@ -25,6 +31,23 @@ std::string channels_hint(const Model& model) {
                                           : "G.channels[2][1] for the second output and first input");
 }
 
+namespace {
+
+/// A grey box with linear equations, one input and one output.
+Model linear_grey_model(const GreyFit& grey, int index, const char* what) {
+    const auto system = linear_system_of(grey.model, grey.fit.theta);
+    if (!system)
+        throw InvalidArgument(
+            fmt::format("argument {} ({}) must be a linear model, but this grey box is not linear; lsim, "
+                        "compare, fit and resid simulate it",
+                        index, what));
+    if (system->B.cols() == 1 && system->C.rows() == 1) return {to_transfer_function(*system)};
+    throw InvalidArgument(fmt::format("argument {} ({}) must have one input and one output, but it has {} and {}",
+                                      index, what, system->B.cols(), system->C.rows()));
+}
+
+}  // namespace
+
 Model model_argument(const Call& call, int index, const char* what) {
     if (index <= call.count()) {
         if (const Model* model = to_object<Model>(call.state(), index)) {
@@ -32,6 +55,7 @@ Model model_argument(const Call& call, int index, const char* what) {
             throw InvalidArgument(fmt::format("argument {} ({}) must have one input and one output, but {}", index,
                                               what, channels_hint(*model)));
         }
+        if (const GreyEstimate grey = to_grey_box(call, index)) return linear_grey_model(*grey, index, what);
         if (call.type(index) == LUA_TNUMBER)
             return {TransferFunction(Vector::Constant(1, call.number(index, what)), Vector::Ones(1))};
         if (const StateSpace* system = to_object<StateSpace>(call.state(), index)) {

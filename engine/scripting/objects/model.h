@@ -34,7 +34,8 @@ struct Estimate {
     std::shared_ptr<const StepTestResult> step_test = {};  ///< of the graphical methods
     /// Whiteness of the output errors and robust standard errors, where a method has them assessed.
     std::shared_ptr<const Assessment> assessment = {};
-    std::shared_ptr<const NoiseModel> noise = {};  ///< of rivc
+    std::shared_ptr<const NoiseModel> noise = {};          ///< of rivc
+    std::shared_ptr<const ParameterHistory> history = {};  ///< of recursive methods
 
     void set_assessment(std::optional<Assessment> found) {
         if (found) assessment = std::make_shared<Assessment>(std::move(*found));

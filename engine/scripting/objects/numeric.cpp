@@ -4,6 +4,7 @@
 
 #include "numerics/error.h"
 #include "scripting/objects/boxed.h"
+#include "scripting/objects/named_vector.h"
 #include "scripting/objects/numeric_types.h"
 #include "scripting/runtime/context.h"
 
@@ -11,9 +12,10 @@ namespace dynlab::inline scripting {
 namespace {
 
 template <class Block>
-Block& push_block(lua_State* L, double bytes, const std::string& what, const ObjectType& type) {
+Block& push_block(lua_State* L, double bytes, const std::string& what, const ObjectType& type, int user_values = 0) {
     need_memory(L, bytes + sizeof(Block), what.c_str());
-    auto* block = static_cast<Block*>(lua_newuserdatauv(L, sizeof(Block) + static_cast<std::size_t>(bytes), 0));
+    auto* block =
+        static_cast<Block*>(lua_newuserdatauv(L, sizeof(Block) + static_cast<std::size_t>(bytes), user_values));
     push_metatable(L, type);
     lua_setmetatable(L, -2);
     return *block;
@@ -55,6 +57,18 @@ NumericBlock& push_vector(lua_State* L, Index size) {
         push_block<NumericBlock>(L, bytes_of(size, 1), fmt::format("a vector of {} values", size), vector_type());
     block = {size, 1};
     return block;
+}
+
+void push_named_vector(lua_State* L, const Vector& values, const std::vector<std::string>& names) {
+    auto& block = push_block<NumericBlock>(L, bytes_of(values.size(), 1), "a vector with names", vector_type(), 1);
+    block = {values.size(), 1};
+    block.vector() = values;
+    lua_createtable(L, 0, static_cast<int>(names.size()));
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        lua_pushnumber(L, values[static_cast<Index>(i)]);
+        lua_setfield(L, -2, names[i].c_str());
+    }
+    lua_setiuservalue(L, -2, 1);
 }
 
 NumericBlock& push_matrix(lua_State* L, Index rows, Index columns) {

@@ -64,10 +64,13 @@ int read_member(lua_State* L) {
         return 1;
     }
     lua_settop(L, 2);
-    if (luaL_getmetafield(L, 1, "__named") != LUA_TNIL) {  // names that only the object knows; raises for others
-        lua_insert(L, 1);
+    if (luaL_getmetafield(L, 1, "__named") !=
+        LUA_TNIL) {  // names that only the object knows; raises for others, or nil
+        lua_pushvalue(L, 1);
+        lua_pushvalue(L, 2);
         lua_call(L, 2, 1);
-        return 1;
+        if (!lua_isnil(L, -1)) return 1;
+        lua_settop(L, 2);
     }
     if (lua_type(L, 2) != LUA_TSTRING)
         raise_error(L, fmt::format("a {0} has no elements; help(\"{0}\") tells what it has{1}", type.name,

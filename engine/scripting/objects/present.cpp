@@ -16,10 +16,19 @@ std::string kind_of(const Model& model) {
     return time + " transfer function";
 }
 
-/// "  +- 0.0312"; an error of exactly zero beside others belongs to a parameter that the search left at its bound.
+/// A value with the digits that its standard error bears, of which so many are printed; without an error, `otherwise`.
+std::string to_the_error(double value, double error, int error_digits, int otherwise) {
+    constexpr int kMost = 9;
+    if (!(error > 0) || !std::isfinite(error) || value == 0 || !std::isfinite(value))
+        return number_text(value, otherwise);
+    const auto place = [](double x) { return static_cast<int>(std::floor(std::log10(std::abs(x)))); };
+    return number_text(value, std::clamp(place(value) - place(error) + error_digits, 1, kMost));
+}
+
+/// "  ± 0.0312"; an error of exactly zero beside others belongs to a parameter that the search left at its bound.
 std::string error_text(const Vector& std, Index index) {
     if (std[index] == 0 && (std.array() > 0).any()) return "  (at its bound)";
-    return "  +- " + number_text(std[index], 3);
+    return "  ± " + number_text(std[index], 3);
 }
 
 std::string parameter_lines(const Model& model) {
@@ -28,18 +37,21 @@ std::string parameter_lines(const Model& model) {
     std::string text = "Parameters:\n";
     for (std::size_t i = 0; i < parameters.names.size(); ++i) {
         const auto index = static_cast<Index>(i);
-        text += fmt::format("  {:<5} {:>12}", parameters.names[i], number_text(parameters.values[index], 6));
-        if (parameters.std.size() > index) text += error_text(parameters.std, index);
+        const bool has_error = parameters.std.size() > index;
+        text += fmt::format("  {:<5} {:>12}", parameters.names[i],
+                            to_the_error(parameters.values[index], has_error ? parameters.std[index] : 0, 3, 6));
+        if (has_error) text += error_text(parameters.std, index);
         if (coloured && model.estimate->assessment->std[index] > 0)
-            text += fmt::format("  (robust +- {})", number_text(model.estimate->assessment->std[index], 3));
+            text += fmt::format("  (robust ± {})", number_text(model.estimate->assessment->std[index], 3));
         text += '\n';
     }
     return text;
 }
 
-/// "1.25 +- 0.031", or the value alone when its error is not known, or is none, as the damping of a real pole.
-std::string with_error(const std::string& value, double error) {
-    return std::isfinite(error) && error > 0 ? value + " +- " + number_text(error, 2) : value;
+/// "1.25 ± 0.031", or the value alone when its error is not known, or is none, as the damping of a real pole.
+std::string with_error(double value, double error, int digits = 5) {
+    const std::string text = to_the_error(value, error, 2, digits);
+    return std::isfinite(error) && error > 0 ? text + " ± " + number_text(error, 2) : text;
 }
 
 struct PoleColumns {
@@ -49,8 +61,7 @@ struct PoleColumns {
 std::string pole_row(const PoleDescription& row, const ModeUncertainty* errors, const PoleColumns& widths) {
     const auto cell = [&](double value, int digits, double ModeUncertainty::*error, int width) {
         const double own_error = errors != nullptr ? errors->*error : std::nan("");
-        return fmt::format("  {:>{}}",
-                           std::isfinite(value) ? with_error(number_text(value, digits), own_error) : "none", width);
+        return fmt::format("  {:>{}}", std::isfinite(value) ? with_error(value, own_error, digits) : "none", width);
     };
     return fmt::format("  {:<24}", complex_text(row.pole)) +
            cell(row.natural_frequency, 5, &ModeUncertainty::natural_frequency_std, widths.frequency) +
@@ -61,7 +72,7 @@ std::string pole_row(const PoleDescription& row, const ModeUncertainty* errors, 
 /// Steady-state gain and poles of one channel, with their standard errors where they are known.
 std::string gain_and_poles(const TransferFunction& G, const std::optional<ModelUncertainty>& uncertainty) {
     const double gain_error = uncertainty ? uncertainty->gain_std : std::nan("");
-    std::string text = "Steady-state gain: " + with_error(number_text(G.dc_gain()), gain_error) + "\n";
+    std::string text = "Steady-state gain: " + with_error(G.dc_gain(), gain_error) + "\n";
     if (G.pole_count() == 0) return text;
     const PoleColumns widths = uncertainty ? PoleColumns{19, 18, 19} : PoleColumns{17, 8, 17};
     text += fmt::format("{:<26}  {:>{}}  {:>{}}  {:>{}}\n", "Poles:", "frequency (rad/s)", widths.frequency, "damping",
@@ -94,8 +105,8 @@ std::string noise_lines(const NoiseModel& noise) {
     std::string text = "Noise C(q^-1)/D(q^-1) e, e white (weights of the samples before; the present one's is 1):\n";
     const auto add = [&](const char* name, const Vector& p, const Vector& std) {
         for (Index i = 1; i < p.size(); ++i)
-            text += fmt::format("  {:<5} {:>12}  +- {}\n", fmt::format("{}{}", name, i), number_text(p[i], 6),
-                                number_text(std[i], 3));
+            text += fmt::format("  {:<5} {:>12}  ± {}\n", fmt::format("{}{}", name, i),
+                                to_the_error(p[i], std[i], 3, 6), number_text(std[i], 3));
     };
     add("c", noise.C, noise.C_std);
     add("d", noise.D, noise.D_std);
@@ -115,7 +126,10 @@ std::string channel_lines(const TransferFunction& G, const std::optional<ModelUn
 
 std::string estimate_lines(const Estimate& estimate) {
     std::string text = fmt::format("Estimated by {}", estimate.method);
+    const bool of_response = std::any_of(estimate.numbers.begin(), estimate.numbers.end(),
+                                         [](const auto& number) { return number.first == "frequencies"; });
     for (const auto& [name, value] : estimate.numbers) {
+        if (of_response) break;  // its message says it
         if (name == "fit_percent")
             text += fmt::format(", fit to the estimation data {} % (simulation)", number_text(value, 4));
         if (name == "noise_variance") text += fmt::format(", noise variance {}", number_text(value, 4));

@@ -1,5 +1,9 @@
 #include "scripting/bind/bindings.h"
 #include "scripting/bind/control_bindings.h"
+#include "scripting/bind/frequency/frequency_bindings.h"
+#include "scripting/bind/grey_box/grey_bindings.h"
+#include "scripting/bind/intervals/interval_bindings.h"
+#include "scripting/bind/learning/learning_bindings.h"
 #include "scripting/bind/study_bindings.h"
 
 namespace dynlab::inline scripting {
@@ -7,23 +11,27 @@ namespace dynlab::inline scripting {
 const std::vector<FunctionEntry>& catalogue_of_functions() {
     static const std::vector<FunctionEntry> catalogue = [] {
         std::vector<FunctionEntry> all;
-        for (FunctionEntries area : {data_functions(),          preprocess_functions(),
-                                     saving_functions(),        rig_functions(),
-                                     vector_functions(),        column_statistics(),
-                                     element_functions(),       linear_algebra(),
-                                     vector_comparisons(),      random_functions(),
-                                     signal_functions(),        model_functions(),
-                                     simulation_functions(),    noisy_simulation_functions(),
-                                     estimator_functions(),     transfer_estimator_functions(),
-                                     noise_model_functions(),   discrete_estimator_functions(),
-                                     subspace_functions(),      hammerstein_functions(),
-                                     nonparametric_functions(), advice_functions(),
-                                     regression_functions(),    validation_functions(),
-                                     residual_functions(),      prediction_functions(),
-                                     order_functions(),         study_functions(),
-                                     figure_functions(),        control_functions(),
-                                     report_functions(),        answer_functions(),
-                                     program_functions(),       help_functions()})
+        for (FunctionEntries area : {data_functions(),        preprocess_functions(),
+                                     saving_functions(),      rig_functions(),
+                                     vector_functions(),      column_statistics(),
+                                     element_functions(),     linear_algebra(),
+                                     vector_comparisons(),    random_functions(),
+                                     signal_functions(),      model_functions(),
+                                     simulation_functions(),  noisy_simulation_functions(),
+                                     estimator_functions(),   transfer_estimator_functions(),
+                                     noise_model_functions(), loop_functions(),
+                                     recursive_functions(),   discrete_estimator_functions(),
+                                     subspace_functions(),    hammerstein_functions(),
+                                     idgrey_functions(),      greyest_functions(),
+                                     learning_functions(),    nonparametric_functions(),
+                                     frequency_functions(),   advice_functions(),
+                                     regression_functions(),  validation_functions(),
+                                     residual_functions(),    prediction_functions(),
+                                     interval_functions(),    order_functions(),
+                                     study_functions(),       figure_functions(),
+                                     control_functions(),     report_functions(),
+                                     answer_functions(),      program_functions(),
+                                     help_functions()})
             all.insert(all.end(), area.begin(), area.end());
         return all;
     }();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <regex>
 
 #include "documents/text_lines.h"
 
@@ -43,6 +44,12 @@ struct ShownFigure {
     std::string image, anchor, caption, code;
 };
 
+/// Links of a caption lead to places of its own page: their words stay.
+std::string without_links(const std::string& html) {
+    static const std::regex tag("</?a( [^>]*)?>");
+    return std::regex_replace(html, tag, "");
+}
+
 /// The figures of a page, each with the block of code that stands before it.
 std::vector<ShownFigure> figures_of(const ManualPage& page) {
     std::vector<ShownFigure> figures;
@@ -59,7 +66,7 @@ std::vector<ShownFigure> figures_of(const ManualPage& page) {
         const std::size_t caption = html.find("<figcaption", at);
         if (caption < end) {
             const std::size_t begin = html.find('>', caption) + 1;
-            figure.caption = trimmed(text_in_html(html.substr(begin, html.find("</figcaption>", begin) - begin)));
+            figure.caption = without_links(html.substr(begin, html.find("</figcaption>", begin) - begin));
         }
         const std::size_t pre = html.find("<pre", code);
         const std::string block = html.substr(pre, html.find("</pre>", pre) - pre);
@@ -117,8 +124,8 @@ ManualPage gallery_page(const std::vector<ManualPage>& pages) {
             main += fmt::format(
                 "<div class=\"shown\"><a href=\"{}{}\">{}</a>\n{}<details><summary>Script</summary>\n{}\n"
                 "</details></div>\n",
-                page.file, figure.anchor, figure.image,
-                figure.caption.empty() ? "" : "<p>" + html_text(figure.caption) + "</p>\n", figure.code);
+                page.file, figure.anchor, figure.image, figure.caption.empty() ? "" : "<p>" + figure.caption + "</p>\n",
+                figure.code);
         main += "</div>\n";
     }
     return overview("gallery.html", "Gallery", "Figures of the course and of the examples, with what made them", main);

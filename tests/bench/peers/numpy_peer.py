@@ -1,7 +1,8 @@
 """Times one method in numpy: numpy_peer.py JOB DATA REPETITIONS
 
-JOB is lsim, lssvf, lssvf_lstsq, ivsvf, srivc or monte_carlo. DATA holds N inputs and then N outputs as 8-byte floats,
-sampled every 0.01 s from a system with two poles and no zero; for monte_carlo the outputs are free of noise. First the
+JOB is lsim, lssvf, lssvf_lstsq, ivsvf, srivc, monte_carlo or grey_box. DATA holds N inputs and then N outputs as 8-byte
+floats, sampled every 0.01 s from a system with two poles and no zero; for monte_carlo the outputs are free of noise. For
+grey_box they are the crane's estimation record, the voltage twice, then position and angle (grey_box.py). First the
 estimates of a small record are compared with tests/reference/data. Prints lines of a name and its values, tabs between:
 difference (largest relative one from the reference), theta, seconds (median).
 """
@@ -14,6 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
+import grey_box
 import identification as twin
 
 SAMPLING_TIME = 0.01
@@ -50,6 +52,8 @@ def job(name, u, y):
     if name == "lsim":
         system = (np.array([2.0]), np.array([1.0, 4.0, 3.0]), np.array([-1.0, -3.0]))
         return lambda: twin.simulate(*system, u, SAMPLING_TIME)[-1:]
+    if name == "grey_box":
+        return lambda: grey_box.fit(np.split(u, 2)[0], np.column_stack(np.split(y, 2)), 0.02)
     if name == "srivc":
         return lambda: twin.srivc(u, y, *ORDERS, CUTOFF)[0]
     if name == "monte_carlo":

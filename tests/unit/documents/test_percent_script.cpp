@@ -6,6 +6,7 @@
 #include "documents/error.h"
 #include "documents/percent_script.h"
 #include "documents/solutions.h"
+#include "documents/text_lines.h"
 #include "platform/temporary_folder.h"
 
 namespace dynlab {

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "documents/latex_remains.h"
 #include "documents/text_lines.h"
 #include "documents/weave.h"
 
@@ -60,6 +61,20 @@ TEST(weave, figures_without_a_caption_are_numbered_and_say_what_their_axes_do) {
     EXPECT_THAT(text, HasSubstr("![From the cell `a`](figure:a-figure-2){#fig:a-figure-2}"));
     EXPECT_THAT(weave("-- ---\n-- title: Essai\n-- language: fr\n-- ---\n-- %% id=a\nplot(x)\n", record).text,
                 HasSubstr("voltage (V) en fonction du temps (s)]"));
+}
+
+// Oracle: what a reader of LaTeX takes for a formula, and what CommonMark prints for the number of a character.
+TEST(weave, units_in_brackets_at_the_axes_are_no_formula) {
+    RunRecord record;
+    record.outputs["a"] = {{"", "a-figure-1"}};
+    Figure& figure = record.figures["a-figure-1"].figure;
+    figure.panels.resize(1);
+    figure.panels[0].y_label = "voltage [V]", figure.panels[0].x_label = "R&D [s]";
+    const MarkdownText woven = weave("-- %% id=a\nplot(x)\n", record);
+    EXPECT_THAT(woven.text, HasSubstr("![Voltage &#91;V&#93; over R\\&D &#91;s&#93;](figure:a-figure-1)"));
+    Complaints complaints;
+    find_latex_brackets(woven, complaints);
+    EXPECT_TRUE(complaints.empty());
 }
 
 TEST(weave, options_hide_code_or_output) {

@@ -14,16 +14,20 @@ TEST(catalogue, every_method_has_its_files) {  // oracle: the source tree
     for (const MethodEntry& method : method_catalogue()) {
         EXPECT_TRUE(exists(root / "engine/numerics/estimators" / (method.file + ".h"))) << method.file;
         EXPECT_TRUE(exists(root / "engine/numerics/estimators" / (method.file + ".cpp"))) << method.file;
-        EXPECT_TRUE(exists(root / "tests/unit/estimators" / ("test_" + method.file + ".cpp"))) << method.file;
+        const std::filesystem::path test = root / "tests/unit/estimators" / method.file;
+        EXPECT_TRUE(exists(test.parent_path() / ("test_" + test.filename().string() + ".cpp"))) << method.file;
     }
 }
 
-TEST(catalogue, every_file_is_a_method) {  // oracle: the source tree
+TEST(catalogue, every_file_is_a_method_and_every_folder_a_family) {  // oracle: the source tree
     std::set<std::string> known{"catalogue"};
-    for (const MethodEntry& method : method_catalogue()) known.insert(method.file);
+    for (const MethodEntry& method : method_catalogue()) known.insert(method.file.substr(0, method.file.find('/')));
     const std::filesystem::path folder = std::filesystem::path(DYNLAB_SOURCE_DIR) / "engine/numerics/estimators";
-    for (const auto& entry : std::filesystem::directory_iterator(folder))
-        EXPECT_TRUE(known.count(entry.path().stem())) << entry.path();
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+        if (!entry.is_regular_file()) continue;
+        const std::filesystem::path file = std::filesystem::relative(entry.path(), folder).replace_extension();
+        EXPECT_TRUE(known.count(file.string())) << entry.path();
+    }
 }
 
 TEST(catalogue, names_are_unique_and_found) {  // oracle: definition

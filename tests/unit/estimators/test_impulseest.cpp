@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <cmath>
 
 #include "numerics/error.h"
@@ -104,6 +105,44 @@ TEST(impulseest, the_smooth_estimate_follows_the_data_when_noise_vanishes) {  //
     ImpulseestOptions options;
     options.lags = 30;
     EXPECT_LT((impulseest(record(g, u, 1e-6, 1), options).response - g).cwiseAbs().maxCoeff(), 1e-5);
+}
+
+TEST(impulseest, regularised_is_the_dense_posterior) {  // oracle: N x N conditioning, N = 100, means taken off
+    const IdData data = record(response_with(1, 25), random_levels(100, 1, 3), 0.2, 4);
+    for (const ResponseKernel kernel : {ResponseKernel::kTc, ResponseKernel::kDc, ResponseKernel::kSs}) {
+        ImpulseestOptions options;
+        options.lags = 24;
+        options.kernel = kernel;
+        const RegressedResponse found = impulseest(data, options);
+        const Vector u = data.experiments[0].u.col(0), y = data.experiments[0].y.col(0).tail(76);
+        Matrix Phi(76, 25);
+        for (Index i = 0; i < 25; ++i) Phi.col(i) = u.segment(24 - i, 76).array() - u.segment(24 - i, 76).mean();
+        const Matrix K = found.prior_scale * prior_kernel(*found.prior, 25);
+        const Matrix S = Phi * K * Phi.transpose() + found.noise_variance * Matrix::Identity(76, 76);
+        const Matrix gain = K * Phi.transpose() * S.inverse();
+        const Vector mean = gain * Vector(y.array() - y.mean());
+        EXPECT_LT((found.response - mean).cwiseAbs().maxCoeff(), 1e-8 * mean.cwiseAbs().maxCoeff());
+        EXPECT_LT((found.covariance - (K - gain * Phi * K)).cwiseAbs().maxCoeff(), 1e-8 * K.maxCoeff());
+        EXPECT_LT((found.covariance.diagonal().cwiseSqrt() - found.std).cwiseAbs().maxCoeff(), 1e-12);
+    }
+}
+
+TEST(impulseest, smoother_kernels_suit_smoother_responses) {  // oracle: the response put in, 30 seeds
+    Vector g(80);
+    for (Index i = 0; i < 80; ++i) {
+        const auto t = static_cast<double>(i);
+        g[i] = 0.01 * t * t * std::exp(-0.15 * t);
+    }
+    double tc = 0, ss = 0;
+    for (std::uint32_t seed = 1; seed <= 30; ++seed) {
+        const IdData data = record(g, random_levels(500, 3, seed), 0.5, seed + 50);
+        ImpulseestOptions options;
+        options.lags = 79;
+        tc += (impulseest(data, options).response - g).squaredNorm();
+        options.kernel = ResponseKernel::kSs;
+        ss += (impulseest(data, options).response - g).squaredNorm();
+    }
+    EXPECT_LT(ss, 0.9 * tc);
 }
 
 TEST(impulseest, reads_the_dead_time) {    // oracle: the dead time put in, 100 seeds each

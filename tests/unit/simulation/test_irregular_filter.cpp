@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "numerics/linalg/matrix_exponential.h"
 #include "numerics/linalg/polynomial.h"
 #include "numerics/signals/random.h"
 #include "numerics/simulation/exact_filter.h"

@@ -1,0 +1,30 @@
+#pragma once
+#include <optional>
+
+#include "numerics/criteria/function_library.h"
+#include "numerics/signals/iddata.h"
+
+namespace dynlab::inline numerics {
+
+/// Linear equations Theta Xi = B for the coefficients of a library: functions in the columns of Theta, states in those
+/// of B.
+struct RateEquations {
+    Matrix Theta, B;
+};
+
+/// Of one experiment from derivatives: state and derivative of the polynomial of degree 4, at most, that is closest to
+/// the `window` samples around each one. Samples where a held input jumps within the window are left out. Throws
+/// InvalidArgument for fewer samples than the window, and as library_values().
+RateEquations derivative_equations(const IdData& data, std::size_t experiment, const FunctionLibrary& library,
+                                   int window);
+
+/// Of one experiment in weak form with the test functions (1 - s^2)^8, s = (t - centre)/width, `width` in the time unit
+/// of the data, centred at every tenth of the width. Throws InvalidArgument for a width that leaves no room or holds
+/// fewer than 3 samples, and as library_values().
+RateEquations weak_equations(const IdData& data, std::size_t experiment, const FunctionLibrary& library, double width);
+
+/// Half a test function's length, in the time unit, for data whose changes take that long: the lag at which the
+/// mean autocorrelation of the states has fallen to a half, between 5 samples and a tenth of the longest record.
+double usual_width(const IdData& data);
+
+}  // namespace dynlab::inline numerics

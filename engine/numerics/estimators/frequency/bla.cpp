@@ -1,0 +1,343 @@
+#include "numerics/estimators/frequency/bla.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "numerics/error.h"
+#include "numerics/fit/spectral_estimate.h"
+#include "numerics/number_text.h"
+#include "numerics/signals/fourier.h"
+
+namespace dynlab::inline numerics {
+
+namespace {
+
+constexpr double kRepeatsRoughly = 0.02, kRepeatsNot = 0.25;  // of the input's power, that changes between periods
+constexpr Index kEnoughValues = 10;                           // behind every variance
+constexpr Index kFewestSamples = 8;
+
+/// The Fourier coefficients of one realisation at lines 1 .. L, a column for each period.
+struct Periods {
+    Eigen::MatrixXcd U, Y;
+};
+
+/// One realisation's means over the periods, and what its periods tell of noise: variances of one period.
+struct Realisation {
+    ComplexVector U, Y;
+    Vector input_noise, output_noise;
+    ComplexVector cross_noise;
+    double unsettled = 0, spread = 0;  // sums of squares: the first period against the others, and what noise explains
+};
+
+struct Cut {
+    std::size_t experiment;
+    Index first, periods;
+};
+
+/// Where the whole periods of every realisation stand; `rest` becomes the samples left out of each.
+std::vector<Cut> cuts_of(const IdData& data, const BlaOptions& options, Index& rest) {
+    std::vector<Cut> cuts;
+    for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+        const Index N = data.sample_count(e), length = N / options.realisations;
+        if (length * options.realisations != N)
+            throw InvalidArgument("bla: " + std::to_string(options.realisations) + " realisations do not divide the " +
+                                  std::to_string(N) + " samples of the record");
+        const Index periods = length / options.period;
+        if (periods < 1)
+            throw InvalidArgument("bla: a period of " + std::to_string(options.period) +
+                                  " samples is longer than a realisation of " + std::to_string(length));
+        if (options.transient >= periods)
+            throw InvalidArgument("bla: leaving out " + std::to_string(options.transient) + " of " +
+                                  counted(periods, "period") + " leaves nothing");
+        rest = length - periods * options.period;
+        for (Index r = 0; r < options.realisations; ++r)
+            cuts.push_back({e, r * length + rest + options.transient * options.period, periods - options.transient});
+    }
+    return cuts;
+}
+
+Periods transformed(const Experiment& experiment, const Cut& cut, Index period) {
+    const Index lines = (period - 1) / 2;
+    Periods all{Eigen::MatrixXcd(lines, cut.periods), Eigen::MatrixXcd(lines, cut.periods)};
+    for (Index p = 0; p < cut.periods; ++p) {
+        const Index first = cut.first + p * period;
+        const TransformPair pair =
+            fourier_transforms(experiment.u.col(0).segment(first, period), experiment.y.col(0).segment(first, period));
+        all.U.col(p) = pair.first.segment(1, lines) / static_cast<double>(period);
+        all.Y.col(p) = pair.second.segment(1, lines) / static_cast<double>(period);
+    }
+    return all;
+}
+
+/// How far the first period lies from the mean of the others, and how far noise would let it lie.
+void look_for_transient(const Periods& periods, Realisation& found) {
+    const Index others = periods.Y.cols() - 1;
+    if (others < 2) return;
+    const ComplexVector mean = periods.Y.rightCols(others).rowwise().mean();
+    const double share = 1 + 1 / static_cast<double>(others);
+    found.unsettled = (periods.Y.col(0) - mean).squaredNorm();
+    found.spread =
+        share * (periods.Y.rightCols(others).colwise() - mean).squaredNorm() / static_cast<double>(others - 1);
+}
+
+Realisation realisation_of(const Periods& periods) {
+    Realisation found;
+    found.U = periods.U.rowwise().mean(), found.Y = periods.Y.rowwise().mean();
+    if (periods.U.cols() < 2) return found;
+    const Eigen::MatrixXcd u = periods.U.colwise() - found.U, y = periods.Y.colwise() - found.Y;
+    const auto degrees = static_cast<double>(periods.U.cols() - 1);
+    found.input_noise = u.rowwise().squaredNorm() / degrees;
+    found.output_noise = y.rowwise().squaredNorm() / degrees;
+    found.cross_noise = y.cwiseProduct(u.conjugate()).rowwise().sum() / degrees;
+    look_for_transient(periods, found);
+    return found;
+}
+
+struct Lines {
+    std::vector<Index> excited, odd, even;  // 0-based: line k stands at k - 1
+    bool some_differ = false;
+};
+
+Lines lines_of(const std::vector<Realisation>& all, double least_input) {
+    Lines lines;
+    Vector least = all.front().U.cwiseAbs(), largest = least;
+    for (const Realisation& one : all) {
+        least = least.cwiseMin(one.U.cwiseAbs());
+        largest = largest.cwiseMax(one.U.cwiseAbs());
+    }
+    const double limit = least_input * largest.maxCoeff();
+    for (Index i = 0; i < least.size(); ++i) {
+        if (least[i] > limit)
+            lines.excited.push_back(i);
+        else if (largest[i] > limit)
+            lines.some_differ = true;
+        else
+            (i % 2 == 0 ? lines.odd : lines.even).push_back(i);
+    }
+    return lines;
+}
+
+Vector mean_over_neighbours(const Vector& values, Index reach) {
+    Vector means(values.size());
+    for (Index i = 0; i < values.size(); ++i) {
+        const Index first = std::max<Index>(0, i - reach), last = std::min(values.size() - 1, i + reach);
+        means[i] = values.segment(first, last - first + 1).mean();
+    }
+    return means;
+}
+
+class Approximation {
+  public:
+    Approximation(const IdData& data, const BlaOptions& options) : options_(options) {
+        result_.Ts = data.Ts;
+        result_.method = "bla";
+        result_.inter_sample = options.inter_sample.value_or(inter_sample_of(data.hold));
+        result_.input_name = data.input_names.front(), result_.output_name = data.output_names.front();
+        result_.input_unit = data.input_units.front(), result_.output_unit = data.output_units.front();
+        const std::vector<Cut> cuts = cuts_of(data, options, rest_);
+        periods_ = cuts.front().periods;
+        for (const Cut& cut : cuts) {
+            if (options.cancel && options.cancel()) break;
+            all_.push_back(realisation_of(transformed(data.experiments[cut.experiment], cut, options.period)));
+            periods_ = std::min(periods_, cut.periods);
+        }
+        if (all_.empty()) throw InvalidArgument("bla: stopped before the first realisation was looked at");
+        check_repetition();
+        lines_ = lines_of(all_, options.least_input);
+        count_ = static_cast<double>(all_.size());
+    }
+
+    FrequencyData result() {
+        const Index K = static_cast<Index>(lines_.excited.size());
+        Eigen::MatrixXcd G(K, static_cast<Index>(all_.size()));
+        Vector noise = Vector::Zero(K);
+        for (std::size_t m = 0; m < all_.size(); ++m) {
+            const ComplexVector response = all_[m].Y(lines_.excited).cwiseQuotient(all_[m].U(lines_.excited));
+            G.col(static_cast<Index>(m)) = response;
+            if (periods_ > 1) noise += noise_of(all_[m], response) / count_;
+        }
+        result_.w = frequencies(lines_.excited);
+        result_.response = G.rowwise().mean();
+        set_variances(G, noise);
+        result_.odd = without_input(lines_.odd), result_.even = without_input(lines_.even);
+        describe();
+        return result_;
+    }
+
+  private:
+    Vector frequencies(const std::vector<Index>& lines) const {
+        const double first = 2 * std::numbers::pi / (static_cast<double>(options_.period) * result_.Ts);
+        Vector w(static_cast<Index>(lines.size()));
+        for (std::size_t i = 0; i < lines.size(); ++i)
+            w[static_cast<Index>(i)] = first * static_cast<double>(lines[i] + 1);
+        return w;
+    }
+
+    /// Variance that noise gives the response of one realisation.
+    Vector noise_of(const Realisation& one, const ComplexVector& G) const {
+        const std::vector<Index>& k = lines_.excited;
+        const Vector input = one.input_noise(k).cwiseProduct(G.cwiseAbs2());
+        const Vector common = 2 * G.conjugate().cwiseProduct(one.cross_noise(k)).real();
+        return (one.output_noise(k) + input - common).cwiseQuotient(one.U(k).cwiseAbs2()) /
+               static_cast<double>(periods_);
+    }
+
+    void set_variances(const Eigen::MatrixXcd& G, const Vector& noise) {
+        const bool several = all_.size() > 1, periods = periods_ > 1;
+        result_.excited = levels(lines_.excited);
+        if (!several && !periods) return;
+        Vector spread = noise;
+        if (several) spread = (G.colwise() - result_.response).rowwise().squaredNorm() / (count_ - 1);
+        if (several && periods) {
+            const Vector distortion = spread - noise;
+            result_.excited.distortion = 2 * distortion.cwiseProduct(input_power(lines_.excited));
+            result_.distortion = mean_over_neighbours(distortion, reach()).cwiseMax(0);
+        }
+        if (periods) result_.noise_variance = mean_over_neighbours(noise, reach()) / count_;
+        const Vector rounding = (8 * std::numeric_limits<double>::epsilon() * result_.response.cwiseAbs()).cwiseAbs2();
+        result_.variance = (mean_over_neighbours(spread, reach()) / count_)
+                               .cwiseMax(rounding)
+                               .cwiseMax(std::numeric_limits<double>::min());
+    }
+
+    /// Lines on either side that a variance is averaged over.
+    Index reach() const {
+        if (options_.smooth) return *options_.smooth;
+        const Index values = std::max<Index>(1, all_.size() > 1 ? static_cast<Index>(all_.size()) - 1 : periods_ - 1);
+        return (kEnoughValues + values - 1) / values / 2;
+    }
+
+    Vector input_power(const std::vector<Index>& lines) const {
+        Vector power = Vector::Zero(static_cast<Index>(lines.size()));
+        for (const Realisation& one : all_) power += one.U(lines).cwiseAbs2() / count_;
+        return power;
+    }
+
+    OutputLevels levels(const std::vector<Index>& lines) const {
+        OutputLevels found;
+        found.w = frequencies(lines);
+        found.power = Vector::Zero(found.w.size());
+        for (const Realisation& one : all_) found.power += 2 * one.Y(lines).cwiseAbs2() / count_;
+        if (periods_ < 2) return found;
+        found.noise = Vector::Zero(found.w.size());
+        for (const Realisation& one : all_)
+            found.noise += 2 * one.output_noise(lines) / (count_ * static_cast<double>(periods_));
+        return found;
+    }
+
+    /// There all that is not noise is distortion.
+    OutputLevels without_input(const std::vector<Index>& lines) const {
+        OutputLevels found = levels(lines);
+        if (periods_ > 1) found.distortion = found.power - found.noise;
+        return found;
+    }
+
+    void check_repetition() {
+        if (periods_ < 2) return;
+        double changing = 0, all = 0;
+        for (const Realisation& one : all_) changing += one.input_noise.sum(), all += one.U.squaredNorm();
+        const double part = changing / (changing + all);
+        if (part > kRepeatsNot)
+            throw InvalidArgument("bla: the input does not repeat after " + std::to_string(options_.period) +
+                                  " samples: " + number_text(100 * part, 3) +
+                                  " % of its power changes from period to period; give the period of the excitation");
+        if (part > kRepeatsRoughly)
+            result_.warnings.push_back("The input repeats only roughly (" + number_text(100 * part, 3) +
+                                       " % of its power changes from period to period): the period is not right or "
+                                       "the input is noisy, and leakage may bias the response.");
+    }
+
+    void warn_of_transient() {
+        constexpr double kMore = 1.5, kChance = 6, kSeen = 1e-12;
+        double unsettled = 0, spread = 0, power = 0;
+        for (const Realisation& one : all_)
+            unsettled += one.unsettled, spread += one.spread, power += one.Y.squaredNorm();
+        const double chance = kChance / std::sqrt(count_ * static_cast<double>(all_.front().Y.size()));
+        if (unsettled > kSeen * power && unsettled > (kMore + chance) * spread)
+            result_.warnings.push_back(
+                "The first period differs from the others by more than noise explains: the "
+                "system was not yet in steady state; leave it out with `transient` = " +
+                std::to_string(options_.transient + 1) + ".");
+    }
+
+    void warn_of_record() {
+        if (rest_ > 0)
+            result_.warnings.push_back("The period does not divide the record: its first " + counted(rest_, "sample") +
+                                       " are left out, so that whole periods remain.");
+        if (lines_.some_differ)
+            result_.warnings.push_back(
+                "The realisations excite different lines: those that all of them excite are "
+                "used.");
+        if (periods_ < 2)
+            result_.warnings.push_back(
+                "One period does not tell noise from nonlinear distortion, nor whether the "
+                "system was in steady state.");
+        if (all_.size() < 2)
+            result_.warnings.push_back(
+                "One realisation does not tell nonlinear distortion at the excited lines: the "
+                "variance is that of noise alone.");
+    }
+
+    void describe() {
+        warn_of_transient();
+        warn_of_record();
+        result_.message = "Best linear approximation at " + std::to_string(result_.w.size()) + " frequencies from " +
+                          counted(static_cast<Index>(all_.size()), "realisation") + " of " +
+                          counted(periods_, "period") + ".";
+        const LevelSums sums = level_sums(result_);
+        const auto decibels = [&](double part) {
+            return number_text(10 * std::log10(std::max(part, 0.0) / sums.power), 3);
+        };
+        if (std::isfinite(sums.noise))
+            result_.message += " Noise lies at " + decibels(sums.noise) + " dB of the output.";
+        if (std::isfinite(sums.distortion))
+            result_.message += " Nonlinear distortion lies at " + decibels(sums.distortion) + " dB of the output.";
+    }
+
+    const BlaOptions& options_;
+    FrequencyData result_;
+    std::vector<Realisation> all_;
+    Lines lines_;
+    Index rest_ = 0, periods_ = 0;
+    double count_ = 1;
+};
+
+}  // namespace
+
+void BlaOptions::validate() const {
+    if (period < kFewestSamples)
+        throw InvalidArgument("bla: the period must be given in samples, at least " + std::to_string(kFewestSamples) +
+                              " of them, and is " + std::to_string(period));
+    if (realisations < 1)
+        throw InvalidArgument("bla: the number of realisations must be at least 1, and is " +
+                              std::to_string(realisations));
+    if (transient < 0)
+        throw InvalidArgument("bla: the number of periods to leave out must not be negative, and is " +
+                              std::to_string(transient));
+    if (!(least_input > 0 && least_input < 1))
+        throw InvalidArgument("bla: the least part of the input's amplitude must lie between 0 and 1, but it is " +
+                              number_text(least_input));
+    if (smooth && *smooth < 0)
+        throw InvalidArgument("bla: the number of frequencies to smooth over must not be negative, but it is " +
+                              std::to_string(*smooth));
+}
+
+FrequencyData bla(const IdData& data, const BlaOptions& options) {
+    options.validate();
+    return Approximation(nonparametric_data("bla", data, kFewestSamples, false), options).result();
+}
+
+LevelSums level_sums(const FrequencyData& data) {
+    LevelSums sums;
+    for (const OutputLevels* levels : {&data.excited, &data.odd, &data.even}) {
+        if (levels->w.size() == 0) continue;
+        sums.power += levels->power.sum();
+        sums.noise += levels->noise.size() > 0 ? levels->noise.sum() : kNaN;
+        sums.distortion += levels->distortion.size() > 0 ? levels->distortion.sum() : kNaN;
+    }
+    return sums;
+}
+
+}  // namespace dynlab::inline numerics

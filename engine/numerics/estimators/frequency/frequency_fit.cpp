@@ -1,0 +1,274 @@
+#include "numerics/estimators/frequency/frequency_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "numerics/criteria/frequency_output.h"
+#include "numerics/error.h"
+#include "numerics/estimators/frequency/frequency_start.h"
+#include "numerics/fit/diagnosis.h"
+#include "numerics/fit/output_error.h"
+#include "numerics/linalg/least_squares.h"
+#include "numerics/linalg/polynomial.h"
+#include "numerics/number_text.h"
+#include "numerics/simulation/sampled_response.h"
+#include "numerics/statistics/chi_squared.h"
+
+namespace dynlab::inline numerics {
+
+namespace {
+
+constexpr int kStartPasses = 20, kGridPasses = 5, kRoughIterations = 15, kMostIterations = 500;
+constexpr double kRoughTolerance = 1e-3;
+constexpr std::size_t kBestDelays = 3;
+constexpr double kClearlyBetter = 0.98;  // of the loss, for an unstable model
+
+struct Start {
+    Vector coefficients;
+    double delay = 0;  // s
+};
+
+void check_fit(const std::string& method, const FrequencyData& data, const TransferStructure& structure) {
+    structure.validate();
+    check_frequency_data(method, data);
+    if (!structure.single_channel())
+        throw InvalidArgument(method + ": a frequency response has one input and one output, and the model has " +
+                              std::to_string(structure.inputs) + " and " + std::to_string(structure.outputs));
+    if (data.w.size() < structure.parameter_count())
+        throw InvalidArgument(method + ": " + std::to_string(structure.parameter_count()) +
+                              " parameters need as many frequencies, and the response has " +
+                              std::to_string(data.w.size()));
+}
+
+Index pole_count(const TransferStructure& structure) {
+    return structure.poles.front();
+}
+Index zero_count(const TransferStructure& structure) {
+    return structure.channels.front().zeros;
+}
+
+/// Frequencies in the middle of the response's weighted power, rad/s.
+double middle_frequency(const FrequencyData& data) {
+    const Vector power = response_weights(data).cwiseProduct(data.response.cwiseAbs()).cwiseAbs2();
+    return std::sqrt(power.dot(data.w.cwiseAbs2()) / power.sum());
+}
+
+DelayRange range_of_delays(const FrequencyData& data, const FitOptions& options) {
+    if (options.largest_delay) return {options.least_delay, *options.largest_delay};
+    constexpr double kQuarter = std::numbers::pi / 2, kMostQuarters = 50;
+    double nearest = data.w[0];
+    for (Index k = 1; k < data.w.size(); ++k) nearest = std::min(nearest, data.w[k] - data.w[k - 1]);
+    const double told_apart = kQuarter / nearest, worth_it = kMostQuarters * kQuarter / middle_frequency(data);
+    return {options.least_delay, std::max(options.least_delay, std::min(told_apart, worth_it))};
+}
+
+FrequencyStart start_at(const FrequencyData& data, const TransferStructure& structure, double delay, int passes) {
+    return sanathanan_koerner(equation_lines(data, delay), pole_count(structure), zero_count(structure), passes);
+}
+
+/// The best local minima of the error over a grid of delays, s.
+std::vector<double> promising_delays(const FrequencyData& data, const TransferStructure& structure,
+                                     const DelayRange& range, const FitOptions& options, Fit& told) {
+    const int count = range.largest > range.least ? std::max(options.delay_count, 2) : 1;
+    told.delay_grid = Vector::LinSpaced(count, range.least, range.largest);
+    told.delay_loss.resize(count);
+    for (Index i = 0; i < count; ++i)
+        told.delay_loss[i] =
+            start_at(data, structure, told.delay_grid[i], kGridPasses).squares / static_cast<double>(2 * data.w.size());
+    const auto loss = [&](Index i) { return i < 0 || i >= count ? kInfinity : told.delay_loss[i]; };
+    std::vector<Index> minima;
+    for (Index i = 0; i < count; ++i)
+        if (loss(i) <= loss(i - 1) && loss(i) <= loss(i + 1)) minima.push_back(i);
+    std::sort(minima.begin(), minima.end(), [&](Index a, Index b) { return loss(a) < loss(b); });
+    if (minima.size() > kBestDelays) minima.resize(kBestDelays);
+    std::vector<double> delays;
+    for (const Index i : minima) delays.push_back(told.delay_grid[i]);
+    if (delays.empty()) delays.push_back(range.least);
+    return delays;
+}
+
+std::vector<Start> starts_of(const FrequencyData& data, const TransferStructure& structure,
+                             const std::vector<double>& delays, bool stable_alone) {
+    std::vector<Start> starts;
+    for (const double delay : delays) {
+        const Vector found = start_at(data, structure, delay, kStartPasses).coefficients;
+        if (found.size() == 0) continue;
+        const bool stable = is_hurwitz(monic(found.head(pole_count(structure))));
+        if (!stable) starts.push_back({with_stable_poles(found, pole_count(structure)), delay});
+        if (stable || !stable_alone) starts.push_back({found, delay});
+    }
+    if (starts.empty())
+        throw InvalidArgument("the response does not determine a model of " + counted(pole_count(structure), "pole") +
+                              ": its equations have no solution");
+    return starts;
+}
+
+/// A search with its end in seconds, and where another one would begin.
+struct Searched {
+    Fit fit;
+    Start end;
+};
+
+class FrequencySearch {
+  public:
+    FrequencySearch(const FrequencyData& data, const TransferStructure& structure, const DelayRange& range,
+                    const FitOptions& options)
+        : data_(data), structure_(structure), range_(range), options_(options) {}
+
+    Searched from(const std::vector<Start>& starts, bool stable_alone) const {
+        std::optional<Searched> best;
+        for (const Start& start : starts) {
+            Searched found = once(start, options_.rough(kRoughIterations, kRoughTolerance), stable_alone);
+            if (!best || found.fit.loss < best->fit.loss) best = std::move(found);
+        }
+        Searched end = continued(*best, options_, stable_alone);
+        if (end.fit.termination == Termination::kIterationLimit && options_.goes_on)
+            end = continued(end, options_.limited(kMostIterations, options_.tolerance), stable_alone);
+        return end;
+    }
+
+  private:
+    Searched continued(const Searched& before, const FitOptions& options, bool stable_alone) const {
+        Searched end = once(before.end, options, stable_alone);
+        end.fit.trace.insert(end.fit.trace.begin(), before.fit.trace.begin(), before.fit.trace.end());
+        return end;
+    }
+
+    Searched once(const Start& start, const FitOptions& options, bool stable_alone) const {
+        FrequencyOutput model(data_, structure_, start.coefficients, range_.least, range_.largest);
+        if (stable_alone) model.keep_stable();
+        const double unit = model.time_unit();
+        Searched found{minimise_output_error(model, model.target(),
+                                             model.parameters(start.coefficients, start.delay / unit), options),
+                       {}};
+        const Index count = start.coefficients.size();
+        const Vector end = found.fit.theta;
+        const Matrix derivatives = model.theta_derivatives();
+        found.end = {model.coefficients(end), structure_.free_delays ? end[count] * unit : start.delay};
+        found.fit.theta = model.theta(end);
+        found.fit.covariance = derivatives * found.fit.covariance * derivatives.transpose();
+        for (FitIteration& iteration : found.fit.trace) iteration.theta = model.theta(iteration.theta);
+        return found;
+    }
+
+    const FrequencyData& data_;
+    const TransferStructure& structure_;
+    const DelayRange& range_;
+    const FitOptions& options_;
+};
+
+/// Weighted errors, and the weighted response about its weighted mean.
+double fit_percent_of(const FrequencyData& data, const TransferFunction& G) {
+    const Vector weights = response_weights(data).cwiseAbs2();
+    const ComplexVector model = response_between_samples(G, data.w, data.Ts, data.inter_sample);
+    const Complex mean = data.response.cwiseProduct(weights.cast<Complex>()).sum() / weights.sum();
+    return fit_percent_of_sums(weights.dot((data.response - model).cwiseAbs2()),
+                               weights.dot((data.response.array() - mean).abs2().matrix()));
+}
+
+void warn_of_misfit(Fit& fit, const FrequencyData& data, Index values) {
+    constexpr double kChance = 0.001, kWorthTelling = 1.1;
+    const auto degrees = static_cast<double>(2 * data.w.size() - values);
+    if (data.variance.size() == 0 || data.neighbours_share_errors || degrees < 1) return;
+    if (fit.noise_variance[0] < kWorthTelling) return;
+    if (chi_squared_upper_tail(fit.noise_variance[0] * degrees, degrees) < kChance)
+        fit.warnings.push_back("The model misses the response by more than its variance explains (mean square " +
+                               number_text(fit.noise_variance[0], 3) +
+                               ", where 1 is expected): it wants more poles or zeros, or the variance is too small, "
+                               "and the standard errors are too.");
+}
+
+void describe(Fit& fit, const FrequencyData& data) {
+    describe_models(fit);
+    fit.fit_percent = Vector::Constant(1, fit_percent_of(data, fit.models.front()));
+    fit.offsets = Matrix::Zero(1, 1);
+    if (data.neighbours_share_errors)
+        fit.warnings.push_back(
+            "Neighbouring values of a smoothed response share their errors: the standard errors are "
+            "too small.");
+}
+
+std::string fit_text(const Fit& fit, const FrequencyData& data) {
+    return "fit " + number_text(fit.fit_percent[0], 4) + " % (response at " + std::to_string(data.w.size()) +
+           " frequencies)";
+}
+
+}  // namespace
+
+Fit frequency_fit(const std::string& method, const FrequencyData& data, const TransferStructure& structure,
+                  const FitOptions& options) {
+    options.validate();
+    check_fit(method, data, structure);
+    const DelayRange range = range_of_delays(data, options);
+    Fit told;
+    const std::vector<double> delays = structure.free_delays ? promising_delays(data, structure, range, options, told)
+                                                             : std::vector<double>{structure.channels.front().delay};
+    const bool stable_alone = options.stable.value_or(false);
+    const FrequencySearch search(data, structure, range, options);
+    const std::vector<Start> starts = starts_of(data, structure, delays, stable_alone);
+    Fit fit = search.from(starts, stable_alone).fit;
+    const auto unstable = [&](const Fit& end) { return has_unstable_pole(structure.models(end.theta).front()); };
+    if (!options.stable && unstable(fit)) {
+        Fit other = search.from(starts_of(data, structure, delays, true), true).fit;
+        if (kClearlyBetter * other.loss <= fit.loss) fit = std::move(other);
+    }
+    fit.structure = structure;
+    fit.delay_grid = told.delay_grid, fit.delay_loss = told.delay_loss;
+    if (data.variance.size() > 0) fit.covariance /= fit.noise_variance[0];
+    warn_of_search(fit, options);
+    describe(fit, data);
+    warn_of_misfit(fit, data, fit.theta.size());
+    if (data.variance.size() == 0) fit.loss *= 2, fit.noise_variance *= 2;  // of both parts
+    if (structure.free_delays) warn_of_delay(fit, fit.models.front().delay(), range, "");
+    set_message(fit, "The search over the frequency response " + ending_text(fit) + ": " + fit_text(fit, data) + ".");
+    return fit;
+}
+
+Fit frequency_lssvf(const FrequencyData& data, const TransferStructure& structure, const SvfOptions& options) {
+    options.validate();
+    check_carx("lssvf", structure);
+    check_fit("lssvf", data, structure);
+    const Index n = pole_count(structure), m = zero_count(structure), d = n + m + 1;
+    const EquationLines lines = equation_lines(data, structure.channels.front().delay);
+    const double unit = frequency_time_unit(data);
+    const ComplexVector shifted = lines.s.array() + options.lambda * unit;
+    const Vector sizes = shifted.cwiseAbs().array().pow(static_cast<double>(n));
+    const Vector coefficients = equation_solution(lines, sizes, n, m);
+
+    const FrequencyOutput scaled(data, structure, coefficients);
+    const Vector F = monic(coefficients.head(n));
+    Eigen::MatrixXcd regressors(lines.s.size(), d);
+    Vector spread(2 * lines.s.size());  // of each row's error, against that of the response
+    for (Index k = 0; k < lines.s.size(); ++k) {
+        const double weight = lines.weights[k] / sizes[k];
+        for (Index i = 0; i < n; ++i)
+            regressors(k, i) = -weight * lines.response[k] * std::pow(lines.s[k], static_cast<double>(n - 1 - i));
+        for (Index j = 0; j <= m; ++j) regressors(k, n + j) = weight * std::pow(lines.s[k], static_cast<double>(m - j));
+        spread[k] = spread[k + lines.s.size()] = std::abs(evaluate(F, lines.s[k])) / sizes[k];
+    }
+    Matrix rows(2 * lines.s.size(), d);
+    rows << regressors.real(), regressors.imag();
+    const LeastSquares equations = solve_least_squares(rows, Vector::Zero(rows.rows()));
+    const Matrix terms = spread.asDiagonal() * rows * equations.inverse_gram;
+
+    Fit fit;
+    fit.structure = structure;
+    fit.theta = scaled.seconds().cwiseProduct(coefficients);
+    const ComplexVector model =
+        response_between_samples(structure.models(fit.theta).front(), data.w, data.Ts, data.inter_sample);
+    fit.loss = response_weights(data).cwiseAbs2().dot((data.response - model).cwiseAbs2()) /
+               static_cast<double>(2 * data.w.size());
+    fit.noise_variance = Vector::Constant(
+        1, fit.loss * static_cast<double>(2 * data.w.size()) / static_cast<double>(2 * data.w.size() - d));
+    fit.condition_number = equations.condition_number;
+    fit.covariance = scaled.seconds().asDiagonal() * (terms.transpose() * terms) * scaled.seconds().asDiagonal();
+    if (data.variance.size() == 0) fit.covariance *= fit.noise_variance[0], fit.loss *= 2, fit.noise_variance *= 2;
+    describe(fit, data);
+    warn_of_cutoff(fit, options.lambda);
+    set_message(fit, "Least squares on the filtered frequency response: " + fit_text(fit, data) + ".");
+    return fit;
+}
+
+}  // namespace dynlab::inline numerics

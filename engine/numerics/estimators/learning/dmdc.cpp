@@ -1,0 +1,159 @@
+#include "numerics/estimators/learning/dmdc.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "numerics/error.h"
+#include "numerics/fit/diagnosis.h"
+#include "numerics/linalg/decompositions.h"
+#include "numerics/number_text.h"
+
+namespace dynlab::inline numerics {
+
+namespace {
+
+constexpr double kRounding = 1e-10;  // of the largest singular value, below which nothing is told apart
+constexpr Index kFewForJacobi = 200;
+
+Vector root_mean_squares(const IdData& data, Matrix Experiment::*channels) {
+    Vector squares = Vector::Zero((data.experiments.front().*channels).cols());
+    for (const Experiment& experiment : data.experiments)
+        squares += (experiment.*channels).colwise().squaredNorm().transpose();
+    return (squares / static_cast<double>(data.sample_count())).cwiseSqrt();
+}
+
+struct Scale {
+    Vector y, u;
+};
+
+/// z(first) .. z(first + count - 1) as columns, sample d - 1 being the first that has a snapshot.
+Matrix snapshots(const Experiment& record, const Scale& scale, Index d, Index first, Index count) {
+    const Index ny = scale.y.size(), nu = scale.u.size();
+    Matrix Z(d * ny + (d - 1) * nu, count);
+    for (Index i = 0; i < d; ++i)
+        Z.middleRows(i * ny, ny) =
+            scale.y.cwiseInverse().asDiagonal() * record.y.middleRows(first - i, count).transpose();
+    for (Index i = 1; i < d; ++i)
+        Z.middleRows(d * ny + (i - 1) * nu, nu) =
+            scale.u.cwiseInverse().asDiagonal() * record.u.middleRows(first - i, count).transpose();
+    return Z;
+}
+
+/// Snapshots with the inputs below them, and the next ones, of all experiments.
+struct Snapshots {
+    Matrix now, next;
+};
+
+Snapshots neighbouring_snapshots(const IdData& data, const Scale& scale, Index d) {
+    const Index rows = d * scale.y.size() + (d - 1) * scale.u.size(), nu = scale.u.size();
+    Index columns = 0, at = 0;
+    for (const Experiment& record : data.experiments) columns += std::max<Index>(0, record.y.rows() - d);
+    if (columns <= rows + nu)
+        throw InvalidArgument("dmdc: too few samples: " + std::to_string(rows + nu) +
+                              " unknowns in a row need more snapshots than that, and there are " +
+                              std::to_string(columns) + ": take fewer delays");
+    Snapshots pairs{Matrix(rows + nu, columns), Matrix(rows, columns)};
+    for (const Experiment& record : data.experiments) {
+        const Index count = record.y.rows() - d;
+        if (count <= 0) continue;
+        pairs.now.topRows(rows).middleCols(at, count) = snapshots(record, scale, d, d - 1, count);
+        pairs.now.bottomRows(nu).middleCols(at, count) =
+            scale.u.cwiseInverse().asDiagonal() * record.u.middleRows(d - 1, count).transpose();
+        pairs.next.middleCols(at, count) = snapshots(record, scale, d, d, count);
+        at += count;
+    }
+    return pairs;
+}
+
+SingularValues svd_of(const Matrix& M) {
+    return M.rows() <= kFewForJacobi ? jacobi_svd(M) : divide_and_conquer_svd(M);
+}
+
+Index told_apart(const Vector& s) {
+    return (s.array() > kRounding * s[0]).count();
+}
+
+struct Reduced {
+    Matrix A, B, U;
+    Vector singular_values;
+};
+
+Reduced reduce(const Snapshots& pairs, int rank) {
+    const Index rows = pairs.next.rows(), nu = pairs.now.rows() - rows;
+    // [now; next]' = Q [R11 R12; 0 R22]: all inner products are those of the short columns of R.
+    Matrix joint(pairs.now.cols(), pairs.now.rows() + rows);
+    joint << pairs.now.transpose(), pairs.next.transpose();
+    const Matrix R = triangular_part(joint);
+    const Matrix now = R.leftCols(rows + nu).transpose(), next = R.rightCols(rows).transpose();
+    const SingularValues of_next = svd_of(next), of_now = svd_of(now);
+    const Index seen = told_apart(of_next.s), r = rank > 0 ? rank : seen;
+    if (r > seen)
+        throw InvalidArgument("dmdc: `rank` is " + std::to_string(rank) + ", and the data show only " +
+                              std::to_string(seen) + " directions");
+    const Index p = std::min(r + nu, told_apart(of_now.s));
+    const Matrix U = of_next.U.leftCols(r);
+    const Matrix G = U.transpose() * next * of_now.V.leftCols(p) * of_now.s.head(p).cwiseInverse().asDiagonal() *
+                     of_now.U.leftCols(p).transpose();
+    return {G.leftCols(rows) * U, G.rightCols(nu), U, of_next.s};
+}
+
+void measure_fit(DmdcFit& found, const IdData& data, const Scale& scale, const Matrix& U) {
+    const StateSpace& system = found.system;
+    const Index d = found.delays, ny = data.output_count();
+    Vector errors = Vector::Zero(ny);
+    Index count = 0;
+    for (const Experiment& record : data.experiments) {
+        if (record.y.rows() < d) continue;
+        Vector x = U.transpose() * snapshots(record, scale, d, d - 1, 1);
+        for (Index k = d - 1; k < record.y.rows(); ++k, ++count) {
+            errors += (record.y.row(k).transpose() - system.C * x).cwiseAbs2();
+            x = system.A * x + system.B * record.u.row(k).transpose();
+        }
+    }
+    found.fit.loss = errors.sum() / static_cast<double>(count * ny);
+    found.fit.fit_percent = errors.binaryExpr(output_variations(data), &fit_percent_of_sums);
+}
+
+void describe(DmdcFit& found) {
+    Fit& fit = found.fit;
+    if (found.eigenvalues.cwiseAbs().maxCoeff() > 1)
+        fit.warnings.push_back("The model is unstable: an eigenvalue lies outside the unit circle.");
+    set_message(fit, "Dynamic mode decomposition of snapshots of " + counted(found.delays, "sample") + ", rank " +
+                         std::to_string(found.rank) + ": " + simulation_text(fit) + ".");
+}
+
+}  // namespace
+
+void DmdcOptions::validate() const {
+    if (rank < 0) throw InvalidArgument("dmdc: `rank` must not be negative, and is " + std::to_string(rank));
+    if (delays < 1) throw InvalidArgument("dmdc: `delays` must be at least 1, and is " + std::to_string(delays));
+}
+
+DmdcFit dmdc(const IdData& data, const DmdcOptions& options) {
+    options.validate();
+    check_sampled_data("dmdc", data);
+    const Scale scale{root_mean_squares(data, &Experiment::y), root_mean_squares(data, &Experiment::u)};
+    const Index ny = data.output_count();
+    const Snapshots pairs = neighbouring_snapshots(data, scale, options.delays);
+    if (options.rank > pairs.next.rows())
+        throw InvalidArgument("dmdc: `rank` is " + std::to_string(options.rank) + ", and a snapshot holds only " +
+                              std::to_string(pairs.next.rows()) + " values");
+    const Reduced reduced = reduce(pairs, options.rank);
+    DmdcFit found;
+    found.rank = static_cast<int>(reduced.A.rows());
+    found.delays = options.delays;
+    found.singular_values = reduced.singular_values;
+    found.eigenvalues = eigenvalues(reduced.A);
+    found.system = StateSpace(reduced.A, reduced.B * scale.u.cwiseInverse().asDiagonal(),
+                              scale.y.asDiagonal() * reduced.U.topRows(ny), Matrix::Zero(ny, scale.u.size()), data.Ts);
+    found.fit.start = {InitialState::kEstimate, false};
+    for (Index output = 0; output < ny; ++output)
+        for (Index input = 0; input < scale.u.size(); ++input)
+            found.fit.models.push_back(to_transfer_function(found.system, output, input));
+    measure_fit(found, data, scale, reduced.U);
+    describe(found);
+    return found;
+}
+
+}  // namespace dynlab::inline numerics

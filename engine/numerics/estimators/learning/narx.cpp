@@ -1,0 +1,282 @@
+#include "numerics/estimators/learning/narx.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "numerics/error.h"
+#include "numerics/fit/diagnosis.h"
+#include "numerics/linalg/least_squares.h"
+#include "numerics/linalg/triangular_factor.h"
+#include "numerics/number_text.h"
+
+namespace dynlab::inline numerics {
+
+namespace {
+
+constexpr Index kMostTerms = 50, kBlock = 2048;
+constexpr double kDependent = 1e-12;  // of a candidate's power, what the others leave of it
+constexpr double kOutOfBounds = 1e3;  // times the largest output of the record
+
+/// R of the candidates' values and the outputs, of which all that follows is made.
+Matrix candidates_and_output(const IdData& data, const NarxLags& lags, const Monomials& monomials) {
+    TriangularFactor factor(monomials.count() + 1);
+    for (const Experiment& experiment : data.experiments) {
+        const Index first = lags.first();
+        if (experiment.y.rows() <= first) continue;
+        const Matrix past = lags.past_values(experiment.y.col(0), experiment.u);
+        for (Index row = 0; row < past.rows(); row += kBlock) {
+            const Index rows = std::min(kBlock, past.rows() - row);
+            Matrix block(rows, monomials.count() + 1);
+            block.leftCols(monomials.count()) = monomials.values(past.middleRows(row, rows));
+            block.col(monomials.count()) = experiment.y.col(0).segment(first + row, rows);
+            factor.add(block);
+        }
+    }
+    return factor.R();
+}
+
+Index equation_count(const IdData& data, const NarxLags& lags) {
+    Index rows = 0;
+    for (const Experiment& experiment : data.experiments)
+        rows += std::max<Index>(0, experiment.y.rows() - lags.first());
+    return rows;
+}
+
+struct Choice {
+    std::vector<Index> terms;
+    std::vector<double> error_reduction, bic;
+};
+
+/// The candidates one by one, each time the one that explains most of what is left of the output. What is chosen is
+/// taken off all others (modified Gram and Schmidt).
+Choice choose_forwards(const Matrix& R, Index rows, Index most) {
+    const Index M = R.cols() - 1;
+    Matrix W = R.leftCols(M);
+    Vector rest = R.col(M);
+    const Vector powers = W.colwise().squaredNorm().transpose();
+    const double power = rest.squaredNorm(), N = static_cast<double>(rows);
+    std::vector<bool> taken(static_cast<std::size_t>(M), false);
+    Choice choice;
+    while (static_cast<Index>(choice.terms.size()) < most) {
+        Index best = -1;
+        double most_explained = 0;
+        for (Index j = 0; j < M; ++j) {
+            const double own = W.col(j).squaredNorm();
+            if (taken[static_cast<std::size_t>(j)] || own <= kDependent * powers[j]) continue;
+            const double along = W.col(j).dot(rest), explained = along * along / own;
+            if (explained > most_explained) most_explained = explained, best = j;
+        }
+        if (best < 0) break;
+        taken[static_cast<std::size_t>(best)] = true;
+        const Vector q = W.col(best).normalized();
+        rest -= q * q.dot(rest);
+        for (Index j = 0; j < M; ++j)
+            if (!taken[static_cast<std::size_t>(j)]) W.col(j) -= q * q.dot(W.col(j));
+        choice.terms.push_back(best);
+        choice.error_reduction.push_back(most_explained / power);
+        choice.bic.push_back(bic_of_loss(rest.squaredNorm() / N, power / N, rows, choice.terms.size()));
+    }
+    return choice;
+}
+
+std::size_t number_of_terms(const Choice& choice, Index wanted) {
+    if (wanted == 0)
+        return static_cast<std::size_t>(std::min_element(choice.bic.begin(), choice.bic.end()) - choice.bic.begin()) +
+               1;
+    if (static_cast<Index>(choice.terms.size()) < wanted)
+        throw InvalidArgument("narx: " + std::to_string(wanted) + " terms are wanted, and only " +
+                              std::to_string(choice.terms.size()) +
+                              " candidates are independent of each other in this record");
+    return static_cast<std::size_t>(wanted);
+}
+
+/// theta of the chosen terms, with all that a linear regression tells.
+void solve_chosen(NarxFit& found, const Matrix& R, const std::vector<Index>& terms, Index rows) {
+    const auto d = static_cast<Index>(terms.size());
+    Matrix chosen(R.rows(), d);
+    for (Index i = 0; i < d; ++i) chosen.col(i) = R.col(terms[static_cast<std::size_t>(i)]);
+    const LeastSquares solution = solve_least_squares(chosen, R.col(R.cols() - 1));
+    Fit& fit = found.fit;
+    const double squares = solution.residuals.squaredNorm();
+    fit.theta = solution.solution;
+    fit.noise_variance = Vector::Constant(1, squares / static_cast<double>(rows - d));
+    fit.covariance = fit.noise_variance[0] * solution.inverse_gram;
+    fit.std = fit.covariance.diagonal().cwiseMax(0).cwiseSqrt();
+    fit.condition_number = solution.condition_number;
+    fit.loss = squares / static_cast<double>(rows);
+}
+
+/// The fits of the free run and one step ahead, and where the former is lost.
+void judge(NarxFit& found, const IdData& data, Index rows) {
+    Fit& fit = found.fit;
+    const double variation = output_variations(data)[0];
+    double errors = 0;
+    for (std::size_t k = 0; k < data.experiments.size(); ++k) {
+        const FreeRun run = found.model->free_run(data, k, Vector());
+        if (run.lost_at) fit.warnings.push_back(divergence_text(data, k, *run.lost_at));
+        errors += (data.experiments[k].y - run.output).squaredNorm();
+    }
+    fit.fit_percent = Vector::Constant(1, fit_percent_of_sums(errors, variation));
+    fit.prediction_fit_percent = fit_percent_of_sums(fit.loss * static_cast<double>(rows), variation);
+}
+
+std::string equation_text(const IdData& data, const NarxFit& found) {
+    std::string text = data.output_names.front() + "(k) =";
+    for (Index i = 0; i < found.fit.theta.size(); ++i) {
+        const double value = found.fit.theta[i];
+        const std::string& term = found.fit.names[static_cast<std::size_t>(i)];
+        text += (value < 0 ? " - " : i == 0 ? " " : " + ") + number_text(std::abs(value), 5);
+        if (term != "1") text += "*" + term;
+    }
+    return text;
+}
+
+void check(const IdData& data, const NarxLags& lags, const NarxOptions& options, Index candidates) {
+    check_sampled_data("narx", data);
+    if (data.output_count() != 1)
+        throw InvalidArgument("narx needs one output, and the data hold " + std::to_string(data.output_count()) +
+                              ": select one");
+    const Index rows = equation_count(data, lags), least = std::max<Index>(options.terms, 1) + 1;
+    if (options.terms > candidates)
+        throw InvalidArgument("narx: " + std::to_string(options.terms) + " terms are wanted, and there are only " +
+                              std::to_string(candidates) + " candidates");
+    if (rows <= least)
+        throw InvalidArgument("narx: too few samples: " + std::to_string(std::max<Index>(rows, 0)) +
+                              " have their whole past recorded, and more than " + std::to_string(least) +
+                              " are needed");
+}
+
+}  // namespace
+
+void NarxLags::check(Index inputs) const {
+    if (static_cast<Index>(nb.size()) != inputs || nb.size() != nk.size())
+        throw InvalidArgument("narx: the lags are of " + std::to_string(nb.size()) + " input(s), and the data hold " +
+                              std::to_string(inputs));
+    bool negative = na < 0;
+    for (std::size_t j = 0; j < nb.size(); ++j) negative = negative || nb[j] < 0 || nk[j] < 0;
+    if (negative) throw InvalidArgument("narx: numbers of lags must not be negative");
+    if (variables() == 0)
+        throw InvalidArgument("narx: the model reads no past value at all: na or nb must be 1 or more");
+}
+
+Index NarxLags::variables() const {
+    Index count = na;
+    for (const int own : nb) count += own;
+    return count;
+}
+
+Index NarxLags::first() const {
+    Index first = na;
+    for (std::size_t j = 0; j < nb.size(); ++j)
+        if (nb[j] > 0) first = std::max<Index>(first, nk[j] + nb[j] - 1);
+    return first;
+}
+
+Matrix NarxLags::past_values(const VectorView& y, const MatrixView& u) const {
+    const Index start = first(), rows = y.size() - start;
+    Matrix past(rows, variables());
+    Index column = 0;
+    for (int lag = 1; lag <= na; ++lag) past.col(column++) = y.segment(start - lag, rows);
+    for (std::size_t j = 0; j < nb.size(); ++j)
+        for (int i = 0; i < nb[j]; ++i)
+            past.col(column++) = u.col(static_cast<Index>(j)).segment(start - nk[j] - i, rows);
+    return past;
+}
+
+std::vector<std::string> NarxLags::names(const std::string& output, const std::vector<std::string>& inputs) const {
+    std::vector<std::string> all;
+    const auto add = [&](const std::string& name, int lag) {
+        all.push_back(name + (lag == 0 ? "(k)" : "(k-" + std::to_string(lag) + ")"));
+    };
+    for (int lag = 1; lag <= na; ++lag) add(output, lag);
+    for (std::size_t j = 0; j < nb.size(); ++j)
+        for (int i = 0; i < nb[j]; ++i) add(inputs[j], nk[j] + i);
+    return all;
+}
+
+NarxModel::NarxModel(NarxLags lags, Monomials monomials, std::vector<Index> terms, Vector theta, double Ts,
+                     double largest)
+    : lags_(std::move(lags)),
+      monomials_(std::move(monomials)),
+      terms_(std::move(terms)),
+      theta_(std::move(theta)),
+      Ts_(Ts),
+      largest_(largest) {}
+
+FreeRun NarxModel::free_run(const IdData& data, std::size_t experiment, const VectorView& x0) const {
+    check_channels("narx", *this, data);
+    if (!data.regular() || std::abs(data.Ts - Ts_) > 1e-6 * Ts_)
+        throw InvalidArgument("narx: the model is sampled every " + number_text(Ts_) + " s, and the data " +
+                              (data.regular() ? "every " + number_text(data.Ts) + " s" : "irregularly"));
+    const Experiment& record = data.experiments[experiment];
+    const Index N = record.u.rows() > 0 ? record.u.rows() : record.y.rows(), first = lags_.first();
+    if (N <= first)
+        throw InvalidArgument("narx: the run begins after " + std::to_string(first) +
+                              " samples, and the record holds only " + std::to_string(N));
+    if (x0.size() != 0 && x0.size() != first)
+        throw InvalidArgument("narx: x0 holds the first " + std::to_string(first) + " outputs of the run, and has " +
+                              std::to_string(x0.size()) + " values");
+    FreeRun run{Matrix::Constant(N, 1, kNaN), {}, "from the recorded first " + counted(first, "sample")};
+    auto y = run.output.col(0);
+    if (x0.size() > 0) {
+        y.head(first) = x0;
+    } else if (record.y.cols() > 0) {
+        y.head(first) = record.y.col(0).head(first);
+    } else {
+        y.head(first).setZero();
+    }
+    Vector z(lags_.variables());
+    for (Index k = first; k < N; ++k) {
+        Index place = 0;
+        for (int lag = 1; lag <= lags_.na; ++lag) z[place++] = y[k - lag];
+        for (std::size_t j = 0; j < lags_.nb.size(); ++j)
+            for (int i = 0; i < lags_.nb[j]; ++i) z[place++] = record.u(k - lags_.nk[j] - i, static_cast<Index>(j));
+        double next = 0;
+        for (Index i = 0; i < theta_.size(); ++i)
+            next += theta_[i] * monomials_.value(terms_[static_cast<std::size_t>(i)], z);
+        if (!(std::abs(next) <= kOutOfBounds * largest_)) {
+            run.lost_at = k;
+            break;
+        }
+        y[k] = next;
+    }
+    return run;
+}
+
+void NarxOptions::validate() const {
+    if (terms < 0) throw InvalidArgument("narx: `terms` must not be negative, and is " + std::to_string(terms));
+}
+
+NarxFit narx(const IdData& data, const NarxLags& lags, const NarxOptions& options) {
+    options.validate();
+    lags.check(data.input_count());
+    const Monomials monomials("narx", lags.variables(), options.degree);
+    check(data, lags, options, monomials.count());
+    const Index rows = equation_count(data, lags);
+    const Matrix R = candidates_and_output(data, lags, monomials);
+    const Index most = options.terms > 0 ? options.terms : std::min({kMostTerms, monomials.count(), rows - 2});
+    const Choice choice = choose_forwards(R, rows, most);
+    if (choice.terms.empty()) throw InvalidArgument("narx: no candidate explains anything of the output");
+    const std::vector<Index> terms(choice.terms.begin(), choice.terms.begin() + number_of_terms(choice, options.terms));
+    NarxFit found;
+    solve_chosen(found, R, terms, rows);
+    const std::vector<std::string> names = lags.names(data.output_names.front(), data.input_names);
+    for (const Index term : terms) found.fit.names.push_back(monomials.text(term, names));
+    for (std::size_t i = 0; i < choice.terms.size(); ++i)
+        found.steps.push_back({monomials.text(choice.terms[i], names), choice.error_reduction[i], choice.bic[i]});
+    double largest = 0;
+    for (const Experiment& experiment : data.experiments)
+        largest = std::max(largest, experiment.y.cwiseAbs().maxCoeff());
+    found.model = std::make_shared<NarxModel>(lags, monomials, terms, found.fit.theta, data.Ts, largest);
+    found.equation = equation_text(data, found);
+    judge(found, data, rows);
+    if (found.fit.condition_number > kAmbiguousCondition) warn_of_doubtful_parameters(found.fit, "fewer terms");
+    set_message(found.fit, "Polynomial model with " + std::to_string(terms.size()) + " of " +
+                               counted(monomials.count(), "candidate term") +
+                               " chosen by forward selection: " + simulation_text(found.fit) + ", " +
+                               number_text(found.fit.prediction_fit_percent, 4) + " % (one step ahead).");
+    return found;
+}
+
+}  // namespace dynlab::inline numerics

@@ -1,0 +1,76 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "numerics/criteria/function_library.h"
+#include "numerics/fit/fit.h"
+#include "numerics/models/free_run.h"
+
+namespace dynlab::inline numerics {
+
+/// dx/dt = Xi' theta(x, u), y = x: the outputs are the states.
+class SindyModel : public FreeRunModel {
+  public:
+    /// `coefficients`: functions x states. `largest`: of the states in magnitude, in their units.
+    SindyModel(FunctionLibrary library, Matrix coefficients, Index inputs, Vector largest);
+
+    Index input_count() const override { return inputs_; }
+    Index output_count() const override { return coefficients_.cols(); }
+    /// `x0`: the states at the first sample, which the record's first outputs give otherwise. Integrated adaptively
+    /// from sample to sample, with the data's hold. A run is lost where a state is 1e3 times as large as any in the
+    /// record that the model was made from.
+    FreeRun free_run(const IdData& data, std::size_t experiment, const VectorView& x0) const override;
+
+    const FunctionLibrary& library() const { return library_; }
+    const Matrix& coefficients() const { return coefficients_; }
+    Vector rate(const VectorView& x, const VectorView& u) const;  ///< dx/dt
+
+  private:
+    FunctionLibrary library_;
+    Matrix coefficients_;
+    Index inputs_;
+    Vector largest_;
+};
+
+struct SindyOptions {
+    /// A term goes when the root mean square of what it alone explains is less than this share of that of the rate.
+    double threshold = 0.02;
+    bool weak = false;            ///< integrals against test functions in place of derivatives
+    int window = 5;               ///< samples (odd) over which a polynomial gives state and derivative
+    std::optional<double> width;  ///< time unit; half the length of a test function, from the data unless given
+
+    /// Throws InvalidArgument naming the option.
+    void validate() const;
+};
+
+/// `fit.theta` holds the coefficients that stayed, state by state, and `fit.names` "x2: x1*x3".
+struct SindyFit {
+    Fit fit;
+    std::shared_ptr<const SindyModel> model;
+    std::vector<std::string> equations;  ///< "dx1/dt = -10*x1 + 10*x2", one for each state
+    std::optional<double> width;         ///< that of the test functions, time unit
+};
+
+/// Sparse identification of nonlinear dynamics: dx/dt = Xi' theta(x, u) with few terms of a library of functions, the
+/// outputs of the data being the states. Least squares over all functions; then, state by state, the function goes that
+/// explains least beyond the others, and the rest is solved again, as long as that is below the threshold (sequential
+/// thresholding, where what is compared has neither the unit of a coefficient nor trouble with functions that are much
+/// alike). Equations:
+/// * derivatives (default): state and derivative from a polynomial of degree 4 (at most) over the `window` around each
+///   sample; where a held input jumps within the window the sample is left out;
+/// * weak: for bump functions phi of compact support, -int phi' x dt = int phi theta(x, u) dt by the trapezoidal rule,
+///   whose error is small because phi vanishes smoothly at its ends. No derivative of the data is taken, so noise is
+///   averaged; held inputs are integrated piece by piece.
+/// The threshold has no unit, so what is found does not depend on those of the data. `fit_percent` is that of the free
+/// run from the first sample (-infinity where it diverges, which is warned of). No standard errors: errors of the
+/// equations depend on each other.
+/// Data: any number of outputs up to 8 (states), inputs (none too) and experiments, irregular sampling too. Throws
+/// InvalidArgument for other data or options, too few samples, and a library of another size or with values that are
+/// not finite.
+/// Reference: Brunton, Proctor and Kutz (2016), PNAS 113, 3932-3937; Messenger and Bortz (2021), Multiscale Modeling
+/// and Simulation 19, 1474-1497.
+SindyFit sindy(const IdData& data, const FunctionLibrary& library, const SindyOptions& options = {});
+
+}  // namespace dynlab::inline numerics

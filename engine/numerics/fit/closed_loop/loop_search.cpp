@@ -1,0 +1,136 @@
+#include "numerics/fit/closed_loop/loop_search.h"
+
+#include <cmath>
+
+#include "numerics/criteria/denominator_group.h"
+#include "numerics/error.h"
+#include "numerics/fit/diagnosis.h"
+#include "numerics/fit/srivc_iteration.h"
+#include "numerics/linalg/decompositions.h"
+#include "numerics/number_text.h"
+#include "numerics/statistics/robust_covariance.h"
+
+namespace dynlab::inline numerics {
+
+namespace {
+
+constexpr int kHalvings = 12;
+
+/// The loop of a theta and the known controller.
+class LoopOutput {
+  public:
+    LoopOutput(const IdData& data, const TransferStructure& structure, const LoopSignals& signals)
+        : data_(data), structure_(structure), signals_(signals) {}
+
+    /// y - x, experiment after experiment; infinite for a loop that is not stable.
+    Vector errors(const VectorView& theta) const {
+        const ClosedLoop loop = loop_of(theta);
+        Vector errors(data_.sample_count());
+        if (!loop.stable()) return Vector::Constant(errors.size(), kInfinity);
+        Index first = 0;
+        for (const Experiment& experiment : data_.experiments) {
+            const Index count = experiment.y.rows();
+            errors.segment(first, count) = experiment.y.col(0) - loop.to_reference(experiment.r.col(0)).x;
+            first += count;
+        }
+        return errors;
+    }
+
+    /// d x/d theta, N x d, of a stable loop.
+    Matrix sensitivities(const VectorView& theta) const {
+        const ClosedLoop loop = loop_of(theta);
+        const Index d = structure_.parameter_count();
+        const Vector A = structure_.denominator(theta, 0, 0), B = structure_.numerator(theta, 0, 0);
+        Matrix psi(data_.sample_count(), d);
+        Index first = 0;
+        for (const Experiment& experiment : data_.experiments) {
+            const Index count = experiment.y.rows();
+            const Vector u = loop.to_reference(experiment.r.col(0)).u;
+            const Matrix open = transfer_filters().sensitivities(B, A, structure_.delay(theta, 0, 0), u,
+                                                                 {data_.Ts, {nullptr, 0}}, data_.hold);
+            for (Index i = 0; i < d; ++i)
+                psi.col(i).segment(first, count) = open.col(i + 1) + loop.to_disturbance(open.col(i + 1)).x;
+            first += count;
+        }
+        return psi;
+    }
+
+  private:
+    ClosedLoop loop_of(const VectorView& theta) const {
+        return {structure_.models(theta).front(), *signals_.controller(), data_.Ts, signals_.hold_r()};
+    }
+
+    const IdData& data_;
+    const TransferStructure& structure_;
+    const LoopSignals& signals_;
+};
+
+}  // namespace
+
+void describe_loop(Fit& fit, const LoopSignals& signals, bool in_loop) {
+    if (!signals.warning().empty()) fit.warnings.push_back(signals.warning());
+    if (signals.controller() && !in_loop)
+        fit.warnings.push_back(
+            "The loop of this model and the controller given is unstable, though the record's was not: one of the two "
+            "is wrong.");
+}
+
+std::string instruments_text(const LoopSignals& signals, bool in_loop) {
+    if (!in_loop) return "with instruments from the input's projection on the reference";
+    const auto& controller = *signals.controller();
+    const std::string loop = "with instruments from the reference through the loop";
+    if (!controller.sampled()) return loop;
+    if (controller.computing_delay == 0) return loop + ", whose controller answers at once";
+    return loop + ", whose controller answers " + counted(controller.computing_delay, "sample") + " late";
+}
+
+Fit search_loop(Fit start, const IdData& data, const FitOptions& options, const LoopSignals& signals) {
+    Fit fit = std::move(start);
+    fit.trace.clear();
+    const LoopOutput model(data, fit.structure, signals);
+    Vector errors = model.errors(fit.theta);
+    if (!errors.allFinite())
+        throw InvalidArgument(
+            "clsrivc: the loop of the first model found and the controller given is unstable, so that the indirect "
+            "route cannot begin: look at the controller, or give lambda");
+    fit.termination = Termination::kIterationLimit;
+    const double count = static_cast<double>(errors.size());
+    for (int pass = 0; pass < options.max_iterations; ++pass) {
+        if (options.cancel && options.cancel()) {
+            fit.termination = Termination::kCancelled;
+            break;
+        }
+        Vector step = solve_by_pivoted_qr(model.sensitivities(fit.theta), errors);
+        Vector tried;
+        int halvings = 0;
+        for (; halvings <= kHalvings; ++halvings, step /= 2) {
+            tried = model.errors(fit.theta + step);
+            if (tried.squaredNorm() <= errors.squaredNorm()) break;
+        }
+        const double change =
+            (step.array() / fit.theta.array().abs().max(1e-12 * fit.theta.cwiseAbs().maxCoeff())).abs().maxCoeff();
+        if (halvings > kHalvings) {
+            fit.termination = Termination::kNoProgress;
+            break;
+        }
+        fit.theta += step;
+        errors = tried;
+        fit.trace.push_back({fit.theta, errors.squaredNorm() / count, change});
+        if (change > options.tolerance) continue;
+        fit.termination = Termination::kConverged;
+        break;
+    }
+    std::vector<Index> lengths;
+    for (const Experiment& experiment : data.experiments) lengths.push_back(experiment.y.rows());
+    fit.covariance = robust_covariance(model.sensitivities(fit.theta), errors, lengths).covariance;
+    fit.warnings.clear();
+    measure_simulation(fit, data);
+    fit.loss = errors.squaredNorm() / count;
+    describe_models(fit);
+    describe_loop(fit, signals, true);
+    set_message(fit, "Output error of the loop from the reference (indirect route) " + ending_text(fit) + ": " +
+                         simulation_text(fit) + ".");
+    return fit;
+}
+
+}  // namespace dynlab::inline numerics

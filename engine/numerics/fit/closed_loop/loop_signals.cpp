@@ -1,0 +1,192 @@
+#include "numerics/fit/closed_loop/loop_signals.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "numerics/criteria/denominator_group.h"
+#include "numerics/error.h"
+#include "numerics/fit/diagnosis.h"
+#include "numerics/linalg/decompositions.h"
+#include "numerics/number_text.h"
+#include "numerics/simulation/lsim.h"
+
+namespace dynlab::inline numerics {
+
+namespace {
+
+constexpr Index kFewestWeights = 8, kMostWeights = 128;  // of the projection; doubled in between
+constexpr double kHeldReference = 1e-10;    // of the largest diagonal: weights that a held reference cannot tell apart
+constexpr double kBelievedController = 50;  // per cent of u that C (r - y) must explain
+constexpr double kTimesChance = 4;          // times what as many weights explain of anything by chance
+constexpr double kLeastExplained = 0.02;    // least part of u's variance
+
+/// Sums over all experiments, each without its means; the reference is zero before its first sample.
+struct ProjectionSums {
+    Matrix gram;
+    Vector products;
+    double energy = 0;
+};
+
+Matrix lagged_columns(const VectorView& r, Index weights) {
+    Matrix columns(r.size(), weights);
+    for (Index i = 0; i < weights; ++i) {
+        const Index zeros = std::min(i, r.size());
+        columns.col(i).head(zeros).setZero();
+        columns.col(i).tail(r.size() - zeros) = r.head(r.size() - zeros);
+    }
+    return columns.rowwise() - columns.colwise().mean();
+}
+
+ProjectionSums projection_sums(const IdData& data, Index weights) {
+    ProjectionSums sums{Matrix::Zero(weights, weights), Vector::Zero(weights)};
+    for (const Experiment& experiment : data.experiments) {
+        const Matrix columns = lagged_columns(experiment.r.col(0), weights);
+        const Vector u = experiment.u.col(0).array() - experiment.u.col(0).mean();
+        sums.gram.noalias() += columns.transpose() * columns;
+        sums.products.noalias() += columns.transpose() * u;
+        sums.energy += u.squaredNorm();
+    }
+    return sums;
+}
+
+/// The weights of smallest BIC among the first 8, 16, ... of them, and the part of u's variance that they explain.
+struct Projection {
+    Vector weights;
+    double explained = 0;
+};
+Projection best_projection(const IdData& data) {
+    const Index longest = std::clamp<Index>(data.sample_count() / 10, 1, kMostWeights);
+    const ProjectionSums sums = projection_sums(data, longest);
+    const auto N = static_cast<double>(data.sample_count());
+    Projection best;
+    double least = kInfinity;
+    for (Index count = std::min(kFewestWeights, longest);; count = std::min(2 * count, longest)) {
+        Matrix gram = sums.gram.topLeftCorner(count, count);
+        gram.diagonal().array() += kHeldReference * gram.diagonal().maxCoeff();
+        const Vector weights = solve_semidefinite(gram, sums.products.head(count));
+        const double left = std::max(sums.energy - weights.dot(sums.products.head(count)), 1e-12 * sums.energy);
+        const double bic = N * std::log(left / N) + static_cast<double>(count) * std::log(N);
+        if (bic < least) {
+            least = bic;
+            best = {weights, 1 - left / sums.energy};
+        }
+        if (count == longest) return best;
+    }
+}
+
+Vector projected(const VectorView& r, const Vector& weights) {
+    Vector u = Vector::Zero(r.size());
+    for (Index i = 0; i < std::min(weights.size(), r.size()); ++i)
+        u.tail(r.size() - i) += weights[i] * r.head(r.size() - i);
+    return u;
+}
+
+/// Per cent of u that the controller makes of r - y; what it had stored before the record, an offset or a slope of an
+/// integrator, is left out.
+double explained_by(const LoopController& controller, const IdData& data, Hold hold_r) {
+    double missed = 0, total = 0;
+    const Hold hold = controller.sampled() ? Hold::kZoh : Hold::kFoh;
+    const Index late = controller.computing_delay;
+    for (const Experiment& experiment : data.experiments) {
+        const auto r = experiment.r.col(0), y = experiment.y.col(0), u = experiment.u.col(0);
+        const Vector made = lsim(controller.C, r, data.Ts, controller.sampled() ? Hold::kZoh : hold_r) -
+                            lsim(controller.C, y, data.Ts, hold);
+        const Index rows = u.size() - late;
+        if (rows < 3) continue;
+        Matrix line(rows, 2);
+        line.col(0).setOnes();
+        line.col(1) = Vector::LinSpaced(rows, -1, 1);
+        const Vector error = u.tail(rows) - made.head(rows);
+        missed += (error - line * solve_by_pivoted_qr(line, error)).squaredNorm();
+        total += (u.array() - u.mean()).square().sum();
+    }
+    return fit_percent_of_sums(missed, total);
+}
+
+}  // namespace
+
+void check_loop_data(const std::string& method, const IdData& data, const TransferStructure& structure) {
+    if (data.reference_count() == 0)
+        throw InvalidArgument(method +
+                              " needs the reference of the loop, and the data have none: iddata takes it along");
+    if (data.reference_count() > 1 || data.input_count() != 1 || data.output_count() != 1)
+        throw InvalidArgument(method + " is for loops of one input, one output and one reference, and the data have " +
+                              std::to_string(data.input_count()) + ", " + std::to_string(data.output_count()) +
+                              " and " + std::to_string(data.reference_count()));
+    if (!data.regular())
+        throw InvalidArgument(method + " needs regularly sampled data, and these are not: resample them first");
+    if (structure.free_delays)
+        throw InvalidArgument(method +
+                              ": delays are fixed here, in samples; search them in an experiment without "
+                              "feedback, or by trying several");
+    const bool constant = std::all_of(data.experiments.begin(), data.experiments.end(),
+                                      [](const Experiment& one) { return (one.r.array() == one.r(0, 0)).all(); });
+    if (constant)
+        throw InvalidArgument(method +
+                              ": the reference never changes, so that nothing tells the plant's answer from the "
+                              "controller's: let it move, for instance as a prbs");
+    check_transfer_data(method, data, structure);
+}
+
+LoopSignals::LoopSignals(const std::string& method, const IdData& data, const LoopKnowledge& known)
+    : method_(method), data_(data), controller_(known.controller), hold_r_(known.hold_r) {
+    if (controller_) judge_controller(known.find_computing_delay);
+}
+
+void LoopSignals::judge_controller(bool find_delay) {
+    ClosedLoop(TransferFunction(Vector::Zero(1), Vector::Ones(1)), *controller_, data_.Ts);  // says what does not fit
+    double explained = explained_by(*controller_, data_, hold_r_);
+    if (find_delay && controller_->sampled()) {
+        LoopController slower = *controller_;
+        slower.computing_delay += 1;
+        const double later = explained_by(slower, data_, hold_r_);
+        if (later > explained) {
+            controller_ = slower;
+            explained = later;
+        }
+    }
+    if (!(explained > kBelievedController))
+        warning_ = "The recorded input is not what this controller makes of reference minus output (it explains " +
+                   number_text(std::max(explained, 0.0), 2) +
+                   " %): look at its sign, its gain, its sampling and what was removed from the signals.";
+}
+
+LoopSignals::All LoopSignals::of_model(const TransferFunction& model) const {
+    All all;
+    std::optional<ClosedLoop> loop;
+    if (controller_) loop.emplace(model, *controller_, data_.Ts, hold_r_);
+    all.in_loop = loop && loop->stable();
+    if (all.in_loop) {
+        for (const Experiment& experiment : data_.experiments) {
+            ClosedLoop::Response response = loop->to_reference(experiment.r.col(0));
+            all.experiments.push_back({std::move(response.u), std::move(response.x)});
+        }
+        return all;
+    }
+    const TransferFunction held(model.num(), reflect_unstable_roots(model.den()), 0, model.delay());
+    for (const Vector& u : projected_inputs()) all.experiments.push_back({u, lsim(held, u, data_.Ts, data_.hold)});
+    return all;
+}
+
+const std::vector<Vector>& LoopSignals::projected_inputs() const {
+    if (!projected_.empty()) return projected_;
+    const Projection projection = best_projection(data_);
+    const double chance =
+        kTimesChance * static_cast<double>(projection.weights.size()) / static_cast<double>(data_.sample_count());
+    if (!(projection.explained > std::max(kLeastExplained, chance)))
+        throw InvalidArgument(method_ + ": the reference explains no more than " +
+                              number_text(100 * std::max(projection.explained, 0.0), 2) +
+                              " % of the input, so that nothing can be learnt from it: is it this loop's reference?");
+    for (const Experiment& experiment : data_.experiments)
+        projected_.push_back(projected(experiment.r.col(0), projection.weights));
+    return projected_;
+}
+
+IdData with_projected_inputs(const IdData& data, const LoopSignals& signals) {
+    IdData result = data;
+    for (std::size_t e = 0; e < result.experiments.size(); ++e)
+        result.experiments[e].u.col(0) = signals.projected_inputs()[e];
+    return result;
+}
+
+}  // namespace dynlab::inline numerics

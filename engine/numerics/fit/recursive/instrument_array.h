@@ -1,0 +1,144 @@
+#pragma once
+#include <array>
+#include <cmath>
+
+#include "numerics/fit/recursive/small_equations.h"
+#include "numerics/linalg/decompositions.h"
+
+namespace dynlab::inline numerics {
+
+/// The equations sum_k w(k) z(k) (y(k) - phi(k)' theta) = 0 taken in one by one, in the form
+///     Q' [Z | Phi | y] = [R | C | c],  R upper triangular, Q orthogonal,
+/// of the weighted rows: a new row is rotated into the array (Givens), so that nothing is ever inverted or subtracted,
+/// and theta = C^-1 c is the batch estimate to rounding at every sample, from an exactly diffuse start. Its covariance
+/// variance (C'C)^-1 = variance (Z'Phi)^-1 Z'Z (Phi'Z)^-1 is positive whatever happened before. With z = phi, C is R
+/// and this is the square-root information filter of least squares (Bierman 1977, chapter V).
+/// Sizes: kCount parameters, or with Eigen::Dynamic as many as the constructor says.
+template <int kCount, bool kInstruments>
+class InstrumentArray {
+  public:
+    static constexpr int kMost = kCount > 0 ? kCount : 17;
+    using Row = std::array<double, kMost>;
+
+    explicit InstrumentArray(int count) : count_(count) {}
+
+    /// Weights of all rows so far are multiplied by `forgetting`, but for a row that tells next to nothing: otherwise
+    /// what is known would be forgotten while nothing is learnt.
+    void add(Row z, Row phi, double y, double forgetting) {
+        const std::size_t d = size();
+        if (forgetting < 1) scale(std::sqrt(forgetting));
+        double kept = 1;  // product of the cosines: 1/(1 + z' (R'R)^-1 z)
+        for (std::size_t i = 0; i < d; ++i) {
+            if (z[i] == 0) continue;
+            const double length = std::sqrt(R_[i][i] * R_[i][i] + z[i] * z[i]);
+            const double cosine = R_[i][i] / length, sine = z[i] / length;
+            kept *= cosine * cosine;
+            R_[i][i] = length;
+            for (std::size_t j = i + 1; j < d; ++j) rotate(cosine, sine, R_[i][j], z[j]);
+            if constexpr (kInstruments)
+                for (std::size_t j = 0; j < d; ++j) rotate(cosine, sine, C_[i][j], phi[j]);
+            rotate(cosine, sine, c_[i], y);
+        }
+        const bool silent = forgetting < 1 && 1 - kept < kSilent * (1 - forgetting);
+        if (silent) scale(1 / std::sqrt(forgetting));
+        solve();
+        double left = y;
+        if constexpr (kInstruments)
+            for (std::size_t j = 0; j < d; ++j) left -= phi[j] * theta_[j];
+        count_error(left, silent ? 1 : forgetting);
+    }
+
+    /// The parameters walk: their covariance grows by variance times diag(steps), theta stays.
+    void walk(const Row& steps) {
+        const std::size_t d = size();
+        std::array<Row, kMost> U{};  // I + C diag(steps) C' = U U'
+        for (std::size_t i = 0; i < d; ++i)
+            for (std::size_t j = 0; j < d; ++j) {
+                U[i][j] = i == j ? 1 : 0;
+                for (std::size_t l = 0; l < d; ++l) U[i][j] += regressors(i, l) * steps[l] * regressors(j, l);
+            }
+        for (std::size_t j = d; j-- > 0;) {
+            U[j][j] = std::sqrt(U[j][j]);
+            for (std::size_t i = 0; i < j; ++i) U[i][j] /= U[j][j];
+            for (std::size_t i = 0; i < j; ++i)
+                for (std::size_t l = 0; l <= i; ++l) U[l][i] -= U[l][j] * U[i][j];
+        }
+        for (std::size_t i = d; i-- > 0;) {
+            for (std::size_t j = i + 1; j < d; ++j) take_off(i, j, U[i][j]);
+            multiply_row(i, 1 / U[i][i]);
+        }
+    }
+
+    bool known() const { return known_; }        ///< theta is determined
+    const Row& theta() const { return theta_; }  ///< of the last sample that determined it
+    /// Of the errors; infinite without more rows than parameters. Least squares: that of all rows and the last theta,
+    /// to rounding. Instruments: of the later half to three quarters of the rows, each with the theta of then, for the
+    /// first errors are those of a theta that is hardly known.
+    double variance() const {
+        const double rows = rows_ + earlier_rows_ - (kInstruments ? 0 : count_);
+        return known_ && rows > 0 ? (squares_ + earlier_squares_) / rows : kInfinity;
+    }
+
+    /// (C'C)^-1, d x d; without meaning unless known.
+    Matrix inverse_gram() const {
+        const Index d = count_;
+        Matrix C(d, d);
+        for (Index i = 0; i < d; ++i)
+            for (Index j = 0; j < d; ++j)
+                C(i, j) = regressors(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
+        const Matrix inverse = solve_by_lu(C, Matrix::Identity(d, d)).x;
+        return inverse * inverse.transpose();
+    }
+
+  private:
+    static constexpr double kSilent = 1e-6;
+
+    std::size_t size() const { return static_cast<std::size_t>(kCount > 0 ? kCount : count_); }
+    double regressors(std::size_t i, std::size_t j) const {
+        if constexpr (kInstruments) return C_[i][j];
+        return j < i ? 0 : R_[i][j];
+    }
+    void count_error(double error, double weight) {
+        squares_ = weight * squares_ + error * error;
+        rows_ = weight * rows_ + 1;
+        earlier_squares_ *= weight;
+        earlier_rows_ *= weight;
+        if (!kInstruments || rows_ < 2 * earlier_rows_ || !known_) return;
+        earlier_squares_ = squares_;
+        earlier_rows_ = rows_;
+        squares_ = rows_ = 0;
+    }
+    static void rotate(double cosine, double sine, double& kept, double& left) {
+        const double before = kept;
+        kept = cosine * before + sine * left;
+        left = cosine * left - sine * before;
+    }
+    void multiply_row(std::size_t i, double factor) {
+        for (std::size_t j = i; j < size(); ++j) R_[i][j] *= factor;
+        if constexpr (kInstruments)
+            for (std::size_t j = 0; j < size(); ++j) C_[i][j] *= factor;
+        c_[i] *= factor;
+    }
+    void scale(double factor) {
+        for (std::size_t i = 0; i < size(); ++i) multiply_row(i, factor);
+    }
+    void take_off(std::size_t i, std::size_t j, double factor) {
+        for (std::size_t l = j; l < size(); ++l) R_[i][l] -= factor * R_[j][l];
+        if constexpr (kInstruments)
+            for (std::size_t l = 0; l < size(); ++l) C_[i][l] -= factor * C_[j][l];
+        c_[i] -= factor * c_[j];
+    }
+
+    /// theta of C theta = c; it stays where C is singular.
+    void solve() {
+        known_ = kInstruments ? solve_small(C_, c_, size(), theta_) : solve_triangular(R_, c_, size(), theta_);
+    }
+
+    int count_;
+    std::array<Row, kMost> R_{}, C_{};
+    Row c_{}, theta_{};
+    double rows_ = 0, squares_ = 0, earlier_rows_ = 0, earlier_squares_ = 0;
+    bool known_ = false;
+};
+
+}  // namespace dynlab::inline numerics

@@ -1,0 +1,404 @@
+#include "numerics/fit/recursive/recursive_pass.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "numerics/criteria/denominator_group.h"
+#include "numerics/error.h"
+#include "numerics/filters/evolving_filter.h"
+#include "numerics/fit/diagnosis.h"
+#include "numerics/fit/recursive/instrument_array.h"
+#include "numerics/fit/srivc_iteration.h"
+#include "numerics/linalg/matrix_exponential.h"
+#include "numerics/linalg/polynomial.h"
+#include "numerics/models/sampled_system.h"
+#include "numerics/number_text.h"
+
+namespace dynlab::inline numerics {
+
+namespace {
+
+constexpr Index kSamplesBetweenQuestions = 4096;  // whether to stop
+constexpr Index kFirstSamplesPerParameter = 20;
+constexpr double kFilterMemories = 20;  // of the first batch
+constexpr double kQuickest = 5;         // poles of a model that filters follow, in cut-off frequencies
+
+/// The record as the loop sees it.
+struct Samples {
+    VectorView y, u;
+    Vector t;  // empty for regular sampling
+    double Ts;
+    Index delay;
+    bool held_u, held_y;
+
+    double step(Index k) const { return t.size() > 0 ? t[k] - t[k - 1] : Ts; }
+    double input(Index k) const { return k >= delay ? u[k - delay] : 0.0; }
+};
+
+Samples samples_of(const RecursiveName& method, const IdData& data, double delay, Hold hold_y) {
+    const Experiment& record = data.experiments.front();
+    Index late = 0;
+    if (delay > 0) {
+        const SplitDelay split = data.regular() ? split_delay(delay, data.Ts) : SplitDelay{0, delay};
+        if (split.rest > 0)
+            throw InvalidArgument(method.name + ": the delay must be a whole number of sampling times, but it is " +
+                                  number_text(delay) + " s");
+        late = split.samples;
+    }
+    return {record.y.col(0), record.u.col(0), record.t, data.Ts, late, data.hold == Hold::kZoh, hold_y == Hold::kZoh};
+}
+
+/// A filter that stays as it is: steps of equal length are worked out once.
+template <int kOrder>
+class FixedFilter {
+  public:
+    explicit FixedFilter(const EvolvingModel& model) : model_(model) {
+        Vector den(model.n + 1);
+        den[0] = 1;
+        for (int i = 0; i < model.n; ++i) den[i + 1] = model.a[static_cast<std::size_t>(i)];
+        A_ = companion(den);
+    }
+    void advance(EvolvingState& state, double from, double to, double h) {
+        if (h != step_) prepare(h);
+        const auto n = static_cast<std::size_t>(kOrder > 0 ? kOrder : model_.n);
+        EvolvingState next;
+        for (std::size_t i = 0; i < n; ++i) {
+            next[i] = H0_[i] * from + H1_[i] * to;
+            for (std::size_t j = 0; j < n; ++j) next[i] += F_[i][j] * state[j];
+        }
+        state = next;
+    }
+    double highest(const EvolvingState& state, double v) const { return highest_derivative<kOrder>(model_, state, v); }
+
+  private:
+    void prepare(double h) {
+        const StepMatrices step = exact_step(A_, Vector::Unit(A_.rows(), 0), h);
+        for (Index i = 0; i < A_.rows(); ++i) {
+            const auto row = static_cast<std::size_t>(i);
+            H0_[row] = step.H0(i, 0);
+            H1_[row] = step.H1(i, 0);
+            for (Index j = 0; j < A_.rows(); ++j) F_[row][static_cast<std::size_t>(j)] = step.F(i, j);
+        }
+        step_ = h;
+    }
+
+    EvolvingModel model_;
+    Matrix A_;
+    std::array<EvolvingState, kMostEvolvingPoles> F_{};
+    EvolvingState H0_{}, H1_{};
+    double step_ = 0;
+};
+
+bool is_stable(const EvolvingModel& model) {
+    if (model.n <= 2) return model.a[0] > 0 && (model.n < 2 || model.a[1] > 0);
+    Vector den(model.n + 1);
+    den[0] = 1;
+    for (int i = 0; i < model.n; ++i) den[i + 1] = model.a[static_cast<std::size_t>(i)];
+    return is_hurwitz(den);
+}
+
+/// The samples of the first batch, and the model that ivsvf, or lssvf where that one fails, makes of them.
+Index first_batch(const IdData& data, Index parameters, double lambda) {
+    const double steps = kFilterMemories / (lambda * data.mean_step());
+    const Index wanted =
+        std::max<Index>(kFirstSamplesPerParameter * parameters, static_cast<Index>(std::min(steps, 1e15)));
+    return std::min(wanted, data.sample_count());
+}
+
+Vector first_model(const IdData& data, const TransferStructure& structure, const RecursiveOptions& options,
+                   Index samples) {
+    for (Index count = samples;; count = std::min(2 * count, data.sample_count())) {
+        const IdData beginning = data.range(1, count);
+        const DenominatorGroup group(beginning, structure, 0, options.hold_y);
+        const Vector E = filter_denominator(options.lambda, group.order());
+        const Vector first = solve_equations(group.svf(E));
+        if (first.allFinite()) {
+            const Vector start = group.with_stable_poles(first), theta = solve_equations(group.auxiliary(E, start));
+            return theta.allFinite() ? group.with_stable_poles(theta) : start;
+        }
+        if (count == data.sample_count()) return first;
+    }
+}
+
+template <RecursiveMethod kMethod, int kOrder, int kCount>
+class Pass {
+  public:
+    Pass(const Samples& samples, const TransferStructure& structure, const RecursiveOptions& options)
+        : samples_(samples), options_(options), array_(static_cast<int>(structure.parameter_count())) {
+        n_ = structure.poles.front();
+        m_ = structure.channels.front().zeros;
+        model_.n = filter_.n = n_;
+        model_.m = filter_.m = m_;
+        const Vector E = filter_denominator(options.lambda, n_);
+        for (int i = 0; i < n_; ++i) filter_.a[static_cast<std::size_t>(i)] = E[i + 1];
+        fixed_.emplace(filter_);
+    }
+
+    /// The model of instruments and filters until sample `until` (0-based), and from then on, too, when that is behind
+    /// the last.
+    void begin_with(const Vector& theta, Index until) {
+        model_.set(theta.data());
+        follows_from_ = until;
+        if (options_.model || !too_quick(model_)) return;
+        model_ = filter_;
+        model_.b = {};
+        model_.b[static_cast<std::size_t>(m_)] = std::pow(options_.lambda, n_);
+    }
+
+    void take(Index k) {
+        if (k > 0) advance(k);
+        const auto n = static_cast<std::size_t>(kOrder > 0 ? kOrder : n_);
+        const auto count = n + static_cast<std::size_t>(m_) + 1;
+        const double y = samples_.y[k], u = samples_.input(k);
+        typename Array::Row z{}, phi{};
+        const EvolvingModel& filter = kMethod == RecursiveMethod::kRefined ? model_ : filter_;
+        for (std::size_t i = 0; i < n; ++i) {
+            phi[i] = -y_[i];
+            z[i] = kMethod == RecursiveMethod::kLeastSquares ? phi[i] : -x_[i];
+        }
+        for (std::size_t i = n; i < count; ++i) {
+            const int derivative = m_ - static_cast<int>(i - n);
+            phi[i] = derivative == static_cast<int>(n) ? highest_derivative<kOrder>(filter, u_, u)
+                                                       : u_[n - 1 - static_cast<std::size_t>(derivative)];
+            z[i] = phi[i];
+        }
+        if (k > 0 && options_.drift.size() > 0) walk();
+        array_.add(z, phi, highest_derivative<kOrder>(filter, y_, y), options_.forgetting);
+        if (kMethod != RecursiveMethod::kLeastSquares && k >= follows_from_ && array_.known()) follow();
+    }
+
+    bool known() const { return array_.known(); }
+    Vector theta() const { return Vector::Map(array_.theta().data(), n_ + m_ + 1); }
+    double variance() const { return array_.variance(); }
+    Matrix inverse_gram() const { return array_.inverse_gram(); }
+    Index samples_not_followed() const { return not_followed_; }
+
+  private:
+    using Array = InstrumentArray<kCount, kMethod != RecursiveMethod::kLeastSquares>;
+
+    /// Everything to the instant of sample k; the signals begin at their first sample and are zero, no ramp, before.
+    void advance(Index k) {
+        const double h = samples_.step(k), y0 = samples_.y[k - 1], y1 = samples_.held_y ? y0 : samples_.y[k];
+        const double u0 = samples_.input(k - 1);
+        const double u1 = samples_.held_u || k == samples_.delay ? u0 : samples_.input(k);
+        if constexpr (kMethod == RecursiveMethod::kRefined) {
+            in_pieces(h, [&](double piece, double from, double to) {
+                advance_filter<kOrder>(model_, y_, y0 + from * (y1 - y0), y0 + to * (y1 - y0), piece);
+                advance_cascade<kOrder>(model_, u_, x_, u0 + from * (u1 - u0), u0 + to * (u1 - u0), piece);
+            });
+            return;
+        }
+        fixed_->advance(y_, y0, y1, h);
+        fixed_->advance(u_, u0, u1, h);
+        if constexpr (kMethod == RecursiveMethod::kInstruments) {
+            // The model's output, sampled, goes through the filter as y does.
+            if (k == 1) output_ = filtered_numerator<kOrder>(model_, behind_, samples_.input(0));
+            in_pieces(h, [&](double piece, double from, double to) {
+                advance_filter<kOrder>(model_, behind_, u0 + from * (u1 - u0), u0 + to * (u1 - u0), piece);
+            });
+            const double output = filtered_numerator<kOrder>(model_, behind_, samples_.input(k));
+            fixed_->advance(x_, output_, samples_.held_y || k == samples_.delay ? output_ : output, h);
+            output_ = output;
+        }
+    }
+
+    template <class Move>
+    void in_pieces(double h, const Move& move) {
+        const int pieces = std::max(pieces_of_step(model_, h), 1);
+        for (int i = 0; i < pieces; ++i) move(h / pieces, double(i) / pieces, double(i + 1) / pieces);
+    }
+
+    void walk() {
+        const double variance = options_.noise_variance.value_or(array_.variance());
+        if (!(variance > 0) || !std::isfinite(variance)) return;
+        typename Array::Row steps{};
+        for (Index i = 0; i < options_.drift.size(); ++i)
+            steps[static_cast<std::size_t>(i)] = options_.drift[i] / variance;
+        array_.walk(steps);
+    }
+
+    /// The estimate becomes the model of the samples to come, if it is stable and not too quick for the cut-off
+    /// frequency: what a quick filter lets through of the noise would outweigh all other samples.
+    void follow() {
+        EvolvingModel next = model_;
+        next.set(array_.theta().data());
+        if (is_stable(next) && !too_quick(next))
+            model_ = next;
+        else
+            ++not_followed_;
+    }
+
+    /// Against poles at kQuickest times the cut-off frequency.
+    bool too_quick(const EvolvingModel& model) const {
+        double size = 0, bound = 0, power = 1;
+        for (int i = 0; i < model.n; ++i) {
+            power /= options_.lambda;
+            bound = (1 + kQuickest) * bound + kQuickest;
+            size += std::abs(model.a[static_cast<std::size_t>(i)]) * power;
+        }
+        return !(size <= bound);
+    }
+
+    const Samples& samples_;
+    const RecursiveOptions& options_;
+    Array array_;
+    int n_ = 0, m_ = 0;
+    EvolvingModel filter_, model_;
+    std::optional<FixedFilter<kOrder>> fixed_;
+    EvolvingState y_{}, u_{}, x_{}, behind_{};
+    double output_ = 0;
+    Index follows_from_ = 0, not_followed_ = 0;
+};
+
+/// How the method meets change: half a sentence.
+std::string memory_text(const RecursiveOptions& options) {
+    if (options.drift.size() > 0) return "with parameters that walk at random";
+    if (options.forgetting == 1) return "which forgets nothing";
+    return "which weighs the last " + number_text(std::round(1 / (1 - options.forgetting))) + " samples most";
+}
+
+/// Which samples the history keeps.
+Index history_stride(Index samples, Index points) {
+    return std::max<Index>(1, (samples + points - 1) / points);
+}
+
+template <class OnePass>
+Fit run_pass(OnePass pass, const RecursiveName& method, const IdData& data, const TransferStructure& structure,
+             const RecursiveOptions& options) {
+    const Index N = data.sample_count(), d = structure.parameter_count();
+    const Index stride = history_stride(N, options.history_points), points = (N - 1) / stride + 1;
+    const Vector t = data.time();
+    auto history = std::make_shared<ParameterHistory>();
+    history->t = Vector::Constant(points, kNaN);
+    history->theta = history->std = Matrix::Constant(points, d, kNaN);
+    Fit fit;
+    fit.structure = structure;
+    for (Index k = 0, point = 0; k < N; ++k) {
+        if (options.cancel && k % kSamplesBetweenQuestions == 0 && options.cancel()) {
+            fit.termination = Termination::kCancelled;
+            break;
+        }
+        pass.take(k);
+        if ((N - 1 - k) % stride != 0) continue;
+        history->t[point] = t[k];
+        if (pass.known()) {
+            history->theta.row(point) = pass.theta().transpose();
+            if (std::isfinite(pass.variance()))
+                history->std.row(point) = (pass.variance() * pass.inverse_gram().diagonal()).cwiseSqrt().transpose();
+        }
+        ++point;
+    }
+    if (!pass.known())
+        throw InvalidArgument(method.name +
+                              ": the samples do not determine the parameters: the input does not excite the system "
+                              "enough for " +
+                              std::to_string(d) + " of them");
+    fit.theta = pass.theta();
+    fit.covariance = pass.variance() * pass.inverse_gram();
+    fit.noise_variance = Vector::Constant(1, pass.variance());
+    fit.history = std::move(history);
+    if (pass.samples_not_followed() > N / 2)
+        fit.warnings.push_back(
+            "The estimate was unstable, or too quick for the sampling, at most samples, where filters and instruments "
+            "kept the last model that was neither.");
+    describe_models(fit);
+    set_message(fit, method.title + ", sample by sample, " + memory_text(options) + ".");
+    return fit;
+}
+
+template <RecursiveMethod kMethod, int kOrder, int kCount>
+Fit pass_of_size(const RecursiveName& method, const IdData& data, const TransferStructure& structure,
+                 const RecursiveOptions& options, const Samples& samples) {
+    Pass<kMethod, kOrder, kCount> pass(samples, structure, options);
+    const Index N = data.sample_count(), d = structure.parameter_count();
+    if (options.model) {
+        Vector theta(d);
+        theta << options.model->den().tail(structure.poles.front()), Vector::Zero(d - structure.poles.front());
+        theta.tail(options.model->num().size()) = options.model->num();
+        pass.begin_with(theta, N);
+    } else if (kMethod != RecursiveMethod::kLeastSquares) {
+        const Index batch = first_batch(data, d, options.lambda);
+        pass.begin_with(first_model(data, structure, options, batch), batch);
+    }
+    return run_pass(std::move(pass), method, data, structure, options);
+}
+
+template <RecursiveMethod kMethod>
+Fit pass_of_method(const RecursiveName& method, const IdData& data, const TransferStructure& structure,
+                   const RecursiveOptions& options, const Samples& samples) {
+    const int n = structure.poles.front();
+    const Index d = structure.parameter_count();
+    if (n == 1 && d == 2) return pass_of_size<kMethod, 1, 2>(method, data, structure, options, samples);
+    if (n == 2 && d == 3) return pass_of_size<kMethod, 2, 3>(method, data, structure, options, samples);
+    if (n == 2 && d == 4) return pass_of_size<kMethod, 2, 4>(method, data, structure, options, samples);
+    return pass_of_size<kMethod, Eigen::Dynamic, Eigen::Dynamic>(method, data, structure, options, samples);
+}
+
+void check_recursive_data(const RecursiveName& method, const IdData& data, const TransferStructure& structure) {
+    if (structure.free_delays)
+        throw InvalidArgument(method.name + ": delays are fixed here; srivc and coe estimate them");
+    if (data.experiments.size() != 1)
+        throw InvalidArgument(method.name + ": time passes in one experiment, and the data hold " +
+                              std::to_string(data.experiments.size()));
+    if (data.input_count() != 1 || data.output_count() != 1)
+        throw InvalidArgument(method.name + " is for one input and one output, and the data have " +
+                              std::to_string(data.input_count()) + " and " + std::to_string(data.output_count()));
+    check_transfer_data(method.name, data, structure);
+    if (structure.poles.front() > kMostEvolvingPoles)
+        throw InvalidArgument(method.name + " is for up to " + std::to_string(kMostEvolvingPoles) + " poles, and " +
+                              std::to_string(structure.poles.front()) + " were asked for");
+}
+
+void check_fixed_model(const RecursiveName& method, const TransferFunction& model, const TransferStructure& structure) {
+    if (!model.continuous() || model.pole_count() != structure.poles.front() ||
+        model.zero_count() > structure.channels.front().zeros)
+        throw InvalidArgument(method.name + ": model must be in continuous time with " +
+                              counted(structure.poles.front(), "pole") + " and no more than " +
+                              counted(structure.channels.front().zeros, "zero") + ", as the orders say");
+    if (!model.stable())
+        throw InvalidArgument(method.name + ": model must be stable, for its output makes the instruments");
+}
+
+}  // namespace
+
+void RecursiveOptions::validate(const std::string& method, Index parameters) const {
+    if (!(lambda > 0) || !std::isfinite(lambda))
+        throw InvalidArgument(
+            "lambda, the cut-off frequency of the filter, must be a positive number of rad/s, a bit above the "
+            "bandwidth "
+            "of the system, and is " +
+            number_text(lambda));
+    if (!(forgetting > 0 && forgetting <= 1))
+        throw InvalidArgument(method +
+                              ": forgetting must lie above 0 and not above 1 (1 forgets nothing, 0.99 keeps "
+                              "some 100 samples), and is " +
+                              number_text(forgetting));
+    if (drift.size() > 0 && drift.size() != parameters)
+        throw InvalidArgument(method + ": drift must have a variance for each of the " + std::to_string(parameters) +
+                              " parameters, or one for all, and has " + std::to_string(drift.size()));
+    if (!drift.allFinite() || (drift.array() < 0).any())
+        throw InvalidArgument(method + ": drift holds variances, which must not be negative");
+    if (noise_variance && !(*noise_variance > 0 && std::isfinite(*noise_variance)))
+        throw InvalidArgument(method + ": `noise_variance` must be positive, and is " + number_text(*noise_variance));
+    if (history_points < 1)
+        throw InvalidArgument(method + ": `history_points` must be at least 1, and is " +
+                              std::to_string(history_points));
+}
+
+Fit recursive_pass(const RecursiveName& method, RecursiveMethod kind, const IdData& data,
+                   const TransferStructure& structure, const RecursiveOptions& options) {
+    check_recursive_data(method, data, structure);
+    options.validate(method.name, structure.parameter_count());
+    if (options.model) check_fixed_model(method, *options.model, structure);
+    const Samples samples = samples_of(method, data, structure.channels.front().delay, options.hold_y);
+    switch (kind) {
+        case RecursiveMethod::kLeastSquares:
+            return pass_of_method<RecursiveMethod::kLeastSquares>(method, data, structure, options, samples);
+        case RecursiveMethod::kInstruments:
+            return pass_of_method<RecursiveMethod::kInstruments>(method, data, structure, options, samples);
+        default:
+            return pass_of_method<RecursiveMethod::kRefined>(method, data, structure, options, samples);
+    }
+}
+
+}  // namespace dynlab::inline numerics

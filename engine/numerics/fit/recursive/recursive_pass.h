@@ -1,0 +1,43 @@
+#pragma once
+#include "numerics/fit/fit.h"
+
+namespace dynlab::inline numerics {
+
+/// What the recursive methods ask.
+struct RecursiveOptions {
+    double lambda = 0;         ///< rad/s, cut-off frequency of the (first) filter; must be given
+    Hold hold_y = Hold::kFoh;  ///< how the output behaves between its samples inside the filter
+    double forgetting = 1;     ///< weight of a sample for each one that came later, in (0, 1]
+    Vector drift;              ///< d variances of the parameters' random steps from sample to sample; none when empty
+    std::optional<double> noise_variance;  ///< against which drift is weighed; from the errors so far unless given
+    std::optional<TransferFunction>
+        model;                     ///< fixed, for instruments (rivsvf) and filters (rsrivc), in the estimate's place
+    Index history_points = 2000;   ///< most instants that the history keeps
+    std::function<bool()> cancel;  ///< asked every few thousand samples
+
+    /// Throws InvalidArgument naming the option; d parameters.
+    void validate(const std::string& method, Index parameters) const;
+};
+
+/// How messages call a method, and what it does: the beginning of a sentence.
+struct RecursiveName {
+    std::string name, title;
+};
+
+enum class RecursiveMethod { kLeastSquares, kInstruments, kRefined };
+
+/// One pass over the record, at constant cost a sample, of the equation p^n y_f = phi' theta + e (CARX):
+/// kLeastSquares: filters 1/(p + lambda)^n, z = phi. kInstruments: the same filters, and in z the output of a model,
+/// filtered as y is. kRefined: filters 1/A and the exact sensitivities z = [-p^(n-i) B/A^2 u, p^(m-l)/A u] of a model
+/// B/A. That model is the last estimate that was stable and no quicker than five times lambda, one sample late; for the
+/// first samples, 20/lambda seconds of them and at least twenty for each parameter, it is what ivsvf makes of them; or
+/// options.model throughout. Sums by InstrumentArray (fit/recursive/instrument_array.h): with forgetting 1 the end is
+/// the batch estimate to rounding. With `drift` the parameters walk at random between the samples (Kalman filter).
+/// Filters are exact for the hold of u and y between the samples, regular or not (filters/evolving_filter.h). Fills
+/// theta, covariance, noise_variance, history, message and the rest that describe_models fills. Throws InvalidArgument
+/// for options, unsuitable data (check_transfer_data; several experiments, several channels, a delay of no whole number
+/// of samples, more than kMostEvolvingPoles poles), and where all samples together do not determine theta.
+Fit recursive_pass(const RecursiveName& method, RecursiveMethod kind, const IdData& data,
+                   const TransferStructure& structure, const RecursiveOptions& options);
+
+}  // namespace dynlab::inline numerics

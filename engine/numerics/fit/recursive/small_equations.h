@@ -1,0 +1,63 @@
+#pragma once
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace dynlab::inline numerics {
+
+// A few equations, solved at every sample: the leading d x d of arrays of fixed size.
+
+template <std::size_t kMost>
+using SmallRow = std::array<double, kMost>;
+template <std::size_t kMost>
+using SmallMatrix = std::array<SmallRow<kMost>, kMost>;
+
+/// A pivot against the size of its column, below which the equations count as singular.
+inline constexpr double kSmallRank = 1e-9;
+
+/// U x = b with U upper triangular; x stays, and false is returned, where U is singular.
+template <std::size_t kMost>
+bool solve_triangular(const SmallMatrix<kMost>& U, SmallRow<kMost> b, std::size_t d, SmallRow<kMost>& x) {
+    for (std::size_t j = 0; j < d; ++j) {
+        double size = 0;
+        for (std::size_t i = 0; i <= j; ++i) size += std::abs(U[i][j]);
+        if (!(std::abs(U[j][j]) > kSmallRank * size)) return false;
+    }
+    for (std::size_t i = d; i-- > 0;) {
+        for (std::size_t j = i + 1; j < d; ++j) b[i] -= U[i][j] * x[j];
+        x[i] = b[i] / U[i][i];
+    }
+    return true;
+}
+
+/// A x = b by elimination with row pivots; x stays, and false is returned, where A is singular.
+template <std::size_t kMost>
+bool solve_small(SmallMatrix<kMost> A, SmallRow<kMost> b, std::size_t d, SmallRow<kMost>& x) {
+    SmallRow<kMost> sizes{};
+    for (std::size_t i = 0; i < d; ++i)
+        for (std::size_t j = 0; j < d; ++j) sizes[j] += std::abs(A[i][j]);
+    for (std::size_t j = 0; j < d; ++j) {
+        std::size_t pivot = j;
+        for (std::size_t i = j + 1; i < d; ++i)
+            if (std::abs(A[i][j]) > std::abs(A[pivot][j])) pivot = i;
+        if (!(std::abs(A[pivot][j]) > kSmallRank * sizes[j])) return false;
+        if (pivot != j) {
+            std::swap(A[pivot], A[j]);
+            std::swap(b[pivot], b[j]);
+        }
+        const double reciprocal = 1 / A[j][j];
+        for (std::size_t i = j + 1; i < d; ++i) {
+            const double factor = A[i][j] * reciprocal;
+            for (std::size_t l = j + 1; l < d; ++l) A[i][l] -= factor * A[j][l];
+            b[i] -= factor * b[j];
+        }
+    }
+    for (std::size_t i = d; i-- > 0;) {
+        for (std::size_t j = i + 1; j < d; ++j) b[i] -= A[i][j] * x[j];
+        x[i] = b[i] / A[i][i];
+    }
+    return true;
+}
+
+}  // namespace dynlab::inline numerics

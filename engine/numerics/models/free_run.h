@@ -1,0 +1,43 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "numerics/signals/iddata.h"
+
+namespace dynlab::inline numerics {
+
+/// What a model makes of the inputs of one experiment by itself.
+struct FreeRun {
+    Matrix output;                 ///< N x ny; from a divergence on NaN
+    std::optional<Index> lost_at;  ///< 0-based sample at which it left all bounds
+    std::string start;             ///< how it began, for messages: "from the recorded first 2 samples"
+};
+
+/// A model that is simulated and not written as transfer functions: polynomial difference equations, differential
+/// equations. It is immutable, and its free run asks nothing but the record.
+class FreeRunModel {
+  public:
+    virtual ~FreeRunModel() = default;
+    virtual Index input_count() const = 0;
+    virtual Index output_count() const = 0;
+
+    /// Simulates one experiment (0-based) on its inputs; of its measured outputs nothing is used but what tells where
+    /// the run begins. `x0` is the state there, as the model counts it; when it is empty the record tells it, and the
+    /// run begins at rest (all zero) where data have no outputs. Throws InvalidArgument for other channels or another
+    /// sampling than the model's, an `x0` of another size, or a record that is too short to begin with.
+    virtual FreeRun free_run(const IdData& data, std::size_t experiment, const VectorView& x0) const = 0;
+};
+
+/// Throws InvalidArgument that begins with `model` unless the data have these inputs and, where they have any, these
+/// outputs.
+void check_channels(const std::string& model, const FreeRunModel& wanted, const IdData& data);
+
+/// "The free run leaves all bounds at t = 3.2 s." with the time of that sample.
+std::string divergence_text(const IdData& data, std::size_t experiment, Index sample);
+
+/// Inputs alone, regularly sampled every Ts seconds, as free_run() takes them from rest or from an x0.
+IdData inputs_alone(const MatrixView& u, double Ts, Hold hold);
+
+}  // namespace dynlab::inline numerics

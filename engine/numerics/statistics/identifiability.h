@@ -1,0 +1,22 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "numerics/linalg/types.h"
+
+namespace dynlab::inline numerics {
+
+/// Parameters, or combinations of them, that a record cannot tell.
+struct Ambiguity {
+    std::vector<bool> parameters;        ///< those that are among them
+    std::vector<std::string> sentences;  ///< what is told of them
+};
+
+/// Of the sensitivities J (N x d) of the outputs at `theta`: a column that is zero beside `spread` (the norm of what
+/// the outputs vary) belongs to a parameter that has no say; a singular value of the others, each scaled to norm one,
+/// below the square root of the rounding times the largest is a combination that leaves the outputs as they are
+/// (Golub and Van Loan 2013, section 5.5). Nothing where J is not finite.
+Ambiguity find_ambiguity(const MatrixView& J, const std::vector<std::string>& names, const VectorView& theta,
+                         double spread);
+
+}  // namespace dynlab::inline numerics

@@ -1,0 +1,211 @@
+#include "numerics/validation/intervals/bootstrap.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+
+#include "numerics/error.h"
+#include "numerics/number_text.h"
+#include "numerics/signals/random.h"
+#include "numerics/simulation/noise.h"
+#include "numerics/statistics/autoregression.h"
+#include "numerics/validation/residual_tests.h"
+
+namespace dynlab::inline numerics {
+
+namespace {
+
+constexpr double kReal = 1 - 1e-12;  // a damping of one, but for rounding
+
+/// Names and values of what follows from a model.
+struct Derived {
+    std::vector<std::string> names;
+    std::vector<double> values;
+};
+
+Derived derived_quantities(const FittedOutput& fitted) {
+    const TransferFunction G = fitted.model();
+    Derived derived;
+    const auto add = [&](const std::string& name, double value) {
+        derived.names.push_back(name);
+        derived.values.push_back(value);
+    };
+    if (!fitted.process) add("gain", G.dc_gain());
+    std::vector<double> times;
+    std::vector<std::pair<double, double>> pairs;
+    for (const PoleDescription& pole : damping(G)) {
+        if (pole.pole.imag() > 0) pairs.emplace_back(pole.natural_frequency, pole.damping_ratio);
+        if (std::abs(pole.damping_ratio) >= kReal && pole.pole.real() != 0) times.push_back(-1 / pole.pole.real());
+    }
+    if (fitted.process) return derived;  // its parameters are these
+    std::sort(times.rbegin(), times.rend());
+    std::sort(pairs.begin(), pairs.end());
+    for (std::size_t i = 0; i < times.size(); ++i) add("T" + std::to_string(i + 1), times[i]);
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        add("w" + std::to_string(i + 1), pairs[i].first);
+        add("zeta" + std::to_string(i + 1), pairs[i].second);
+    }
+    return derived;
+}
+
+/// What is drawn: errors of all experiments, one after the other.
+class ErrorSource {
+  public:
+    ErrorSource(const RefittedOutput& model, const Vector& errors, BootstrapKind kind, double variance, bool white)
+        : kind_(kind), lengths_(model.lengths()), sigma_(std::sqrt(variance)) {
+        const double size = std::sqrt(errors.squaredNorm() / static_cast<double>(errors.size()));
+        pool_ = errors.array() - errors.mean();
+        if (size > 0) pool_ *= sigma_ / size;
+        if (kind == BootstrapKind::kResidual || white) return;
+        const Autoregression found = fit_autoregression(errors, lengths_, highest_autoregressive_order(errors.size()));
+        noise_.D = found.filter();
+        sigma_ /= noise_.gain();
+    }
+
+    Vector draw(std::uint32_t seed) const {
+        RandomStream random(seed);
+        Vector errors(pool_.size());
+        if (kind_ == BootstrapKind::kResidual) {
+            for (double& error : errors)
+                error = pool_[static_cast<Index>(random.uniform() * static_cast<double>(pool_.size()))];
+            return errors;
+        }
+        Index row = 0;
+        for (const Index length : lengths_) {
+            errors.segment(row, length) = noise_.draw(length, sigma_, random);
+            row += length;
+        }
+        return errors;
+    }
+
+  private:
+    BootstrapKind kind_;
+    std::vector<Index> lengths_;
+    double sigma_;
+    Vector pool_;
+    ColouredNoise noise_;
+};
+
+/// The value that a share of the finite ones lies below, between neighbours on straight lines.
+double quantile(std::vector<double> sorted, double share) {
+    const double place = share * static_cast<double>(sorted.size() - 1);
+    const auto below = static_cast<std::size_t>(place);
+    if (below + 1 >= sorted.size()) return sorted.back();
+    return sorted[below] + (place - static_cast<double>(below)) * (sorted[below + 1] - sorted[below]);
+}
+
+void summarise(Bootstrap& study, double confidence) {
+    const Index d = study.values.cols();
+    study.mean = study.std = study.low = study.high = Vector::Constant(d, kNaN);
+    for (Index i = 0; i < d; ++i) {
+        std::vector<double> values;
+        for (const double value : study.values.col(i))
+            if (std::isfinite(value)) values.push_back(value);
+        if (values.size() < 2) continue;
+        std::sort(values.begin(), values.end());
+        const auto all = Vector::Map(values.data(), static_cast<Index>(values.size()));
+        study.mean[i] = all.mean();
+        study.std[i] = std::sqrt((all.array() - all.mean()).square().sum() / static_cast<double>(values.size() - 1));
+        study.low[i] = quantile(values, (1 - confidence) / 2);
+        study.high[i] = quantile(values, (1 + confidence) / 2);
+    }
+}
+
+/// All runs, each into its row.
+void repeat(Bootstrap& study, const RefittedOutput& model, const Fit& base, const ErrorSource& source,
+            const BootstrapOptions& options) {
+    const Vector output = model.simulated(base);
+    std::atomic<bool> cancelled = false;
+    std::atomic<int> failed = 0;
+    std::mutex mutex;
+    std::size_t done = 0;
+    const auto run = [&](int k) {
+        {
+            const std::lock_guard lock(mutex);
+            if (options.cancel && !cancelled && options.cancel()) cancelled = true;
+        }
+        if (cancelled) return;
+        const Vector outputs = output + source.draw(options.seed + static_cast<std::uint32_t>(k));
+        try {
+            const Fit fit = model.fit({}, &base, &outputs);
+            const Derived derived = derived_quantities(model.fitted().at(fit.theta));
+            study.values.row(k).head(fit.theta.size()) = fit.theta.transpose();
+            for (std::size_t i = 0; i < derived.names.size(); ++i)
+                for (Index j = study.parameters; j < study.values.cols(); ++j)
+                    if (study.names[static_cast<std::size_t>(j)] == derived.names[i])
+                        study.values(k, j) = derived.values[i];
+        } catch (const InvalidArgument&) {
+            ++failed;
+        }
+        const std::lock_guard lock(mutex);
+        ++done;
+        if (options.progress) options.progress(done);
+    };
+    tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
+    arena.execute([&] { tbb::parallel_for(0, options.runs, run); });
+    study.failed = failed;
+    study.cancelled = cancelled;
+}
+
+bool are_white(const RefittedOutput& model, const Vector& errors) {
+    std::vector<Vector> records;
+    Index row = 0;
+    for (const Index length : model.lengths()) {
+        records.emplace_back(errors.segment(row, length));
+        row += length;
+    }
+    return whiteness_test(records).white;
+}
+
+}  // namespace
+
+BootstrapKind parse_bootstrap_kind(const std::string& text) {
+    if (text == "residual") return BootstrapKind::kResidual;
+    if (text == "parametric") return BootstrapKind::kParametric;
+    throw InvalidArgument("`kind` must be \"residual\" or \"parametric\", and is \"" + text + "\"");
+}
+
+void BootstrapOptions::validate() const {
+    if (runs < 20) throw InvalidArgument("bootstrap: `runs` must be at least 20, and is " + std::to_string(runs));
+    if (!(confidence > 0 && confidence < 1))
+        throw InvalidArgument("bootstrap: `confidence` must lie between 0 and 1, such as 0.95, and is " +
+                              number_text(confidence));
+}
+
+Bootstrap bootstrap(const RefittedOutput& model, const BootstrapOptions& options) {
+    options.validate();
+    const Fit base = model.fit();
+    const Vector errors = model.measured() - model.simulated(base);
+    const double N = static_cast<double>(errors.size());
+    const double variance = errors.squaredNorm() / (N - static_cast<double>(model.value_count()));
+    const bool white = are_white(model, errors);
+    const Derived derived = derived_quantities(model.fitted().at(base.theta));
+    Bootstrap study;
+    study.names = model.fitted().names();
+    study.parameters = base.theta.size();
+    study.names.insert(study.names.end(), derived.names.begin(), derived.names.end());
+    study.estimate.resize(static_cast<Index>(study.names.size()));
+    study.estimate << base.theta, Vector::Map(derived.values.data(), static_cast<Index>(derived.values.size()));
+    study.values = Matrix::Constant(options.runs, study.estimate.size(), kNaN);
+    repeat(study, model, base, ErrorSource(model, errors, options.kind, variance, white), options);
+    if (study.failed == options.runs) throw InvalidArgument("bootstrap: none of the runs could be fitted");
+    summarise(study, options.confidence);
+    if (!white && options.kind == BootstrapKind::kResidual)
+        study.warnings.push_back(
+            "The errors that the model leaves are not white, and drawing them one by one takes no account of it: the "
+            "parametric bootstrap does.");
+    if (study.failed > 0)
+        study.warnings.push_back(counted(study.failed, "run") + " could not be fitted and is left out of all figures.");
+    const bool coloured = !white && options.kind == BootstrapKind::kParametric;
+    study.message = std::string(options.kind == BootstrapKind::kResidual ? "Residual" : "Parametric") +
+                    " bootstrap of " + counted(options.runs, "run") + (coloured ? " with coloured errors" : "") +
+                    ", intervals of " + number_text(100 * options.confidence, 4) + " %.";
+    for (const std::string& warning : study.warnings) study.message += " " + warning;
+    return study;
+}
+
+}  // namespace dynlab::inline numerics

@@ -1,0 +1,56 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+
+#include "numerics/validation/intervals/refitted_output.h"
+
+namespace dynlab::inline numerics {
+
+enum class BootstrapKind {
+    kResidual,    ///< "residual": the errors that the model left, drawn with replacement
+    kParametric,  ///< "parametric": normal errors of the estimated variance, coloured where those left are
+};
+
+/// Throws InvalidArgument that lists the words.
+BootstrapKind parse_bootstrap_kind(const std::string& text);
+
+struct BootstrapOptions {
+    int runs = 500;
+    BootstrapKind kind = BootstrapKind::kResidual;
+    std::uint32_t seed = 1;
+    double confidence = 0.95;                             ///< of the intervals
+    int threads = 0;                                      ///< all cores when 0
+    std::function<void(std::size_t done)> progress = {};  ///< runs done; called by one thread at a time
+    std::function<bool()> cancel = {};                    ///< asked before every run
+
+    /// Throws InvalidArgument naming the option.
+    void validate() const;
+};
+
+/// Of the parameters, and behind them of what follows from a model: the gain at rest ("gain"), time constants of real
+/// poles in falling order ("T1", ..) and of pairs in rising order natural frequency and damping ("w1", "zeta1", ..;
+/// rad/s).
+struct Bootstrap {
+    std::vector<std::string> names;
+    Vector estimate;       ///< of the model itself, refitted to the record
+    Matrix values;         ///< runs x names; NaN where a run was not fitted, or has other poles than the model
+    Vector mean, std;      ///< over the runs
+    Vector low, high;      ///< of the intervals: quantiles of the values
+    Index parameters = 0;  ///< of the names, the first ones
+    int failed = 0;        ///< runs without a fit
+    bool cancelled = false;
+    std::vector<std::string> warnings;  ///< whole sentences
+    std::string message;
+};
+
+/// Where estimates would lie if the experiment were repeated: its simulated output gets new errors `runs` times, and
+/// the model is fitted to each of these records anew, from its own parameters. Residual: the errors that the fit left,
+/// without their mean and enlarged by sqrt(N/(N - d)), d all estimated values. Parametric: normal errors of that
+/// variance, through the autoregression of those that were left where they are not white. Run k has the random stream
+/// of seed + k, whatever the threads. Intervals are those of percentiles: they need no normal errors and follow the
+/// curvature that a covariance does not know. Residual errors count as white; where they are not, a warning says so.
+/// Throws InvalidArgument as RefittedOutput, for bad options, and when every run failed. Reference: Efron and
+/// Tibshirani (1993), An Introduction to the Bootstrap, chapters 6, 9 and 13.
+Bootstrap bootstrap(const RefittedOutput& model, const BootstrapOptions& options = {});
+
+}  // namespace dynlab::inline numerics

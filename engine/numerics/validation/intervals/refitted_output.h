@@ -1,0 +1,61 @@
+#pragma once
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "numerics/fit/fit.h"
+#include "numerics/models/process_model.h"
+
+namespace dynlab::inline numerics {
+
+/// A continuous-time model with one input and one output as an output-error method leaves it: what its uncertainty is
+/// asked for.
+struct FittedOutput {
+    TransferStructure structure;                       ///< of a process model not looked at
+    std::optional<ProcessStructure> process;           ///< theta are this one's parameters, where it is given
+    Vector theta;                                      ///< s and rad/s
+    StartCondition start{InitialState::kZero, false};  ///< how its records begin
+
+    std::vector<std::string> names() const;
+    /// Of a parameter by its name. Throws InvalidArgument that lists the names.
+    Index place_of(const std::string& name) const;
+    /// With other values.
+    FittedOutput at(const Vector& values) const;
+    TransferFunction model() const;
+};
+
+class OutputErrorModel;
+
+/// Output-error fits of the same structure again and again, from a solution that is near: to other records of the same
+/// input, and with a parameter held. Delays are free between zero and half of the shortest record.
+class RefittedOutput {
+  public:
+    /// `data` are what the model was fitted to; they are kept. Throws InvalidArgument for other channels than one input
+    /// and one output, no more samples than values to estimate, or parameters that are not finite.
+    RefittedOutput(IdData data, FittedOutput fitted);
+
+    /// The fit to the data from the model's own parameters, or with `outputs` (of all experiments, one after the other)
+    /// in place of the measured ones, and with parameters of these places held at values (s). `from`: a fit of this
+    /// object where the search begins.
+    Fit fit(const std::map<Index, double>& held = {}, const Fit* from = nullptr, const Vector* outputs = nullptr) const;
+
+    /// The simulated outputs of such a fit, experiment after experiment.
+    Vector simulated(const Fit& fit) const;
+    Vector measured() const;
+    std::vector<Index> lengths() const;  ///< samples of each experiment
+    const FittedOutput& fitted() const { return fitted_; }
+    const IdData& data() const { return data_; }
+    /// Between which a parameter may lie, s and rad/s.
+    std::pair<double, double> bounds(Index place) const;
+    /// All values that are estimated: parameters, initial values, offsets.
+    Index value_count() const;
+
+  private:
+    std::vector<Vector> starts_around(const OutputErrorModel& model, const Vector& start) const;
+
+    IdData data_;
+    FittedOutput fitted_;
+};
+
+}  // namespace dynlab::inline numerics

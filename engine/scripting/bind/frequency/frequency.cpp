@@ -1,0 +1,102 @@
+#include <array>
+
+#include "figures/plots/levels_plot.h"
+#include "numerics/estimators/frequency/bla.h"
+#include "numerics/simulation/sampled_response.h"
+#include "scripting/arguments/table_fields.h"
+#include "scripting/arguments/told_sentences.h"
+#include "scripting/bind/frequency/frequency_bindings.h"
+#include "scripting/memoized_calls/memoized_call.h"
+#include "scripting/objects/data_object.h"
+#include "scripting/objects/figure_object.h"
+#include "scripting/objects/frequency_object.h"
+#include "scripting/objects/model.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+InterSample inter_sample_option(const Options& options, InterSample fallback) {
+    return static_cast<InterSample>(
+        options.choice("InterSample", {"bl", "zoh", "foh"}, static_cast<std::size_t>(fallback)));
+}
+
+/// A complex vector; {re, im} of two vectors, {{re, im}, ...} of pairs, or a matrix of two columns.
+ComplexVector complex_argument(const Call& call, int index, const char* what) {
+    if (const ComplexVector* values = to_object<ComplexVector>(call.state(), index)) return *values;
+    if (call.type(index) != LUA_TTABLE && to_matrix(call.state(), index) == nullptr)
+        wrong_argument(call.state(), index, what, "complex vector, as freqresp gives it, or {re, im} of two vectors");
+    const MatrixMap parts = call.matrix(index, what);
+    if (parts.cols() != 2)
+        throw InvalidArgument(fmt::format(
+            "argument {} ({}) needs a real and an imaginary part: {{re, im}} of two vectors, but {} columns were given",
+            index, what, parts.cols()));
+    ComplexVector values(parts.rows());
+    values.real() = parts.col(0), values.imag() = parts.col(1);
+    return values;
+}
+
+void read_names(const Options& options, FrequencyData& data) {
+    data.input_name = options.text("InputName", data.input_name);
+    data.output_name = options.text("OutputName", data.output_name);
+    data.input_unit = options.text("InputUnit", data.input_unit);
+    data.output_unit = options.text("OutputUnit", data.output_unit);
+}
+
+/// idfrd(H, w, {options}), or of a model idfrd(G, w, {options})
+int make_response(Call& call) {
+    call.at_most(3);
+    const Options options(call, 3,
+                          {"variance", "Ts", "InterSample", "InputName", "OutputName", "InputUnit", "OutputUnit"});
+    const double Ts = options.number("Ts", 0);
+    const InterSample inter_sample = inter_sample_option(options, InterSample::kBandLimited);
+    const VectorMap w = call.vector(2, "w");
+    const ComplexVector H = holds_model(call, 1)
+                                ? response_between_samples(model_argument(call, 1, "G").G, w, Ts, inter_sample)
+                                : complex_argument(call, 1, "H");
+    Vector variance;
+    if (options.has("variance")) {
+        const bool one = lua_type(call.state(), options.push("variance")) == LUA_TNUMBER;
+        variance =
+            one ? Vector(Vector::Constant(1, options.number("variance", 0))) : Vector(options.vector("variance"));
+    }
+    FrequencyData data = frequency_data(H, w, variance, Ts, inter_sample);
+    read_names(options, data);
+    push_object(call.state(), std::move(data));
+    return 1;
+}
+
+int approximate(Call& call) {
+    call.at_most(2);
+    const IdData& data = object_argument<IdData>(call, 1, "data");
+    const Options options(call, 2, {"period", "realisations", "transient", "smooth", "least_input", "InterSample"});
+    BlaOptions wanted;
+    wanted.period = options.size("period", 0);
+    wanted.realisations = options.size("realisations", 1);
+    wanted.transient = options.size("transient", 0);
+    wanted.least_input = options.number("least_input", wanted.least_input);
+    if (options.has("smooth")) wanted.smooth = options.size("smooth", 0);
+    if (options.has("InterSample")) wanted.inter_sample = inter_sample_option(options, InterSample::kZoh);
+    wanted.cancel = call.cancel();
+    const FrequencyData response = bla(data, wanted);
+    const std::string warnings = fmt::format("{}", fmt::join(response.warnings, " "));
+    call.print(told(call, response.message + (warnings.empty() ? "" : " ") + warnings + "\n"));
+    push_object(call.state(), response);
+    return 1 + give_figure(call, levels_plot(response));
+}
+
+constexpr const char* kFrequencyArea = "nonparametric";
+constexpr std::array kFrequencyFunctions = {
+    FunctionEntry{"idfrd", kFrequencyArea, "idfrd(H, w, {variance =, Ts =, InterSample =, ...}) -> F",
+                  "a measured frequency response as data, with the variances of its errors", guarded<make_response>},
+    FunctionEntry{"bla", kFrequencyArea, "bla(data, {period =, realisations =, transient =, ...}) -> F, fig",
+                  "best linear approximation from periodic records, with the levels of noise and distortion",
+                  guarded<memoized_call<approximate>>},
+};
+
+}  // namespace
+
+FunctionEntries frequency_functions() {
+    return kFrequencyFunctions;
+}
+
+}  // namespace dynlab::inline scripting

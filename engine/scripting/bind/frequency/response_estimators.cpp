@@ -1,0 +1,73 @@
+#include <array>
+#include <string_view>
+
+#include "numerics/estimators/frequency/frequency_fit.h"
+#include "scripting/arguments/transfer_arguments.h"
+#include "scripting/bind/frequency/frequency_bindings.h"
+#include "scripting/objects/fit_model.h"
+#include "scripting/objects/frequency_object.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+constexpr std::array kCarxOrders = {kNa, kNb, kNk};
+constexpr std::array kOutputErrorOrders = {kNb, kNf, kNk};
+
+/// Data of the same channels and sampling time, without samples: what structures are made for.
+IdData channels_of(const FrequencyData& response) {
+    IdData data;
+    data.experiments.resize(1);
+    data.experiments.front().y.resize(0, 1), data.experiments.front().u.resize(0, 1);
+    data.Ts = response.Ts;
+    return data;
+}
+
+TransferStructure ordered_structure(const Call& call, const FrequencyData& response,
+                                    const std::array<OrderEntry, 3>& entries) {
+    const auto orders = order_lists(call, 2, entries);
+    const bool delayed = std::any_of(orders[2].begin(), orders[2].end(), [](int nk) { return nk > 0; });
+    if (delayed && response.Ts == 0)
+        throw InvalidArgument(
+            "nk counts samples of delay, which a response without Ts does not have: give 0, or use "
+            "tfsrivc with IODelay in seconds");
+    return structure_of_orders(entries, orders, Denominators::kPerOutput)(channels_of(response));
+}
+
+int give_response_fit(const Call& call, const FrequencyData& response, const Fit& fit, bool carx) {
+    Estimate estimate = estimate_of(call.function_name(), fit);
+    estimate.numbers.emplace_back("frequencies", static_cast<double>(response.w.size()));
+    estimate.carx = carx;
+    return give_fit(call, std::move(estimate), fit);
+}
+
+TransferStructure structure_for_response(const Call& call, const FrequencyData& response, FitOptions& wanted) {
+    if (!std::string_view(call.function_name()).starts_with("tf")) {
+        call.at_most(3);
+        read_fit_options(Options(call, 3, {"MaxIter", "Tol", "Stable"}), wanted);
+        return ordered_structure(call, response, kOutputErrorOrders);
+    }
+    call.at_most(4);
+    const Options options(call, 4, {"MaxIter", "Tol", "Stable", "TdMin", "TdMax", "NumTd", "IODelay"});
+    read_fit_options(options, wanted);
+    return structure_of_counts(call, options, wanted)(channels_of(response));
+}
+
+}  // namespace
+
+int fit_response(Call& call) {
+    const FrequencyData& response = object_argument<FrequencyData>(call, 1, "F");
+    FitOptions wanted;
+    const TransferStructure structure = structure_for_response(call, response, wanted);
+    return give_response_fit(call, response, frequency_fit(call.function_name(), response, structure, wanted), false);
+}
+
+int filter_response(Call& call) {
+    call.at_most(3);
+    const FrequencyData& response = object_argument<FrequencyData>(call, 1, "F");
+    const TransferStructure structure = ordered_structure(call, response, kCarxOrders);
+    SvfOptions wanted;
+    wanted.lambda = call.number(3, "lambda");
+    return give_response_fit(call, response, frequency_lssvf(response, structure, wanted), true);
+}
+
+}  // namespace dynlab::inline scripting

@@ -1,0 +1,155 @@
+#include "numerics/estimators/grey_box/greyest.h"
+
+#include <array>
+#include <cmath>
+
+#include "scripting/arguments/option_words.h"
+#include "scripting/arguments/table_fields.h"
+#include "scripting/arguments/told_sentences.h"
+#include "scripting/bind/grey_box/grey_bindings.h"
+#include "scripting/objects/data_object.h"
+#include "scripting/objects/grey_object.h"
+#include "scripting/objects/named_vector.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+/// Option starts: how many, or a list of tables {k1 = 0.5, ...}.
+void read_starts(const Options& options, GreyOptions& wanted) {
+    lua_State* L = options.call().state();
+    const int place = options.push("starts");
+    if (lua_istable(L, place)) {
+        for (lua_Integer i = 1; lua_rawgeti(L, place, i) != LUA_TNIL; ++i, lua_pop(L, 1)) {
+            lua_createtable(L, 0, 1);
+            lua_pushvalue(L, -2);
+            lua_setfield(L, -2, "starts");
+            wanted.further_starts.push_back(
+                Options(options.call(), lua_gettop(L), {"starts"}).numbers_by_name("starts"));
+            lua_pop(L, 1);
+        }
+    } else if (!lua_isnil(L, place)) {
+        wanted.starts = static_cast<int>(options.size("starts", 1));
+    }
+    lua_settop(L, place - 1);
+}
+
+GreyOptions read_grey_options(const Call& call, int index) {
+    const Options options(call, index, {"InitialState", "MaxIter", "Tol", "RelTol", "starts", "OutputWeights"});
+    GreyOptions wanted;
+    wanted.initial_state = parse_grey_start(options.text("InitialState", "model"));
+    wanted.max_iterations = static_cast<int>(options.size("MaxIter", wanted.max_iterations));
+    wanted.tolerance = options.number("Tol", wanted.tolerance);
+    wanted.relative_tolerance = options.number("RelTol", wanted.relative_tolerance);
+    if (options.has("OutputWeights")) wanted.output_weights = options.vector("OutputWeights");
+    read_starts(options, wanted);
+    wanted.cancel = call.cancel();
+    return wanted;
+}
+
+int estimate_grey_box(Call& call) {
+    call.at_most(3);
+    const IdData& data = object_argument<IdData>(call, 1, "data");
+    const GreyModel& model = object_argument<GreyModel>(call, 2, "m");
+    GreyEstimate estimate = std::make_shared<const GreyFit>(greyest(data, model, read_grey_options(call, 3)));
+    push_object(call.state(), std::move(estimate));
+    return 1;
+}
+
+// ---- fields of an estimate
+
+const GreyFit& fit_self(Call& call) {
+    return *object_argument<GreyEstimate>(call, 1, "G");
+}
+
+/// G.k1, by name.
+int parameter_named(Call& call) {
+    const Fit& fit = fit_self(call).fit;
+    const std::string name = call.text(2, "name");
+    for (std::size_t i = 0; i < fit.names.size(); ++i)
+        if (fit.names[i] == name) return call.give(fit.theta[static_cast<Index>(i)]);
+    throw InvalidArgument(
+        fmt::format("this model has no parameter or field '{}'; its parameters are {}, its fields "
+                    "param, std, covariance, intervals, names, x0, noise_variance and report",
+                    name, fmt::join(fit.names, ", ")));
+}
+
+std::vector<std::string> bounded_names(const Fit& fit) {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < fit.at_bound.size(); ++i)
+        if (fit.at_bound[i]) names.push_back(fit.names[i]);
+    return names;
+}
+
+int give_initial_state(Call& call) {
+    return give_columns(call, fit_self(call).initial_states);
+}
+
+int give_noise_variance(Call& call) {
+    const Vector& variance = fit_self(call).fit.noise_variance;
+    return variance.size() == 1 ? call.give(variance[0]) : call.give_vector(variance);
+}
+
+int give_report(Call& call) {
+    const GreyFit& grey = fit_self(call);
+    const Fit& fit = grey.fit;
+    lua_newtable(call.state());
+    set_field(call, "method", std::string("greyest"));
+    set_field(call, "message", told(call, in_lua_words(fit.message)));
+    set_field(call, "converged", fit.termination == Termination::kConverged);
+    set_field(call, "fit_percent", fit.fit_percent[0]);
+    set_field(call, "fits", fit.fit_percent);
+    set_field(call, "noise_variance", fit.noise_variance);
+    set_field(call, "loss", fit.loss);
+    set_field(call, "condition_number", fit.condition_number);
+    set_field(call, "singular_values", grey.singular_values);
+    set_field(call, "iterations", static_cast<double>(fit.trace.size()));
+    set_field(call, "intervals", grey.intervals);
+    set_field(call, "x0", grey.initial_states);
+    set_field(call, "x0_std", grey.initial_std);
+    set_field(call, "at_bound", bounded_names(fit));
+    give_list(call, grey.outputs, [&](const Matrix& y) { give_columns(call, y); });
+    lua_setfield(call.state(), -2, "outputs");
+    give_list(call, grey.states, [&](const Matrix& x) { give_columns(call, x); });
+    lua_setfield(call.state(), -2, "states");
+    std::vector<std::string> warnings;
+    for (const std::string& warning : fit.warnings) warnings.push_back(in_lua_words(warning));
+    set_field(call, "warnings", told(call, warnings));
+    return 1;
+}
+
+/// The parameters' own values, by place and by name.
+template <Vector Fit::*kValues>
+int give_by_name(Call& call) {
+    const Fit& fit = fit_self(call).fit;
+    push_named_vector(call.state(), fit.*kValues, fit.names);
+    return 1;
+}
+
+constexpr std::array kEstimateFields = {
+    Member{"param", guarded<give_by_name<&Fit::theta>>},
+    Member{"std", guarded<give_by_name<&Fit::std>>},
+    Member{"covariance", field<GreyEstimate, [](const GreyEstimate& e) { return e->fit.covariance; }>},
+    Member{"intervals", field<GreyEstimate, [](const GreyEstimate& e) { return e->intervals; }>},
+    Member{"names", field<GreyEstimate, [](const GreyEstimate& e) { return e->fit.names; }>},
+    Member{"x0", guarded<give_initial_state>},
+    Member{"noise_variance", guarded<give_noise_variance>},
+    Member{"report", guarded<give_report>}};
+constexpr std::array kEstimateOperators = {
+    Member{"__tostring", told_field<GreyEstimate, [](const GreyEstimate& e) { return grey_presentation(*e); }>},
+    Member{"__named", guarded<parameter_named>}};
+
+constexpr std::array kGreyestFunctions = {
+    FunctionEntry{"greyest", "grey box",
+                  "greyest(data, m, {InitialState =, starts =, MaxIter =, Tol =, RelTol =, OutputWeights =}) -> G",
+                  "parameters of differential equations that physics gives", guarded<estimate_grey_box>},
+};
+
+}  // namespace
+
+const ObjectType Boxed<GreyEstimate>::type{"grey-box estimate", kEstimateFields, {}, kEstimateOperators};
+
+FunctionEntries greyest_functions() {
+    return kGreyestFunctions;
+}
+
+}  // namespace dynlab::inline scripting

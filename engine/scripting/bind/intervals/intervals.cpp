@@ -1,0 +1,162 @@
+#include <algorithm>
+#include <array>
+
+#include "figures/plots/monte_carlo_plot.h"
+#include "figures/plots/profile_plot.h"
+#include "numerics/validation/intervals/bootstrap.h"
+#include "numerics/validation/intervals/profile_likelihood.h"
+#include "platform/terminal/progress.h"
+#include "scripting/arguments/simulation_options.h"
+#include "scripting/arguments/table_fields.h"
+#include "scripting/arguments/told_sentences.h"
+#include "scripting/bind/intervals/interval_bindings.h"
+#include "scripting/memoized_calls/memoized_call.h"
+#include "scripting/objects/data_object.h"
+#include "scripting/objects/figure_object.h"
+#include "scripting/objects/model.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+/// A model that an output-error method left, or a sentence why it is none.
+const Model& output_error_argument(const Call& call, int index) {
+    const Model* model = index <= call.count() ? to_object<Model>(call.state(), index) : nullptr;
+    const char* const function = call.function_name();
+    if (model == nullptr) wrong_argument(call.state(), index, "G", "model");
+    const std::string instead = fmt::format(
+        "{} repeats fits of the smallest simulation error: estimate with procsrivc, tfsrivc, srivc or coe", function);
+    if (!model->estimate) throw InvalidArgument("this model was written down, not estimated; " + instead);
+    const Estimate& estimate = *model->estimate;
+    if (!model->single_channel())
+        throw InvalidArgument(
+            fmt::format("{} takes a model with one input and one output, but {}", function, channels_hint(*model)));
+    const bool process = model->process.has_value();
+    if (estimate.carx || model->polynomial || model->system || !model->G.continuous() ||
+        (!process && !estimate.of_coefficients))
+        throw InvalidArgument(fmt::format("{} is no such method; {}", estimate.method, instead));
+    return *model;
+}
+
+/// How the record begins is not kept with a model: it is found again as compare does.
+FittedOutput fitted_argument(const Call& call, int index, const IdData& data, const CompareOptions& options) {
+    const Model& model = output_error_argument(call, index);
+    FittedOutput fitted;
+    fitted.start = compare_all(data, {model.G}, options).results.front().front().start;
+    if (model.process) {
+        fitted.process = model.process->structure;
+        fitted.theta = model.process->parameters;
+        if (fitted.process->integrator && fitted.start.state != InitialState::kZero)
+            fitted.start = {InitialState::kEstimate, false};
+        return fitted;
+    }
+    const std::vector<std::string>& names = model.estimate->names;
+    const bool free_delay = std::find(names.begin(), names.end(), "Td") != names.end();
+    fitted.structure = TransferStructure::single(static_cast<int>(model.G.pole_count()),
+                                                 static_cast<int>(model.G.num().size()) - 1, model.G.delay());
+    fitted.structure.free_delays = free_delay;
+    fitted.theta = model.estimate->theta.head(fitted.structure.parameter_count());
+    return fitted;
+}
+
+/// The study as histograms have it, with the estimate in the place of the truth.
+MonteCarlo as_study(const Bootstrap& found, int runs) {
+    MonteCarloResult result;
+    result.label = "bootstrap";
+    for (Index i = 0; i < found.estimate.size(); ++i)
+        if (found.values.col(i).array().isFinite().any() && std::isfinite(found.estimate[i]))
+            result.names.push_back(found.names[static_cast<std::size_t>(i)]);
+    result.theta.resize(found.values.rows(), static_cast<Index>(result.names.size()));
+    result.truth.resize(result.theta.cols());
+    for (Index i = 0, j = 0; i < found.estimate.size() && j < result.theta.cols(); ++i) {
+        if (found.names[static_cast<std::size_t>(i)] != result.names[static_cast<std::size_t>(j)]) continue;
+        result.theta.col(j) = found.values.col(i);
+        result.truth[j++] = found.estimate[i];
+    }
+    result.estimated = runs - found.failed;
+    MonteCarlo study;
+    study.runs = runs;
+    study.results = {std::move(result)};
+    return study;
+}
+
+int repeat_experiment(Call& call) {
+    call.at_most(3);
+    const IdData& data = object_argument<IdData>(call, 2, "data");
+    const Options options(call, 3, {"runs", "kind", "seed", "confidence", "InitialState", "Offset"});
+    BootstrapOptions wanted;
+    wanted.runs = static_cast<int>(options.size("runs", wanted.runs));
+    wanted.kind = parse_bootstrap_kind(options.text("kind", "residual"));
+    wanted.seed = static_cast<std::uint32_t>(options.size("seed", wanted.seed));
+    wanted.confidence = options.number("confidence", wanted.confidence);
+    wanted.cancel = call.cancel();
+    ProgressBar bar("bootstrap", static_cast<std::size_t>(wanted.runs));
+    wanted.progress = [&bar](std::size_t done) { bar.advance(done); };
+    const RefittedOutput model(data, fitted_argument(call, 1, data, compare_options(options)));
+    const Bootstrap found = bootstrap(model, wanted);
+    call.print(told(call, found.message) + "\n");
+    give_figure(call, monte_carlo_histograms(as_study(found, wanted.runs)));
+    lua_createtable(call.state(), 0, 10);
+    set_field(call, "names", found.names);
+    set_field(call, "estimate", found.estimate);
+    set_field(call, "values", found.values);
+    set_field(call, "mean", found.mean);
+    set_field(call, "std", found.std);
+    set_field(call, "low", found.low);
+    set_field(call, "high", found.high);
+    set_field(call, "failed", found.failed);
+    set_field(call, "message", told(call, found.message));
+    set_field(call, "warnings", told(call, found.warnings));
+    return 2;
+}
+
+std::string unit_of(const IdData& data, const std::string& parameter) {
+    const bool time = parameter.starts_with("T");
+    return time ? data.time_unit : "";
+}
+
+int follow_parameter(Call& call) {
+    call.at_most(4);
+    const IdData& data = object_argument<IdData>(call, 2, "data");
+    const std::string name = call.text(3, "parameter");
+    const Options options(call, 4, {"confidence", "points", "range", "InitialState", "Offset"});
+    ProfileOptions wanted;
+    wanted.confidence = options.number("confidence", wanted.confidence);
+    wanted.points = static_cast<int>(options.size("points", wanted.points));
+    wanted.range = options.range("range");
+    wanted.cancel = call.cancel();
+    const RefittedOutput model(data, fitted_argument(call, 1, data, compare_options(options)));
+    const Profile found = profile_likelihood(model, name, wanted);
+    call.print(told(call, found.message) + "\n");
+    give_figure(call, profile_plot(found, unit_of(data, name)));
+    lua_createtable(call.state(), 0, 9);
+    set_field(call, "estimate", found.estimate);
+    set_field(call, "std", found.std);
+    if (found.low) set_field(call, "low", *found.low);
+    if (found.high) set_field(call, "high", *found.high);
+    set_field(call, "level", found.level);
+    set_field(call, "grid", found.grid);
+    set_field(call, "rise", found.rise);
+    set_field(call, "message", told(call, found.message));
+    set_field(call, "warnings", told(call, found.warnings));
+    return 2;
+}
+
+constexpr const char* kIntervalsArea = "validation";
+constexpr std::array kIntervalFunctions = {
+    FunctionEntry{"bootstrap", kIntervalsArea,
+                  "bootstrap(G, data, {runs =, kind =, seed =, confidence =, InitialState =, Offset =}) -> fig, table",
+                  "intervals of parameters, gain and time constants from experiments repeated on the computer",
+                  guarded<memoized_call<repeat_experiment>>},
+    FunctionEntry{"profile", kIntervalsArea,
+                  "profile(G, data, name, {confidence =, points =, range =, InitialState =, Offset =}) -> fig, table",
+                  "interval of one parameter from how the fit gets worse beside it",
+                  guarded<memoized_call<follow_parameter>>},
+};
+
+}  // namespace
+
+FunctionEntries interval_functions() {
+    return kIntervalFunctions;
+}
+
+}  // namespace dynlab::inline scripting

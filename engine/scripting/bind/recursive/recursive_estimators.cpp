@@ -1,0 +1,133 @@
+#include <array>
+
+#include "figures/plots/history_plot.h"
+#include "numerics/estimators/recursive/rivsvf.h"
+#include "numerics/estimators/recursive/rlssvf.h"
+#include "numerics/estimators/recursive/rsrivc.h"
+#include "numerics/fit/srivc_iteration.h"
+#include "scripting/arguments/transfer_arguments.h"
+#include "scripting/bind/bindings.h"
+#include "scripting/memoized_calls/memoized_call.h"
+#include "scripting/objects/data_object.h"
+#include "scripting/objects/figure_object.h"
+#include "scripting/objects/fit_model.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+constexpr std::array kRecursiveEquationOrders = {kNa, kNb, kNk};
+constexpr std::array kRecursiveOutputOrders = {kNb, kNf, kNk};
+
+/// One number for all parameters or one for each, taken as variances of steps from sample to sample.
+Vector drift_of(const Options& options) {
+    if (!options.has("drift")) return Vector();
+    const int index = options.push("drift");
+    if (lua_type(options.call().state(), index) == LUA_TNUMBER) return Vector::Constant(1, options.number("drift", 0));
+    return options.vector("drift");
+}
+
+RecursiveOptions recursive_options(const Call& call, const Options& options) {
+    RecursiveOptions wanted;
+    wanted.lambda = call.number(3, "lambda");
+    wanted.hold_y = hold_y_of(options);
+    wanted.forgetting = options.number("forgetting", 1);
+    wanted.drift = drift_of(options);
+    wanted.noise_variance = options.optional_number("NoiseVariance");
+    wanted.history_points = options.size("HistoryPoints", wanted.history_points);
+    if (options.has("model")) wanted.model = model_argument(call, options.push("model"), "model").G;
+    wanted.cancel = call.cancel();
+    return wanted;
+}
+
+template <auto kMethod, bool kCarx>
+Estimation read_recursive(const Call& call) {
+    call.at_most(4);
+    const auto& entries = kCarx ? kRecursiveEquationOrders : kRecursiveOutputOrders;
+    const auto orders = order_lists(call, 2, entries);
+    const Options options(call, 4, {"forgetting", "drift", "NoiseVariance", "HistoryPoints", "model", "hold_y"});
+    return [structure = structure_of_orders(entries, orders, Denominators::kPerOutput),
+            wanted = recursive_options(call, options)](const IdData& data) {
+        const TransferStructure of_data = structure(data);
+        RecursiveOptions own = wanted;
+        if (own.drift.size() == 1) own.drift = Vector::Constant(of_data.parameter_count(), own.drift[0]);
+        return kMethod(data, of_data, own);
+    };
+}
+
+template <auto kMethod, bool kCarx>
+int estimate_recursively(Call& call) {
+    const IdData& data = object_argument<IdData>(call, 1, "data");
+    Fit result = read_recursive<kMethod, kCarx>(call)(data);
+    measure_simulation(result, data);
+    Estimate estimate = estimate_of(call.function_name(), result);
+    estimate.carx = kCarx;
+    return give_fit(call, std::move(estimate), result);
+}
+
+/// A number or a vector for each parameter that has a name in the table.
+std::map<std::string, Vector> truth_of(const Options& options) {
+    std::map<std::string, Vector> truth;
+    if (!options.has("truth")) return truth;
+    lua_State* L = options.call().state();
+    const int index = options.push("truth");
+    if (lua_type(L, index) != LUA_TTABLE)
+        throw InvalidArgument("option 'truth' must be a table such as {a1 = 4, b0 = v}");
+    for (lua_pushnil(L); lua_next(L, index) != 0; lua_pop(L, 1)) {
+        if (lua_type(L, -2) != LUA_TSTRING)
+            throw InvalidArgument("option 'truth' must name its values, such as {a1 = 4, b0 = v}");
+        const std::string name = lua_tostring(L, -2);
+        if (lua_type(L, -1) == LUA_TNUMBER)
+            truth[name] = Vector::Constant(1, lua_tonumber(L, -1));
+        else if (NumericBlock* values = to_vector(L, -1))
+            truth[name] = values->vector();
+        else
+            throw InvalidArgument(
+                fmt::format("option 'truth' must hold numbers or vectors, but {} is {}", name, given_text(L, -1)));
+    }
+    return truth;
+}
+
+/// plot_history(G, {truth =, confidence =})
+int plot_parameters(Call& call) {
+    call.at_most(2);
+    const Model& model = object_argument<Model>(call, 1, "G");
+    const Options options(call, 2, {"truth", "confidence"});
+    if (!model.estimate || !model.estimate->history)
+        throw InvalidArgument("this model has no history: rlssvf, rivsvf and rsrivc give one");
+    const double level = options.number("confidence", 0.95);
+    if (!(level > 0 && level < 1))
+        throw InvalidArgument(
+            fmt::format("option 'confidence' must be a probability between 0 and 1, but {} was given", level));
+    return give_figure(call, history_plot(*model.estimate->history, model.estimate->names, truth_of(options), level));
+}
+
+constexpr NamedReader kRecursiveReaders[] = {{"rlssvf", read_recursive<rlssvf, true>},
+                                             {"rivsvf", read_recursive<rivsvf, true>},
+                                             {"rsrivc", read_recursive<rsrivc, false>}};
+
+constexpr const char* kRecursiveArea = "continuous time";
+constexpr std::array kRecursiveFunctions = {
+    FunctionEntry{"rlssvf", kRecursiveArea, "rlssvf(data, {na, nb, nk}, lambda, {forgetting =, drift =, ...}) -> G",
+                  "lssvf sample by sample, for parameters that change",
+                  guarded<memoized_call<estimate_recursively<rlssvf, true>>>},
+    FunctionEntry{"rivsvf", kRecursiveArea, "rivsvf(data, {na, nb, nk}, lambda, {forgetting =, drift =, ...}) -> G",
+                  "ivsvf sample by sample, for parameters that change",
+                  guarded<memoized_call<estimate_recursively<rivsvf, true>>>},
+    FunctionEntry{"rsrivc", kRecursiveArea, "rsrivc(data, {nb, nf, nk}, lambda, {forgetting =, drift =, ...}) -> G",
+                  "srivc sample by sample, for parameters that change",
+                  guarded<memoized_call<estimate_recursively<rsrivc, false>>>},
+    FunctionEntry{"plot_history", "figures", "plot_history(G, {truth =, confidence =}) -> fig",
+                  "parameters over time with their confidence bands", guarded<plot_parameters>},
+};
+
+}  // namespace
+
+EstimationReaders recursive_readers() {
+    return kRecursiveReaders;
+}
+
+FunctionEntries recursive_functions() {
+    return kRecursiveFunctions;
+}
+
+}  // namespace dynlab::inline scripting

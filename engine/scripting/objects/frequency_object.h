@@ -1,0 +1,17 @@
+#pragma once
+#include "numerics/models/frequency_data.h"
+#include "scripting/objects/boxed.h"
+
+namespace dynlab::inline scripting {
+
+/// A measured frequency response: what idfrd, bla, spa and etfe give.
+template <>
+struct Boxed<FrequencyData> {
+    static const ObjectType type;
+    static std::size_t outside_bytes(const FrequencyData& data);
+};
+
+/// Whether one stands at a stack index.
+bool holds_response(const Call& call, int index);
+
+}  // namespace dynlab::inline scripting

@@ -1,0 +1,91 @@
+#include "scripting/objects/simulated_model.h"
+
+#include <algorithm>
+
+#include "scripting/arguments/table_fields.h"
+#include "scripting/arguments/told_sentences.h"
+#include "scripting/objects/grey_object.h"
+#include "scripting/objects/text_form.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+const SimulatedModel& simulated_self(Call& call) {
+    return object_argument<SimulatedModel>(call, 1, "G");
+}
+
+/// G.report: a plain table.
+int report_of_simulated(Call& call) {
+    const Estimate& estimate = *simulated_self(call).estimate;
+    lua_newtable(call.state());
+    set_field(call, "method", estimate.method);
+    set_field(call, "message", told(call, estimate.message));
+    set_field(call, "converged", estimate.converged);
+    for (const auto& [name, value] : estimate.numbers) set_field(call, name.c_str(), value);
+    for (const auto& [name, values] : estimate.vectors) set_field(call, name.c_str(), values);
+    for (const auto& [name, values] : estimate.matrices) set_field(call, name.c_str(), values);
+    set_field(call, "warnings", told(call, estimate.warnings));
+    return 1;
+}
+
+std::string equations_text(const SimulatedModel& model) {
+    return fmt::format("{}", fmt::join(model.equations, "\n"));
+}
+
+constexpr std::array kSimulatedFields = {
+    Member{"param", field<SimulatedModel, [](const SimulatedModel& model) { return model.estimate->theta; }>},
+    Member{"std", field<SimulatedModel, [](const SimulatedModel& model) { return model.estimate->std; }>},
+    Member{"covariance", field<SimulatedModel, [](const SimulatedModel& model) { return model.estimate->covariance; }>},
+    Member{"names", field<SimulatedModel, [](const SimulatedModel& model) { return model.estimate->names; }>},
+    Member{"equations", field<SimulatedModel, &SimulatedModel::equations>},
+    Member{"report", guarded<report_of_simulated>},
+};
+constexpr std::array kSimulatedOperators = {Member{"__tostring", field<SimulatedModel, equations_text>}};
+
+}  // namespace
+
+const ObjectType Boxed<SimulatedModel>::type{"simulated model", kSimulatedFields, {}, kSimulatedOperators};
+
+std::size_t Boxed<SimulatedModel>::outside_bytes(const SimulatedModel& model) {
+    const Estimate& estimate = *model.estimate;
+    auto numbers = static_cast<std::size_t>(estimate.theta.size() + estimate.covariance.size());
+    for (const auto& [name, values] : estimate.vectors) numbers += static_cast<std::size_t>(values.size());
+    for (const auto& [name, values] : estimate.matrices) numbers += static_cast<std::size_t>(values.size());
+    return numbers * sizeof(double);
+}
+
+const SimulatedModel* simulated_model(const Call& call, int index) {
+    return index <= call.count() ? to_object<SimulatedModel>(call.state(), index) : nullptr;
+}
+
+bool runs_freely(const Call& call, int index) {
+    return simulated_model(call, index) != nullptr || to_grey_box(call, index) != nullptr;
+}
+
+bool holds_comparable_model(const Call& call, int index) {
+    return runs_freely(call, index) || holds_model(call, index);
+}
+
+std::string method_of_model(const Call& call, int index) {
+    if (const SimulatedModel* model = simulated_model(call, index)) return model->estimate->method;
+    if (to_grey_box(call, index) != nullptr) return "greyest";
+    const Model* model = to_object<Model>(call.state(), index);
+    return model != nullptr && model->estimate ? model->estimate->method : "";
+}
+
+std::string presentation(const SimulatedModel& model) {
+    const Estimate& estimate = *model.estimate;
+    std::string text = equations_text(model) + "\n";
+    std::size_t widest = 5;
+    for (const std::string& name : estimate.names) widest = std::max(widest, name.size());
+    if (!estimate.names.empty()) text += "Parameters:\n";
+    for (std::size_t i = 0; i < estimate.names.size(); ++i) {
+        const auto index = static_cast<Index>(i);
+        text += fmt::format("  {:<{}} {:>12}", estimate.names[i], widest, number_text(estimate.theta[index], 6));
+        if (estimate.std.size() > index) text += "  +- " + number_text(estimate.std[index], 3);
+        text += '\n';
+    }
+    return text + fmt::format("Estimated by {}.\n{}\n", estimate.method, estimate.message);
+}
+
+}  // namespace dynlab::inline scripting

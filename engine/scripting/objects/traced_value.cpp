@@ -1,0 +1,87 @@
+#include "scripting/objects/traced_value.h"
+
+#include <array>
+#include <cmath>
+
+namespace dynlab::inline scripting {
+namespace {
+
+using Node = ExpressionTape::Node;
+
+Node operand_of(const Call& call, int index, const std::shared_ptr<Trace>& trace) {
+    if (const auto node = traced_node(call.state(), index, trace)) return *node;
+    throw InvalidArgument(
+        fmt::format("with a value that is not known yet only numbers can be combined, but {} was given",
+                    given_text(call.state(), index)));
+}
+
+template <Operation kOperation, int kOperands>
+int operate(Call& call) {
+    return give_traced_operation(call, trace_among(call), kOperation, kOperands);
+}
+
+int refuse_order(Call&) {
+    throw InvalidArgument(
+        "two values that are not known yet cannot be compared: where(c, a, b) is a where c > 0 and b elsewhere, and "
+        "sign, max, min and abs work on such values, too");
+}
+
+int input_of(Call& call) {
+    const TracedValue& value = object_argument<TracedValue>(call, 1, "u");
+    if (!value.inputs)
+        throw InvalidArgument("this is a single value: only the inputs u have elements, u[1], u[2], ...");
+    const Index i = call.integer(2, "number of the input");
+    if (i < 1 || i > 1000) throw InvalidArgument(fmt::format("u[{}] does not exist: inputs are counted from 1", i));
+    value.trace->inputs = std::max(value.trace->inputs, i);
+    value.trace->inputs_indexed = true;
+    return give_traced(call, value.trace, value.trace->tape.variable(Operation::kInput, i - 1));
+}
+
+int text_of(Call& call) {
+    return call.give(std::string("a value that is not known yet"));
+}
+
+constexpr std::array kTracedOperators = {Member{"__add", guarded<operate<Operation::kAdd, 2>>},
+                                         Member{"__sub", guarded<operate<Operation::kSubtract, 2>>},
+                                         Member{"__mul", guarded<operate<Operation::kMultiply, 2>>},
+                                         Member{"__div", guarded<operate<Operation::kDivide, 2>>},
+                                         Member{"__pow", guarded<operate<Operation::kPower, 2>>},
+                                         Member{"__unm", guarded<operate<Operation::kNegate, 1>>},
+                                         Member{"__lt", guarded<refuse_order>},
+                                         Member{"__le", guarded<refuse_order>},
+                                         Member{"__eq", guarded<refuse_order>},
+                                         Member{"__tostring", guarded<text_of>}};
+
+}  // namespace
+
+std::optional<Node> traced_node(lua_State* L, int index, const std::shared_ptr<Trace>& trace) {
+    if (lua_type(L, index) == LUA_TNUMBER) return trace->tape.constant(lua_tonumber(L, index));
+    const TracedValue* value = to_object<TracedValue>(L, index);
+    if (value == nullptr || value->trace != trace) return std::nullopt;
+    if (value->inputs) trace->inputs = std::max<Index>(trace->inputs, 1);
+    return value->node;
+}
+
+int give_traced(const Call& call, const std::shared_ptr<Trace>& trace, Node node) {
+    push_object(call.state(), TracedValue{trace, node});
+    return 1;
+}
+
+std::shared_ptr<Trace> trace_among(const Call& call) {
+    for (int i = 1; i <= call.count(); ++i)
+        if (const TracedValue* value = to_object<TracedValue>(call.state(), i)) return value->trace;
+    return nullptr;
+}
+
+int give_traced_operation(const Call& call, const std::shared_ptr<Trace>& trace, Operation operation, int operands) {
+    std::array<Node, 3> nodes = {-1, -1, -1};
+    for (int i = 0; i < operands; ++i) {
+        if (i >= call.count()) throw InvalidArgument(fmt::format("argument {} is missing", i + 1));
+        nodes[static_cast<std::size_t>(i)] = operand_of(call, i + 1, trace);
+    }
+    return give_traced(call, trace, trace->tape.apply(operation, nodes[0], nodes[1], nodes[2]));
+}
+
+const ObjectType Boxed<TracedValue>::type{"traced value", {}, {}, kTracedOperators, guarded<input_of>};
+
+}  // namespace dynlab::inline scripting

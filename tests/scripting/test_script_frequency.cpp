@@ -1,0 +1,129 @@
+// Frequencies as scripts see them. Oracles: the systems that made the responses; the definitions of the fields.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "script_run.h"
+
+namespace test_script_frequency {
+
+using namespace dynlab;
+using dynlab::test::printed;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const std::string kResponse =
+    "local w = logspace(-1, 1, 50)\n"
+    "local G0 = tf({1.2}, {1.1, 0.0009, 1.2})\n"
+    "local F = idfrd(freqresp(G0, w), w)\n"
+    "local function near(a, b, limit) if math.abs(a - b) > (limit or 1e-9) then error(a .. ' is not ' .. b, 2) end "
+    "end\n";
+
+/// What the script says after the response; nothing when all its assertions hold.
+std::string said(const std::string& code) {
+    return printed(kResponse + code);
+}
+
+TEST(script_frequency, responses_have_their_fields) {
+    EXPECT_EQ(said("print(F)"), "idfrd: 50 frequencies from 0.1 to 10 rad/s, variances unknown\n");
+    EXPECT_EQ(said("assert(#F == 50 and #F.w == 50 and F.variance == nil and F.std == nil and F.Ts == 0)\n"
+                   "near(F.H[3].re, freqresp(G0, w)[3].re)\n"
+                   "near(F.magnitude[7], F.H[7].abs)\n"
+                   "local V = idfrd({F.H.re, F.H.im}, w, {variance = 0.08, Ts = 0.1, InterSample = 'zoh', InputName = "
+                   "'force'})\n"
+                   "near(V.std[1], 0.2) assert(V.InterSample == 'zoh' and V.InputName == 'force')\n"
+                   "local P = idfrd({{1, 2}, {3, 4}, {5, 6}}, {3, 1, 2})\n"
+                   "near(P.H[1].re, 3) near(P.H[3].im, 2) near(P.w[3], 3)\n"
+                   "near(idfrd(G0, w).H[9].im, F.H[9].im)\n"),
+              "");
+}
+
+TEST(script_frequency, models_of_responses_are_the_system) {
+    EXPECT_EQ(
+        said("for _, G in ipairs{coe(F, {1, 2, 0}), srivc(F, {1, 2, 0}), tfsrivc(F, 2, 0, {TdMax = 0}),\n"
+             "                   tfcoe(F, 2, 0, {IODelay = 0}), lssvf(F, {2, 1, 0}, 2)} do\n"
+             "  near(G.param[1], 0.0009/1.1, 1e-12) near(G.param[2], 1.2/1.1, 1e-10) near(G.param[3], 1.2/1.1, 1e-10)\n"
+             "end\n"
+             "local late = idfrd(tf({2}, {1, 0.8, 4}, {IODelay = 0.7}), w)\n"
+             "near(tfsrivc(late, 2, 0).IODelay, 0.7)\n"
+             "local held = idfrd(tf({2}, {1, 0.8, 4}, {IODelay = 0.2}), w, {Ts = 0.1, InterSample = 'zoh'})\n"
+             "near(coe(held, {1, 2, 2}).param[1], 0.8)\n"),
+        "");
+}
+
+TEST(script_frequency, spectral_estimates_are_responses) {
+    EXPECT_THAT(said("rng(1)\nlocal G1 = tf({2}, {1, 1.2, 4})\nlocal u = prbs(9, 4)\nu = vector{u, u}\n"
+                     "local y = lsim(G1, u, 0.1)\nlocal N = #u // 2\n"
+                     "local _, E = etfe(iddata(y:range(N + 1, 2*N), u:range(N + 1, 2*N), 0.1))\n"
+                     "local G = coe(E, {1, 2, 0})\n"
+                     "near(G.param[1], 1.2, 1e-4) near(G.param[2], 4, 1e-4) near(G.param[3], 2, 1e-4)\n"
+                     "local _, S = spa(iddata(y + 0.05*randn(#y), u, 0.1), {window = 100})\n"
+                     "local g = srivc(S, {1, 2, 0})\n"
+                     "near(g.param[2], 4, 0.2) assert(S.method == 'spa' and S.variance and S.coherence)\n"
+                     "print(g.report.warnings[#g.report.warnings])"),
+                HasSubstr("\nNeighbouring values of a smoothed response share their errors"));
+}
+
+TEST(script_frequency, drawings_take_responses_and_models_in_any_order) {
+    EXPECT_EQ(
+        said("local V = idfrd(F.H, w, {variance = 0.01})\n"
+             "bode(V, G0) bode(G0, V, {labels = {'model', 'measured'}}) bode(F) bode(F, V, w, {confidence = false})\n"),
+        "");
+    EXPECT_THAT(said("bode(F, G0, {labels = 'one'})"), HasSubstr("option 'labels' has 1 texts, but there are 2"));
+}
+
+TEST(script_frequency, approximations_come_with_their_levels) {
+    EXPECT_THAT(
+        said("rng(2)\nlocal parts = {}\n"
+             "for m = 1, 6 do\n"
+             "  local u = multisine(256, {lines = range(1, 60), odd = true, periods = 5})\n"
+             "  local x = lsim(tf({2}, {1, 1.2, 4}), u, 0.1)\n"
+             "  parts[m] = iddata(x + 0.05*x^2 + 0.001*randn(#u), u, 0.1)\n"
+             "end\n"
+             "local B, figure = bla(merge(table.unpack(parts)), {period = 256, transient = 2})\n"
+             "assert(#B.w == 30 and B.noise_variance and B.distortion and B.noise_power < 0.01*B.output_power)\n"
+             "assert(sum(B.even.distortion) > 0.9*B.distortion_power and figure)\n"
+             "near(coe(B, {1, 2, 0}).param[2], 4, 0.02)\n"),
+        StartsWith("Best linear approximation at 30 frequencies from 6 realisations of 3 periods. Noise lies"));
+}
+
+TEST(script_frequency, multisines_follow_the_stream_or_a_seed) {
+    EXPECT_EQ(
+        said("rng(3)\nlocal a, grid = multisine(64, {lines = {1, 3, 5}, amplitude = 2, periods = 2})\n"
+             "local b = multisine(64, {lines = {1, 3, 5}})\n"
+             "assert(#a == 128 and #grid.lines == 3 and #grid.detection == 0 and norm(a:range(1, 64)/2 - b) > 1)\n"
+             "local c, d = multisine(64, {seed = 9}), multisine(64, {seed = 9})\n"
+             "near(norm(c - d), 0) near(norm(a)/math.sqrt(128), 2)\n"),
+        "");
+}
+
+TEST(script_frequency, mistakes_are_told_in_sentences) {
+    const std::pair<const char*, const char*> kCases[] = {
+        {"idfrd(F.H, w - 0.1)", "frequencies must be above zero (rad/s), but frequency 1 is 0; leave it out"},
+        {"idfrd(F.H, -1*w)", "frequencies must be above zero"},
+        {"idfrd(F.H, w, {variance = 0})", "variances must be positive"},
+        {"idfrd(F.H, w, {Ts = 1})", "frequencies end at pi/Ts"},
+        {"idfrd(F.H, w:range(1, 9))", "each of the 9 frequencies, and has 50"},
+        {"idfrd(w, w)", "must be a complex vector"},
+        {"coe(F, {1, 2, 3})", "nk counts samples of delay, which a response without Ts does not have"},
+        {"coe(F, {1, 40, 0})", "poles"},
+        {"coe(idfrd({{1, 2}}, {3}), {1, 2, 0})", "3 parameters need as many frequencies, and the response has 1"},
+        {"coe(F, {1, 2, 0}, {Offset = 'estimate'})", "option 'Offset' is unknown"},
+        {"ivsvf(F, {2, 1, 0}, 2)", "must be an iddata, but"},
+        {"lssvf(F, {2, 1, 0}, -1)", "cut-off frequency"},
+        {"multisine(64, {lines = {40}})", "from 1 to 31, but one is 40"},
+    };
+    for (const auto& [code, sentence] : kCases)
+        EXPECT_THAT(said("print(" + std::string(code) + ")"), AllOf(StartsWith("ERROR"), HasSubstr(sentence))) << code;
+}
+
+TEST(script_frequency, responses_can_be_answers_and_are_told_in_french) {
+    const std::string code =
+        "rng(2)\nlocal u = multisine(256, {lines = range(1, 60), periods = 3})\n"
+        "local B = bla(iddata(lsim(tf({2}, {1, 1.2, 4}), u, 0.1), u, 0.1), {period = 256})\n"
+        "print(B.message)\nprint(coe(B, {1, 2, 0}).report.message)";
+    EXPECT_THAT(printed(code, {}, "fr"),
+                AllOf(HasSubstr("Meilleure approximation linéaire"), HasSubstr("La recherche")));
+}
+
+}  // namespace test_script_frequency

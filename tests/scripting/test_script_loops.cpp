@@ -1,0 +1,88 @@
+// Records in closed loop and recursive estimation from scripts. Oracles: how the records were made, and the same
+// estimation by another function.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "script_run.h"
+
+namespace test_script_loops {
+
+using namespace dynlab;
+using dynlab::test::error_of;
+using dynlab::test::printed;
+using testing::HasSubstr;
+
+const std::string kLoop =
+    "rng(3)\nlocal Ts, G0, r = 0.05, tf({2}, {1, 4, 3}), prbs(7, 5)\nlocal C = tf({4, -3.9}, {1, -1}, Ts)\n"
+    "local data, x = simloop(G0, C, r, Ts, {noise = 0.02*randn(#r), ComputingDelay = 1})\n"
+    "local function near(G) for k, v in ipairs{4, 3, 2} do if math.abs(G.param[k] - v) > 4*G.std[k] then return false "
+    "end end return true end\n";
+
+TEST(script_loops, the_reference_goes_with_the_data) {
+    EXPECT_EQ(printed(kLoop + "print(data.r[1] == r[1], #data.r, data)\n"
+                              "local a, b = data:split(0.4)\nprint(a.r[254] == r[254], b.r[1] == r[255])\n"
+                              "print(data:range(10, 20).r[1] == r[10], data:select(1, 1).r[7] == r[7])\n"
+                              "print(math.abs(mean(data:remove_mean().r)) < 1e-12, #data:resample(1, 5).r)\n"
+                              "print(data:merge(data).experiments, data:shift(2).r[1] == r[3])\n"
+                              "print(data:keep{{1, 50}, {90, 120}}:experiment(2).r[1] == r[90])"),
+              "true\t635\tiddata: 635 samples, 1 output, 1 input, Ts = 0.05 s, 1 reference\ntrue\ttrue\ntrue\ttrue\n"
+              "true\t127\n2\ttrue\ntrue\n");
+    EXPECT_THAT(error_of(kLoop + "iddata(data.y, data.u, Ts, {Reference = r:range(1, 9)})"),
+                HasSubstr("635 samples but the reference has 9"));
+    EXPECT_THAT(error_of(kLoop + "data:merge(iddata(data.y, data.u, Ts))"),
+                HasSubstr("0 references, but the first has 1"));
+    EXPECT_THAT(error_of(kLoop + "print(iddata(data.y, data.u, Ts).r)"), HasSubstr("have no reference"));
+}
+
+TEST(script_loops, four_routes) {
+    EXPECT_EQ(
+        printed(kLoop +
+                "print(near(clivsvf(data, {2, 1, 0}, 4)), near(clivsvf(data, {2, 1, 0}, 4, {controller = C})))\n"
+                "for _, route in ipairs{'auxiliary', 'indirect', 'two-stage'} do\n"
+                "  print(near(clsrivc(data, {1, 2, 0}, {controller = C, route = route})))\nend\n"
+                "print(clsrivc(data, {1, 2, 0}, {route = 'direct'}).param[1] == srivc(data, {1, 2, 0}).param[1])"),
+        "true\ttrue\ntrue\ntrue\ntrue\ntrue\n");
+    EXPECT_THAT(printed(kLoop + "print(clsrivc(data, {1, 2, 0}, {controller = C}).report.message)"),
+                HasSubstr("whose controller answers 1 sample late"));
+    EXPECT_THAT(error_of(kLoop + "clsrivc(data, {1, 2, 0}, {route = 'indirect'})"), HasSubstr("must be known"));
+    EXPECT_THAT(error_of(kLoop + "clsrivc(data, {1, 2, 0}, {controller = 'C'})"),
+                HasSubstr("the controller must be a model"));
+    EXPECT_THAT(error_of(kLoop + "clivsvf(data, {2, 1, 0}, 4, {ComputingDelay = 1})"),
+                HasSubstr("give 'controller', too"));
+    EXPECT_THAT(error_of(kLoop + "simloop(G0, 100, r, Ts) simloop(tf({1}, {1, -1}), 0.5, r, Ts)"),
+                HasSubstr("the loop is unstable"));
+}
+
+TEST(script_loops, studies_of_loops) {
+    const std::string study =
+        kLoop +
+        "local M = montecarlo{system = G0, controller = C, ComputingDelay = 1, reference = r, Ts = Ts, sigma "
+        "= 0.1, runs = 40, estimators = {lssvf = {{2, 1, 0}, 4}, clivsvf = {{2, 1, 0}, 4, {controller = C}}, "
+        "own = function(d) return clsrivc(d, {1, 2, 0}, {controller = C}) end}}\n";
+    EXPECT_EQ(
+        printed(study + "local function off(m, k) return math.abs(m.bias[k])/(m.std[k]/math.sqrt(40)) end\n"
+                        "print(off(M.lssvf, 1) > 10, off(M.clivsvf, 1) < 4, off(M.own, 1) < 4, M.own.cramer_rao)"),
+        "true\ttrue\ttrue\tnil\n");
+    EXPECT_THAT(
+        error_of(kLoop + "montecarlo{system = G0, controller = C, input = r, Ts = Ts, sigma = 1, estimators = {}}"),
+        HasSubstr("give no 'input'"));
+}
+
+TEST(script_loops, recursive_methods_tell_their_history) {
+    EXPECT_EQ(printed("rng(1)\nlocal u = prbs(5, 20)\nlocal y = lsim(tf({2}, {1, 4, 3}), u, 0.05) + 0.02*randn(#u)\n"
+                      "local d = iddata(y, u, 0.05)\nlocal G, B = rlssvf(d, {2, 1, 0}, 4), lssvf(d, {2, 1, 0}, 4)\n"
+                      "print(math.abs(G.param[1] - B.param[1]) < 1e-8, #G.history.t, G.history.theta.columns)\n"
+                      "print(G.history.theta[{620, 1}] == G.param[1], table.concat(G.history.names, ' '))\n"
+                      "local R = rsrivc(d, {1, 2, 0}, 4, {drift = 1e-6, HistoryPoints = 10})\n"
+                      "print(#R.history.t, plot_history(R, {truth = {a1 = 4, b0 = u}}))"),
+              "true\t620\t3\ntrue\ta1 a2 b0\n10\tfigure with 3 panels\n");
+    const std::string record = "local u = prbs(5, 20)\nlocal d = iddata(lsim(tf({2}, {1, 4, 3}), u, 0.05), u, 0.05)\n";
+    EXPECT_THAT(error_of(record + "rlssvf(d, {2, 1, 0}, 4, {forgetting = 1.1})"),
+                HasSubstr("forgetting must lie above 0"));
+    EXPECT_THAT(error_of(record + "print(lssvf(d, {2, 1, 0}, 4).history)"), HasSubstr("looks at all samples at once"));
+    EXPECT_THAT(error_of(record + "plot_history(tf({1}, {1, 1}))"), HasSubstr("has no history"));
+    EXPECT_THAT(error_of(record + "plot_history(rlssvf(d, {2, 1, 0}, 4), {truth = {K = 1}})"),
+                HasSubstr("the parameters are a1, a2, b0"));
+}
+
+}  // namespace test_script_loops
