@@ -627,7 +627,7 @@ report.table("forgetting", forgetting_rows)
 answer("G_direct", routes.tracking.srivc)
 answer("own_instruments", own)
 answer("G_two_stage", Gtwo)
-answer("G_final", Gcl)
+answer("G_final", Glib)
 answer("before_cleaning", vector{iv_gain[2601], iv_time[2601]})
 answer("after_cleaning", vector{iv_gain[4501], iv_time[4501]})
 -- END SOLUTION

@@ -135,7 +135,7 @@ double SensitivitySolver::take_explicit_step(const Interval& over, double t, dou
 // Newton's iteration for X = known + h/4 f(X); then the derivative of its solution.
 bool SensitivitySolver::solve_stage(const Interval& over, double t, double h, Stage& stage, const Vector& known) {
     const double weight = h * kDiagonal;
-    const auto system = [&] { return Matrix::Identity(n_, n_) - weight * Matrix(stage.at.by_state); };
+    const auto system = [&]() -> Matrix { return Matrix::Identity(n_, n_) - weight * Matrix(stage.at.by_state); };
     bool solved = false;
     for (int iteration = 0; iteration < kNewtonSteps && !solved; ++iteration) {
         evaluate(over, t, stage.x, stage.at, Derivatives::kState);
