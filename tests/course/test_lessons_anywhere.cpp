@@ -59,11 +59,11 @@ TEST_F(lessons_anywhere, are_used_by_the_path_of_their_folder) {
 
 TEST_F(lessons_anywhere, are_listed_in_folders_that_a_variable_names) {
     bench_.write("others/08_rc/lesson.lua", "-- ---\n-- title: In the second folder\n-- ---\n");
-    bench_.write("others/08_more/lesson.lua", "-- ---\n-- title: More\n-- ---\n");
+    bench_.write("others/09_more/lesson.lua", "-- ---\n-- title: More\n-- ---\n");
     const std::string own = "export DYNLAB_LESSONS=mine:others; ";
     const std::string list = bench_.shell(own + "$DYNLAB lessons").output;
     EXPECT_THAT(list, HasSubstr("08_rc                  RC circuit\n"));
-    EXPECT_THAT(list, HasSubstr("08_more                More\n"));
+    EXPECT_THAT(list, HasSubstr("09_more                More\n"));
     EXPECT_THAT(list, HasSubstr("04_estimators"));
     EXPECT_THAT(list, Not(HasSubstr("In the second folder")));
     EXPECT_EQ(bench_.shell(own + "$DYNLAB new 08 work && $DYNLAB checks try --lesson 08").exit_code, 0);

@@ -53,7 +53,7 @@ TEST_F(own_course, skeleton_is_tested_reported_copied_checked_and_graded) {
     EXPECT_THAT(bench().dynlab({"lessons"}).output, Not(HasSubstr("08_springs")));
     EXPECT_THAT(bench().shell("pdftotext 08_springs.pdf -").output,
                 testing::ContainsRegex("The stiffness is 2[.][45]"));
-    ASSERT_EQ(in_course("new 07 travail --lang fr").exit_code, 0);
+    ASSERT_EQ(in_course("new 08 travail --lang fr").exit_code, 0);
     EXPECT_THAT(bench().read("travail/analysis.lua"), HasSubstr("Quelle est la raideur du ressort"));
     EXPECT_THAT(bench().read("travail/analysis.lua"), Not(HasSubstr("compliance = dot")));
     EXPECT_THAT(in_course("check travail").output, HasSubstr("0 sur 5\n"));
