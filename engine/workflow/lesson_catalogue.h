@@ -33,8 +33,9 @@ struct Lesson {
 /// The lesson in a folder of anybody's, called like the folder; nothing where there is no lesson.lua.
 std::optional<Lesson> lesson_in(const std::filesystem::path& folder);
 
-/// All lessons, sorted by number and, where two have the same, by subtitle (3.1, 3.2): those in the folders that DYNLAB_LESSONS lists (separated by colons), those of one's
-/// own course (DYNLAB_COURSE), and the installed ones; of two of one name the first counts.
+/// All lessons, sorted by number and, where two have the same, by subtitle (3.1, 3.2): those in the folders that
+/// DYNLAB_LESSONS lists (separated by colons), those of one's own course (DYNLAB_COURSE), and the installed ones; of
+/// two of one name the first counts.
 std::vector<Lesson> lessons();
 
 /// The lesson whose slug starts with `name` ("02", "2", "02_least") or holds it as a word ("crane"), or that in a

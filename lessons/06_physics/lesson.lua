@@ -36,6 +36,9 @@
 -- :::
 
 -- %% id=crane
+local function say(english, french)
+    return report.language() == "fr" and french or english
+end
 local crane = load("crane")
 local Ts, rest = 0.02, 50  -- s; samples before the voltage moves
 local function swinging(record)
@@ -51,8 +54,8 @@ print(from)
 
 -- %% id=left_guess
 -- BEGIN SOLUTION
--- STARTER: guess("what is left of the angle, in units of the noise", nil)
-guess("what is left of the angle, in units of the noise", 1.5)
+-- STARTER: guess(say("what is left of the angle, in units of the noise", "ce qui reste de l'angle, en unités du bruit"), nil)
+guess(say("what is left of the angle, in units of the noise", "ce qui reste de l'angle, en unités du bruit"), 1.5)
 -- END SOLUTION
 
 -- %% id=linear
@@ -224,6 +227,8 @@ local validation = iddata(tanks.y_val, tanks.u_val, 4, labels)
 idplot(estimation)
 
 -- %% [markdown]
+-- ![The estimation record: reading of the lower tank (above) and voltage of the pump (below)](figure:tanks-figure-1){#fig:tanks_record}
+--
 -- **Question 5.** What happens at the highest readings? Estimate linear models, with one to three poles (initial state and offset estimated as well), and choose one. What is its free-run error on
 -- `validation`, as the root of the mean square in volts?
 

@@ -48,6 +48,9 @@
 -- $$ G(p) = \frac{b_0}{p^2 + a_1 p + a_2} . $$ {#eq:plant}
 
 -- %% id=records
+local function say(english, french)
+    return report.language() == "fr" and french or english
+end
 local drive = load("drive")
 local Ts = 0.01
 local function pair(record, input, output)
@@ -57,6 +60,8 @@ local track, opened = drive.tracking, drive.open_loop
 idplot(pair(track))
 
 -- %% [markdown]
+-- ![The record `tracking`: speed of the drive (above) and voltage (below)](figure:records-figure-1){#fig:tracking_record}
+--
 -- **Question 1.** Show reference, voltage and speed of `tracking` beside the voltage and the speed of `regulation`. In `regulation` nobody excites anything: what moves the voltage?
 
 -- %% id=signals
@@ -108,8 +113,8 @@ report.value("regulation_u", std(drive.regulation.u), "%.2f")
 
 -- %% id=direct_guess
 -- BEGIN SOLUTION
--- STARTER: guess("gain found in the loop, relative error", nil, "%")
-guess("gain found in the loop, relative error", -10, "%")
+-- STARTER: guess(say("gain found in the loop, relative error", "gain trouvé dans la boucle, erreur relative"), nil, "%")
+guess(say("gain found in the loop, relative error", "gain trouvé dans la boucle, erreur relative"), -10, "%")
 -- END SOLUTION
 
 -- %% id=direct
@@ -421,6 +426,8 @@ local slow = iddata(heater.y, heater.u, 1, {InputUnit = "%", OutputUnit = "K"})
 idplot(slow)
 
 -- %% [markdown]
+-- ![The heater's record: how much warmer the water leaves (above) and the power (below)](figure:heater-figure-1){#fig:heater_record}
+--
 -- **Question 9.** Estimate one model of @eq:heater from the whole record, and one from each piece of 850 s (`data[{i, j}]`). What does the single model describe? When was the heater descaled?
 
 -- %% id=pieces

@@ -18,10 +18,10 @@ plot(range(0, Ts, Ts*(N - 1)), u, {xlabel = "time (s)", ylabel = "input"})
 
 -- %% [markdown]
 -- Eight realisations, each with phases of its own, four periods of each. The
--- first two periods are the way to steady state and are left out. Look at the
--- figure: the output stands far above its noise, but at the odd lines without
--- a sine there is more than noise, and at the even ones there is not. The bend
--- is odd: a cube, no square.
+-- first two periods are the way to steady state and are left out. In the figure
+-- the output stands far above its noise, but at the odd lines without a sine
+-- there is more than noise, and at the even ones there is not. The bend is odd:
+-- a cube, no square.
 
 -- %% id=levels
 local records = {}

@@ -75,7 +75,7 @@ TEST(script_loops, recursive_methods_tell_their_history) {
                       "print(G.history.theta[{620, 1}] == G.param[1], table.concat(G.history.names, ' '))\n"
                       "local R = rsrivc(d, {1, 2, 0}, 4, {drift = 1e-6, HistoryPoints = 10})\n"
                       "print(#R.history.t, plot_history(R, {truth = {a1 = 4, b0 = u}}))"),
-              "true\t620\t3\ntrue\ta1 a2 b0\n10\tfigure with 3 panels\n");
+              "true\t620\t3\ntrue\ta1 a2 b0\n10\tfigure: 3 panels, 8 curves\n");
     const std::string record = "local u = prbs(5, 20)\nlocal d = iddata(lsim(tf({2}, {1, 4, 3}), u, 0.05), u, 0.05)\n";
     EXPECT_THAT(error_of(record + "rlssvf(d, {2, 1, 0}, 4, {forgetting = 1.1})"),
                 HasSubstr("forgetting must lie above 0"));

@@ -109,9 +109,10 @@ std::vector<EstimatorForm> make_forms() {
             const FunctionEntry* const function = find_function(name);
             if (function == nullptr) continue;
             const std::string signature = function->signature;
-            // Equations of one's own are written, not chosen.
+            // Equations and functions of one's own are written, not chosen.
+            const std::string_view area = function->area;
             const bool from_record = arguments_of(signature).front() == "data" && signature.ends_with("-> G") &&
-                                     std::string_view(function->area) != "grey box";
+                                     area != "grey box" && area != "learning from data";
             if (from_record) forms.push_back(form_of(method, *function));
         }
     std::stable_sort(forms.begin(), forms.end(), [](const EstimatorForm& one, const EstimatorForm& other) {

@@ -34,8 +34,8 @@ class ClosedLoop {
     Response to_disturbance(const VectorView& v) const { return response(v, 1, Hold::kFoh); }
 
     /// The record of r and v together: y = x + v, u, and the reference r. Its hold is zoh with a sampled controller and
-    /// foh with one in continuous time, to whose u straight lines come nearest. Throws InvalidArgument for signals of
-    /// different lengths and an unstable loop.
+    /// foh with one in continuous time, whose u between the samples neither hold describes exactly. Throws
+    /// InvalidArgument for signals of different lengths and an unstable loop.
     IdData record(const VectorView& r, const VectorView& v) const;
 
   private:

@@ -12,7 +12,8 @@ namespace dynlab::inline numerics {
 ///
 /// Events are taken in blocks of eight stretches, which are run side by side: first from rest, which tells with the map
 /// of each whole stretch where they begin, then from there. The maps of their steps are made side by side, too
-/// (eight_steps.h), so that nothing waits for the step before it but the state.
+/// (eight_steps.h), so that nothing waits for the step before it but the state. Nothing is refused: sizes that agree
+/// and rising instants are the caller's.
 class IrregularFilter {
   public:
     IrregularFilter(const Matrix& A, const Vector& B, const Matrix& C, Vector D, Hold hold, double delay = 0);

@@ -20,7 +20,7 @@ std::size_t Boxed<StateSpace>::outside_bytes(const StateSpace& system) {
 }
 
 bool holds_model(const Call& call, int index) {
-    return index <= call.count() &&
+    return index <= lua_gettop(call.state()) &&
            (to_grey_box(call, index) != nullptr || to_object<Model>(call.state(), index) != nullptr ||
             to_object<StateSpace>(call.state(), index) != nullptr);
 }

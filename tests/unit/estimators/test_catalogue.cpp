@@ -26,7 +26,7 @@ TEST(catalogue, every_file_is_a_method_and_every_folder_a_family) {  // oracle: 
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
         if (!entry.is_regular_file()) continue;
         const std::filesystem::path file = std::filesystem::relative(entry.path(), folder).replace_extension();
-        EXPECT_TRUE(known.count(file.string())) << entry.path();
+        EXPECT_TRUE(known.count(file.begin()->string())) << entry.path();
     }
 }
 

@@ -108,7 +108,8 @@ double explained_by(const LoopController& controller, const IdData& data, Hold h
 void check_loop_data(const std::string& method, const IdData& data, const TransferStructure& structure) {
     if (data.reference_count() == 0)
         throw InvalidArgument(method +
-                              " needs the reference of the loop, and the data have none: iddata takes it along");
+                              " needs the reference of the loop, and the data have none: iddata(y, u, Ts, {Reference = "
+                              "r}) takes it along");
     if (data.reference_count() > 1 || data.input_count() != 1 || data.output_count() != 1)
         throw InvalidArgument(method + " is for loops of one input, one output and one reference, and the data have " +
                               std::to_string(data.input_count()) + ", " + std::to_string(data.output_count()) +

@@ -20,8 +20,10 @@ namespace {
 
 constexpr Index kSamplesBetweenQuestions = 4096;  // whether to stop
 constexpr Index kFirstSamplesPerParameter = 20;
-constexpr double kFilterMemories = 20;  // of the first batch
-constexpr double kQuickest = 5;         // poles of a model that filters follow, in cut-off frequencies
+constexpr double kFilterMemories = 20;      // of the first batch
+constexpr Index kSamplesBetweenLooks = 16;  // at how well the model is known
+constexpr double kSurest = 0.03;            // relative standard errors of coefficients that filters follow
+constexpr double kQuickest = 5;             // poles of a model that filters follow, in cut-off frequencies
 
 /// The record as the loop sees it.
 struct Samples {
@@ -164,7 +166,9 @@ class Pass {
         }
         if (k > 0 && options_.drift.size() > 0) walk();
         array_.add(z, phi, highest_derivative<kOrder>(filter, y_, y), options_.forgetting);
-        if (kMethod != RecursiveMethod::kLeastSquares && k >= follows_from_ && array_.known()) follow();
+        if (kMethod == RecursiveMethod::kLeastSquares || k < follows_from_ || !array_.known()) return;
+        if (kMethod == RecursiveMethod::kRefined && k % kSamplesBetweenLooks == 0) sure_ = known_well();
+        if (sure_) follow();
     }
 
     bool known() const { return array_.known(); }
@@ -228,6 +232,17 @@ class Pass {
             ++not_followed_;
     }
 
+    /// Whether the denominator is known well enough for filters to follow it: samples that filters of a poor estimate
+    /// let through would outweigh all others, now and later.
+    bool known_well() const {
+        const Vector variances = array_.variance() * array_.inverse_gram().diagonal();
+        for (int i = 0; i < n_; ++i) {
+            const double a = array_.theta()[static_cast<std::size_t>(i)];
+            if (!(variances[i] <= kSurest * kSurest * a * a)) return false;
+        }
+        return true;
+    }
+
     /// Against poles at kQuickest times the cut-off frequency.
     bool too_quick(const EvolvingModel& model) const {
         double size = 0, bound = 0, power = 1;
@@ -248,6 +263,7 @@ class Pass {
     EvolvingState y_{}, u_{}, x_{}, behind_{};
     double output_ = 0;
     Index follows_from_ = 0, not_followed_ = 0;
+    bool sure_ = kMethod != RecursiveMethod::kRefined;
 };
 
 /// How the method meets change: half a sentence.

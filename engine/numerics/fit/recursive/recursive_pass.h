@@ -29,7 +29,8 @@ enum class RecursiveMethod { kLeastSquares, kInstruments, kRefined };
 /// One pass over the record, at constant cost a sample, of the equation p^n y_f = phi' theta + e (CARX):
 /// kLeastSquares: filters 1/(p + lambda)^n, z = phi. kInstruments: the same filters, and in z the output of a model,
 /// filtered as y is. kRefined: filters 1/A and the exact sensitivities z = [-p^(n-i) B/A^2 u, p^(m-l)/A u] of a model
-/// B/A. That model is the last estimate that was stable and no quicker than five times lambda, one sample late; for the
+/// B/A. That model is the last estimate that was stable, no quicker than five times lambda and, for kRefined, whose
+/// denominator was known to 3 % (standard errors), one sample late; for the
 /// first samples, 20/lambda seconds of them and at least twenty for each parameter, it is what ivsvf makes of them; or
 /// options.model throughout. Sums by InstrumentArray (fit/recursive/instrument_array.h): with forgetting 1 the end is
 /// the batch estimate to rounding. With `drift` the parameters walk at random between the samples (Kalman filter).

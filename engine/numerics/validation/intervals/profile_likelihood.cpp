@@ -99,9 +99,16 @@ struct Ends {
 };
 
 Ends first_ends(const RefittedOutput& model, Index place, const Fit& base, const ProfileOptions& options) {
-    if (options.range) return {options.range->first, options.range->second};
     const auto [lower, upper] = model.bounds(place);
     const double value = base.theta[place], std = base.std[place];
+    if (options.range) {
+        const auto [low, high] = *options.range;
+        if (!(lower <= low && low < value && value < high && high <= upper))
+            throw InvalidArgument("profile: option `range` must hold the estimate, " + number_text(value, 5) +
+                                  ", and lie between " + number_text(lower, 5) + " and " + number_text(upper, 5) +
+                                  ", but it goes from " + number_text(low, 5) + " to " + number_text(high, 5));
+        return {low, high};
+    }
     const bool known = std::isfinite(std) && std > 0;
     const double reach = known ? kReach * std : std::max(0.5 * std::abs(value), model.data().mean_step());
     return {std::max(lower, value - reach), std::min(upper, value + reach)};

@@ -26,6 +26,12 @@ int simulate_loop(Call& call) {
     const VectorMap r = call.vector(3, "r");
     const Hold hold = options.choice("hold", {"zoh", "foh"}, 0) == 0 ? Hold::kZoh : Hold::kFoh;
     const Vector noise = options.has("noise") ? Vector(options.vector("noise")) : Vector::Zero(r.size());
+    if (!controller.sampled())
+        call.print(
+            "simloop: with a controller in continuous time u moves between the samples, and the record knows it at the "
+            "samples only: models found from it are off by what that costs. A controller with the sampling time Ts "
+            "holds "
+            "u, which is exact.\n");
     IdData data = ClosedLoop(plant, controller, call.number(4, "Ts"), hold).record(r, noise);
     const Vector x = data.experiments.front().y.col(0) - noise;
     return give_data(call, std::move(data)) + call.give_vector(x);
