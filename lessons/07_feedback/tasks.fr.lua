@@ -37,8 +37,6 @@
 -- $$ G(p) = \frac{b_0}{p^2 + a_1 p + a_2} . $$ {#eq:plant}
 
 -- %% [markdown]
--- ![L'enregistrement `tracking` : vitesse de l'entraînement (en haut) et tension (en bas)](figure:records-figure-1){#fig:tracking_record}
---
 -- **Question 1.** Montrez consigne, tension et vitesse de `tracking` à côté de ceux de `regulation`. Dans `regulation` personne n'excite rien : qu'est-ce qui meut la tension ?
 
 -- %% [markdown]
@@ -126,7 +124,9 @@
 -- :::
 
 -- %% [markdown]
--- ![L'enregistrement du chauffe-eau : échauffement de l'eau (en haut) et puissance (en bas)](figure:heater-figure-1){#fig:heater_record}
+-- ![L'enregistrement du chauffe-eau](figure:heater){#fig:heater_record}
+--
+-- Le niveau de la sortie baisse et saute une fois (@fig:heater_record).
 --
 -- **Question 9.** Estimez un seul modèle de @eq:heater sur tout l'enregistrement, et un sur chaque morceau de 850 s (`data[{i, j}]`). Que décrit le modèle unique ? Quand a-t-on détartré ?
 

@@ -31,7 +31,7 @@ TEST_F(slots, a_number_and_its_unit_stay_on_one_line) {
     EXPECT_THAT(html("A gain of 5.72 °C/V, 3 mm/V or 2 °C/%; 4 N·m·s and 9 m/s²; 2 a/b, 3 and/or 4 s/x.\n"),
                 HasSubstr("A gain of 5.72\u202F°C/V, 3\u202Fmm/V or 2\u202F°C/%; 4\u202FN·m·s and 9\u202Fm/s²; 2 a/b, "
                           "3 and/or 4 s/x."));
-    EXPECT_THAT(html("Some 92 ± 3 %, and ($p =$ `gain`{.value}).\n"),
+    EXPECT_THAT(read(make("Some 92 ± 3 %, and ($p =$ `gain`{.value}).\n", "out.html")),
                 AllOf(HasSubstr("92\u00A0±\u00A03\u202F%"), ContainsRegex("</math>\u00A060.5[)]")));
 }
 

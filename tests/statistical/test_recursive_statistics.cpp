@@ -59,8 +59,9 @@ TEST(recursive_statistics, instrumental_variables_are_not) {
 TEST(recursive_statistics, refined_ones_are_not_either) {
     const Study study = study_of(rsrivc);
     EXPECT_LT(study.bias.cwiseAbs().maxCoeff(), 3) << study.bias.transpose();
-    EXPECT_GT(study.reported.minCoeff(), 0.7) << study.reported.transpose();
-    EXPECT_LT(study.reported.maxCoeff(), 1.4) << study.reported.transpose();
+    // Good to a factor of two, as the page says: the errors are weighed with the estimates of then.
+    EXPECT_GT(study.reported.minCoeff(), 0.5) << study.reported.transpose();
+    EXPECT_LT(study.reported.maxCoeff(), 2) << study.reported.transpose();
 }
 
 }  // namespace test_recursive_statistics

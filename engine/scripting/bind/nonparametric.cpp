@@ -59,8 +59,12 @@ void print_message(const Call& call, const std::string& message, const std::vect
 int give_spectral(const Call& call, const Options& options, SpectralModels& read, const SpectralEstimate& estimate,
                   const char* method, bool smoothed) {
     name_models(options, read.models);
-    print_message(call, estimate.message, estimate.warnings);
-    give_figure(call, spectral_plot(estimate, method, read.models, confidence_of(options)));
+    if (options.flag("quiet", false)) {
+        lua_pushnil(call.state());
+    } else {
+        print_message(call, estimate.message, estimate.warnings);
+        give_figure(call, spectral_plot(estimate, method, read.models, confidence_of(options)));
+    }
     push_object(call.state(), frequency_data_of(estimate, read.data, method, smoothed));
     return 2;
 }
@@ -86,7 +90,7 @@ int give_impulse(const Call& call, const Options& options, SpectralModels& read,
 
 int ratio_of_transforms(Call& call) {
     SpectralModels read = comparison_arguments(call);
-    const Options options(call, read.options, {"smooth", "remove_mean", "confidence", "labels"});
+    const Options options(call, read.options, {"smooth", "remove_mean", "confidence", "labels", "quiet"});
     EtfeOptions wanted;
     wanted.smooth = options.size("smooth", 0);
     wanted.remove_mean = options.flag("remove_mean", true);
@@ -95,7 +99,7 @@ int ratio_of_transforms(Call& call) {
 
 int spectral_analysis(Call& call) {
     SpectralModels read = comparison_arguments(call);
-    const Options options(call, read.options, {"window", "w", "remove_mean", "confidence", "labels"});
+    const Options options(call, read.options, {"window", "w", "remove_mean", "confidence", "labels", "quiet"});
     SpaOptions wanted;
     wanted.window = options.size("window", 0);
     if (options.has("w")) wanted.w = options.vector("w");
@@ -150,11 +154,12 @@ int correlation_analysis(Call& call) {
 
 constexpr const char* kNonparametricArea = "nonparametric";
 constexpr std::array kNonparametricFunctions = {
-    FunctionEntry{
-        "etfe", kNonparametricArea, "etfe(data, G1, ..., {smooth =, remove_mean =, confidence =, labels =}) -> fig, F",
-        "frequency response as the ratio of the Fourier transforms of output and input", guarded<ratio_of_transforms>},
+    FunctionEntry{"etfe", kNonparametricArea,
+                  "etfe(data, G1, ..., {smooth =, remove_mean =, confidence =, labels =, quiet =}) -> fig, F",
+                  "frequency response as the ratio of the Fourier transforms of output and input",
+                  guarded<ratio_of_transforms>},
     FunctionEntry{"spa", kNonparametricArea,
-                  "spa(data, G1, ..., {window =, w =, remove_mean =, confidence =, labels =}) -> fig, F",
+                  "spa(data, G1, ..., {window =, w =, remove_mean =, confidence =, labels =, quiet =}) -> fig, F",
                   "frequency response with errors, from smoothed correlations", guarded<spectral_analysis>},
     FunctionEntry{"impulseest", kNonparametricArea,
                   "impulseest(data, n, G1, ..., {Kernel =, lags =, smooth =, confidence =, labels =}) -> fig, table",
