@@ -43,6 +43,9 @@ local function swinging(record)
     return detrend(iddata(both, record.u, Ts), "start", {samples = rest})
 end
 local from, against = swinging(crane.estimation), swinging(crane.validation)
+local function say(english, french)
+    return report.language() == "fr" and french or english
+end
 print(from)
 
 -- %% [markdown]
@@ -51,8 +54,8 @@ print(from)
 
 -- %% id=left_guess
 -- BEGIN SOLUTION
--- STARTER: guess("what is left of the angle, in units of the noise", nil)
-guess("what is left of the angle, in units of the noise", 1.5)
+-- STARTER: guess(say("left of the angle, in noises", "reste, en bruits"), nil)
+guess(say("left of the angle, in noises", "reste, en bruits"), 1.5)
 -- END SOLUTION
 
 -- %% id=linear
@@ -66,7 +69,8 @@ local linear = tfsrivc(angle_of(crane.estimation), 3, 1, options)
 local angle_val = angle_of(crane.validation)
 local left = angle_val.y - lsim(linear, angle_val.u, Ts)
 local noise = std(crane.validation.theta:range(1, rest))
-outcome("what is left of the angle, in units of the noise", std(left)/noise)
+outcome(say("left of the angle, in noises", "reste, en bruits"),
+        std(left)/noise)
 report.figure("left", plot(angle_val.t, angle_val.y, "angle",
                            angle_val.t, left, "left by the linear model",
                            {height = 5, colour = {8, 0}, dash = {0, 0},
@@ -221,10 +225,12 @@ local tanks = load("two_tanks")
 local labels = {InputUnit = "V", OutputUnit = "V"}
 local estimation = iddata(tanks.y, tanks.u, 4, labels)
 local validation = iddata(tanks.y_val, tanks.u_val, 4, labels)
-idplot(estimation)
+report.figure("tanks", idplot(estimation):set{height = 6}, "The tanks' record")
 
 -- %% [markdown]
--- **Question 5.** What happens at the highest readings? Estimate linear models, with one to three poles (initial state and offset estimated as well), and choose one. What is its free-run error on
+-- ![The record for estimation: above, the reading; below, the voltage](figure:tanks){#fig:tanks_record}
+--
+-- **Question 5.** What happens at the highest readings (@fig:tanks_record)? Estimate linear models, with one to three poles (initial state and offset estimated as well), and choose one. What is its free-run error on
 -- `validation`, as the root of the mean square in volts?
 
 -- %% id=black_box

@@ -74,7 +74,9 @@
 -- `two_tanks` a deux enregistrements de 1024 échantillons, toutes les 4 s : `t`, `u`, `y` pour l'estimation, `t_val`, `u_val`, `y_val` pour la validation. La tension est la somme de 59 sinus dont les phases furent tirées au sort, coupée à 0 et 5 V.
 
 -- %% [markdown]
--- **Question 5.** Que se passe-t-il aux plus hautes lectures ? Estimez des modèles linéaires, d'un à trois pôles (état initial et décalage estimés aussi), et choisissez-en un. Quelle est son erreur en simulation libre sur
+-- ![L'enregistrement d'estimation : en haut la lecture, en bas la tension](figure:tanks){#fig:tanks_record}
+--
+-- **Question 5.** Que se passe-t-il aux plus hautes lectures (@fig:tanks_record) ? Estimez des modèles linéaires, d'un à trois pôles (état initial et décalage estimés aussi), et choisissez-en un. Quelle est son erreur en simulation libre sur
 -- `validation`, racine de la moyenne des carrés, en volts ?
 
 -- %% [markdown]

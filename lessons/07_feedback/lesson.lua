@@ -54,7 +54,10 @@ local function pair(record, input, output)
     return iddata(record[output or "y"], record[input or "u"], Ts)
 end
 local track, opened = drive.tracking, drive.open_loop
-idplot(pair(track))
+local function say(english, french)
+    return report.language() == "fr" and french or english
+end
+print(pair(track))
 
 -- %% [markdown]
 -- **Question 1.** Show reference, voltage and speed of `tracking` beside the voltage and the speed of `regulation`. In `regulation` nobody excites anything: what moves the voltage?
@@ -108,8 +111,8 @@ report.value("regulation_u", std(drive.regulation.u), "%.2f")
 
 -- %% id=direct_guess
 -- BEGIN SOLUTION
--- STARTER: guess("gain found in the loop, relative error", nil, "%")
-guess("gain found in the loop, relative error", -10, "%")
+-- STARTER: guess(say("error of the gain", "erreur du gain"), nil, "%")
+guess(say("error of the gain", "erreur du gain"), -10, "%")
 -- END SOLUTION
 
 -- %% id=direct
@@ -123,7 +126,8 @@ for name, record in pairs{open_loop = opened, tracking = track} do
 end
 present(routes.tracking.srivc)
 local function off(G) return 100*(dcgain(G)/dcgain(truth.G) - 1) end
-outcome("gain found in the loop, relative error", off(routes.tracking.srivc))
+outcome(say("error of the gain", "erreur du gain"),
+        off(routes.tracking.srivc))
 -- END SOLUTION
 
 -- %% id=direct_report echo=false
@@ -211,27 +215,22 @@ report.value("open_most", max(abs(without)), "%.2f")
 
 -- %% id=regulation
 -- BEGIN SOLUTION
-local first, found = etfe(pair(drive.regulation), {smooth = 20})
-local second, asked = etfe(pair(track), {smooth = 20})
 local w = 10^linspace(0, 2, 60)
-local inverse = 1/freqresp(truth.controller, w).abs
-local responses = plot(found.w, found.magnitude, "regulation",
-                       asked.w, asked.magnitude, "tracking",
-                       w, freqresp(truth.G, w).abs, "G", w, inverse, "1/C",
-                       {height = 6, x_log = true, y_log = true, x_range = {1, 100},
-                        y_range = {0.1, 30}, dash = {0, 3, 1, 2},
-                        colour = {8, 0, 1, 2}, xlabel = "frequency (rad/s)",
-                        ylabel = "magnitude (rad/s per V)"})
-report.figure("regulation", responses, "Frequency responses from voltage to speed")
+local function decibels(magnitude) return 20*log(magnitude)/log(vector{10})[1] end
+local responses = etfe(pair(drive.regulation), truth.G,
+                       {smooth = 20, labels = {"G"}})
+responses:add(w, decibels(1/freqresp(truth.controller, w).abs),
+              {label = "1/C", colour = 2, dash = 2})
+report.figure("regulation", responses:set{height = 8},
+              "Frequency responses from voltage to speed")
 -- END SOLUTION
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- ![From voltage to speed, estimated from `regulation` and from `tracking`; the truth $G$ and the inverse $1/C$ of the controller](figure:regulation){#fig:regulation}
+-- ![From voltage to speed: estimated from `regulation`, the truth $G$, and the magnitude of the controller's inverse $1/C$](figure:regulation){#fig:regulation}
 --
 -- With $r = 0$ the record obeys two equations, $y = G u + v$ and $u = -C y$. The second one has no error, so it is the one that is found: $y/u = -1/C$ (@fig:regulation), the
 -- inverse of the controller with its sign turned. No method can find $G$ here, whatever it is called. A record of ordinary operation is therefore not a free experiment: somebody must move the reference.
--- In `tracking` the estimate lies between the two, nearer to $G$ where the reference moves the loop more than the disturbance does.
 -- END SOLUTION
 --
 -- ## First cure: instruments made of the reference
@@ -418,9 +417,13 @@ end
 -- %% id=heater
 local heater = load("drifting_process")
 local slow = iddata(heater.y, heater.u, 1, {InputUnit = "%", OutputUnit = "K"})
-idplot(slow)
+report.figure("heater", idplot(slow), "The record of the heater")
 
 -- %% [markdown]
+-- ![The record of the heater](figure:heater){#fig:heater_record}
+--
+-- The level of the output falls and jumps once (@fig:heater_record).
+--
 -- **Question 9.** Estimate one model of @eq:heater from the whole record, and one from each piece of 850 s (`data[{i, j}]`). What does the single model describe? When was the heater descaled?
 
 -- %% id=pieces

@@ -124,6 +124,10 @@
 -- :::
 
 -- %% [markdown]
+-- ![L'enregistrement du chauffe-eau](figure:heater){#fig:heater_record}
+--
+-- Le niveau de la sortie baisse et saute une fois (@fig:heater_record).
+--
 -- **Question 9.** Estimez un seul modèle de @eq:heater sur tout l'enregistrement, et un sur chaque morceau de 850 s (`data[{i, j}]`). Que décrit le modèle unique ? Quand a-t-on détartré ?
 
 -- %% [markdown]
