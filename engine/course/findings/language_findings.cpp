@@ -52,7 +52,7 @@ std::string quote(const DocumentText& text, std::size_t from, std::size_t count)
 
 /// The language of each word. Quotations and titles, « … » or “ … ”, keep the language they are in; what is not closed
 /// soon is no quotation.
-std::vector<Language> languages_of(const DocumentText& text) {
+std::vector<Language> word_languages(const DocumentText& text) {
     constexpr std::size_t kLongestQuotation = 60;  // words
     std::vector<Language> languages;
     std::size_t opened = 0;
@@ -100,7 +100,7 @@ Findings passages(const DocumentText& text, const std::vector<Language>& languag
 }  // namespace
 
 LanguageFindings language_findings(const DocumentText& text, const std::optional<std::string>& declared) {
-    const std::vector<Language> languages = languages_of(text);
+    const std::vector<Language> languages = word_languages(text);
     const auto english = std::count(languages.begin(), languages.end(), Language::kEnglish);
     const auto french = std::count(languages.begin(), languages.end(), Language::kFrench);
     if (english + french < kKnownLanguageWords) return {};

@@ -3,13 +3,9 @@
 #include <cmath>
 #include <vector>
 
-#include "numerics/simulation/irregular_events.h"
 #include "numerics/simulation/step_map.h"
 
 namespace dynlab::inline numerics {
-
-constexpr Index kSideBySide = IrregularEvents::kSideBySide;
-using Eight = Eigen::Array<double, kSideBySide, 1>;
 
 /// The maps of eight steps, side by side. Long steps are halved before and doubled behind.
 template <int kOrder, bool kTwice>

@@ -7,7 +7,7 @@ namespace dynlab::inline numerics {
 namespace {
 
 /// Where a step stands, the first one at 0.
-[[gnu::always_inline]] inline Index place_of(Index step) {
+[[gnu::always_inline]] inline Index place_of_step(Index step) {
     constexpr std::size_t kBlock = IrregularEvents::kBlock, kStretch = IrregularEvents::kStretch;
     const auto number = static_cast<std::size_t>(step), inside = number % kBlock;
     return static_cast<Index>(number - inside + inside % kStretch * IrregularEvents::kSideBySide + inside / kStretch);
@@ -70,7 +70,7 @@ void IrregularEvents::reserve(Index most, bool slopes) {
 
 template <bool kSlopes>
 [[gnu::always_inline]] inline void IrregularEvents::add(double seconds, double value, double rise, Index reached) {
-    const Index place = place_of(count++);
+    const Index place = place_of_step(count++);
     length[place] = seconds;
     input[place] = value;
     if constexpr (kSlopes) slope[place] = rise;

@@ -9,13 +9,13 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr double kApart = 0.5;   // of the larger of two poles, by which they differ
-constexpr Index kMostModes = 4;  // the more there are, the more digits their sums lose
+constexpr double kPolesApart = 0.5;  // of the larger of two poles, by which they differ
+constexpr Index kMostModes = 4;      // the more there are, the more digits their sums lose
 
 bool are_apart(const Vector& poles) {
     for (Index i = 0; i < poles.size(); ++i)
         for (Index j = 0; j < i; ++j)
-            if (!(std::abs(poles[i] - poles[j]) > kApart * std::max(std::abs(poles[i]), std::abs(poles[j]))))
+            if (!(std::abs(poles[i] - poles[j]) > kPolesApart * std::max(std::abs(poles[i]), std::abs(poles[j]))))
                 return false;
     return true;
 }
