@@ -118,9 +118,12 @@ bool realisations_tell(const FrequencyData& data) {
 Matrix covariance_with_distortion(const FrequencyData& data, const Matrix& plain, const Matrix& changes) {
     constexpr double kPlainRealisations = 1, kMostlyDistortion = 0.5;
     const auto M = static_cast<double>(changes.cols());
-    double distortion = 1;  // its share of the variance
-    if (data.noise_variance.size() > 0)
-        distortion -= std::min(1.0, data.noise_variance.cwiseQuotient(data.variance).mean());
+    double distortion = 1;  // its share of the variance, at the frequencies that tell most
+    if (data.noise_variance.size() > 0) {
+        const Vector counts = data.response.cwiseAbs2().cwiseQuotient(data.variance);
+        const double noise = counts.dot(data.noise_variance.cwiseQuotient(data.variance)) / counts.sum();
+        distortion -= std::min(1.0, noise);
+    }
     const double weight = std::min(1.0, distortion / kMostlyDistortion) * (M - 1) / (M - 1 + kPlainRealisations);
     return (1 - weight) * plain + weight / (M * (M - 1)) * changes * changes.transpose();
 }
