@@ -74,17 +74,6 @@ TEST(greyest, with_an_estimated_initial_state_is_coe) {  // oracle: second route
     EXPECT_GT(found.initial_std.minCoeff(), 0);
 }
 
-TEST(greyest, tells_a_record_that_does_not_begin_at_rest) {  // oracle: the fit with the initial state estimated
-    const IdData cut = course_record(0.2, 5).range(301, 900);
-    const GreyFit from_rest = greyest(cut, second_order());
-    GreyOptions options;
-    options.initial_state = GreyStart::kEstimate;
-    const double better = greyest(cut, second_order(), options).fit.fit_percent[0];
-    ASSERT_GT(better, from_rest.fit.fit_percent[0] + 1);
-    EXPECT_THAT(from_rest.fit.message, HasSubstr("with `initial_state` = \"estimate\" the fit is about"));
-    EXPECT_THAT(greyest(course_record(0.2, 5), second_order()).fit.message, testing::Not(HasSubstr("does not begin")));
-}
-
 // Oracle: by hand. Two samples of the free decay x(t) = h exp(-r t) tell h and r: r = log(y1/y2)/Ts, and the
 // errors follow from the inverse of the 2 x 2 sensitivities.
 TEST(greyest, of_two_parameters_by_hand) {
