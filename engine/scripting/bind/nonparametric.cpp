@@ -59,6 +59,7 @@ void print_message(const Call& call, const std::string& message, const std::vect
 int give_spectral(const Call& call, const Options& options, SpectralModels& read, const SpectralEstimate& estimate,
                   const char* method, bool smoothed) {
     name_models(options, read.models);
+    for (NamedModel& model : read.models) model.beside = {read.data.Ts, inter_sample_of(read.data.hold)};
     if (options.flag("quiet", false)) {
         lua_pushnil(call.state());
     } else {
