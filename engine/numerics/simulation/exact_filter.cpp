@@ -147,6 +147,10 @@ Index ExactFilter::run_blocks(const VectorView& u, Index k, Vector& x, Eigen::Re
             return run_blocks<5>(u, k, x, y);
         case 6:
             return run_blocks<6>(u, k, x, y);
+        case 7:
+            return run_blocks<7>(u, k, x, y);
+        case 8:  // four poles and their sensitivities
+            return run_blocks<8>(u, k, x, y);
         default:
             return run_blocks<Eigen::Dynamic, Eigen::Dynamic>(u, k, x, y);
     }

@@ -8,7 +8,7 @@ namespace dynlab::inline numerics {
 
 /// Runs a SampledSystem over long records. Four samples are advanced together: their outputs and the state after
 /// them are linear in the state before and in the samples they see, so one small matrix product takes the place of
-/// four dependent steps. Orders 1 to 6 have loops of fixed size, higher ones a loop of any size. The results agree
+/// four dependent steps. Orders 1 to 8 have loops of fixed size, higher ones a loop of any size. The results agree
 /// with the sample-by-sample recursion to rounding.
 class ExactFilter {
   public:
