@@ -22,7 +22,7 @@ auto apply(const Map& map, const State& x, const double* w, Index order) {
     return sum;
 }
 
-/// use(order), as a number that the compiler knows where there is a loop of that size: up to four poles with their
+/// use(order), as a number that the compiler knows where there is a loop of that size: up to six poles with their
 /// sensitivities.
 template <class Use>
 auto with_known_order(Index order, const Use& use) {
@@ -43,6 +43,10 @@ auto with_known_order(Index order, const Use& use) {
             return use(std::integral_constant<int, 7>());
         case 8:
             return use(std::integral_constant<int, 8>());
+        case 10:
+            return use(std::integral_constant<int, 10>());
+        case 12:
+            return use(std::integral_constant<int, 12>());
         default:
             return use(std::integral_constant<int, Eigen::Dynamic>());
     }
