@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "script_run.h"
 
 namespace test_script_loops {
@@ -53,6 +55,36 @@ TEST(script_loops, four_routes) {
                 HasSubstr("the loop is unstable"));
 }
 
+// oracle: the plant 2/((s - 1)(s + 4)) in its loop, whose noise is a hundredth of the output
+TEST(script_loops, an_unstable_plant_is_measured_in_its_loop) {
+    const std::string held =
+        "rng(3)\nlocal r, C = prbs(7, 5), tf({8}, {1}, 0.05)\n"
+        "local data = simloop(tf({2}, {1, 3, -4}), C, r, 0.05, {noise = 0.01*randn(#r)})\n";
+    for (const char* call :
+         {"clivsvf(data, {2, 1, 0}, 4, {controller = C})", "clsrivc(data, {1, 2, 0}, {controller = C, lambda = 4})",
+          "clsrivc(data, {1, 2, 0}, {controller = C, lambda = 4, route = 'indirect'})"}) {
+        const std::string told =
+            printed(held + "local G = " + call +
+                    "\nprint(G.report.fit_percent > 90, math.abs(G.noise_variance/1e-4 - 1) < 0.5)\n" +
+                    "print(table.concat(G.report.warnings, ' '))");
+        EXPECT_THAT(told, HasSubstr("true\ttrue\n")) << call;
+        EXPECT_THAT(told, HasSubstr("look at the controller, the orders and the cut-off frequency")) << call;
+        EXPECT_THAT(told, HasSubstr("those of the model in its loop")) << call;
+        EXPECT_THAT(told, testing::Not(HasSubstr("Stable"))) << call;
+    }
+}
+
+TEST(script_loops, records_of_loops_say_what_they_cannot) {
+    const std::string moving =
+        "local r = prbs(5, 5)\nlocal a = simloop(tf({2}, {1, 4}), tf({1}, {0.1, 1}), r, 0.05)\n"
+        "local b = simloop(tf({2}, {1, 4}), tf({1}, {1}, 0.05), r, 0.05)\n";
+    const std::string english = printed(moving), french = printed(moving, {}, "fr");
+    EXPECT_THAT(english, testing::StartsWith("simloop: with a controller in continuous time u moves"));
+    EXPECT_EQ(std::count(english.begin(), english.end(), '\n'), 1) << "a sampled controller holds u";
+    EXPECT_THAT(french, testing::StartsWith("simloop : avec un régulateur en temps continu"));
+    EXPECT_THAT(error_of("simloop(tf({2}, {1, 4}), 3, 1, 0.05)"), HasSubstr("r is the reference at every sample"));
+}
+
 TEST(script_loops, studies_of_loops) {
     const std::string study =
         kLoop +
@@ -80,6 +112,14 @@ TEST(script_loops, recursive_methods_tell_their_history) {
     EXPECT_THAT(error_of(record + "rlssvf(d, {2, 1, 0}, 4, {forgetting = 1.1})"),
                 HasSubstr("forgetting must lie above 0"));
     EXPECT_THAT(error_of(record + "print(lssvf(d, {2, 1, 0}, 4).history)"), HasSubstr("looks at all samples at once"));
+    // A fixed model for filters and instruments: the end is the batch estimate with the same.
+    EXPECT_EQ(
+        printed("rng(2)\nlocal u = prbs(5, 20)\nlocal y = lsim(tf({2}, {1, 4, 3}), u, 0.05) + 0.02*randn(#u)\n"
+                "local d = iddata(y, u, 0.05)\nlocal I, S = ivsvf(d, {2, 1, 0}, 4), srivc(d, {1, 2, 0})\n"
+                "local R = rivsvf(d, {2, 1, 0}, 4, {model = lssvf(d, {2, 1, 0}, 4)})\n"
+                "local Q = rsrivc(d, {1, 2, 0}, 4, {model = S})\n"
+                "print(norm(R.param - I.param) < 1e-7*norm(I.param), norm(Q.param - S.param) < 1e-6*norm(S.param))"),
+        "true\ttrue\n");
     EXPECT_THAT(error_of(record + "plot_history(tf({1}, {1, 1}))"), HasSubstr("has no history"));
     EXPECT_THAT(error_of(record + "plot_history(rlssvf(d, {2, 1, 0}, 4), {truth = {K = 1}})"),
                 HasSubstr("the parameters are a1, a2, b0"));

@@ -2,6 +2,8 @@
 #include <array>
 #include <cmath>
 
+#include "numerics/fit/recursive/error_variance.h"
+#include "numerics/fit/recursive/product_colour.h"
 #include "numerics/fit/recursive/small_equations.h"
 #include "numerics/linalg/decompositions.h"
 
@@ -11,21 +13,25 @@ namespace dynlab::inline numerics {
 ///     Q' [Z | Phi | y] = [R | C | c],  R upper triangular, Q orthogonal,
 /// of the weighted rows: a new row is rotated into the array (Givens), so that nothing is ever inverted or subtracted,
 /// and theta = C^-1 c is the batch estimate to rounding at every sample, from an exactly diffuse start. Its covariance
-/// variance (C'C)^-1 = variance (Z'Phi)^-1 Z'Z (Phi'Z)^-1 is positive whatever happened before. With z = phi, C is R
-/// and this is the square-root information filter of least squares (Bierman 1977, chapter V).
+/// variance (C'C)^-1 = variance (Z'Phi)^-1 Z'Z (Phi'Z)^-1 for white errors is positive whatever happened before, and so
+/// is variance C^-1 T C^-T for coloured ones, T from the sums of z e over blocks of samples (product_colour.h). With
+/// z = phi, C is R and this is the square-root information filter of least squares (Bierman 1977, chapter V).
 /// Sizes: kCount parameters, or with Eigen::Dynamic as many as the constructor says.
 template <int kCount, bool kInstruments>
 class InstrumentArray {
   public:
-    static constexpr int kMost = kCount > 0 ? kCount : 17;
-    using Row = std::array<double, kMost>;
+    static constexpr std::size_t kMost = kCount > 0 ? kCount : 17;
+    using Row = SmallRow<kMost>;
 
-    explicit InstrumentArray(int count) : count_(count) {}
+    /// `block`: samples that outlast the memory of coloured errors.
+    explicit InstrumentArray(int count, double block = 1) : count_(count), colour_(block) {}
 
     /// Weights of all rows so far are multiplied by `forgetting`, but for a row that tells next to nothing: otherwise
     /// what is known would be forgotten while nothing is learnt.
     void add(Row z, Row phi, double y, double forgetting) {
         const std::size_t d = size();
+        const Row given_z = z, given_phi = phi;
+        const double given_y = y;
         if (forgetting < 1) scale(std::sqrt(forgetting));
         double kept = 1;  // product of the cosines: 1/(1 + z' (R'R)^-1 z)
         for (std::size_t i = 0; i < d; ++i) {
@@ -45,24 +51,25 @@ class InstrumentArray {
         double left = y;
         if constexpr (kInstruments)
             for (std::size_t j = 0; j < d; ++j) left -= phi[j] * theta_[j];
-        count_error(left, silent ? 1 : forgetting);
+        errors_.add(left, silent ? 1 : forgetting, known_);
+        if constexpr (kInstruments) {
+            if (!known_) return;
+            double error = given_y;
+            for (std::size_t j = 0; j < d; ++j) error -= given_phi[j] * theta_[j];
+            colour_.add(given_z, error, d);
+        }
     }
 
     /// The parameters walk: their covariance grows by variance times diag(steps), theta stays.
     void walk(const Row& steps) {
         const std::size_t d = size();
-        std::array<Row, kMost> U{};  // I + C diag(steps) C' = U U'
+        Square U{};  // I + C diag(steps) C' = U U'
         for (std::size_t i = 0; i < d; ++i)
             for (std::size_t j = 0; j < d; ++j) {
                 U[i][j] = i == j ? 1 : 0;
                 for (std::size_t l = 0; l < d; ++l) U[i][j] += regressors(i, l) * steps[l] * regressors(j, l);
             }
-        for (std::size_t j = d; j-- > 0;) {
-            U[j][j] = std::sqrt(U[j][j]);
-            for (std::size_t i = 0; i < j; ++i) U[i][j] /= U[j][j];
-            for (std::size_t i = 0; i < j; ++i)
-                for (std::size_t l = 0; l <= i; ++l) U[l][i] -= U[l][j] * U[i][j];
-        }
+        upper_root(U, d);
         for (std::size_t i = d; i-- > 0;) {
             for (std::size_t j = i + 1; j < d; ++j) take_off(i, j, U[i][j]);
             multiply_row(i, 1 / U[i][i]);
@@ -74,39 +81,47 @@ class InstrumentArray {
     /// Of the errors; infinite without more rows than parameters. Least squares: that of all rows and the last theta,
     /// to rounding. Instruments: of the later half to three quarters of the rows, each with the theta of then, for the
     /// first errors are those of a theta that is hardly known.
-    double variance() const {
-        const double rows = rows_ + earlier_rows_ - (kInstruments ? 0 : count_);
-        return known_ && rows > 0 ? (squares_ + earlier_squares_) / rows : kInfinity;
-    }
-
+    double variance() const { return known_ ? errors_.value(count_) : kInfinity; }
     /// (C'C)^-1, d x d; without meaning unless known.
     Matrix inverse_gram() const {
-        const Index d = count_;
-        Matrix C(d, d);
-        for (Index i = 0; i < d; ++i)
-            for (Index j = 0; j < d; ++j)
-                C(i, j) = regressors(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
-        const Matrix inverse = solve_by_lu(C, Matrix::Identity(d, d)).x;
+        const Matrix inverse = inverse_regressors();
         return inverse * inverse.transpose();
+    }
+    /// Of theta: with instruments for errors of any colour, of least squares for white ones.
+    Matrix covariance() const {
+        if constexpr (!kInstruments) return variance() * inverse_gram();
+        const Matrix inverse = inverse_regressors();
+        return variance() * inverse * colour_.ratio(count_) * inverse.transpose();
+    }
+
+    /// Whether white errors leave the first `count` parameters standard errors of no more than `part` of themselves.
+    bool known_to(double part, std::size_t count) const {
+        Square inverse;
+        if (!known_ || !invert_small(kInstruments ? C_ : R_, size(), inverse)) return false;
+        for (std::size_t i = 0; i < count; ++i) {
+            double squares = 0;
+            for (std::size_t j = 0; j < size(); ++j) squares += inverse[i][j] * inverse[i][j];
+            if (!(variance() * squares <= part * part * theta_[i] * theta_[i])) return false;
+        }
+        return true;
     }
 
   private:
+    using Square = SmallMatrix<kMost>;
     static constexpr double kSilent = 1e-6;
+
+    Matrix inverse_regressors() const {
+        const Index d = count_;
+        Matrix C(d, d);
+        for (Index k = 0; k < d * d; ++k)
+            C(k / d, k % d) = regressors(static_cast<std::size_t>(k / d), static_cast<std::size_t>(k % d));
+        return solve_by_lu(C, Matrix::Identity(d, d)).x;
+    }
 
     std::size_t size() const { return static_cast<std::size_t>(kCount > 0 ? kCount : count_); }
     double regressors(std::size_t i, std::size_t j) const {
         if constexpr (kInstruments) return C_[i][j];
         return j < i ? 0 : R_[i][j];
-    }
-    void count_error(double error, double weight) {
-        squares_ = weight * squares_ + error * error;
-        rows_ = weight * rows_ + 1;
-        earlier_squares_ *= weight;
-        earlier_rows_ *= weight;
-        if (!kInstruments || rows_ < 2 * earlier_rows_ || !known_) return;
-        earlier_squares_ = squares_;
-        earlier_rows_ = rows_;
-        squares_ = rows_ = 0;
     }
     static void rotate(double cosine, double sine, double& kept, double& left) {
         const double before = kept;
@@ -135,9 +150,10 @@ class InstrumentArray {
     }
 
     int count_;
-    std::array<Row, kMost> R_{}, C_{};
+    Square R_{}, C_{};
     Row c_{}, theta_{};
-    double rows_ = 0, squares_ = 0, earlier_rows_ = 0, earlier_squares_ = 0;
+    ErrorVariance<kInstruments> errors_;
+    ProductColour<kMost> colour_;
     bool known_ = false;
 };
 

@@ -21,6 +21,7 @@ namespace {
 constexpr Index kSamplesBetweenQuestions = 4096;  // whether to stop
 constexpr Index kFirstSamplesPerParameter = 20;
 constexpr double kFilterMemories = 20;      // of the first batch
+constexpr double kBlockMemories = 5;        // of the blocks that tell the errors' colour
 constexpr Index kSamplesBetweenLooks = 16;  // at how well the model is known
 constexpr double kSurest = 0.03;            // relative standard errors of coefficients that filters follow
 constexpr double kQuickest = 5;             // poles of a model that filters follow, in cut-off frequencies
@@ -125,8 +126,12 @@ Vector first_model(const IdData& data, const TransferStructure& structure, const
 template <RecursiveMethod kMethod, int kOrder, int kCount>
 class Pass {
   public:
-    Pass(const Samples& samples, const TransferStructure& structure, const RecursiveOptions& options)
-        : samples_(samples), options_(options), array_(static_cast<int>(structure.parameter_count())) {
+    /// `step`: mean sampling time, s.
+    Pass(const Samples& samples, const TransferStructure& structure, const RecursiveOptions& options, double step)
+        : samples_(samples),
+          options_(options),
+          array_(static_cast<int>(structure.parameter_count()),
+                 std::max(kBlockMemories / (options.lambda * step), 1.0)) {
         n_ = structure.poles.front();
         m_ = structure.channels.front().zeros;
         model_.n = filter_.n = n_;
@@ -167,14 +172,14 @@ class Pass {
         if (k > 0 && options_.drift.size() > 0) walk();
         array_.add(z, phi, highest_derivative<kOrder>(filter, y_, y), options_.forgetting);
         if (kMethod == RecursiveMethod::kLeastSquares || k < follows_from_ || !array_.known()) return;
-        if (kMethod == RecursiveMethod::kRefined && k % kSamplesBetweenLooks == 0) sure_ = known_well();
+        if (k % kSamplesBetweenLooks == 0) sure_ = known_well();
         if (sure_) follow();
     }
 
     bool known() const { return array_.known(); }
     Vector theta() const { return Vector::Map(array_.theta().data(), n_ + m_ + 1); }
     double variance() const { return array_.variance(); }
-    Matrix inverse_gram() const { return array_.inverse_gram(); }
+    Matrix covariance() const { return array_.covariance(); }
     Index samples_not_followed() const { return not_followed_; }
 
   private:
@@ -234,14 +239,7 @@ class Pass {
 
     /// Whether the denominator is known well enough for filters to follow it: samples that filters of a poor estimate
     /// let through would outweigh all others, now and later.
-    bool known_well() const {
-        const Vector variances = array_.variance() * array_.inverse_gram().diagonal();
-        for (int i = 0; i < n_; ++i) {
-            const double a = array_.theta()[static_cast<std::size_t>(i)];
-            if (!(variances[i] <= kSurest * kSurest * a * a)) return false;
-        }
-        return true;
-    }
+    bool known_well() const { return array_.known_to(kSurest, static_cast<std::size_t>(n_)); }
 
     /// Against poles at kQuickest times the cut-off frequency.
     bool too_quick(const EvolvingModel& model) const {
@@ -263,7 +261,7 @@ class Pass {
     EvolvingState y_{}, u_{}, x_{}, behind_{};
     double output_ = 0;
     Index follows_from_ = 0, not_followed_ = 0;
-    bool sure_ = kMethod != RecursiveMethod::kRefined;
+    bool sure_ = false;
 };
 
 /// How the method meets change: half a sentence.
@@ -300,7 +298,7 @@ Fit run_pass(OnePass pass, const RecursiveName& method, const IdData& data, cons
         if (pass.known()) {
             history->theta.row(point) = pass.theta().transpose();
             if (std::isfinite(pass.variance()))
-                history->std.row(point) = (pass.variance() * pass.inverse_gram().diagonal()).cwiseSqrt().transpose();
+                history->std.row(point) = pass.covariance().diagonal().cwiseMax(0).cwiseSqrt().transpose();
         }
         ++point;
     }
@@ -310,7 +308,7 @@ Fit run_pass(OnePass pass, const RecursiveName& method, const IdData& data, cons
                               "enough for " +
                               std::to_string(d) + " of them");
     fit.theta = pass.theta();
-    fit.covariance = pass.variance() * pass.inverse_gram();
+    fit.covariance = pass.covariance();
     fit.noise_variance = Vector::Constant(1, pass.variance());
     fit.history = std::move(history);
     if (pass.samples_not_followed() > N / 2)
@@ -325,7 +323,7 @@ Fit run_pass(OnePass pass, const RecursiveName& method, const IdData& data, cons
 template <RecursiveMethod kMethod, int kOrder, int kCount>
 Fit pass_of_size(const RecursiveName& method, const IdData& data, const TransferStructure& structure,
                  const RecursiveOptions& options, const Samples& samples) {
-    Pass<kMethod, kOrder, kCount> pass(samples, structure, options);
+    Pass<kMethod, kOrder, kCount> pass(samples, structure, options, data.mean_step());
     const Index N = data.sample_count(), d = structure.parameter_count();
     if (options.model) {
         Vector theta(d);

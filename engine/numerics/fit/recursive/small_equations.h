@@ -60,4 +60,48 @@ bool solve_small(SmallMatrix<kMost> A, SmallRow<kMost> b, std::size_t d, SmallRo
     return true;
 }
 
+/// The upper triangular root of a symmetric positive definite matrix, U U' = A, in place of its upper triangle.
+template <std::size_t kMost>
+void upper_root(SmallMatrix<kMost>& U, std::size_t d) {
+    for (std::size_t j = d; j-- > 0;) {
+        U[j][j] = std::sqrt(U[j][j]);
+        for (std::size_t i = 0; i < j; ++i) U[i][j] /= U[j][j];
+        for (std::size_t i = 0; i < j; ++i)
+            for (std::size_t l = 0; l <= i; ++l) U[l][i] -= U[l][j] * U[i][j];
+    }
+}
+
+/// The inverse of A by Gauss-Jordan elimination with row pivots; false, and no meaning, where A is singular.
+template <std::size_t kMost>
+bool invert_small(SmallMatrix<kMost> A, std::size_t d, SmallMatrix<kMost>& inverse) {
+    SmallRow<kMost> sizes{};
+    for (std::size_t i = 0; i < d; ++i)
+        for (std::size_t j = 0; j < d; ++j) {
+            sizes[j] += std::abs(A[i][j]);
+            inverse[i][j] = i == j ? 1 : 0;
+        }
+    for (std::size_t j = 0; j < d; ++j) {
+        std::size_t pivot = j;
+        for (std::size_t i = j + 1; i < d; ++i)
+            if (std::abs(A[i][j]) > std::abs(A[pivot][j])) pivot = i;
+        if (!(std::abs(A[pivot][j]) > kSmallRank * sizes[j])) return false;
+        std::swap(A[pivot], A[j]);
+        std::swap(inverse[pivot], inverse[j]);
+        const double reciprocal = 1 / A[j][j];
+        for (std::size_t l = 0; l < d; ++l) {
+            A[j][l] *= reciprocal;
+            inverse[j][l] *= reciprocal;
+        }
+        for (std::size_t i = 0; i < d; ++i) {
+            const double factor = A[i][j];
+            if (i == j || factor == 0) continue;
+            for (std::size_t l = 0; l < d; ++l) {
+                A[i][l] -= factor * A[j][l];
+                inverse[i][l] -= factor * inverse[j][l];
+            }
+        }
+    }
+    return true;
+}
+
 }  // namespace dynlab::inline numerics

@@ -26,6 +26,14 @@ Vector drift_of(const Options& options) {
     return options.vector("drift");
 }
 
+TransferFunction fixed_model(const Options& options) {
+    const Model* const model = to_object<Model>(options.call().state(), options.push("model"));
+    if (model == nullptr || !model->single_channel())
+        throw InvalidArgument(
+            "option 'model' must be a model with one input and one output, such as srivc(data, {1, 2, 0})");
+    return model->G;
+}
+
 RecursiveOptions recursive_options(const Call& call, const Options& options) {
     RecursiveOptions wanted;
     wanted.lambda = call.number(3, "lambda");
@@ -34,7 +42,7 @@ RecursiveOptions recursive_options(const Call& call, const Options& options) {
     wanted.drift = drift_of(options);
     wanted.noise_variance = options.optional_number("NoiseVariance");
     wanted.history_points = options.size("HistoryPoints", wanted.history_points);
-    if (options.has("model")) wanted.model = model_argument(call, options.push("model"), "model").G;
+    if (options.has("model")) wanted.model = fixed_model(options);
     wanted.cancel = call.cancel();
     return wanted;
 }

@@ -1,0 +1,32 @@
+#pragma once
+#include "numerics/linalg/types.h"
+
+namespace dynlab::inline numerics {
+
+/// The mean square of weighted errors that come one by one. kInstruments: of the later half to three quarters of them,
+/// for the first are those of a theta that is hardly known; otherwise of all.
+template <bool kInstruments>
+class ErrorVariance {
+  public:
+    /// The weights of all so far are multiplied by `weight`; `known`: the theta of this error is.
+    void add(double error, double weight, bool known) {
+        squares_ = weight * squares_ + error * error;
+        rows_ = weight * rows_ + 1;
+        earlier_squares_ *= weight;
+        earlier_rows_ *= weight;
+        if (!kInstruments || rows_ < 2 * earlier_rows_ || !known) return;
+        earlier_squares_ = squares_;
+        earlier_rows_ = rows_;
+        squares_ = rows_ = 0;
+    }
+    /// With `parameters` found from these errors; infinite without more of them.
+    double value(int parameters) const {
+        const double rows = rows_ + earlier_rows_ - (kInstruments ? 0 : parameters);
+        return rows > 0 ? (squares_ + earlier_squares_) / rows : kInfinity;
+    }
+
+  private:
+    double rows_ = 0, squares_ = 0, earlier_rows_ = 0, earlier_squares_ = 0;
+};
+
+}  // namespace dynlab::inline numerics

@@ -1,0 +1,84 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+
+#include "numerics/fit/recursive/small_equations.h"
+#include "numerics/linalg/decompositions.h"
+
+namespace dynlab::inline numerics {
+
+/// How the products z(k) e(k) of instruments and errors add up when the errors are coloured, at constant cost a sample:
+/// within blocks of samples they are summed, and the sums' squares are compared with what white errors of the same size
+/// would give (batch means; the blocks are to outlast the errors' memory, and grow with the cube root of the record).
+/// Of the later half to three quarters of the samples, all of the same weight: the first errors are those of a theta
+/// that is hardly known, and a forgetting that leaves few blocks could not tell any colour.
+template <std::size_t kMost>
+class ProductColour {
+  public:
+    /// `block`: samples, above zero.
+    explicit ProductColour(double block) : shortest_(block), length_(block) {}
+
+    void add(const SmallRow<kMost>& z, double error, std::size_t d) {
+        for (std::size_t i = 0; i < d; ++i) {
+            block_[i] += z[i] * error;
+            for (std::size_t j = i; j < d; ++j) now_.gram[i][j] += z[i] * z[j];
+        }
+        now_.squares += error * error;
+        now_.rows += 1;
+        samples_ += 1;
+        in_block_ += 1;
+        if (in_block_ >= length_) close(d);
+    }
+
+    /// T with sum_kl z(k) z(l)' cov(e(k), e(l)) = variance R' T R, R upper triangular with sum_k z z' = R'R: the
+    /// identity for white errors, and towards it T is drawn by as much as chance takes part in it (James and Stein).
+    Matrix ratio(Index d) const {
+        const Matrix none = Matrix::Identity(d, d);
+        const double rows = now_.rows + earlier_.rows, blocks = now_.blocks + earlier_.blocks;
+        const double variance = (now_.squares + earlier_.squares) / rows;
+        if (!(blocks > 0 && variance > 0) || !std::isfinite(variance)) return none;
+        Matrix gram(d, d), products(d, d);
+        for (Index i = 0; i < d; ++i)
+            for (Index j = 0; j < d; ++j) {
+                const auto row = static_cast<std::size_t>(std::min(i, j)),
+                           column = static_cast<std::size_t>(std::max(i, j));
+                gram(i, j) = now_.gram[row][column] + earlier_.gram[row][column];
+                products(i, j) = now_.products[row][column] + earlier_.products[row][column];
+            }
+        // Only whole blocks hold products.
+        const double complete = (rows - in_block_) / rows;
+        const auto root = cholesky_root(gram * (complete * variance));
+        if (!root) return none;
+        const Matrix half = solve_by_lu(*root, products).x;
+        const Matrix whole = solve_by_lu(*root, half.transpose()).x;
+        const double chance = static_cast<double>(d * (d + 1)) / blocks;  // of |T - I|^2 with white errors
+        const double believed = std::max(0.0, 1 - chance / (whole - none).squaredNorm());
+        return none + believed * (whole - none);
+    }
+
+  private:
+    static constexpr double kFewBlocks = 50;  // from here on blocks grow
+
+    struct Sums {
+        SmallMatrix<kMost> gram{}, products{};  // upper triangles
+        double squares = 0, rows = 0, blocks = 0;
+    };
+
+    void close(std::size_t d) {
+        for (std::size_t i = 0; i < d; ++i)
+            for (std::size_t j = i; j < d; ++j) now_.products[i][j] += block_[i] * block_[j];
+        now_.blocks += 1;
+        block_ = {};
+        in_block_ = 0;
+        if (now_.blocks < 2 * earlier_.blocks) return;
+        earlier_ = now_;
+        now_ = {};
+        length_ = shortest_ * std::max(1.0, std::cbrt(samples_ / (kFewBlocks * shortest_)));
+    }
+
+    double shortest_, length_, in_block_ = 0, samples_ = 0;
+    SmallRow<kMost> block_{};
+    Sums now_, earlier_;
+};
+
+}  // namespace dynlab::inline numerics
