@@ -23,4 +23,14 @@ inline IdData loop_record(double sigma, std::uint32_t seed) {
     return ClosedLoop(loop_plant(), loop_controller(), kLoopTs).record(r, v);
 }
 
+/// 2/((s - 1)(s + 4)), which a sampled gain of 8 holds, with white noise of standard deviation `sigma`.
+inline LoopController holding_controller() {
+    return {TransferFunction(values({8}), values({1}), kLoopTs)};
+}
+inline IdData held_record(double sigma, std::uint32_t seed) {
+    const Vector r = prbs(7, 5);
+    return ClosedLoop(TransferFunction(values({2}), values({1, 3, -4})), holding_controller(), kLoopTs)
+        .record(r, sigma * RandomStream(seed).normal(r.size()));
+}
+
 }  // namespace dynlab::test

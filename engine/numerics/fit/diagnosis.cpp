@@ -224,10 +224,7 @@ std::string channel_text(const TransferStructure& structure, std::size_t channel
     return " from input " + std::to_string(channel % inputs + 1) + " to output " + std::to_string(channel / inputs + 1);
 }
 
-namespace {
-
-/// With what helps `when_unstable`, if anything does.
-void describe_models_and(Fit& fit, const std::string& when_unstable) {
+void describe_models(Fit& fit, const std::string& when_unstable) {
     fit.names = fit.structure.parameter_names();
     fit.models = fit.structure.models(fit.theta);
     fit.std = fit.covariance.diagonal().cwiseMax(0).cwiseSqrt();
@@ -236,16 +233,10 @@ void describe_models_and(Fit& fit, const std::string& when_unstable) {
     warn_of_instability(fit, when_unstable);
 }
 
-}  // namespace
-
-void describe_models(Fit& fit) {
-    describe_models_and(fit, "srivc with `stable` = true finds the best stable one");
-}
-
 void describe_search(Fit& fit, const IdData& data, const std::string& method, const FitOptions& options,
                      const DelayRange& range) {
     warn_of_search(fit, options);
-    describe_models_and(fit, options.stable ? "" : "`stable` = true finds the best stable one");
+    describe_models(fit, options.stable ? "" : "`stable` = true finds the best stable one");
     for (std::size_t i = 0; i < fit.models.size() && fit.structure.free_delays && range.largest > range.least; ++i)
         warn_of_delay(fit, fit.models[i].delay(), range, channel_text(fit.structure, i));
     warn_of_ambiguous_delays(fit, data);

@@ -62,8 +62,9 @@ void warn_of_delay(Fit& fit, double delay, const DelayRange& range, const std::s
 std::string channel_text(const TransferStructure& structure, std::size_t channel);
 
 /// Fills names, models and std of a continuous-time fit from structure, theta and covariance, and warns of poles and
-/// zeros that nearly cancel, of doubtful parameters, and of unstable channels.
-void describe_models(Fit& fit);
+/// zeros that nearly cancel, of doubtful parameters, and of unstable channels, with what helps then, if anything does.
+void describe_models(Fit& fit,
+                     const std::string& when_unstable = "srivc with `stable` = true finds the best stable one");
 
 /// The same, with the message, for an output-error search (`method` begins the sentence) over the given range of
 /// delays: warns of its end, of free delays at an edge of the range, and of those known only to within one sampling

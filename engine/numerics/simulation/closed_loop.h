@@ -33,6 +33,11 @@ class ClosedLoop {
     Response to_reference(const VectorView& r) const { return response(r, 0, hold_); }
     Response to_disturbance(const VectorView& v) const { return response(v, 1, Hold::kFoh); }
 
+    /// d x/d [a_1 .. a_n b_0 .. b_zeros] of to_reference(r).x, N x (n + zeros + 1), for a plant B/A whose B has the
+    /// degree `zeros`: bounded where the loop is stable, whatever the plant by itself is. Exact: beside the loop runs
+    /// its derivative, a loop of the same poles driven by the first one's signals.
+    Matrix sensitivities(const VectorView& r, int zeros) const;
+
     /// The record of r and v together: y = x + v, u, and the reference r. Its hold is zoh with a sampled controller and
     /// foh with one in continuous time, whose u between the samples neither hold describes exactly. Throws
     /// InvalidArgument for signals of different lengths and an unstable loop.
@@ -41,6 +46,8 @@ class ClosedLoop {
   private:
     Response response(const VectorView& signal, Index input, Hold hold) const;
 
+    TransferFunction plant_;
+    LoopController controller_;
     StateSpace system_;  // from [r v] to [x u]
     double Ts_;
     Hold hold_, hold_of_record_;

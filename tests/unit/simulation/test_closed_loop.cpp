@@ -53,6 +53,47 @@ TEST(closed_loop, sampled_loops_solve_both_equations) {
         }
 }
 
+// oracle: central differences of the loop's output; unstable plants, delays and direct terms, either kind of controller
+TEST(closed_loop, sensitivities_are_those_of_the_loop) {
+    struct Case {
+        const char* name;
+        Vector num, den;
+        double delay;
+        LoopController controller;
+        Hold hold;
+    };
+    const TransferFunction pi = discrete(Vector{{1.2, -1.1}}, Vector{{1, -1}});
+    const TransferFunction lag(Vector{{6}}, Vector{{0.05, 1}});
+    const std::vector<Case> cases = {
+        {"sampled", Vector{{2}}, Vector{{1, 4, 3}}, 0, {pi, 1}, Hold::kZoh},
+        {"a delay", Vector{{0.5, 2}}, Vector{{1, 4, 3}}, 0.12, {pi, 0}, Hold::kZoh},
+        {"a direct term", Vector{{0.1, 0.2}}, Vector{{1, 3}}, 0, {pi, 1}, Hold::kZoh},
+        {"a late direct term", Vector{{0.1, 0.2}}, Vector{{1, 3}}, 0.07, {pi, 1}, Hold::kZoh},
+        {"unstable", Vector{{2}}, Vector{{1, 3, -4}}, 0, {discrete(Vector{{8}}, Vector{{1}}), 0}, Hold::kZoh},
+        {"continuous", Vector{{2}}, Vector{{1, 3, -4}}, 0, {lag, 0}, Hold::kFoh},
+        {"a direct term before a lag", Vector{{0.1, 0.2, 1}}, Vector{{1, 1, 2}}, 0, {lag, 0}, Hold::kZoh}};
+    const Vector r = reference_signal();
+    for (const Case& one : cases) {
+        const auto output = [&](const Vector& theta) {
+            Vector den(one.den.size());
+            den << 1, theta.head(one.den.size() - 1);
+            const TransferFunction plant(theta.tail(one.num.size()), den, 0, one.delay);
+            return ClosedLoop(plant, one.controller, kTs, one.hold).to_reference(r).x;
+        };
+        Vector theta(one.den.size() - 1 + one.num.size());
+        theta << one.den.tail(one.den.size() - 1), one.num;
+        const ClosedLoop loop(TransferFunction(one.num, one.den, 0, one.delay), one.controller, kTs, one.hold);
+        ASSERT_TRUE(loop.stable()) << one.name;
+        const Matrix psi = loop.sensitivities(r, static_cast<int>(one.num.size()) - 1);
+        ASSERT_EQ(psi.cols(), theta.size());
+        for (Index i = 0; i < theta.size(); ++i) {
+            const Vector step = 1e-5 * Vector::Unit(theta.size(), i);
+            const Vector expected = (output(theta + step) - output(theta - step)) / 2e-5;
+            EXPECT_LT((psi.col(i) - expected).norm(), 1e-7 * expected.norm()) << one.name << " " << i;
+        }
+    }
+}
+
 TEST(closed_loop, a_sampled_gain_on_a_lag_is_known_by_hand) {  // oracle: analytic
     const double a = std::exp(-kTs), gain = 3;
     const Vector r = Vector::Ones(40);

@@ -37,8 +37,7 @@ Fit clivsvf(const IdData& data, const TransferStructure& structure, const SvfOpt
             std::to_string(structure.parameter_count()) + " parameters");
     estimate.covariance = equations.covariance(estimate.theta);
     estimate.termination = Termination::kConverged;
-    describe_models(estimate);
-    describe_loop(estimate, signals, in_loop);
+    describe_loop(estimate, data, signals, in_loop);
     warn_of_cutoff(estimate, options.lambda);
     set_message(estimate, "Instrumental variables on filtered signals, " + instruments_text(signals, in_loop) + ".");
     return estimate;

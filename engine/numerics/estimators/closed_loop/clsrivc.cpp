@@ -61,9 +61,7 @@ Fit by_passes(const IdData& data, const TransferStructure& structure, const FitO
     }
     estimate.covariance = equations.Z.size() > 0 ? equations.covariance(estimate.theta)
                                                  : Matrix::Zero(estimate.theta.size(), estimate.theta.size());
-    measure_simulation(estimate, data);
-    describe_models(estimate);
-    describe_loop(estimate, signals, in_loop);
+    describe_loop(estimate, data, signals, in_loop);
     const std::string passes = counted(estimate.trace.size(), "pass", "passes");
     const bool settled = estimate.termination == Termination::kConverged;
     set_message(estimate, "CLSRIVC " + (settled ? "converged after " + passes : "had not settled after " + passes) +
@@ -106,6 +104,9 @@ Fit two_stage(const IdData& data, const TransferStructure& structure, const FitO
 
 Fit direct(const IdData& data, const TransferStructure& structure, const FitOptions& options) {
     Fit estimate = srivc(data, structure, options);
+    estimate.covariance = output_covariance(data, structure, estimate.theta);
+    estimate.warnings.clear();
+    describe_models(estimate);
     add_warning(estimate,
                 "This is the direct route: the input follows the noise through the controller, which biases the "
                 "estimate unless the noise is white.");

@@ -15,6 +15,7 @@ namespace dynlab::inline numerics {
 namespace {
 
 constexpr int kHalvings = 12;
+constexpr double kToldByLoss = 1e-13;  // of the loss: what a step must promise, for rounding not to hide it
 
 /// The loop of a theta and the known controller.
 class LoopOutput {
@@ -39,18 +40,12 @@ class LoopOutput {
     /// d x/d theta, N x d, of a stable loop.
     Matrix sensitivities(const VectorView& theta) const {
         const ClosedLoop loop = loop_of(theta);
-        const Index d = structure_.parameter_count();
-        const Vector A = structure_.denominator(theta, 0, 0), B = structure_.numerator(theta, 0, 0);
-        Matrix psi(data_.sample_count(), d);
+        Matrix psi(data_.sample_count(), structure_.parameter_count());
         Index first = 0;
         for (const Experiment& experiment : data_.experiments) {
-            const Index count = experiment.y.rows();
-            const Vector u = loop.to_reference(experiment.r.col(0)).u;
-            const Matrix open = transfer_filters().sensitivities(B, A, structure_.delay(theta, 0, 0), u,
-                                                                 {data_.Ts, {nullptr, 0}}, data_.hold);
-            for (Index i = 0; i < d; ++i)
-                psi.col(i).segment(first, count) = open.col(i + 1) + loop.to_disturbance(open.col(i + 1)).x;
-            first += count;
+            psi.middleRows(first, experiment.y.rows()) =
+                loop.sensitivities(experiment.r.col(0), structure_.channels.front().zeros);
+            first += experiment.y.rows();
         }
         return psi;
     }
@@ -65,9 +60,25 @@ class LoopOutput {
     const LoopSignals& signals_;
 };
 
+/// The fit of x(r), with the model in its loop; false, and nothing is done, where that is unstable.
+bool measure_in_loop(Fit& fit, const IdData& data, const LoopSignals& signals) {
+    const Vector errors = LoopOutput(data, fit.structure, signals).errors(fit.theta);
+    if (!errors.allFinite()) return false;
+    const auto N = static_cast<double>(errors.size()), d = static_cast<double>(fit.theta.size());
+    fit.offsets = Matrix::Zero(static_cast<Index>(data.experiments.size()), 1);
+    fit.fit_percent = Vector::Constant(1, fit_percent_of_sums(errors.squaredNorm(), output_variations(data)[0]));
+    fit.noise_variance = Vector::Constant(1, errors.squaredNorm() / (N - d));
+    fit.loss = errors.squaredNorm() / N;
+    fit.warnings.push_back("Fit and noise variance are those of the model in its loop, simulated from the reference.");
+    return true;
+}
+
 }  // namespace
 
-void describe_loop(Fit& fit, const LoopSignals& signals, bool in_loop) {
+void describe_loop(Fit& fit, const IdData& data, const LoopSignals& signals, bool in_loop) {
+    describe_models(fit, "look at the controller, the orders and the cut-off frequency");
+    if (!in_loop || !has_unstable_pole(fit.models.front()) || !measure_in_loop(fit, data, signals))
+        measure_simulation(fit, data);
     if (!signals.warning().empty()) fit.warnings.push_back(signals.warning());
     if (signals.controller() && !in_loop)
         fit.warnings.push_back(
@@ -100,23 +111,27 @@ Fit search_loop(Fit start, const IdData& data, const FitOptions& options, const 
             fit.termination = Termination::kCancelled;
             break;
         }
-        Vector step = solve_by_pivoted_qr(model.sensitivities(fit.theta), errors);
+        const Matrix psi = model.sensitivities(fit.theta);
+        Vector step = solve_by_pivoted_qr(psi, errors);
+        const Vector sizes = fit.theta.array().abs().max(1e-12 * fit.theta.cwiseAbs().maxCoeff());
+        const bool settled = step.cwiseQuotient(sizes).cwiseAbs().maxCoeff() <= options.tolerance;
+        // Next to the least loss its last digits say nothing of a step.
+        const bool is_told = (psi * step).squaredNorm() > kToldByLoss * errors.squaredNorm();
         Vector tried;
         int halvings = 0;
         for (; halvings <= kHalvings; ++halvings, step /= 2) {
             tried = model.errors(fit.theta + step);
-            if (tried.squaredNorm() <= errors.squaredNorm()) break;
+            if (tried.squaredNorm() <= errors.squaredNorm() || (!is_told && tried.allFinite())) break;
         }
-        const double change =
-            (step.array() / fit.theta.array().abs().max(1e-12 * fit.theta.cwiseAbs().maxCoeff())).abs().maxCoeff();
         if (halvings > kHalvings) {
-            fit.termination = Termination::kNoProgress;
+            fit.termination = settled ? Termination::kConverged : Termination::kNoProgress;
             break;
         }
         fit.theta += step;
         errors = tried;
+        const double change = step.cwiseQuotient(sizes).cwiseAbs().maxCoeff();
         fit.trace.push_back({fit.theta, errors.squaredNorm() / count, change});
-        if (change > options.tolerance) continue;
+        if (!settled) continue;
         fit.termination = Termination::kConverged;
         break;
     }
@@ -124,10 +139,8 @@ Fit search_loop(Fit start, const IdData& data, const FitOptions& options, const 
     for (const Experiment& experiment : data.experiments) lengths.push_back(experiment.y.rows());
     fit.covariance = robust_covariance(model.sensitivities(fit.theta), errors, lengths).covariance;
     fit.warnings.clear();
-    measure_simulation(fit, data);
+    describe_loop(fit, data, signals, true);
     fit.loss = errors.squaredNorm() / count;
-    describe_models(fit);
-    describe_loop(fit, signals, true);
     set_message(fit, "Output error of the loop from the reference (indirect route) " + ending_text(fit) + ": " +
                          simulation_text(fit) + ".");
     return fit;

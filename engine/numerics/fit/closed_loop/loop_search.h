@@ -4,17 +4,18 @@
 
 namespace dynlab::inline numerics {
 
-/// Warnings of a fit in closed loop: of the controller, and of a loop that the model does not close stably.
-void describe_loop(Fit& fit, const LoopSignals& signals, bool in_loop);
+/// Models, names, std and warnings of a fit in closed loop (describe_models), of the controller too, and of a loop that
+/// the model does not close stably. Its measures are those of the simulation (measure_simulation), of an unstable model
+/// `in_loop` those of the loop, which a warning says.
+void describe_loop(Fit& fit, const IdData& data, const LoopSignals& signals, bool in_loop);
 
 /// "with instruments from the reference through the loop", and what is known of the loop: half a sentence.
 std::string instruments_text(const LoopSignals& signals, bool in_loop);
 
 /// The indirect route: least squares of y - x(r; theta), x simulated through the loop of model and known controller,
-/// by Gauss-Newton steps, halved until they lower the loss, from the theta of `start`. d x/d theta is what the open
-/// model's sensitivities to its input become inside the loop, where they act as disturbances of the output. Standard
-/// errors hold for errors of any colour; the loss is that of the loop. Throws InvalidArgument where the loop of the
-/// first theta is unstable.
+/// by Gauss-Newton steps, halved until they lower the loss, from the theta of `start`. d x/d theta is that of the loop
+/// (ClosedLoop::sensitivities), which holds an unstable plant's, too. Standard errors hold for errors of any colour;
+/// the loss is that of the loop. Throws InvalidArgument where the loop of the first theta is unstable.
 Fit search_loop(Fit start, const IdData& data, const FitOptions& options, const LoopSignals& signals);
 
 }  // namespace dynlab::inline numerics

@@ -1,9 +1,11 @@
 #include <array>
 
+#include "numerics/error.h"
 #include "numerics/estimators/closed_loop/clivsvf.h"
 #include "numerics/estimators/closed_loop/clsrivc.h"
-#include "numerics/fit/srivc_iteration.h"
+#include "numerics/number_text.h"
 #include "scripting/arguments/loop_arguments.h"
+#include "scripting/arguments/told_sentences.h"
 #include "scripting/arguments/transfer_arguments.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/memoized_calls/memoized_call.h"
@@ -24,14 +26,18 @@ int simulate_loop(Call& call) {
     LoopController controller = controller_at(call, 2);
     controller.computing_delay = computing_delay_of(options);
     const VectorMap r = call.vector(3, "r");
+    if (r.size() < 2)
+        throw InvalidArgument("simloop: r is the reference at every sample, such as prbs(7, 5) or ones(500), and has " +
+                              counted(r.size(), "value"));
     const Hold hold = options.choice("hold", {"zoh", "foh"}, 0) == 0 ? Hold::kZoh : Hold::kFoh;
     const Vector noise = options.has("noise") ? Vector(options.vector("noise")) : Vector::Zero(r.size());
     if (!controller.sampled())
         call.print(
-            "simloop: with a controller in continuous time u moves between the samples, and the record knows it at the "
-            "samples only: models found from it are off by what that costs. A controller with the sampling time Ts "
-            "holds "
-            "u, which is exact.\n");
+            told(call,
+                 "simloop: with a controller in continuous time u moves between the samples, and the record knows "
+                 "it at the samples only: models found from it are off by what that costs. A controller with the "
+                 "sampling time Ts holds u, which is exact.") +
+            "\n");
     IdData data = ClosedLoop(plant, controller, call.number(4, "Ts"), hold).record(r, noise);
     const Vector x = data.experiments.front().y.col(0) - noise;
     return give_data(call, std::move(data)) + call.give_vector(x);
@@ -66,8 +72,7 @@ Estimation read_clsrivc(const Call& call) {
 
 int estimate_clivsvf(Call& call) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    Fit result = read_clivsvf(call)(data);
-    measure_simulation(result, data);
+    const Fit result = read_clivsvf(call)(data);
     Estimate estimate = estimate_of(call.function_name(), result);
     estimate.carx = true;
     return give_fit(call, std::move(estimate), result);

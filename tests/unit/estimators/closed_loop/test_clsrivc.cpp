@@ -75,15 +75,20 @@ TEST(clsrivc, the_indirect_route_lies_at_the_least_squares_of_the_loop) {  // or
 }
 
 TEST(clsrivc, an_unstable_plant_is_found_in_its_loop) {  // oracle: the truth 2/((s - 1)(s + 4))
-    const Vector r = prbs(7, 5);
-    const TransferFunction plant(values({2}), values({1, 3, -4}));
-    const LoopController controller{TransferFunction(values({8}), values({1}), kLoopTs)};
-    const IdData data = ClosedLoop(plant, controller, kLoopTs).record(r, 0.02 * RandomStream(3).normal(r.size()));
+    const IdData data = held_record(0.02, 3);
     FitOptions options = exact();
     options.lambda = 4;
-    const Fit fit = clsrivc(data, kPlant, options, {controller});
-    EXPECT_LT(relative_difference(fit.theta, values({3, -4, 2})), 0.1) << fit.theta.transpose();
-    for (Index i = 0; i < 3; ++i) EXPECT_LT(std::abs(fit.theta[i] - values({3, -4, 2})[i]), 4 * fit.std[i]);
+    for (const LoopRoute route : {LoopRoute::kAuxiliary, LoopRoute::kIndirect}) {
+        const Fit fit = clsrivc(data, kPlant, options, {holding_controller()}, route);
+        EXPECT_LT(relative_difference(fit.theta, values({3, -4, 2})), 0.1) << fit.theta.transpose();
+        EXPECT_GT(fit.std.minCoeff(), 0) << fit.std.transpose();
+        for (Index i = 0; i < 3; ++i) EXPECT_LT(std::abs(fit.theta[i] - values({3, -4, 2})[i]), 4 * fit.std[i]);
+        EXPECT_EQ(fit.termination, Termination::kConverged);
+    }
+    EXPECT_LT(relative_difference(
+                  clsrivc(held_record(0, 3), kPlant, options, {holding_controller()}, LoopRoute::kIndirect).theta,
+                  values({3, -4, 2})),
+              1e-7);
 }
 
 TEST(clsrivc, a_controller_in_continuous_time) {  // oracle: the truth, to what straight lines miss of u
