@@ -8,6 +8,7 @@ namespace test_script_frequency {
 
 using namespace dynlab;
 using dynlab::test::printed;
+using dynlab::test::run;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
@@ -68,6 +69,17 @@ TEST(script_frequency, spectral_estimates_are_responses) {
                      "near(g.param[2], 4, 0.2) assert(S.method == 'spa' and S.variance and S.coherence)\n"
                      "print(g.report.warnings[#g.report.warnings])"),
                 HasSubstr("\nNeighbouring values of a smoothed response share their errors"));
+}
+
+TEST(script_frequency, spectral_estimates_are_quiet_when_asked) {  // oracle: the same call that is not
+    const std::string record = "local u = prbs(7, 4)\nlocal d = iddata(lsim(tf({2}, {1, 4, 3}), u, 0.05), u, 0.05)\n";
+    for (const char* method : {"spa", "etfe"}) {
+        const std::string quiet = record + "local fig, F = " + method + "(d, {quiet = true})\n";
+        EXPECT_TRUE(run(quiet).figures.empty()) << method;
+        EXPECT_FALSE(run(record + method + "(d)").figures.empty()) << method;
+        EXPECT_EQ(printed(quiet + "local _, G = " + method + "(d)\nprint(fig, F.response[9].re == G.response[9].re)"),
+                  printed(record + method + "(d)") + "nil\ttrue\n");
+    }
 }
 
 TEST(script_frequency, drawings_take_responses_and_models_in_any_order) {

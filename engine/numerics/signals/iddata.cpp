@@ -16,7 +16,7 @@ void check_channels(const Matrix& y, const Matrix& u) {
     if (y.cols() == 0 && u.cols() == 0)
         throw InvalidArgument("iddata: the data need at least one output, or, for a simulation, at least one input");
     if (u.cols() > 0 && u.rows() != y.rows())
-        throw InvalidArgument("iddata: the output has " + std::to_string(y.rows()) + " samples but the input has " +
+        throw InvalidArgument("iddata: the output has " + counted(y.rows(), "sample") + " but the input has " +
                               std::to_string(u.rows()));
     if (y.cols() > 0) {
         check_samples("iddata", "the output", y);
@@ -141,7 +141,7 @@ IdData IdData::range(Index first, Index last) const {
 IdData IdData::with_reference(Matrix r) const {
     const Index count = only_experiment(*this, "iddata").y.rows();
     if (r.rows() != count)
-        throw InvalidArgument("iddata: the data have " + std::to_string(count) + " samples but the reference has " +
+        throw InvalidArgument("iddata: the data have " + counted(count, "sample") + " but the reference has " +
                               std::to_string(r.rows()));
     check_samples("iddata", "the reference", r);
     check_magnitudes("iddata", "the reference", r);

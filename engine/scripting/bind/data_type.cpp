@@ -117,7 +117,7 @@ std::string data_text(const IdData& data) {
     const std::string sampling =
         data.regular() ? "Ts = " + number_text(data.Ts) + " " + data.time_unit : "sampled irregularly";
     const std::size_t experiments = data.experiments.size();
-    return fmt::format("iddata: {} samples, {}, {}, {}{}{}", data.sample_count(),
+    return fmt::format("iddata: {}, {}, {}, {}{}{}", counted(data.sample_count(), "sample"),
                        counted(data.output_count(), "output"), counted(data.input_count(), "input"), sampling,
                        data.reference_count() > 0 ? ", " + counted(data.reference_count(), "reference") : "",
                        experiments > 1 ? fmt::format(", {} experiments", experiments) : "");

@@ -194,6 +194,7 @@ Bootstrap bootstrap(const RefittedOutput& model, const BootstrapOptions& options
     repeat(study, model, base, ErrorSource(model, errors, options.kind, variance, white), options);
     if (study.failed == options.runs) throw InvalidArgument("bootstrap: none of the runs could be fitted");
     summarise(study, options.confidence);
+    if (const auto moved = model.moved(base)) study.warnings.push_back(*moved);
     if (!white && options.kind == BootstrapKind::kResidual)
         study.warnings.push_back(
             "The errors that the model leaves are not white, and drawing them one by one takes no account of it: the "

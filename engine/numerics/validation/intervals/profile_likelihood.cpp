@@ -200,6 +200,7 @@ Profile profile_likelihood(const RefittedOutput& model, const std::string& name,
         profile.grid[static_cast<Index>(i)] = fits[i].value;
         profile.rise[static_cast<Index>(i)] = search.rise(fits[i].loss, least);
     }
+    if (const auto moved = model.moved(base)) profile.warnings.push_back(*moved);
     if (search.rise(base.loss, least) > 0.01)
         profile.warnings.push_back("A better fit than the model's was found at another value of the parameter.");
     read_interval(profile, search, fits, least);

@@ -7,10 +7,13 @@
 #include "numerics/fit/diagnosis.h"
 #include "numerics/fit/output_error.h"
 #include "numerics/fit/transfer_refinement.h"
+#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
 namespace {
+
+constexpr double kMostErrorsOff = 3;  // of a model that may be this record's
 
 /// A model some of whose parameters stay where they are.
 class HeldOutput : public OutputErrorModel {
@@ -137,6 +140,15 @@ Fit RefittedOutput::fit(const std::map<Index, double>& held, const Fit* from, co
     fit.names = fitted_.names();
     fit.std = fit.covariance.diagonal().cwiseMax(0).cwiseSqrt();
     return fit;
+}
+
+std::optional<std::string> RefittedOutput::moved(const Fit& fit) const {
+    const Vector errors = (fit.theta - fitted_.theta).cwiseAbs().cwiseQuotient(fit.std);
+    Index place = 0;
+    if (!(errors.maxCoeff(&place) > kMostErrorsOff)) return std::nullopt;
+    return "The model is not the one that simulates these data best: " + fit.names[static_cast<std::size_t>(place)] +
+           " = " + number_text(fitted_.theta[place], 4) + " becomes " + number_text(fit.theta[place], 4) +
+           ", and the intervals are about that.";
 }
 
 Vector RefittedOutput::simulated(const Fit& fit) const {

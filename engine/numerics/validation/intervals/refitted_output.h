@@ -40,6 +40,10 @@ class RefittedOutput {
     /// object where the search begins.
     Fit fit(const std::map<Index, double>& held = {}, const Fit* from = nullptr, const Vector* outputs = nullptr) const;
 
+    /// A sentence where `fit`, of nothing held, lies more than three standard errors from the model: that was fitted to
+    /// other data, or by a method of another criterion.
+    std::optional<std::string> moved(const Fit& fit) const;
+
     /// The simulated outputs of such a fit, experiment after experiment.
     Vector simulated(const Fit& fit) const;
     Vector measured() const;

@@ -84,6 +84,8 @@ TEST(profile_likelihood, says_what_it_needs) {
     options = {};
     options.range = {{2, 1}};
     EXPECT_THAT(thrown_message([&] { profile_likelihood(model, "a1", options); }), HasSubstr("`range`"));
+    options.range = {{50, 60}};
+    EXPECT_THAT(thrown_message([&] { profile_likelihood(model, "a1", options); }), HasSubstr("must hold the estimate"));
     options = {};
     options.confidence = 0;
     EXPECT_THAT(thrown_message([&] { profile_likelihood(model, "a1", options); }), HasSubstr("`confidence`"));
