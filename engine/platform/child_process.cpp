@@ -157,6 +157,10 @@ void ChildProcess::give_input(const std::string& input) {
     if (state_->group) state_->group->start_clock();
 }
 
+bool ChildProcess::ended() const {
+    return !state_->group || state_->group->leader_exited();
+}
+
 ChildResult ChildProcess::wait() {
     if (!state_->group) throw std::logic_error("a child process can be waited for only once");
     const auto group = std::move(state_->group);

@@ -48,6 +48,7 @@ class ChildProcess {
     /// The standard input of a child that was started with `input_later`, whole; the child must read it before it
     /// writes more than a pipe holds. A child that has ended takes nothing; wait() tells.
     void give_input(const std::string& input);
+    bool ended() const;  ///< by itself: wait() will return at once
     ChildResult wait();
 
   private:

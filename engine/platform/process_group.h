@@ -39,12 +39,12 @@ class ProcessGroup {
     void start_clock();  ///< the timeout counts from now on
     /// Collects output until the leader ends, by itself or killed at a limit. Throws Interrupted.
     ChildResult wait();
+    bool leader_exited() const;
 
   private:
     void collect_until_exit();
     void collect(FileDescriptor& stream, std::string& text);
     int milliseconds_to_poll() const;
-    bool leader_exited() const;
     void kill_and_reap();
 
     pid_t leader_;

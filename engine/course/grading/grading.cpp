@@ -6,6 +6,7 @@
 #include <atomic>
 #include <exception>
 #include <functional>
+#include <map>
 #include <mutex>
 #include <set>
 #include <thread>
@@ -21,6 +22,7 @@
 #include "course/grading/roster.h"
 #include "course/hand_ins/owners.h"
 #include "course/hand_ins/staging.h"
+#include "course/shares/shared_grading.h"
 #include "course/store/course_clock.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
@@ -58,6 +60,7 @@ class ClassGrader {
         contents_.resize(submissions_.size());
         remember_inputs(request);
         chosen_ = chosen();
+        if (!request.on.empty()) shared_.emplace(request, rules_);
     }
 
     void run() {
@@ -67,6 +70,10 @@ class ClassGrader {
         for (int i = 0; i < std::max(1, request_.setup.jobs); ++i) threads.emplace_back([&] { work(bar); });
         for (std::thread& thread : threads) thread.join();
         if (failure_) std::rethrow_exception(failure_);
+        if (shared_) {
+            outcome_.notes = shared_->notes();
+            shared_->conclude();
+        }
         take_the_others();
         tell_strays();
         tell_which_counts(results());
@@ -174,16 +181,22 @@ class ClassGrader {
         std::string fingerprint, remark, language;
     };
 
+    /// What a submission that others run and judge will need when it comes back.
+    struct Given {
+        std::string fingerprint, of_runs, remark, language;
+    };
+
     /// How many are judged in one box: enough to forget its start, few enough to keep all threads busy.
     std::size_t judged_together() const {
         constexpr std::size_t kMost = 16, kSharesOfAThread = 4;
-        const auto threads = static_cast<std::size_t>(std::max(1, request_.setup.jobs));
+        const auto threads = static_cast<std::size_t>(std::max(1, shared_ ? shared_->hands() : request_.setup.jobs));
         return std::clamp<std::size_t>(chosen_.size() / (kSharesOfAThread * threads), 1, kMost);
     }
 
     void work(ProgressBar& bar) {
         try {
             std::vector<Started> waiting;
+            if (shared_) return work_with_others(bar);
             for (std::size_t k = next_++; k < chosen_.size() && !stopped_; k = next_++) {
                 throw_if_interrupted();
                 tried(chosen_[k], bar, [&] {
@@ -199,6 +212,60 @@ class ClassGrader {
         }
     }
 
+    /// Where others run and judge: what they have done meanwhile is finished first, and no more are given out than they
+    /// need. Submissions are given out in batches of neighbours, so that a run that goes on finds the same ones.
+    void work_with_others(ProgressBar& bar) {
+        const std::size_t size = judged_together();
+        while (!stopped_) {
+            throw_if_interrupted();
+            if (finish_shared(bar)) continue;
+            const std::size_t from = shared_->has_room() ? size * next_++ : chosen_.size();
+            if (from < chosen_.size())
+                give_out(from, std::min(from + size, chosen_.size()), bar);
+            else if (!shared_->wait())
+                return;
+        }
+    }
+
+    void give_out(std::size_t from, std::size_t to, ProgressBar& bar) {
+        std::vector<SharedGrading::Given> batch;
+        std::vector<Started> known;  // their runs at least
+        for (std::size_t k = from; k < to; ++k)
+            tried(chosen_[k], bar, [&] {
+                if (std::optional<Started> started = begun(chosen_[k], bar, &batch))
+                    known.push_back(*std::move(started));
+            });
+        shared_->give(std::move(batch));
+        judge(std::move(known), bar);
+    }
+
+    /// What one of the workers has done, if there is anything.
+    bool finish_shared(ProgressBar& bar) {
+        const auto batch = shared_->done();
+        {
+            const std::lock_guard lock(mutex_);
+            bar.message(fmt::format("grading on {}", shared_->sight()));
+        }
+        if (!batch) return false;
+        for (const SharedGrading::Done& done : batch->submissions)
+            tried(done.index, bar, [&] {
+                if (!done.trouble.empty()) throw EnvironmentError(done.trouble);
+                Given given;
+                {
+                    const std::lock_guard lock(mutex_);
+                    given = given_.at(done.index);
+                }
+                write_kept_runs(memory_of(submissions_[done.index]) / "run.cbor",
+                                {given.of_runs, done.work, given.remark, given.language});
+                Grade grade = done.grade;
+                grade.fingerprint = given.fingerprint;
+                grade.remark = given.remark, grade.language = given.language;
+                complete(done.index, std::move(grade), false, bar);
+            });
+        shared_->forget(batch->key);
+        return true;
+    }
+
     /// What goes wrong with one submission stops no other.
     void tried(std::size_t index, ProgressBar& bar, const std::function<void()>& action) {
         try {
@@ -210,8 +277,9 @@ class ClassGrader {
         }
     }
 
-    /// Finishes what is known already or cannot be judged; gives the others.
-    std::optional<Started> begun(std::size_t index, ProgressBar& bar) {
+    /// Finishes what is known already or cannot be judged; gives the others, as far as they do not go into `batch`.
+    std::optional<Started> begun(std::size_t index, ProgressBar& bar,
+                                 std::vector<SharedGrading::Given>* batch = nullptr) {
         const Submission& submission = submissions_[index];
         contents_[index] = hash_of_content(submission);
         const std::string fingerprint = rules_.fingerprint(contents_[index], seed_of(submission));
@@ -221,7 +289,7 @@ class ClassGrader {
             return {};
         }
         try {
-            return with_runs(index, fingerprint);
+            return with_runs(index, fingerprint, batch);
         } catch (const SubmissionError& error) {
             Grade unreadable = rules_.unreadable(submission.name, error.what());
             unreadable.fingerprint = fingerprint;
@@ -317,25 +385,34 @@ class ClassGrader {
         return owners.empty() ? std::nullopt : roster_->students()[owners.front()].seed;
     }
 
-    /// The runs of before where nothing that they depend on has changed. Throws SubmissionError.
-    Started with_runs(std::size_t index, const std::string& fingerprint) const {
+    /// The runs of before where nothing that they depend on has changed; nothing where the submission goes into a batch
+    /// for others. Throws SubmissionError.
+    std::optional<Started> with_runs(std::size_t index, const std::string& fingerprint,
+                                     std::vector<SharedGrading::Given>* batch) {
         const Submission& submission = submissions_[index];
         const fs::path kept_file = memory_of(submission) / "run.cbor";
         const GradingRules::GroupSeed seed = seed_of(submission);
         const std::string of_runs = rules_.run_fingerprint(contents_[index], seed);
         if (auto kept = request_.regrade ? std::nullopt : read_kept_runs(kept_file, of_runs))
-            return {index,
-                    {submission.name, std::move(kept->work), seed, "the runs are those of before\n"},
-                    fingerprint,
-                    kept->remark,
-                    kept->language};
+            return Started{index,
+                           {submission.name, std::move(kept->work), seed, "the runs are those of before\n"},
+                           fingerprint,
+                           kept->remark,
+                           kept->language};
         const TemporaryFolder work;
         const StagedWork staged =
             stage_submission(submission, work.path(), request_.setup.isolation, request_.setup.program);
+        if (batch != nullptr) {
+            batch->push_back({index, sent_submission(submission.name, staged, seed)});
+            const std::lock_guard lock(mutex_);
+            given_[index] = {fingerprint, of_runs, staged.remark, staged.language};
+            return {};
+        }
         std::string log;
         CheckedSubmission checked = rules_.work_in(staged.folder, seed, log, staged.of_notebook);
         write_kept_runs(kept_file, {of_runs, checked, staged.remark, staged.language});
-        return {index, {submission.name, std::move(checked), seed, log}, fingerprint, staged.remark, staged.language};
+        return Started{
+            index, {submission.name, std::move(checked), seed, log}, fingerprint, staged.remark, staged.language};
     }
 
     /// Marks, penalty and files; the file of results last, as it tells that the work is done.
@@ -434,6 +511,8 @@ class ClassGrader {
     std::size_t done_ = 0;
     std::mutex mutex_;
     std::exception_ptr failure_;
+    std::optional<SharedGrading> shared_;  ///< where others run and judge
+    std::map<std::size_t, Given> given_;
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include <array>
 #include <cmath>
 
+#include "data_io/values/estimate_descriptions.h"
 #include "figures/plots/arx_order_plot.h"
 #include "figures/plots/delay_plot.h"
 #include "figures/plots/order_plot.h"
@@ -18,6 +19,7 @@
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/study_objects.h"
 #include "scripting/objects/study_text.h"
+#include "scripting/runtime/shared_pieces.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -125,6 +127,7 @@ int try_structures(Call& call) {
     wanted.threads = static_cast<int>(options.size("threads", 0));
     wanted.cancel = call.cancel();
     wanted.estimation = estimation_options(options);
+    wanted.elsewhere = shared_out<OrderCandidate>(call.state(), "srivcstruc");
     ProgressBar bar("order search", structures.size());
     wanted.progress = [&bar](std::size_t done) { bar.advance(done); };
     OrderTable table{select_order(data, structures, wanted), {}};

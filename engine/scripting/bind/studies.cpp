@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 
+#include "data_io/values/estimate_descriptions.h"
 #include "numerics/validation/monte_carlo.h"
 #include "platform/terminal/progress.h"
 #include "scripting/arguments/estimation.h"
@@ -10,6 +11,7 @@
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/model.h"
 #include "scripting/objects/study_objects.h"
+#include "scripting/runtime/shared_pieces.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -213,6 +215,7 @@ int run_study(Call& call) {
                            "runs", "seed", "threads", "estimators"});
     MonteCarloStudy study = study_of(options);
     const std::vector<MonteCarloMethod> methods = methods_of(call, options.push("estimators"));
+    study.elsewhere = shared_out<MonteCarloRun>(call.state(), "montecarlo");
     ProgressBar bar("Monte Carlo", static_cast<std::size_t>(study.runs) * methods.size());
     study.progress = [&bar](std::size_t done) { bar.advance(done); };
     MonteCarlo result = monte_carlo(study, methods);
