@@ -144,8 +144,8 @@ int run(const RunArguments& words) {
     request.written = &written;
     RunRecord record = run_showing_activity(request, renderer);
     if (study) {
-        for (const std::string& note : study->notes()) std::cerr << "dynlab: note: " << terminal_text(note) << '\n';
         if (!record.error) study->conclude();
+        for (const std::string& note : study->notes()) std::cerr << "dynlab: note: " << terminal_text(note) << '\n';
     }
     if (words.out.empty()) remove_old_figures(out);  // a folder that was named is somebody's
     save_figures(record, renderer, out, request.script.header.language);

@@ -71,8 +71,8 @@ class ClassGrader {
         for (std::thread& thread : threads) thread.join();
         if (failure_) std::rethrow_exception(failure_);
         if (shared_) {
-            outcome_.notes = shared_->notes();
             shared_->conclude();
+            outcome_.notes = shared_->notes();
         }
         take_the_others();
         tell_strays();

@@ -53,7 +53,8 @@ class SharedGrading {
         std::string key;
         std::vector<Done> submissions;
     };
-    /// What is done by now. Where a job was given up, each of its submissions is given out by itself first.
+    /// What is done by now; what a worker left of a batch is given out again. Where a job was given up, each of its
+    /// submissions is given out by itself first.
     std::optional<DoneBatch> done();
     /// What became of these is written down: the result need not stay in the spool.
     void forget(const std::string& key) { coordinator_->forget(key); }

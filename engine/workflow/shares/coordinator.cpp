@@ -257,10 +257,23 @@ std::string Coordinator::sight() {
 /// Whoever still lives is asked to end, and waited for; then the engine ends what did not listen.
 void Coordinator::leave() {
     spool_.stop();
-    if (engine_) engine_->end();
+    if (engine_) {
+        engine_->end();
+        for (const std::string& sentence : engine_->complaints()) complain(sentence);
+    }
     const auto latest = Clock::now() + kEndOfWorkers;
-    for (watch_workers(); !alive_.empty() && Clock::now() < latest; watch_workers()) std::this_thread::sleep_for(50ms);
+    while (some_worker_lives() && Clock::now() < latest) std::this_thread::sleep_for(50ms);
     take_back_leases();
+}
+
+/// Heard of so lately that it may beat again.
+bool Coordinator::some_worker_lives() {
+    bool lives = false;
+    for (const auto& [id, worker] : spool_.workers()) {
+        hearts_[id].see(worker.beat);
+        lives = lives || (!worker.ended && worker.refused.empty() && hearts_[id].lasting() < kFirstHearing);
+    }
+    return lives;
 }
 
 void Coordinator::end_workers() {

@@ -62,6 +62,7 @@ class Coordinator {
     void count_losses();
     void complain(const std::string& sentence);
     void leave();
+    bool some_worker_lives();
     void end_workers();
     bool is_silent(const HeartbeatWatch& heart) const;
     bool is_guilty(int losses) const;

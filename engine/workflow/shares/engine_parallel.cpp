@@ -17,7 +17,8 @@ using ParallelClock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
 constexpr auto kEndOfHosts = 18s;
-constexpr auto kBetweenStarts = 5s;
+constexpr auto kBetweenStarts = 2s;
+constexpr auto kHopeless = 10s;  // without any worker
 constexpr int kMostRefusals = 3;
 
 struct SshHost {
@@ -69,11 +70,12 @@ class ParallelHosts : public WorkerEngine {
         }
         std::set<std::string> living;
         for (const auto& [id, worker] : alive) living.insert(worker.node);
+        if (!living.empty()) last_life_ = ParallelClock::now();
         std::vector<SshHost> missing;
         for (const SshHost& host : hosts_)
             if (!running_.contains(host.name) && !living.contains(host.name)) missing.push_back(host);
         if (missing.empty() || ParallelClock::now() < not_before_) return;
-        refuse_when_hopeless(!living.empty());
+        refuse_when_hopeless();
         start(missing);
     }
 
@@ -82,6 +84,8 @@ class ParallelHosts : public WorkerEngine {
         const auto busy = [](const Run& run) { return !run.process.ended(); };
         while (std::any_of(runs_.begin(), runs_.end(), busy) && ParallelClock::now() < latest)
             std::this_thread::sleep_for(20ms);
+        for (Run& run : runs_)
+            if (run.process.ended()) tell_end(run.process.wait().error_output);
         runs_.clear();
     }
 
@@ -126,8 +130,8 @@ class ParallelHosts : public WorkerEngine {
         }
     }
 
-    void refuse_when_hopeless(bool some_live) const {
-        if (some_live || !runs_.empty()) return;
+    void refuse_when_hopeless() const {
+        if (!runs_.empty() || ParallelClock::now() - last_life_ < kHopeless) return;
         const bool hopeless = std::all_of(hosts_.begin(), hosts_.end(), [this](const SshHost& host) {
             const auto found = refusals_.find(host.name);
             return found != refusals_.end() && found->second >= kMostRefusals;
@@ -146,7 +150,7 @@ class ParallelHosts : public WorkerEngine {
     std::map<std::string, int> refusals_;
     std::vector<std::string> complaints_;
     std::string last_;
-    ParallelClock::time_point not_before_{};
+    ParallelClock::time_point not_before_{}, last_life_ = ParallelClock::now();
 };
 
 }  // namespace

@@ -1,0 +1,104 @@
+// A class of 300, every attack of the suite among them, while two hundred processes are killed: workers, the engine's
+// own, the coordinator, which is started again each time. Oracle: what one process gives, byte by byte.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <signal.h>
+
+#include <random>
+#include <sstream>
+#include <thread>
+
+#include "cluster/class_of_attacks.h"
+#include "cluster/loopback.h"
+#include "course/grading_bench.h"
+
+namespace dynlab::test {
+namespace test_storm {
+
+namespace fs = std::filesystem;
+
+constexpr int kSubmissions = 300, kKills = 200;
+
+class storm : public testing::Test {
+  protected:
+    storm() : bench_(kAttackAnswers, kAttackChecks, kAttackSolution) {
+        hand_in_class(bench_, 0, 0, kAttacks);
+        hand_in_class(bench_, 0, 0, kEndlessAttacks);
+        const auto attacks = static_cast<int>(std::size(kAttacks) + std::size(kEndlessAttacks));
+        hand_in_class(bench_, kSubmissions - attacks, 15'000'000, {});
+    }
+    const Workbench& work() { return bench_.bench(); }
+    std::string command(const std::string& out, const std::string& on) {
+        return fmt::format(
+            "\"$DYNLAB\" grade in --lesson 99 --out {} --isolation {} --no-pdf --timeout 4 --secret secret {}", out,
+            GradingBench::level(), on.empty() ? "" : "--lease 3 --on " + on);
+    }
+    void start(const std::string& on, const std::string& environment) {
+        work().write("run.sh", "exec env " + environment + " " + command("shared", on) + " >> said.txt 2>&1\n");
+        work().shell(
+            "rm -f code; setsid bash -c 'bash run.sh & echo $! > pid; wait $!; echo $? > code' "
+            "> /dev/null 2>&1 < /dev/null & until [ -s pid ]; do sleep 0.02; done");
+    }
+    /// 0 and 1 are ends of its own.
+    int code() { return fs::exists(work().path("code")) ? std::atoi(work().read("code").c_str()) : -1; }
+
+    /// `seconds`: between two kills; `engine` gives the engine's own processes and `mend` starts them again.
+    void endure(const std::string& on, const std::string& environment, double seconds,
+                const std::function<std::string()>& engine, const std::function<void()>& mend) {
+        ASSERT_EQ(work().shell(command("alone", "")).exit_code, 1);  // some attacks need the instructor's eye
+        std::mt19937 random(1);
+        std::uniform_real_distribution<double> share(0, 1);
+        start(on, environment);
+        int kills = 0, starts = 1;
+        while (kills < kKills || code() < 0 || code() > 1) {
+            if (fs::exists(work().path("code")) && (code() > 1 || kills < kKills)) {
+                ASSERT_LT(++starts, 100) << work().read("said.txt");
+                if (code() <= 1) work().shell("rm -rf shared/results shared/runs");  // done too early: again
+                start(on, environment);
+            }
+            if (kills == kKills) {
+                std::this_thread::sleep_for(std::chrono::milliseconds(200));
+                continue;
+            }
+            std::this_thread::sleep_for(std::chrono::duration<double>(seconds * (0.4 + 1.2 * share(random))));
+            const double what = share(random);
+            const std::string pids = what < 0.04 ? work().read("pid") : what < 0.12 ? engine() : workers_of(work());
+            std::istringstream words(pids);
+            std::vector<pid_t> victims;
+            for (pid_t pid; words >> pid;) victims.push_back(pid);
+            if (victims.empty()) continue;
+            if (::kill(victims[static_cast<std::size_t>(share(random) * 0.999 * static_cast<double>(victims.size()))],
+                       SIGKILL) == 0)
+                ++kills;
+            mend();
+        }
+        expect_equal_results(work(), "alone", "shared");
+        EXPECT_EQ(workers_of(work()), "");
+        fmt::print("{} kills, the coordinator was started {} times\n", kills, starts);
+    }
+
+    GradingBench bench_;
+};
+
+TEST_F(storm, over_processes) {
+    endure(
+        "processes:2", "", 0.5, [this] { return workers_of(work()); }, [] {});
+}
+
+TEST_F(storm, over_hosts_by_ssh) {
+    LoopbackHosts hosts;
+    if (!hosts.reason_to_skip().empty()) GTEST_SKIP() << hosts.reason_to_skip();
+    endure(
+        "parallel:1/n1,1/n2", hosts.environment(), 1.2, [&] { return hosts.pids(); },
+        [&] { hosts.restart_what_ended(); });
+}
+
+TEST_F(storm, over_slurm) {
+    LoopbackSlurm slurm;
+    if (!slurm.reason_to_skip().empty()) GTEST_SKIP() << slurm.reason_to_skip();
+    endure(
+        "slurm:tasks=2", slurm.environment(), 1.2, [&] { return slurm.pids(); }, [&] { slurm.restart_what_ended(); });
+}
+
+}  // namespace test_storm
+}  // namespace dynlab::test
