@@ -128,6 +128,7 @@ int try_structures(Call& call) {
     wanted.cancel = call.cancel();
     wanted.estimation = estimation_options(options);
     wanted.elsewhere = shared_out<OrderCandidate>(call.state(), "srivcstruc");
+    if (wanted.elsewhere) wanted.threads = 1;  // each of those who share it has a core
     ProgressBar bar("order search", structures.size());
     wanted.progress = [&bar](std::size_t done) { bar.advance(done); };
     OrderTable table{select_order(data, structures, wanted), {}};

@@ -216,6 +216,7 @@ int run_study(Call& call) {
     MonteCarloStudy study = study_of(options);
     const std::vector<MonteCarloMethod> methods = methods_of(call, options.push("estimators"));
     study.elsewhere = shared_out<MonteCarloRun>(call.state(), "montecarlo");
+    if (study.elsewhere) study.threads = 1;  // each of those who share it has a core
     ProgressBar bar("Monte Carlo", static_cast<std::size_t>(study.runs) * methods.size());
     study.progress = [&bar](std::size_t done) { bar.advance(done); };
     MonteCarlo result = monte_carlo(study, methods);
