@@ -11,7 +11,7 @@
 #include "documents/text_lines.h"
 #include "figures/french_texts.h"
 #include "platform/written_files.h"
-#include "scripting/runtime/shared_pieces.h"
+#include "scripting/memoized_calls/shared_pieces.h"
 #include "workflow/script_world.h"
 
 namespace dynlab::inline workflow {

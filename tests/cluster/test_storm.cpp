@@ -82,7 +82,7 @@ class storm : public testing::Test {
 
 TEST_F(storm, over_processes) {
     endure(
-        "processes:2", "", 0.5, [this] { return workers_of(work()); }, [] {});
+        "processes:2", "", 0.8, [this] { return workers_of(work()); }, [] {});
 }
 
 TEST_F(storm, over_hosts_by_ssh) {

@@ -212,7 +212,8 @@ std::optional<SharedGrading::DoneBatch> SharedGrading::done() {
         batch.erase(rest, batch.end());
     }
     for (std::size_t i = 0; i < batch.size(); ++i) {
-        Done one{batch[i].index, {}, {}, trouble};
+        batch[i].submission.files.clear();
+        Done one{std::move(batch[i]), {}, {}, trouble};
         if (trouble.empty()) {
             GradedSubmission& from = graded.submissions.at(i);
             one.work = std::move(from.work), one.grade = std::move(from.grade);

@@ -36,15 +36,16 @@ class SharedGrading {
 
     int hands() const { return hands_; }  ///< jobs at once, as they were asked for
     bool has_room() { return coordinator_->has_room(); }
-    /// To be run and judged, together as far as nothing goes wrong; `index` comes back with what became of it.
+    /// To be run and judged, together as far as nothing goes wrong.
     struct Given {
         std::size_t index = 0;
+        std::string fingerprint, of_runs, remark, language;  ///< for who gave it, when it comes back
         SentSubmission submission;
     };
     void give(std::vector<Given> batch);
 
     struct Done {
-        std::size_t index = 0;
+        Given given;             ///< without its files
         CheckedSubmission work;  ///< as GradingRules::work_in gives it
         Grade grade;             ///< as GradingRules::judged gives it
         std::string trouble;     ///< why there is neither; empty where there is

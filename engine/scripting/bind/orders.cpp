@@ -15,11 +15,11 @@
 #include "scripting/arguments/transfer_arguments.h"
 #include "scripting/bind/study_bindings.h"
 #include "scripting/memoized_calls/memoized_call.h"
+#include "scripting/memoized_calls/shared_pieces.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/study_objects.h"
 #include "scripting/objects/study_text.h"
-#include "scripting/runtime/shared_pieces.h"
 
 namespace dynlab::inline scripting {
 namespace {

@@ -8,10 +8,10 @@
 #include "scripting/arguments/loop_arguments.h"
 #include "scripting/bind/study_bindings.h"
 #include "scripting/memoized_calls/memoized_call.h"
+#include "scripting/memoized_calls/shared_pieces.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/model.h"
 #include "scripting/objects/study_objects.h"
-#include "scripting/runtime/shared_pieces.h"
 
 namespace dynlab::inline scripting {
 namespace {

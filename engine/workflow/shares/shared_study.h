@@ -5,15 +5,15 @@
 #include <string>
 #include <vector>
 
-#include "scripting/runtime/shared_pieces.h"
+#include "scripting/memoized_calls/shared_pieces.h"
 #include "workflow/shares/coordinator.h"
 #include "workflow/shares/worker.h"
 
 namespace dynlab::inline workflow {
 
-/// A script whose montecarlo and srivcstruc are shared out (scripting/runtime/shared_pieces.h). It runs from top to
-/// bottom here and on every worker; a call of these is made in parts by whoever is there, and all go on with the same
-/// whole of it.
+/// A script whose montecarlo and srivcstruc are shared out (scripting/memoized_calls/shared_pieces.h). It runs from top
+/// to bottom here and on every worker; a call of these is made in parts by whoever is there, and all go on with the
+/// same whole of it.
 class SharedStudy : public SharedPieces {
   public:
     struct Request {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "platform/session_key.h"
+#include "platform/keys/session_key.h"
 
 namespace dynlab::inline workflow {
 

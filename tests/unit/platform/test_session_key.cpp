@@ -1,4 +1,4 @@
-#include "platform/session_key.h"
+#include "platform/keys/session_key.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

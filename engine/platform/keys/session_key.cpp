@@ -1,4 +1,4 @@
-#include "platform/session_key.h"
+#include "platform/keys/session_key.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
