@@ -36,7 +36,7 @@ class storm : public testing::Test {
     void start(const std::string& on, const std::string& environment) {
         work().write("run.sh", "exec env " + environment + " " + command("shared", on) + " >> said.txt 2>&1\n");
         work().shell(
-            "rm -f code; setsid bash -c 'bash run.sh & echo $! > pid; wait $!; echo $? > code' "
+            "rm -f code pid; setsid bash -c 'bash run.sh & echo $! > pid; wait $!; echo $? > code' "
             "> /dev/null 2>&1 < /dev/null & until [ -s pid ]; do sleep 0.02; done");
     }
     /// 0 and 1 are ends of its own.
