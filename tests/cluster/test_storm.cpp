@@ -72,7 +72,9 @@ class storm : public testing::Test {
                 ++kills;
             mend();
         }
-        expect_equal_results(work(), "alone", "shared");
+        // What a bomb is told, that its memory or its time is over, depends on what else the machine does.
+        EXPECT_EQ(work().read("alone/gradebook.csv"), work().read("shared/gradebook.csv"));
+        EXPECT_EQ(work().shell("ls alone/results | wc -l").output, work().shell("ls shared/results | wc -l").output);
         EXPECT_EQ(workers_of(work()), "");
         fmt::print("{} kills, the coordinator was started {} times\n", kills, starts);
     }

@@ -24,8 +24,8 @@ constexpr auto kFirstHearing = 2500ms;
 constexpr std::size_t kLeastWaiting = 16, kWaitingOfAHand = 3;
 constexpr std::size_t kMostOfLog = 2000;
 constexpr int kRollCalls = 3;  // a file that is renamed meanwhile may be missed once
-constexpr int kMostTries = 12;
-constexpr double kMostWronged = 0.01;
+constexpr int kMostTries = 12, kTriesBeforeAnyIsDone = 6;
+constexpr double kMostWronged = 0.01, kCaution = 2;
 
 }  // namespace
 
@@ -124,7 +124,9 @@ void Coordinator::look_around() {
 }
 
 void Coordinator::collect_results() {
-    for (const std::string& key : spool_.results()) {
+    const std::set<std::string> results = spool_.results();
+    if (!results.empty()) count_losses();  // before names are gone
+    for (const std::string& key : results) {
         if (!out_.contains(key)) continue;
         auto result = spool_.result(key);
         if (!result) {
@@ -161,11 +163,13 @@ bool Coordinator::is_silent(const HeartbeatWatch& heart) const {
 /// Jobs carry in their names how many workers they lost, whoever took them back.
 void Coordinator::count_losses() {
     for (const char* folder : {"jobs", "suspects", "leases", "done"})
-        for (const auto& [key, losses] : spool_.listed(folder)) {
-            int& known = losses_[key];
-            status_.lost += static_cast<std::uint64_t>(std::max(0, losses - known));
-            known = std::max(losses, known);
-        }
+        for (const auto& [key, losses] : spool_.listed(folder)) count_losses(key, losses);
+}
+
+void Coordinator::count_losses(const std::string& key, int losses) {
+    int& known = losses_[key];
+    status_.lost += static_cast<std::uint64_t>(std::max(0, losses - known));
+    known = std::max(losses, known);
 }
 
 /// Of workers that have ended, or whose heart has been silent for too long, known by name or not.
@@ -175,8 +179,10 @@ void Coordinator::take_back_leases() {
         const auto worker = spool_.worker(id);
         if (worker && worker->ended)
             spool_.give_back(lease);
-        else if (is_silent(hearts_[id]))
+        else if (is_silent(hearts_[id])) {
             spool_.lose(lease);
+            count_losses(lease.job.key, lease.job.losses + 1);
+        }
     }
 }
 
@@ -185,8 +191,10 @@ void Coordinator::take_back_leases() {
 bool Coordinator::is_guilty(int losses) const {
     if (losses >= kMostTries) return true;
     const double others = static_cast<double>(status_.lost) - losses, done = static_cast<double>(status_.done);
-    if (done == 0 || others <= 0) return true;
-    return static_cast<double>(status_.wanted) * std::pow(others / (others + done), losses) < kMostWronged;
+    const double share = (others + kCaution) / (others + done + kCaution);  // of jobs that lose their worker by chance
+    if (others <= 0) return true;
+    if (done == 0) return losses >= kTriesBeforeAnyIsDone;  // a storm from the start, or a study that always crashes
+    return static_cast<double>(status_.wanted) * std::pow(share, losses) < kMostWronged;
 }
 
 void Coordinator::judge_suspects() {

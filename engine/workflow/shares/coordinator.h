@@ -60,6 +60,7 @@ class Coordinator {
     void report_vanished();
     void watch_workers();
     void count_losses();
+    void count_losses(const std::string& key, int losses);
     void complain(const std::string& sentence);
     void leave();
     bool some_worker_lives();

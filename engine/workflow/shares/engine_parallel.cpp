@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <sstream>
 #include <thread>
@@ -57,76 +58,59 @@ class ParallelHosts : public WorkerEngine {
         return hands;
     }
 
-    /// One call starts workers on all hosts that have none, and lasts as long as they work.
+    /// One call for each host that has no worker; it lasts as long as its worker does.
     void tend(const std::map<std::string, WorkerStatus>& alive) override {
-        for (auto run = runs_.begin(); run != runs_.end();) {
-            if (!run->process.ended()) {
-                ++run;
-                continue;
-            }
-            tell_end(run->process.wait().error_output);
-            for (const std::string& host : run->hosts) running_.erase(host);
-            run = runs_.erase(run);
-        }
+        tell_ends();
         std::set<std::string> living;
         for (const auto& [id, worker] : alive) living.insert(worker.node);
         if (!living.empty()) last_life_ = ParallelClock::now();
-        std::vector<SshHost> missing;
-        for (const SshHost& host : hosts_)
-            if (!running_.contains(host.name) && !living.contains(host.name)) missing.push_back(host);
-        if (missing.empty() || ParallelClock::now() < not_before_) return;
+        if (ParallelClock::now() < not_before_) return;
         refuse_when_hopeless();
-        start(missing);
+        for (const SshHost& host : hosts_)
+            if (!runs_.contains(host.name) && !living.contains(host.name)) start(host);
     }
 
     void end() override {
         const auto latest = ParallelClock::now() + kEndOfHosts;
-        const auto busy = [](const Run& run) { return !run.process.ended(); };
+        const auto busy = [](const auto& run) { return !run.second.ended(); };
         while (std::any_of(runs_.begin(), runs_.end(), busy) && ParallelClock::now() < latest)
             std::this_thread::sleep_for(20ms);
-        for (Run& run : runs_)
-            if (run.process.ended()) tell_end(run.process.wait().error_output);
+        tell_ends();
         runs_.clear();
     }
 
     std::vector<std::string> complaints() override { return std::exchange(complaints_, {}); }
 
   private:
-    struct Run {
-        ChildProcess process;
-        std::vector<std::string> hosts;
-    };
-
-    void start(const std::vector<SshHost>& hosts) {
+    void start(const SshHost& host) {
         ChildOptions child;
-        // A group of its own for each host, so that each gets one worker, with its own number of hands.
-        child.command = {"parallel", "--will-cite", "--plain", "--hostgroup",  "--colsep",
-                         ",",        "--tagstring", "{1}",     "--line-buffer"};
-        std::vector<std::string> arguments, names;
-        for (std::size_t i = 0; i < hosts.size(); ++i) {
-            child.command.insert(child.command.end(), {"--sshlogin", fmt::format("@g{}/1/{}", i, hosts[i].name)});
-            arguments.push_back(fmt::format("{},{}@g{}", hosts[i].name, hosts[i].hands, i));
-            names.push_back(hosts[i].name);
-            running_.insert(hosts[i].name);
-        }
-        child.command.push_back(shell_words(command_.words) + " --node {1} --hands {2}");
-        child.command.push_back(":::");
-        child.command.insert(child.command.end(), arguments.begin(), arguments.end());
-        runs_.push_back({ChildProcess(child, "parallel"), names});
+        child.command = {"parallel",
+                         "--will-cite",
+                         "--plain",
+                         "--line-buffer",
+                         "--sshlogin",
+                         "1/" + host.name,
+                         shell_words(command_.words) + " --node " + host.name + " --hands {}",
+                         ":::",
+                         std::to_string(host.hands)};
+        runs_.emplace(host.name, ChildProcess(child, "parallel"));
         not_before_ = ParallelClock::now() + kBetweenStarts;
     }
 
-    /// "alpha<tab>ssh: connect to host alpha port 22: Connection refused"
-    void tell_end(const std::string& said) {
-        std::istringstream lines(said);
-        for (std::string line; std::getline(lines, line);) {
-            const std::size_t tab = line.find('\t');
-            const std::string host = line.substr(0, tab);
-            const auto named = [&](const SshHost& one) { return one.name == host; };
-            if (tab == std::string::npos || std::none_of(hosts_.begin(), hosts_.end(), named)) continue;
-            last_ = fmt::format("{} says: {}", host, line.substr(tab + 1));
-            complaints_.push_back("no worker on " + last_);
-            ++refusals_[host];
+    /// "ssh: connect to host alpha port 22: Connection refused"
+    void tell_ends() {
+        for (auto run = runs_.begin(); run != runs_.end();) {
+            if (!run->second.ended()) {
+                ++run;
+                continue;
+            }
+            const std::string said = run->second.wait().error_output;
+            if (!said.empty()) {
+                last_ = fmt::format("{} says: {}", run->first, said.substr(0, said.find_first_of("\r\n")));
+                complaints_.push_back("no worker on " + last_);
+                ++refusals_[run->first];
+            }
+            run = runs_.erase(run);
         }
     }
 
@@ -145,8 +129,7 @@ class ParallelHosts : public WorkerEngine {
 
     std::vector<SshHost> hosts_;
     WorkerCommand command_;
-    std::vector<Run> runs_;
-    std::set<std::string> running_;
+    std::map<std::string, ChildProcess> runs_;  ///< by host
     std::map<std::string, int> refusals_;
     std::vector<std::string> complaints_;
     std::string last_;
