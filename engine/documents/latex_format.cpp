@@ -45,7 +45,8 @@ ChildProcess begin_format(const LatexLayout& layout, const fs::path& folder) {
                      "&pdflatex \\input{preamble}\\dump"};
     child.folder = folder;
     child.environment = {{"max_print_line", "10000"}, {"openin_any", "p"}, {"openout_any", "p"}, {"MKTEXFMT", "0"}};
-    child.timeout = 60s;
+    child.processor_time = 60s;
+    child.timeout = 600s;
     return ChildProcess(child, "texlive-latex-base");
 }
 

@@ -18,6 +18,7 @@ using namespace std::chrono_literals;
 const char* const kReader =
     "markdown-raw_tex-raw_attribute-yaml_metadata_block-pandoc_title_block-latex_macros-native_divs-native_spans"
     "-markdown_in_html_blocks";
+constexpr std::chrono::seconds kMostTime = 60s;  // of the processor; the manual, the longest document, takes some 10 s
 const char* const kMarkdownWriter =
     "markdown-raw_html-raw_tex-raw_attribute-native_divs-native_spans-fenced_divs-bracketed_spans-header_attributes"
     "-link_attributes-fenced_code_attributes-inline_code_attributes-citations-simple_tables-multiline_tables-grid_"
@@ -160,7 +161,8 @@ ChildOptions pandoc_child(const PandocJob& job) {
     child.command = command_line(job);
     child.folder = job.work_folder;
     child.environment = {{"LC_ALL", "C.UTF-8"}};
-    child.timeout = 20s;
+    child.processor_time = kMostTime;
+    child.timeout = 10 * kMostTime;  // of a machine that others keep busy
     return child;
 }
 
@@ -191,7 +193,8 @@ PandocResult run_pandoc(const PandocJob& job, Complaints& complaints) {
     write_work_file(job.work_folder / "slots.lua", slots_file(job));
     ChildResult run = finished_pandoc(job);
     if (run.timed_out || run.output_exceeded)
-        throw DocumentError(job.template_file.string() + ": Pandoc did not finish this document within 20 s");
+        throw DocumentError(job.template_file.string() + ": Pandoc did not finish this document within " +
+                            std::to_string(kMostTime.count()) + " s");
     Complaints found;
     PandocResult result;
     FilterMessages messages =

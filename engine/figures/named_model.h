@@ -14,11 +14,21 @@ struct ModelConfidence {
     double level = 0.99;  ///< probability that a band holds the truth, point by point
 };
 
+/// How a measurement was sampled that models are drawn beside.
+struct MeasuredSamples {
+    double Ts = 0;  ///< s
+    InterSample inter_sample = InterSample::kBandLimited;
+    bool held() const { return Ts > 0 && inter_sample != InterSample::kBandLimited; }
+};
+
 /// A model with the name that the legend shows (no entry when empty).
 struct NamedModel {
     std::string name;
     TransferFunction G;
     std::optional<ModelConfidence> confidence = {};  ///< for bands and ellipses
+    /// Of an input that is held between samples: frequency responses of a continuous-time model are those that such
+    /// samples show, up to pi/Ts, and the legend says so.
+    MeasuredSamples beside = {};
 };
 
 /// A measured response with the name that the legend shows, and the probability that its bands hold the truth.

@@ -21,6 +21,7 @@ struct Launch {
     std::string program, folder;
     std::vector<std::string> arguments, environment;
     std::vector<char*> argument_pointers, environment_pointers;
+    std::optional<std::chrono::seconds> processor_time;
     std::optional<std::uint64_t> memory_bytes, file_bytes;
     FileDescriptor input;
     FileDescriptor given_later;  ///< our end of an input that is given later
@@ -78,6 +79,7 @@ Launch prepare_launch(const ChildOptions& options, const std::string& package) {
     launch.environment = merged_environment(options.environment);
     launch.argument_pointers = pointers_to(launch.arguments);
     launch.environment_pointers = pointers_to(launch.environment);
+    launch.processor_time = options.processor_time;
     launch.memory_bytes = options.memory_bytes;
     launch.file_bytes = options.file_bytes;
     if (options.input_later)
@@ -94,6 +96,7 @@ Launch prepare_launch(const ChildOptions& options, const std::string& package) {
                        ::dup2(error_output, STDERR_FILENO) >= 0 &&
                        (launch.folder.empty() || ::chdir(launch.folder.c_str()) == 0);
     if (ready) {
+        if (launch.processor_time) limit_processor_time(*launch.processor_time);
         if (launch.memory_bytes) limit_memory(*launch.memory_bytes);
         if (launch.file_bytes) limit_files(*launch.file_bytes);
         ::execve(launch.program.c_str(), launch.argument_pointers.data(), launch.environment_pointers.data());

@@ -63,6 +63,14 @@ void limit_files(std::uint64_t bytes) {
     ::setrlimit(RLIMIT_FSIZE, &limit);
 }
 
+void limit_processor_time(std::chrono::seconds most) {
+    rlimit limit{};
+    ::getrlimit(RLIMIT_CPU, &limit);
+    limit.rlim_cur = std::min<rlim_t>(static_cast<rlim_t>(most.count()), limit.rlim_max);
+    limit.rlim_max = std::min<rlim_t>(limit.rlim_cur + 1, limit.rlim_max);  // SIGKILL for who catches the signal
+    ::setrlimit(RLIMIT_CPU, &limit);
+}
+
 ProcessGroup::ProcessGroup(pid_t leader, FileDescriptor output, FileDescriptor error_output, const Limits& limits)
     : leader_(leader),
       output_(std::move(output)),
@@ -148,6 +156,7 @@ void ProcessGroup::kill_and_reap() {
     int status = 0;
     retry_interrupted([&] { return ::waitpid(leader_, &status, 0); });
     result_.exit_code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+    if (result_.exit_code == 128 + SIGXCPU) result_.timed_out = true;
     leader_ = 0;
 }
 

@@ -20,8 +20,9 @@ struct Pipe {
 /// signals. Returns false when the parent is gone already.
 bool become_group_leader(pid_t parent);
 
-void limit_memory(std::uint64_t bytes);  ///< address space of this process from now on
-void limit_files(std::uint64_t bytes);   ///< the largest file it writes from now on; a lower limit stays
+void limit_memory(std::uint64_t bytes);                ///< address space of this process from now on
+void limit_processor_time(std::chrono::seconds most);  ///< of this process; SIGXCPU ends it, a lower limit stays
+void limit_files(std::uint64_t bytes);                 ///< the largest file it writes from now on; a lower limit stays
 
 /// The parent's side of a forked child that leads its own process group and writes into two pipes.
 class ProcessGroup {

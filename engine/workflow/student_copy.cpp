@@ -103,6 +103,21 @@ void make_folder(const fs::path& folder, const Fill& fill) {
     }
 }
 
+std::vector<const Cell*> text_cells(const PercentScript& script) {
+    std::vector<const Cell*> texts;
+    for (const Cell& cell : script.cells)
+        if (cell.kind == Cell::Kind::kText) texts.push_back(&cell);
+    return texts;
+}
+
+/// Lines that end with one of these comments end with the comment behind it.
+void translate_comments(std::vector<std::string>& lines, const std::vector<std::string>& comments) {
+    for (std::string& line : lines)
+        for (std::size_t i = 0; i + 1 < comments.size(); i += 2)
+            if (comments[i].starts_with("-- ") && line.ends_with(comments[i]))
+                line.replace(line.size() - comments[i].size(), comments[i].size(), comments[i + 1]);
+}
+
 }  // namespace
 
 PercentScript lesson_script(const Lesson& lesson, const std::string& language) {
@@ -115,19 +130,19 @@ PercentScript lesson_script(const Lesson& lesson, const std::string& language) {
     put(source, "-- subtitle: " + script.header.subtitle, "-- subtitle: " + tasks.header.subtitle);
     put(source, "-- language: " + script.header.language, "-- language: " + tasks.header.language);
     std::vector<std::string> lines = lines_of(source);
-    std::vector<const Cell*> texts;
-    for (const Cell& cell : script.cells)
-        if (cell.kind == Cell::Kind::kText) texts.push_back(&cell);
-    if (texts.size() != tasks.cells.size())
-        throw DocumentError(file.string() + " has " + std::to_string(tasks.cells.size()) +
+    const std::vector<const Cell*> texts = text_cells(script), translated = text_cells(tasks);
+    if (texts.size() != translated.size())
+        throw DocumentError(file.string() + " has " + std::to_string(translated.size()) +
                             " cells, but the lesson has " + std::to_string(texts.size()) + " cells of text");
     for (std::size_t i = texts.size(); i-- > 0;) {
         const auto first = lines.begin() + texts[i]->first_line - 1;
         const auto after = lines.erase(first, lines.begin() + texts[i]->last_line());
-        std::vector<std::string> text = lines_of(tasks.cells[i].content);
+        std::vector<std::string> text = lines_of(translated[i]->content);
         for (std::string& line : text) line.insert(0, line.empty() ? "--" : "-- ");
         lines.insert(after, text.begin(), text.end());
     }
+    for (const Cell& cell : tasks.cells)
+        if (cell.kind == Cell::Kind::kCode) translate_comments(lines, lines_of(cell.content));
     source.clear();
     for (const std::string& line : lines) source += line + "\n";
     return parse_percent_script(source, script.file);

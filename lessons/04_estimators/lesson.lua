@@ -797,7 +797,7 @@ report.table("orders", order_rows)
 -- # Try it: λ by hand
 --
 -- On a page (`dynlab preview`, or `dynlab report` with an output that ends in `.html`) the slider under the next cell, or the marked point of @fig:lambda_by_hand,
--- moves the cut-off frequency $\lambda$ of the filter. Watch both: how the filter colours the equation error, and what the estimates from sixty records make of it.
+-- moves the cut-off frequency $\lambda$ of the filter. Watch both: how the filter colours the equation error, and what the estimates from sixty records make of it. For which $\lambda$ does the cloud of LSSVF lie beside the true value, and for which that of IVSVF?
 
 -- %% id=lambda_by_hand
 do

@@ -76,3 +76,7 @@
 -- `level` de la courbe statique, droite entre ses points, la dynamique `G` qui la suit, et `root`, vrai si ce qui en sort est la racine de la poussée, à élever
 -- au carré avec son signe. Votre script sera exécuté sur les enregistrements d'un autre propulseur, dont personne n'a vu les balayages carrés. Les figures
 -- que l'on cherche s'appellent `curve` et `validation`.
+
+-- %% id=comments
+-- µs; samples before the thruster moves
+-- µs ; échantillons avant que le propulseur ne bouge

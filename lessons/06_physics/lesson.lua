@@ -225,7 +225,8 @@ local tanks = load("two_tanks")
 local labels = {InputUnit = "V", OutputUnit = "V"}
 local estimation = iddata(tanks.y, tanks.u, 4, labels)
 local validation = iddata(tanks.y_val, tanks.u_val, 4, labels)
-report.figure("tanks", idplot(estimation):set{height = 6}, "The tanks' record")
+report.figure("tanks", idplot(estimation):set{height = 6},
+              say("The tanks' record", "L'enregistrement des réservoirs"))
 
 -- %% [markdown]
 -- ![The record for estimation: above, the reading; below, the voltage](figure:tanks){#fig:tanks_record}

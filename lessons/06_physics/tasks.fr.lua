@@ -41,10 +41,10 @@
 --    \dot w + \frac{\cos\varphi}{l}\,\dot v = -\frac{g}{l}\sin\varphi - (\rho + \kappa\,|w|)\,w . $$ {#eq:crane}
 --
 -- Sept nombres sont ouverts : `gain` $g_u$, `viscous` $d$, `dry` $\mu$, `coupling` $c$, `length` $l$, `pivot` $\rho$, `air` $\kappa$. `idgrey(f, parameters, options)` fait un modèle d'une fonction `f(t, x, u, p)` qui rend les
--- dérivées des états ; les sorties sont une fonction elles aussi. `f` est appelée une fois, avec des valeurs qui notent ce qu'on fait d'elles, puis tourne sous forme compilée. Elle ne doit donc pas se diviser par `if` : `where(c, a, b)` vaut $a$ là où
+-- dérivées des états ; les sorties sont une fonction elles aussi. `f` est appelée une fois, avec des valeurs qui notent ce qu'on fait d'elles, puis tourne sous forme compilée. Elle ne doit donc pas contenir de `if` : `where(c, a, b)` vaut $a$ là où
 -- $c > 0$, et $b$ ailleurs.
 --
--- **Question 2.** Écrivez @eq:crane comme une telle fonction, résolue pour les deux accélérations. `tanh(v/0.005)` suffit pour le signe. Qu'un choix prenne l'angle pour son sinus, et 1 pour son cosinus, comme un modèle linéaire.
+-- **Question 2.** Écrivez l'@eq:crane comme une telle fonction, résolue pour les deux accélérations. `tanh(v/0.005)` suffit pour le signe. Prévoyez une option qui prend l'angle au lieu de son sinus et 1 au lieu de son cosinus, comme le fait un modèle linéaire.
 
 -- %% [markdown]
 -- **Question 3.** Estimez quatre variantes sur `estimation` par `greyest` : linéaire (`dry` et `air` fixés à 0), avec frottement sec, avec grands balancements et air, avec tout. Comparez les
@@ -91,7 +91,7 @@
 --
 -- les niveaux en centimètres.
 --
--- **Question 6.** Écrivez @eq:tanks pour `idgrey`, les deux niveaux du départ estimés (`x0`). Lesquels des cinq nombres l'enregistrement ne peut-il distinguer ? Que faudrait-il faire de $k_1$, $k_2$, $k_4$ si l'on comptait $h_1$ en pouces ?
+-- **Question 6.** Écrivez l'@eq:tanks pour `idgrey`, les deux niveaux du départ estimés (`x0`). Lesquels des cinq nombres l'enregistrement ne peut-il distinguer ? Que faudrait-il faire de $k_1$, $k_2$, $k_4$ si l'on comptait $h_1$ en pouces ?
 
 -- %% [markdown]
 -- BEGIN SOLUTION
@@ -144,3 +144,17 @@
 --
 -- ::: references
 -- :::
+
+-- %% id=comments
+-- s; samples before the voltage moves
+-- s ; échantillons avant que la tension ne bouge
+-- This cell runs, but its code is not printed (echo=false). Hand over here what your text shows; in a text cell
+-- Cette cellule est exécutée, mais son code n'est pas imprimé (echo=false). Donnez ici ce que montre votre texte ; dans une cellule de texte
+--   report.value("gain", K, "%.2f")          is shown by  `gain`{.value}
+--   report.value("gain", K, "%.2f")          est montré par  `gain`{.value}
+--   report.figure("name", fig, "caption")    by  ![caption](figure:name){#fig:name}  on a line of its own, and @fig:name refers to it
+--   report.figure("nom", fig, "légende")     par  ![légende](figure:nom){#fig:nom}  sur une ligne à part ; @fig:nom y renvoie
+--   report.table("name", {{"head"}, {"cell"}})  by  ::: {.table name=name #tbl:name}  then a line with the caption, then  :::
+--   report.table("nom", {{"tête"}, {"case"}})  par  ::: {.table name=nom #tbl:nom}  puis une ligne avec la légende, puis  :::
+-- Not printed: report.value, report.figure and report.table for the text below.
+-- Pas imprimés : report.value, report.figure et report.table pour le texte qui suit.

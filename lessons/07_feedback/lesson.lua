@@ -417,7 +417,8 @@ end
 -- %% id=heater
 local heater = load("drifting_process")
 local slow = iddata(heater.y, heater.u, 1, {InputUnit = "%", OutputUnit = "K"})
-report.figure("heater", idplot(slow), "The record of the heater")
+report.figure("heater", idplot(slow),
+              say("The record of the heater", "L'enregistrement du chauffe-eau"))
 
 -- %% [markdown]
 -- ![The record of the heater](figure:heater){#fig:heater_record}

@@ -47,7 +47,7 @@
 --
 -- Le plus simple est de prendre $u$ et $y$ comme s'il n'y avait pas de boucle.
 --
--- **Question 2.** Estimez @eq:plant par LSSVF, $\lambda = 10$ rad/s, et par SRIVC, chacun sur `open_loop` et sur `tracking`. Comparez gain et paramètres à la vérité, `rig_truth("drive").G`.
+-- **Question 2.** Estimez l'@eq:plant par LSSVF, $\lambda = 10$ rad/s, et par SRIVC, chacun sur `open_loop` et sur `tracking`. Comparez gain et paramètres à la vérité, `rig_truth("drive").G`.
 -- Devinez d'abord : de combien le gain que SRIVC trouve en boucle est-il faux ?
 
 -- %% [markdown]
@@ -82,7 +82,7 @@
 -- ## Deuxième remède : la boucle comme modèle auxiliaire
 --
 -- **Question 6.** Le régulateur est connu. Un modèle du procédé donne alors un modèle de toute la boucle, dont la tension $\hat u$ et la vitesse $\hat x$ simulées, sans bruit, font de meilleurs instruments, et son dénominateur
--- fait le filtre. C'est CLSRIVC [@gilson2008] : `clsrivc(data, {nb, nf, nk}, {controller = C})`. Écrivez @eq:controller comme fonction de transfert en $z$, et estimez.
+-- fait le filtre. C'est CLSRIVC [@gilson2008] : `clsrivc(data, {nb, nf, nk}, {controller = C})`. Écrivez l'@eq:controller comme fonction de transfert en $z$, et estimez.
 
 -- %% [markdown]
 -- BEGIN SOLUTION
@@ -128,7 +128,7 @@
 --
 -- Le niveau de la sortie baisse et saute une fois (@fig:heater_record).
 --
--- **Question 9.** Estimez un seul modèle de @eq:heater sur tout l'enregistrement, et un sur chaque morceau de 850 s (`data[{i, j}]`). Que décrit le modèle unique ? Quand a-t-on détartré ?
+-- **Question 9.** Estimez un seul modèle de l'@eq:heater sur tout l'enregistrement, et un sur chaque morceau de 850 s (`data[{i, j}]`). Que décrit le modèle unique ? Quand a-t-on détartré ?
 
 -- %% [markdown]
 -- BEGIN SOLUTION
@@ -144,7 +144,7 @@
 -- où $z_k = \varphi_k$ pour les moindres carrés, et un instrument sinon. Le *facteur d'oubli* $f$, un peu inférieur à un, pèse par $f^n$ un échantillon vieux de $n$ échantillons ; ce qui
 -- compte, ce sont les $1/(1 - f)$ derniers.
 --
--- **Question 10.** Écrivez la récursion pour @eq:heater ($\lambda = 0{,}05$ rad/s, $f = 0{,}99$). Prenez ensuite comme instrument la sortie du modèle unique de la question 9 au lieu de $y$. Tracez gain et constante de temps au
+-- **Question 10.** Écrivez la récursion pour l'@eq:heater ($\lambda = 0{,}05$ rad/s, $f = 0{,}99$). Prenez ensuite comme instrument la sortie du modèle unique de la question 9 au lieu de $y$. Tracez gain et constante de temps au
 -- fil du temps à côté de la vérité, `rig_truth("drifting_process")`. Quelle est la différence entre les deux ?
 
 -- %% [markdown]
@@ -176,3 +176,15 @@
 --
 -- ::: references
 -- :::
+
+-- %% id=comments
+-- This cell runs, but its code is not printed (echo=false). Hand over here what your text shows; in a text cell
+-- Cette cellule est exécutée, mais son code n'est pas imprimé (echo=false). Donnez ici ce que montre votre texte ; dans une cellule de texte
+--   report.value("gain", K, "%.2f")          is shown by  `gain`{.value}
+--   report.value("gain", K, "%.2f")          est montré par  `gain`{.value}
+--   report.figure("name", fig, "caption")    by  ![caption](figure:name){#fig:name}  on a line of its own, and @fig:name refers to it
+--   report.figure("nom", fig, "légende")     par  ![légende](figure:nom){#fig:nom}  sur une ligne à part ; @fig:nom y renvoie
+--   report.table("name", {{"head"}, {"cell"}})  by  ::: {.table name=name #tbl:name}  then a line with the caption, then  :::
+--   report.table("nom", {{"tête"}, {"case"}})  par  ::: {.table name=nom #tbl:nom}  puis une ligne avec la légende, puis  :::
+-- Not printed: report.value, report.figure and report.table for the text below.
+-- Pas imprimés : report.value, report.figure et report.table pour le texte qui suit.

@@ -51,7 +51,8 @@ TEST(estimator_forms, every_function_that_makes_a_model_of_a_record_is_there) {
     std::set<std::string> wanted, there;
     for (const FunctionEntry& entry : catalogue_of_functions()) {
         const std::string signature = entry.signature, area = entry.area;
-        const bool estimates = area == "continuous time" || area == "discrete time" || area == "step tests";
+        const bool estimates = area == "continuous time" || area == "discrete time" || area == "step tests" ||
+                               area == "grey box" || area == "learning from data";
         if (estimates && signature.starts_with(entry.name + std::string("(data")) && signature.ends_with("-> G"))
             wanted.insert(entry.name);
     }
@@ -92,6 +93,9 @@ TEST(estimator_forms, choices_flags_and_numbers_are_told_apart) {
     EXPECT_EQ(option("tfsrivc", "TdMax").kind, "number");
     EXPECT_EQ(option("n4sid", "Weighting").parts.size(), 3u);
     EXPECT_EQ(form("procsrivc").arguments.at(0).kind, "process");
+    EXPECT_EQ(form("greyest").arguments.at(0).kind, "text") << "equations are written";
+    EXPECT_EQ(option("greyest", "InitialState").initial, "\"model\"");
+    EXPECT_EQ(option("sindy", "weak").kind, "flag");
     EXPECT_THAT(form("bj").arguments.at(0).parts, testing::ElementsAre("nb", "nc", "nd", "nf", "nk"));
 }
 

@@ -6,6 +6,7 @@
 
 #include <cstdlib>
 
+#include "platform/system_call.h"
 #include "support/browser.h"
 #include "support/program.h"
 

@@ -194,6 +194,7 @@ void check_examples(const Workbench& bench, const std::map<std::string, std::str
     EXPECT_EQ(bare(output_on(pages.at("help-load.html"))), bare(printed));
     for (const MethodEntry& method : method_catalogue())
         EXPECT_THAT(bare_text_of(pages.at("methods.html")), HasSubstr(bare(method.reference))) << method.file;
+    EXPECT_THAT(bare_text_of(pages.at("methods.html")), HasSubstr(bare("taught in: 06_physics")));
     EXPECT_GT(attributes(pages.at("gallery.html"), "src").size(), 60u);
     // Formulas in captions stay formulas.
     EXPECT_THAT(pages.at("gallery.html"), HasSubstr("<math"));

@@ -8,6 +8,7 @@
 #include "bench/bench.h"
 #include "bench/peers.h"
 #include "numerics/estimators/frequency/bla.h"
+#include "numerics/estimators/impulseest.h"
 #include "numerics/estimators/ivsvf.h"
 #include "numerics/estimators/lssvf.h"
 #include "numerics/estimators/recursive/rivsvf.h"
@@ -171,6 +172,27 @@ void measure_response(Report& report) {
     report.results.push_back({"frequency response by bla, N = 1e6 (s)", "0.2 s", measured, 0.2, 1, 0});
 }
 
+/// 200 coefficients from 10^5 samples, hyperparameters included.
+void measure_impulse_responses(Report& report) {
+    constexpr Index kSamples = 100'000, kCoefficients = 200;
+    constexpr double kSecondsOfAResponse = 0.3;
+    RandomStream random(1);
+    const Vector u = random.normal(kSamples);
+    const Vector x = lsim(TransferFunction(Vector::Constant(1, 2.0), Eigen::Vector3d(1, 1.2, 4)), u, kSamplingTime);
+    const IdData data(Matrix(x + kNoise * random.normal(kSamples)), Matrix(u), kSamplingTime);
+    const std::pair<const char*, ResponseKernel> kKernels[] = {
+        {"TC", ResponseKernel::kTc}, {"DC", ResponseKernel::kDc}, {"SS", ResponseKernel::kSs}};
+    for (const auto& [name, kernel] : kKernels) {
+        ImpulseestOptions options;
+        options.lags = kCoefficients, options.kernel = kernel;
+        double check = 0;
+        const double measured = median_seconds(5, [&] { check += impulseest(data, options).response.sum(); });
+        if (check == 0) throw std::logic_error("nothing was estimated");
+        report.results.push_back({std::string("regularised response, kernel ") + name + ", N = 1e5, 200 lags (s)",
+                                  "0.3 s", measured, kSecondsOfAResponse, 1, 0});
+    }
+}
+
 void measure_memory(const std::string& what, Method method, Report& report) {
     const IdData data = std::move(Record(kVeryLong).data);
     const double megabytes = 2.0 * static_cast<double>(kVeryLong) * sizeof(double) / (1 << 20);
@@ -204,6 +226,7 @@ void measure_estimators(Report& report) {
         measure_monte_carlo(record, report);
     }
     measure_response(report);
+    measure_impulse_responses(report);
     measure_memory("LSSVF", lssvf_theta, report);
     measure_memory("SRIVC", srivc_theta, report);
     const Record million(kLong), ten_million(kVeryLong);

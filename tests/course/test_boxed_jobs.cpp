@@ -52,7 +52,12 @@ TEST(boxed_jobs, come_back) {
     expect_to_come_back(sample_run());
     expect_to_come_back(sample_checks());
     expect_to_come_back(ChecksJob());
-    expect_to_come_back(RunJob{"/box/submission/analysis.lua", 7, {{"gain", "number"}}, 59700, 1ull << 30});
+    expect_to_come_back(RunJob{"/box/submission/analysis.lua",
+                               "/box/words/engine_sentences.fr.txt",
+                               7,
+                               {{"gain", "number"}},
+                               59700,
+                               1ull << 30});
     expect_to_come_back(UnpackJob{"/box/archive", "/box/to", 200ull << 20, 2000, true});
     expect_to_come_back(Unpacked{{"\"../x\" leads outside of the archive"}, "the archive is damaged"});
     expect_to_come_back(VersionJob{"/box/submission", "/box/made", true});
@@ -107,7 +112,7 @@ GradedRun run_by(const std::filesystem::path& program, const std::string& script
     work.write("analysis.lua", script);
     Box box(Isolation::kProcess);
     box.set_environment("DYNLAB_HOME", DYNLAB_SOURCE_DIR);
-    RunJob job{work.path("analysis.lua"), 7, {{"gain", "number"}}, 20'000, 1ull << 30};
+    RunJob job{work.path("analysis.lua"), {}, 7, {{"gain", "number"}}, 20'000, 1ull << 30};
     const auto result = run_boxed(box, program, job, std::chrono::seconds(30));
     GradedRun ended;
     ended.error = result.reason;

@@ -224,6 +224,12 @@ TEST_F(document_findings, a_passage_in_the_other_language_is_a_hint_with_its_pag
         ids(check_report(english_report("A term such as *mise en \u0153uvre* or *coup de force* is none, nor is the "
                                         "title *Identification des syst\u00E8mes* in a reference."))),
         IsEmpty());
+    const std::string title =
+        "Discovering the equations of the systems that we have, and what is to be found in the data by "
+        "the sparse identification of them";
+    EXPECT_THAT(ids(check_report(french_report() + "\n\nDans « " + title + " », 2016.\n")), IsEmpty());
+    EXPECT_THAT(only(check_report(french_report() + "\n\n" + title + ".\n"), "language-mixed").what,
+                HasSubstr("English"));
     standard_->language = "fr";
     EXPECT_THAT(only(check_report(english_report()), "language-differs").what, HasSubstr("lang: fr"));
 }

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "course/grading_bench.h"
+#include "documents/text_lines.h"
 
 namespace dynlab::test {
 namespace test_grading {
@@ -53,6 +54,23 @@ TEST(grading, gives_points_partial_credit_and_messages) {
     EXPECT_EQ(bench.result("right").at("score"), 5);
     EXPECT_THAT(bench.bench().read("out/gradebook.csv"), HasSubstr(",near,graded,4,5,0,0,1,3\r\n"));
     EXPECT_THAT(bench.bench().read("out/results/near/feedback.md"), HasSubstr("*Six times seven.*"));
+}
+
+// oracle: the same script in English; the words of what is printed are beside no record in a box
+TEST(grading, french_scripts_print_what_they_estimate) {
+    const std::string again =
+        "check{id = 'again', points = 1, rerun = 'drive', test = function(a, b) return b.x == 42 end}\n";
+    GradingBench bench(kAnswers, kChecks + again, kSolution);
+    const std::string script = "print(iddata(range(1, 60), range(1, 60), 1))\n" + std::string(kSolution);
+    const std::string header = GradingBench::header(kAnswers);
+    bench.hand_in("english", header + script);
+    bench.hand_in("french", replaced(header, "-- answers:", "-- language: fr\n-- answers:") + script);
+    const ChildResult graded = bench.grade();
+    ASSERT_EQ(graded.exit_code, 0) << graded.error_output;
+    EXPECT_EQ(points(bench.result("english")), (std::vector<double>{2, 3, 1}));
+    EXPECT_EQ(points(bench.result("french")), (std::vector<double>{2, 3, 1}));
+    const auto printed = bench.result("french").at("extra_data").at("dynlab").at("printed").get<std::string>();
+    EXPECT_THAT(printed, HasSubstr("60 échantillons"));
 }
 
 // oracle: the fingerprint's purpose

@@ -60,6 +60,32 @@ TEST_P(lessons, report_is_whole) {
     expect_whole_quantities(bench, GetParam() + ".pdf");
 }
 
+/// Of a lesson in the language of its sheet.
+std::vector<std::string> sheet_titles(const std::string& slug, const std::string& language) {
+    const std::string folder = DYNLAB_SOURCE_DIR "/lessons/" + slug;
+    std::vector<std::string> titles =
+        section_titles(read_file(folder + (language == "en" ? "/lesson.lua" : "/tasks." + language + ".lua")));
+    titles.insert(titles.end(), {"Five questions to check yourself", "Answers to the questions",
+                                 "Cinq questions pour se vérifier", "Réponses aux questions"});
+    for (std::string& title : titles) title = replaced(title, "'", "’");
+    return titles;
+}
+
+TEST_P(lessons, sheets_fill_their_pages) {
+    const Workbench bench(Workbench::Memory::kShared);
+    for (const std::string language : {"en", "fr"}) {
+        if (language == "fr" && !std::filesystem::exists(DYNLAB_SOURCE_DIR "/lessons/" + GetParam() + "/tasks.fr.lua"))
+            continue;
+        std::vector<std::string> command{"sheet", GetParam(), "-o", "sheet.pdf"};
+        if (language == "fr") command.insert(command.end(), {"--lang", language});
+        const ChildResult made = bench.dynlab(command);
+        ASSERT_EQ(made.exit_code, 0) << made.error_output;
+        SCOPED_TRACE(language);
+        expect_full_pages(bench, "sheet.pdf", sheet_titles(GetParam(), language));
+        expect_whole_quantities(bench, "sheet.pdf");
+    }
+}
+
 TEST_P(lessons, equations_have_the_same_numbers_with_and_without_the_solutions) {
     bool in_solution = false;
     for (const std::string& line : lines_of(read_file(DYNLAB_SOURCE_DIR "/lessons/" + GetParam() + "/lesson.lua"))) {

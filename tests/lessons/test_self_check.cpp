@@ -87,6 +87,16 @@ TEST(self_check, and_tasks_are_french_where_french_is_asked_for) {
     EXPECT_THAT(refused.error_output, HasSubstr("has no tasks in the language \"fr\""));
 }
 
+TEST(french_tasks, give_equations_their_article) {  // "Estimez équation 2" is no French
+    const std::regex bare("(^|[^'(])@eq:[a-z_]+");
+    for (const char* slug : {"03_crane", "05", "06", "07"}) {
+        const std::filesystem::path tasks = find_lesson(slug).folder / "tasks.fr.lua";
+        const std::string text = read_text(tasks);
+        std::smatch found;
+        EXPECT_FALSE(std::regex_search(text, found, bare)) << tasks << ": " << found.str();
+    }
+}
+
 TEST(measures, have_the_same_formulas_in_french) {
     const auto english = measures_for_documents("en"), french = measures_for_documents("fr");
     EXPECT_GE(english.size(), 9u);

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
 #include "numerics/estimators/cra.h"
-#include "numerics/estimators/etfe.h"
 #include "numerics/estimators/frequency/bla.h"
+#include "numerics/estimators/frequency/etfe.h"
+#include "numerics/estimators/frequency/spa.h"
 #include "numerics/estimators/impulseest.h"
-#include "numerics/estimators/spa.h"
 #include "support/difference_equation.h"
 
 namespace test_nonparametric_properties {

@@ -63,7 +63,7 @@ TEST(help, guide_from_contsid_runs_what_its_table_says) {
     int rows = 0;
     for (std::sregex_iterator it(guide.begin(), guide.end(), row), end; it != end; ++it, ++rows)
         EXPECT_THAT("\n" + code + "\n", HasSubstr("\n" + (*it)[1].str() + "\n"));
-    EXPECT_EQ(rows, 15);
+    EXPECT_EQ(rows, 16);
 }
 
 TEST(help, guide_to_notebooks_shows_what_it_says) {

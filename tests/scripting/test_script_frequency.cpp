@@ -51,6 +51,12 @@ TEST(script_frequency, models_of_responses_are_the_system) {
         "");
 }
 
+TEST(script_frequency, of_a_discrete_model_are_those_of_held_samples) {
+    EXPECT_EQ(said("local D = idfrd(c2d(G0, 0.1), w) assert(D.Ts == 0.1 and D.InterSample == 'zoh')\n"
+                   "near(coe(D, {1, 2, 0}).param[2], 1.2/1.1, 1e-8)\n"),
+              "");
+}
+
 TEST(script_frequency, spectral_estimates_are_responses) {
     EXPECT_THAT(said("rng(1)\nlocal G1 = tf({2}, {1, 1.2, 4})\nlocal u = prbs(9, 4)\nu = vector{u, u}\n"
                      "local y = lsim(G1, u, 0.1)\nlocal N = #u // 2\n"
@@ -111,6 +117,10 @@ TEST(script_frequency, mistakes_are_told_in_sentences) {
         {"coe(F, {1, 2, 0}, {Offset = 'estimate'})", "option 'Offset' is unknown"},
         {"ivsvf(F, {2, 1, 0}, 2)", "must be an iddata, but"},
         {"lssvf(F, {2, 1, 0}, -1)", "cut-off frequency"},
+        {"idfrd(c2d(G0, 0.1), w*20)", "frequencies end at pi/Ts = 31.416 rad/s"},
+        {"idfrd(c2d(G0, 0.1), w, {Ts = 0.2})", "but the model is sampled every 0.1 s"},
+        {"coe(idfrd(0*F.H.re + 0, w), {1, 2, 0})", "must be a complex vector"},
+        {"coe(idfrd({0*w, 0*w}, w), {1, 2, 0})", "the response is zero at all frequencies"},
         {"multisine(64, {lines = {40}})", "from 1 to 31, but one is 40"},
     };
     for (const auto& [code, sentence] : kCases)

@@ -63,6 +63,10 @@ print(max(abs(called.param - traced.param)) < 1e-5, max(abs(called.std - traced.
     EXPECT_THAT(text, HasSubstr("some hundred times as long"));
     EXPECT_THAT(text, HasSubstr("where(c, a, b) is a where c > 0"));
     EXPECT_THAT(text, HasSubstr("true\ttrue\n"));
+    EXPECT_THAT(printed(kRecord + R"(
+local m = idgrey(function(t, x, u, p) return {x[2], p.b*u - p.a2*math.sin(x[1]) - p.a1*x[2]} end, names, {states = 2})
+)"),
+                HasSubstr("math.sin takes numbers alone: write sin(...) without math"));
     // A decision that Lua makes in silence: == of two kinds of values is false.
     EXPECT_THAT(printed(kRecord + R"(
 local m = idgrey(function(t, x, u, p)
@@ -127,6 +131,12 @@ TEST(script_grey_box, refuses_in_words) {  // oracle: the mistakes written here
     EXPECT_THAT(refusal("idgrey(f, {a1 = {1, mn = 0}}, {states = 2})"), HasSubstr("'mn' is none of these"));
     EXPECT_THAT(refusal("idgrey(f, {a1 = {3, max = 2}, a2 = 1, b = 1}, {states = 2})"),
                 HasSubstr("a1 starts from 3, outside its bounds -Inf and 2"));
+    EXPECT_THAT(refusal("idgrey(function(t, x, u, p) return {p.a1*x[1] + u}, {x[1]} end, {a1 = 1}, {states = 1})"),
+                HasSubstr("must return the derivatives alone, in one table"));
+    EXPECT_THAT(refusal("idgrey(f, names, {states = 2, outputs = function(t, x, u, p) return x[1], x[2] end})"),
+                HasSubstr("must return the outputs in one table"));
+    EXPECT_THAT(refusal("idgrey(f, names, {states = 2, x0 = function(p) return 1, 2 end})"),
+                HasSubstr("must return the initial states in one table"));
     EXPECT_THAT(refusal("idgrey(f, names)"), HasSubstr("option 'states'"));
     EXPECT_THAT(refusal("idgrey(f, names, {states = 2, x0 = {1}})"), HasSubstr("a table of 2 values"));
     EXPECT_THAT(refusal("idgrey(f, names, {states = 2, x0 = {'q', 0}})"), HasSubstr("the parameters are a1, a2, b"));
@@ -141,6 +151,12 @@ TEST(script_grey_box, refuses_in_words) {  // oracle: the mistakes written here
         refusal(
             "greyest(data, idgrey(function(t, x, u, p) return {p.a1*x[1]^3 + u} end, {a1 = 50}, {states = {'h'}}))"),
         HasSubstr("the state h becomes infinite"));
+    EXPECT_THAT(refusal("greyest(data, idgrey(function(t, x, u, p) return {-p.a1*sqrt(x[1]) - 1} end, {a1 = 1}, "
+                        "{states = {'h'}, x0 = {1}}))"),
+                HasSubstr("the derivative of the state h is NaN, where h = -"));
+    EXPECT_THAT(refusal("greyest(data, idgrey(function(t, x, u, p) return {-p.a1/p.b*x[1] + u} end, "
+                        "{a1 = 1, b = {0, fixed = true}}, {states = {'h'}}))"),
+                HasSubstr("a coefficient in the derivative of the state h is no finite number"));
     EXPECT_THAT(refusal("greyest(data, idgrey(f, names, {states = 2}), {RelTol = 2})"),
                 HasSubstr("RelTol must lie between"));
     EXPECT_THAT(refusal("greyest(data, idgrey(function(t, x, u, p) return {p.a1*sqrt(x[1] - 1) + u} end, {a1 = 1}, "

@@ -85,6 +85,8 @@ local G = narx(iddata(y:range(1, 9), u:range(1, 9), 0.1), {1, 1, 1}, {degree = 1
 )";
     EXPECT_THAT(printed(lost + "print(fit(iddata(y, u, 0.1), G))"), HasSubstr("leaves all bounds at t = "));
     EXPECT_THAT(printed(lost + "lsim(G, ones(100), 0.1)"), HasSubstr("leaves all bounds at t = "));
+    EXPECT_THAT(printed(lost + "local m = fit_measures(iddata(y, u, 0.1), G) print(m.fit_percent, m.rmse, m.yic)"),
+                HasSubstr("-Inf\tInf\tnil"));
 }
 
 TEST(script_learning, bad_input_is_refused_in_words) {
@@ -101,10 +103,18 @@ TEST(script_learning, bad_input_is_refused_in_words) {
            "must give a vector or a number");
     expect(kSindyRecord + "sindy(data, {library = function(x) return {1/(x[1] - x[1][1])} end})", "is Inf at sample 1");
     expect(kSindyRecord + "sindy(data, {library = function(x) return {x[1]} end, names = {'a', 'b'}})",
-           "'names' has 2 texts, and the library gives 1 functions");
+           "'names' has 2 texts, and the library gives 1 function");
     expect(kSindyRecord + "sindy(data, {library = function(x) return {x[1]} end, degree = 2})", "exclude each other");
     expect(kSindyRecord + "sindy(data, {library = function(x) error('own') end})", "own");
-    expect(kSindyRecord + "local G = sindy(data) bode(G)", "simulated model");
+    expect(kSindyRecord + "local G = sindy(data) bode(G)", "must be a linear model, but this model by sindy is not");
+    expect(kSindyRecord + "bode(tf({1}, {1, 1}), sindy(data))", "must be a linear model");
+    expect(kSindyRecord + "sindy(data, {library = function(x) return {x.prey, x.foxes} end})",
+           "x has no state foxes; the states are prey, hunters");
+    expect(kSindyRecord + "sindy(data, {library = function(x, u) return {x[1], u[1]} end})",
+           "u has no input 1; there is none");
+    expect(kSindyRecord + "sindy(data, {library = function(x) return x[1], x[2] end})", "must return one list");
+    expect(kNarxRecord + "narx(data[{1, 30}], {3, 3, 1}, {degree = 3})",
+           "27 samples have their whole past recorded, and there are 84 candidate terms");
     expect(kNarxRecord + "dmdc(data, {rank = 5})", "rank is 5, and a snapshot holds only 1");
 }
 

@@ -144,6 +144,7 @@ function argumentControl(key, field, place, now) {
   const act = (text, how) => rewrite(key, (step) => withArgument(step, place, text), how);
   if (field.kind === "orders") return ordersField(field.parts, now, act);
   if (field.kind === "process") return processField(now, act);
+  if (field.kind === "text") return labelled(field.name, longField(now, act), field.words);
   const whole = field.name !== "lambda" && isNumber(now);
   if (!whole) return labelled(field.name, numberField(now, act), field.words);
   const box = element("input", { type: "number", min: 0, max: 99, value: now });

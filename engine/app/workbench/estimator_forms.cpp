@@ -53,7 +53,13 @@ std::string initial_order(const std::string& name, TimeDomain domain) {
     return found == kOrders.end() ? "1" : found->second;
 }
 
+/// Equations are written, not chosen: one that works with any record of one input and one output is there to be
+/// changed.
+constexpr const char* kFirstEquations =
+    "idgrey(function(t, x, u, p) return {-p.k1*x[1] + p.k2*u} end, {k1 = 1, k2 = 1}, {states = 1})";
+
 FormField argument_field(const std::string& written, TimeDomain domain) {
+    if (written == "m") return {written, "text", {}, kFirstEquations, ""};
     if (written.front() == '"') return {"structure", "process", {}, "\"P2D\"", ""};
     if (written.front() != '{')
         return {written, "number", {}, written == "lambda" ? "" : initial_order(written, domain), ""};
@@ -109,10 +115,7 @@ std::vector<EstimatorForm> make_forms() {
             const FunctionEntry* const function = find_function(name);
             if (function == nullptr) continue;
             const std::string signature = function->signature;
-            // Equations and functions of one's own are written, not chosen.
-            const std::string_view area = function->area;
-            const bool from_record = arguments_of(signature).front() == "data" && signature.ends_with("-> G") &&
-                                     area != "grey box" && area != "learning from data";
+            const bool from_record = arguments_of(signature).front() == "data" && signature.ends_with("-> G");
             if (from_record) forms.push_back(form_of(method, *function));
         }
     std::stable_sort(forms.begin(), forms.end(), [](const EstimatorForm& one, const EstimatorForm& other) {

@@ -18,7 +18,9 @@ local function field(object, name)
 end
 
 local function is_data(value) return type(value) == "userdata" and field(value, "experiments") ~= nil end
-local function is_model(value) return type(value) == "userdata" and field(value, "num") ~= nil or type(value) == "userdata" and field(value, "channels") ~= nil end
+local function is_linear(value) return type(value) == "userdata" and (field(value, "num") ~= nil or field(value, "channels") ~= nil) end
+--- Linear, or simulated by its own equations (greyest, narx, sindy).
+local function is_model(value) return is_linear(value) or type(value) == "userdata" and field(value, "param") ~= nil and field(value, "report") ~= nil end
 
 --- How many inputs and outputs a model has, and its transfer function from the chosen input to the chosen output.
 local function seen_channel(model, settings)
@@ -38,10 +40,11 @@ local function sized(fig, settings, name)
   return fig
 end
 
-local function labelled(settings, values)
+--- The chosen models that a view can show, and their names.
+local function labelled(settings, values, is_shown)
   local models, labels = {}, {}
   for _, name in ipairs(settings.models or {}) do
-    if is_model(values[name]) then
+    if is_shown(values[name]) then
       models[#models + 1] = values[name]
       labels[#labels + 1] = name
     end
@@ -113,7 +116,7 @@ function views.spectrum(settings, values)
 end
 
 function views.compare(settings, values)
-  local models, labels = labelled(settings, values)
+  local models, labels = labelled(settings, values, is_model)
   local data = values[settings.validation] or values[settings.estimation]
   if not is_data(data) or #models == 0 then return end
   local told = {}
@@ -125,7 +128,7 @@ function views.compare(settings, values)
 end
 
 function views.residuals(settings, values)
-  local models, labels = labelled(settings, values)
+  local models, labels = labelled(settings, values, is_model)
   local data = values[settings.validation] or values[settings.estimation]
   if not is_data(data) or #models == 0 then return end
   local fig, tests = resid(data, models[#models])
@@ -134,7 +137,7 @@ end
 
 for name, f in pairs{step = step, impulse = impulse, bode = bode, nyquist = nyquist, poles = pzmap} do
   views[name] = function(settings, values)
-    local models, labels = labelled(settings, values)
+    local models, labels = labelled(settings, values, is_linear)
     local options = {}
     if settings.bands == false and name ~= "nyquist" and name ~= "impulse" then options.confidence = false end
     for k, model in ipairs(models) do models[k] = seen_channel(model, settings) end
@@ -145,29 +148,34 @@ end
 function views.correlation(settings, values)
   local data = values[settings.estimation]
   if not is_data(data) then return end
-  local models, labels = labelled(settings, values)
+  local models, labels = labelled(settings, values, is_linear)
   if data.ny*data.nu > 1 then data = data:select(math.min(settings.output or 1, data.ny), math.min(settings.input or 1, data.nu)) end
   for k, model in ipairs(models) do models[k] = seen_channel(model, settings) end
   local fig, seen = with_models(impulseest, {data}, models, labels)
   return {figure = fig, words = seen.message}
 end
 
+--- The i-th of a list that may be shorter, or not there.
+local function entry(list, i)
+  if list and i <= #list then return list[i] end
+end
+
 --- Estimates with their intervals, as rows: a picture of numbers of several sizes says little.
 function views.parameters(settings, values)
-  local models, labels = labelled(settings, values)
+  local models, labels = labelled(settings, values, is_model)
   if #models == 0 then return end
   local rows = {}
   for k, model in ipairs(models) do
     local names, param, errors = field(model, "names"), field(model, "param"), field(model, "std")
     for i, name in ipairs(names or {}) do
-      rows[#rows + 1] = {labels[k], name, param and param[i], errors and errors[i]}
+      rows[#rows + 1] = {labels[k], name, entry(param, i), entry(errors, i)}
     end
   end
   return {rows = rows}
 end
 
 function views.delay(settings, values)
-  local models, labels = labelled(settings, values)
+  local models, labels = labelled(settings, values, is_linear)
   local model = models[#models]
   local report = model and field(model, "report")
   local delays, losses = report and field(report, "delay_grid"), report and field(report, "delay_loss")
@@ -346,7 +354,7 @@ local function measured(name, model, settings, values)
   row.message, row.condition, row.white = of("message"), of("condition_number"), of("white")
   row.delay = field(model, "IODelay")
   local names, errors = field(model, "names"), field(model, "std")
-  if names and errors then
+  if names and errors and #errors == #names then
     row.parameters = #names
     local last = names[#names]
     if last == "IODelay" or last == "Td" or last == "delay" then row.delay_std = errors[#names] end
@@ -411,12 +419,13 @@ function saving.models(order, settings, values, file)
   for _, name in ipairs(settings.all_models) do
     local model = values[name]
     if is_model(model) then
-      structs[name] = {num = field(model, "num"), den = field(model, "den"), IODelay = field(model, "IODelay"), Ts = field(model, "Ts")}
+      structs[name] = is_linear(model) and {num = field(model, "num"), den = field(model, "den"), IODelay = field(model, "IODelay"), Ts = field(model, "Ts")}
+                      or {param = field(model, "param")}
       local names, param, errors = field(model, "names"), field(model, "param"), field(model, "std")
       for i, parameter in ipairs(names or {}) do
         local n = #columns.model + 1
         columns.model[n], columns.parameter[n], columns.value[n] = name, parameter, param[i]
-        columns.std[n] = errors and errors[i] or math.huge
+        columns.std[n] = entry(errors, i) or math.huge
       end
     end
   end

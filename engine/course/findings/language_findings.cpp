@@ -50,6 +50,28 @@ std::string quote(const DocumentText& text, std::size_t from, std::size_t count)
     return printable(words, 80);
 }
 
+/// The language of each word. Quotations and titles, « … » or “ … ”, keep the language they are in; what is not closed
+/// soon is no quotation.
+std::vector<Language> word_languages(const DocumentText& text) {
+    constexpr std::size_t kLongestQuotation = 60;  // words
+    std::vector<Language> languages;
+    std::size_t opened = 0;
+    bool quoted = false;
+    for (std::size_t i = 0; i < text.words.size(); ++i) {
+        const std::string& word = text.words[i].text;
+        languages.push_back(language_of(word));
+        if (word.find("«") != std::string::npos || word.find("“") != std::string::npos) {
+            quoted = true;
+            opened = i;
+        }
+        if (!quoted || (word.find("»") == std::string::npos && word.find("”") == std::string::npos)) continue;
+        if (i - opened <= kLongestQuotation)
+            std::fill(languages.begin() + static_cast<std::ptrdiff_t>(opened), languages.end(), Language::kUnknown);
+        quoted = false;
+    }
+    return languages;
+}
+
 /// Passages whose function words are those of `other`, one a page.
 Findings passages(const DocumentText& text, const std::vector<Language>& languages, Language other,
                   const std::string& other_name, const std::string& main_name) {
@@ -78,8 +100,7 @@ Findings passages(const DocumentText& text, const std::vector<Language>& languag
 }  // namespace
 
 LanguageFindings language_findings(const DocumentText& text, const std::optional<std::string>& declared) {
-    std::vector<Language> languages;
-    for (const TextWord& word : text.words) languages.push_back(language_of(word.text));
+    const std::vector<Language> languages = word_languages(text);
     const auto english = std::count(languages.begin(), languages.end(), Language::kEnglish);
     const auto french = std::count(languages.begin(), languages.end(), Language::kFrench);
     if (english + french < kKnownLanguageWords) return {};

@@ -4,6 +4,7 @@
 
 #include "documents/error.h"
 #include "documents/percent_script.h"
+#include "documents/words/sentence_catalogue.h"
 #include "figures/gnuplot_renderer.h"
 #include "platform/confinement.h"
 #include "scripting/runtime/report_language.h"
@@ -63,6 +64,7 @@ GradedRun run_for_grading(const RunJob& job) {
     limits.memory_bytes = job.memory_bytes + (2ull << 30);
     limits.open_files = kOpenFiles;
     confine_process(limits);
+    if (!job.french_sentences.empty()) read_french_engine_sentences_from(job.french_sentences);
     try {
         const PercentScript script = read_for_grading(job);
         GnuplotRenderer renderer;

@@ -11,6 +11,7 @@
 #include "course/grading/grading_memory.h"
 #include "course/grading/job_descriptions.h"
 #include "data_io/values/json_values.h"
+#include "documents/words/sentence_catalogue.h"
 #include "numerics/rigs/catalogue.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
@@ -153,6 +154,7 @@ GradedRun GradingRules::run(const std::string& name, const fs::path& folder, con
     box.set_environment("DYNLAB_HOME", add_home(box, name, group_seed).string());
     RunJob job;
     job.script = box.add(folder, "/box/submission") / "analysis.lua";
+    job.french_sentences = box.add(file_of_french_engine_sentences(), "/box/words/engine_sentences.fr.txt");
     job.seed = name == kSeedOnly ? drawn("seed") : seed_;
     job.answers = answers_;
     job.memory_bytes = kScriptMemory;

@@ -30,8 +30,8 @@ constexpr std::array<const char*, 3> names_of(InterSample) {
 
 DYNLAB_DESCRIBE(OutputLevels, w, power, noise, distortion)
 DYNLAB_DESCRIBE(FrequencyData, w, response, variance, Ts, inter_sample, input_name, output_name, input_unit,
-                output_unit, neighbours_share_errors, noise_variance, distortion, coherence, noise_spectrum, excited,
-                odd, even, method, message, warnings)
+                output_unit, neighbours_share_errors, noise_variance, distortion, realised, coherence, noise_spectrum,
+                excited, odd, even, method, message, warnings)
 void check_value(const FrequencyData& data, const ValueLimits& limits);
 
 /// Read by the constructor, which leaves what another one made as it is.

@@ -195,9 +195,33 @@ SentenceCatalogue shared_french_sentences() {
     return sentences_of({"sentences.fr.txt", "script_errors.fr.txt"});
 }
 
-const SentenceCatalogue& french_engine_sentences() {
-    static const SentenceCatalogue sentences = sentences_of({"engine_sentences.fr.txt"});
+namespace {
+
+std::filesystem::path& given_engine_sentences() {
+    static std::filesystem::path file;
+    return file;
+}
+
+SentenceCatalogue engine_sentences() {
+    SentenceCatalogue sentences;
+    const std::filesystem::path& given = given_engine_sentences();
+    sentences.add(given.empty() ? file_of_french_engine_sentences() : given);
     return sentences;
+}
+
+}  // namespace
+
+const SentenceCatalogue& french_engine_sentences() {
+    static const SentenceCatalogue sentences = engine_sentences();
+    return sentences;
+}
+
+void read_french_engine_sentences_from(const std::filesystem::path& file) {
+    given_engine_sentences() = file;
+}
+
+std::filesystem::path file_of_french_engine_sentences() {
+    return shared_folder() / "report_templates" / "engine_sentences.fr.txt";
 }
 
 }  // namespace dynlab::inline documents

@@ -49,5 +49,9 @@ SentenceCatalogue shared_french_sentences();
 
 /// What numerics says of records, models and errors: report_templates/engine_sentences.fr.txt, read once.
 const SentenceCatalogue& french_engine_sentences();
+/// Where french_engine_sentences() reads them in a process that does not see report_templates; before their first use.
+void read_french_engine_sentences_from(const std::filesystem::path& file);
+/// In this installation.
+std::filesystem::path file_of_french_engine_sentences();
 
 }  // namespace dynlab::inline documents

@@ -10,6 +10,7 @@
 #include "figures/confidence_band.h"
 #include "numerics/error.h"
 #include "numerics/simulation/frequency_response.h"
+#include "numerics/simulation/sampled_response.h"
 #include "numerics/statistics/chi_squared.h"
 
 namespace dynlab::inline figures {
@@ -17,14 +18,40 @@ namespace {
 
 constexpr Index kBodePoints = 800;
 
-Vector below_nyquist(const TransferFunction& G, const Vector& w) {
-    if (G.continuous()) return w;
-    const double end = std::numbers::pi / G.Ts() * (1 + 1e-9);
+/// Whether a model is drawn as samples of its held input show it.
+bool is_held(const NamedModel& model) {
+    return model.G.continuous() && model.G.proper() && model.beside.held();
+}
+
+ComplexVector shown_response(const NamedModel& model, const Vector& w) {
+    if (!is_held(model)) return frequency_response(model.G, w);
+    return response_between_samples(model.G, w, model.beside.Ts, model.beside.inter_sample);
+}
+
+std::string shown_name(const NamedModel& model) {
+    if (!is_held(model) || model.name.empty()) return model.name;
+    return model.name + (model.beside.inter_sample == InterSample::kZoh ? ", input held" : ", input on lines");
+}
+
+/// As the measurements say that the models are drawn beside, if they all say the same.
+std::vector<NamedModel> beside(std::vector<NamedModel> models, const std::vector<NamedResponse>& responses) {
+    if (responses.empty()) return models;
+    const MeasuredSamples first{responses.front().data.Ts, responses.front().data.inter_sample};
+    for (const NamedResponse& response : responses)
+        if (response.data.Ts != first.Ts || response.data.inter_sample != first.inter_sample) return models;
+    for (NamedModel& model : models) model.beside = first;
+    return models;
+}
+
+Vector below_nyquist(const NamedModel& model, const Vector& w) {
+    if (model.G.continuous() && !is_held(model)) return w;
+    const double Ts = model.G.continuous() ? model.beside.Ts : model.G.Ts();
+    const double end = std::numbers::pi / Ts * (1 + 1e-9);
     std::vector<double> kept;
     std::copy_if(w.begin(), w.end(), std::back_inserter(kept), [end](double value) { return value <= end; });
     if (kept.empty())
         throw InvalidArgument(
-            fmt::format("all frequencies lie above pi/Ts = {:.4g} rad/s, where a discrete model ends", end));
+            fmt::format("all frequencies lie above pi/Ts = {:.4g} rad/s, where a discrete model and samples end", end));
     return Eigen::Map<const Vector>(kept.data(), static_cast<Index>(kept.size()));
 }
 
@@ -58,8 +85,8 @@ Vector phase_beside(const FrequencyData& data, const std::vector<NamedModel>& mo
     constexpr double kTurn = 360;
     Vector phase = phase_degrees_unwrapped(data.response);
     if (models.empty()) return phase;
-    const Vector beside = phase_degrees_unwrapped(frequency_response(models.front().G, data.w));
-    for (Index k = 0; k < phase.size(); ++k) phase[k] -= kTurn * std::round((phase[k] - beside[k]) / kTurn);
+    const Vector near = phase_degrees_unwrapped(shown_response(models.front(), data.w));
+    for (Index k = 0; k < phase.size(); ++k) phase[k] -= kTurn * std::round((phase[k] - near[k]) / kTurn);
     return phase;
 }
 
@@ -107,7 +134,8 @@ FrequencyPanels frequency_panels() {
     return panels;
 }
 
-Figure bode_plot(const std::vector<NamedModel>& models, const Vector& w, const std::vector<NamedResponse>& responses) {
+Figure bode_plot(const std::vector<NamedModel>& given, const Vector& w, const std::vector<NamedResponse>& responses) {
+    const std::vector<NamedModel> models = beside(given, responses);
     if (models.empty() && responses.empty()) throw InvalidArgument("there are no models to plot");
     if (w.size() > 0 && !(w.minCoeff() > 0))
         throw InvalidArgument(fmt::format("frequencies must be positive, but the smallest is {}", w.minCoeff()));
@@ -115,9 +143,9 @@ Figure bode_plot(const std::vector<NamedModel>& models, const Vector& w, const s
     auto [magnitude, phase] = frequency_panels();
     for (const NamedModel& model : models) {
         Curve curve;
-        curve.x = below_nyquist(model.G, grid);
-        const ComplexVector response = frequency_response(model.G, curve.x);
-        curve.label = model.name;
+        curve.x = below_nyquist(model, grid);
+        const ComplexVector response = shown_response(model, curve.x);
+        curve.label = shown_name(model);
         curve.y = magnitude_db(response);
         magnitude.curves.push_back(curve);
         curve.y = phase_degrees_unwrapped(response);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "figures/plots/id_plot.h"
 #include "figures/style.h"
 #include "numerics/error.h"
@@ -25,10 +27,23 @@ Curve model_curve(const ModelOutput& model, Index output, const Vector& t, int i
     Curve curve;
     curve.x = t;
     curve.y = model.y.col(output);
-    curve.label = fmt::format("{}: {:.1f} %", model.name, model.fit_percent[output]);
+    curve.label = curve.y.allFinite() ? fmt::format("{}: {:.1f} %", model.name, model.fit_percent[output])
+                                      : fmt::format("{}: lost", model.name);
     curve.colour = kColours[index % 7];
     curve.dash = index % 8;
     return curve;
+}
+
+/// A run that left all bounds would leave nothing to be seen of the others: the axis is theirs.
+void keep_to_the_others(Panel& panel) {
+    double low = kInfinity, high = -kInfinity;
+    bool lost = false;
+    for (const Curve& curve : panel.curves) {
+        lost = lost || !curve.y.allFinite();
+        if (curve.y.allFinite()) low = std::min(low, curve.y.minCoeff()), high = std::max(high, curve.y.maxCoeff());
+    }
+    const double room = 0.25 * (high - low);
+    if (lost && room > 0) panel.y_range = {low - room, high + room};
 }
 
 }  // namespace
@@ -58,6 +73,7 @@ Figure compare_plot(const IdData& data, const std::vector<ModelOutput>& models, 
         panel.curves.push_back(std::move(curve));
         int number = 0;
         for (const ModelOutput& model : models) panel.curves.push_back(model_curve(model, output, t, number++));
+        keep_to_the_others(panel);
         figure.panels.push_back(std::move(panel));
     }
     figure.panels.back().x_label = axis_label("time", data.time_unit);

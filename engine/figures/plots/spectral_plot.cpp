@@ -52,10 +52,13 @@ Curve curve_of(const SpectralEstimate& estimate, const Vector& y, const std::str
     return curve;
 }
 
-/// The curves of models over the frequencies of the estimate, in colours of their own.
-void add_models(Figure& figure, const std::vector<NamedModel>& models, const Vector& w) {
+/// The curves of models from the first to the last frequency, in colours of their own.
+void add_models(Figure& figure, const std::vector<NamedModel>& models, double first, double last) {
+    constexpr Index kModelPoints = 800;
     if (models.empty()) return;
-    Figure theirs = bode_plot(models, w);
+    Figure theirs = bode_plot(
+        models,
+        Vector::LinSpaced(kModelPoints, std::log(first), std::log(last)).array().exp().max(first).min(last).matrix());
     for (std::size_t panel = 0; panel < 2; ++panel) {
         int colour = 1;
         for (Curve& curve : theirs.panels[panel].curves) {
@@ -78,7 +81,10 @@ Figure spectral_plot(const SpectralEstimate& estimate, const std::string& name, 
     Figure figure;
     figure.rows = 2;
     figure.panels = {std::move(magnitude), std::move(phase)};
-    add_models(figure, models, estimate.w);
+    double first = std::numeric_limits<double>::infinity();
+    for (const double value : estimate.w)
+        if (value > 0) first = std::min(first, value);
+    add_models(figure, models, first, estimate.w.maxCoeff());
     const std::size_t lines = 1 + models.size();
     if (estimate.std.size() > 0) {
         const Vector relative = width * estimate.std.cwiseQuotient(estimate.response.cwiseAbs());
@@ -88,9 +94,6 @@ Figure spectral_plot(const SpectralEstimate& estimate, const std::string& name, 
         limit_to_readable(figure.panels[1], lines, kLeastDegrees);
     }
     choose_phase_axis(figure.panels[1]);
-    double first = std::numeric_limits<double>::infinity();
-    for (const double value : estimate.w)
-        if (value > 0) first = std::min(first, value);
     if (first < estimate.w.maxCoeff())
         for (Panel& panel : figure.panels) panel.x_range = {first, estimate.w.maxCoeff()};
     return figure;

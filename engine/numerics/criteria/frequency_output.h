@@ -27,7 +27,8 @@ class FrequencyOutput : public OutputErrorModel {
     void simulate(const Vector& theta, Vector& output, Matrix* sensitivities) const override;
     void keep_stable() { stable_ = true; }
 
-    Vector target() const;  ///< the measured response in the same rows
+    Vector target() const;                              ///< the measured response in the same rows
+    Vector stacked(const ComplexVector& values) const;  ///< any response in the same rows
     /// [q (Td)] of coefficients and a delay in time units.
     Vector parameters(const VectorView& coefficients, double delay) const;
     Vector coefficients(const VectorView& parameters) const;  ///< in time units, without the delay
@@ -41,7 +42,6 @@ class FrequencyOutput : public OutputErrorModel {
   private:
     void simulate_sines(const Vector& theta, ComplexVector& response, Eigen::MatrixXcd* derivatives) const;
     void simulate_held(const Vector& theta, ComplexVector& response, Eigen::MatrixXcd* derivatives) const;
-    Vector stacked(const ComplexVector& values) const;
 
     FrequencyData data_;
     bool free_delay_, stable_ = false;

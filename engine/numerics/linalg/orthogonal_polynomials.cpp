@@ -31,8 +31,11 @@ OrthogonalPolynomials orthogonal_polynomials(const ComplexVector& s, const Vecto
         }
         const double length = std::sqrt(product(next, next));
         if (!(length > kDependent * size))
-            throw InvalidArgument(std::to_string(s.size()) + " frequencies do not carry a polynomial of degree " +
-                                  std::to_string(j));
+            throw InvalidArgument(
+                j == 0 ? "the response is zero at all frequencies, so that no model follows from it"
+                       : std::to_string(s.size()) + " frequencies do not tell a polynomial of degree " +
+                             std::to_string(j) +
+                             " from those of lower degrees: take fewer poles and zeros, or a wider band");
         basis.values.col(j) = next / length;
         basis.coefficients.col(j) = powers / length;
     }

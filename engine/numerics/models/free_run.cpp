@@ -8,8 +8,8 @@ namespace dynlab::inline numerics {
 void check_channels(const std::string& model, const FreeRunModel& wanted, const IdData& data) {
     const bool outputs_fit = data.output_count() == 0 || data.output_count() == wanted.output_count();
     if (data.input_count() == wanted.input_count() && outputs_fit) return;
-    throw InvalidArgument(model + ": the model has " + std::to_string(wanted.input_count()) + " input(s) and " +
-                          std::to_string(wanted.output_count()) + " output(s), and the data hold " +
+    throw InvalidArgument(model + ": the model has " + counted(wanted.input_count(), "input") + " and " +
+                          counted(wanted.output_count(), "output") + ", and the data hold " +
                           std::to_string(data.input_count()) + " and " + std::to_string(data.output_count()) +
                           ": select the channels it describes");
 }

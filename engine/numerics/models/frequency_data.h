@@ -37,6 +37,7 @@ struct FrequencyData {
 
     Vector noise_variance;        ///< of bla: the part of `variance` that noise makes
     Vector distortion;            ///< of bla: variance of the response of one realisation that nonlinearity makes
+    Eigen::MatrixXcd realised;    ///< of bla: the response of each realisation, a column each; empty with one
     Vector coherence;             ///< of spa and etfe: 0 to 1
     Vector noise_spectrum;        ///< of spa and etfe: power per sample
     OutputLevels excited;         ///< of bla: at the lines of w

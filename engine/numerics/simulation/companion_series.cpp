@@ -3,26 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "numerics/error.h"
 #include "numerics/linalg/decompositions.h"
 
 namespace dynlab::inline numerics {
 
 namespace {
-
-bool is_companion(const MatrixView& A) {
-    Matrix below = A.bottomRows(A.rows() - 1);
-    below.diagonal().array() -= 1;
-    return below.isZero(0);
-}
-
-/// Whether the second half of the states is the same system, driven by one state of the first.
-bool are_two(const Matrix& A) {
-    const Index n = A.rows() / 2;
-    return A.rows() % 2 == 0 && A.topRightCorner(n, n).isZero(0) &&
-           A.topLeftCorner(n, n) == A.bottomRightCorner(n, n) && A.bottomLeftCorner(n - 1, n).isZero(0) &&
-           (A.block(n, 0, 1, n).array() != 0).count() <= 1;
-}
 
 double power_of_two_near(double x) {
     return std::exp2(std::round(std::log2(x)));
@@ -30,20 +15,17 @@ double power_of_two_near(double x) {
 
 }  // namespace
 
-CompanionSeries::CompanionSeries(const Matrix& A) {
-    if (A.rows() == 0) return;
-    twice = are_two(A);
-    order = twice ? A.rows() / 2 : A.rows();
-    const Index n = order, states = A.rows();
-    Matrix one = A.topLeftCorner(n, n);
-    if (!is_companion(one)) throw InvalidArgument("Irregular sampling wants companion matrices");
+CompanionSeries::CompanionSeries(const CompanionPair& pair)
+    : twice(pair.twice), order(pair.one.rows()), driving(pair.driving) {
+    if (order == 0) return;
+    const Index n = order, states = (twice ? 2 : 1) * n;
+    Matrix one = pair.one;
     scale = balance(one);
     scale /= scale[0];
     Matrix both = one;
     if (twice) {
-        while (driving + 1 < n && A(n, driving) == 0) ++driving;
         // So large that the entry in between is like the others.
-        const double entry = A(n, driving) * scale[driving], norm = one.cwiseAbs().colwise().sum().maxCoeff();
+        const double entry = pair.drive * scale[driving], norm = one.cwiseAbs().colwise().sum().maxCoeff();
         const double second = entry != 0 && norm > 0 ? power_of_two_near(std::abs(entry) / norm) : 1;
         both = Matrix::Zero(states, states);
         both.topLeftCorner(n, n) = both.bottomRightCorner(n, n) = one;

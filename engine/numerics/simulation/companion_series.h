@@ -1,20 +1,17 @@
 #pragma once
 #include <array>
 
-#include "numerics/linalg/types.h"
+#include "numerics/simulation/companion_pair.h"
 
 namespace dynlab::inline numerics {
 
-/// How a step of length h acts on a companion system dx/dt = A x + [1; 0; ..] u, alone or with a second one of the same
-/// A behind it, as power series in h. Each state but the first is the integral of the one before, so that rows of
-/// exp(A h), and what constant inputs and ramps of one a second make of the states, follow from the rows below them:
-/// series of the last row are enough, and of every second with many states, where rounding errors would grow from row
-/// to row. All that is without the identity in exp(A h), beside which short steps would lose their digits. States are
-/// scaled so that A is balanced.
+/// How a step of length h acts on a companion system or a pair of them (companion_pair.h), as power series in h. Each
+/// state but the first is the integral of the one before, so that rows of exp(A h), and what constant inputs and ramps
+/// of one a second make of the states, follow from the rows below them: series of the last row are enough, and of every
+/// second with many states, where rounding errors would grow from row to row. All that is without the identity in
+/// exp(A h), beside which short steps would lose their digits. States are scaled so that A is balanced.
 struct CompanionSeries {
-    /// A is a companion matrix (linalg/polynomial.h), or two of the same in series: then the lower left block holds one
-    /// entry, in its first row. Throws InvalidArgument for others.
-    explicit CompanionSeries(const Matrix& A);
+    explicit CompanionSeries(const CompanionPair& pair);
 
     bool twice = false;
     Index order = 0;  ///< n, of one system

@@ -7,9 +7,6 @@
 
 namespace dynlab::inline numerics {
 
-constexpr Index kSideBySide = 8;
-using Eight = Eigen::Array<double, kSideBySide, 1>;
-
 /// The maps of eight steps, side by side. Long steps are halved before and doubled behind.
 template <int kOrder, bool kTwice>
 class EightSteps : public StepMap<kOrder, kTwice> {
@@ -20,14 +17,17 @@ class EightSteps : public StepMap<kOrder, kTwice> {
     using States = Eigen::Array<double, kSideBySide, kStates>;
 
     EightSteps(const CompanionSeries& series, bool ramps)
-        : Map(series, ramps), series_(series), ramps_(ramps), doubled_(this->own().size()) {}
+        : Map(series, ramps), series_(series), ramps_(ramps), plan_(series, 0), doubled_(this->own().size()) {}
 
-    /// For steps of `length` (s), none longer than those of the plan.
-    void set(const Eight& length, const StepPlan& plan, Eight* map) {
-        Eight part = length * plan.part;
-        sum_series(part, plan.last_term, map);
+    /// The next steps are none longer than this (s).
+    void prepare(double longest) { plan_ = StepPlan(series_, longest); }
+
+    /// For steps of `length` (s).
+    void set(const Eight& length, Eight* map) {
+        Eight part = length * plan_.part;
+        sum_series(part, plan_.last_term, map);
         fill(map);
-        for (int i = 0; i < plan.doublings; ++i, part *= 2) {
+        for (int i = 0; i < plan_.doublings; ++i, part *= 2) {
             double_rows(part, map);
             fill(map);
         }
@@ -152,6 +152,7 @@ class EightSteps : public StepMap<kOrder, kTwice> {
 
     const CompanionSeries& series_;
     bool ramps_;
+    StepPlan plan_;
     std::vector<Eight> doubled_;
 };
 

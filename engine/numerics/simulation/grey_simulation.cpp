@@ -113,6 +113,11 @@ void GreySimulator::set_linear_steps(double h) {
     const GreyLinearSystem& system = *evaluation_->linear_system();
     const Index n = model_.order();
     const Matrix B = with_constant(system.value);
+    for (Index i = 0; i < n; ++i)
+        if (!system.value.A.row(i).allFinite() || !B.row(i).allFinite())
+            throw SimulationBreakdown("With these parameters a coefficient in the derivative of the state " +
+                                      model_.state_names[static_cast<std::size_t>(i)] +
+                                      " is no finite number: a division by zero, or a root of a negative number?");
     const StepMatrices plain = exact_step(system.value.A, B, h);
     own_ = {plain.F, plain.H0, plain.H1};
     by_parameter_.resize(system.by_parameter.size());

@@ -1,37 +1,32 @@
 #pragma once
+#include <optional>
+
 #include "numerics/linalg/types.h"
 #include "numerics/signals/iddata.h"
 #include "numerics/simulation/companion_series.h"
+#include "numerics/simulation/separate_modes.h"
 
 namespace dynlab::inline numerics {
 
 /// dx/dt = A x + B u(t - delay), y = C x + D u(t - delay), one input, p outputs, at strictly increasing instants t,
 /// exactly to rounding from event to event (a sampling instant, or a change of the delayed input between two). The
-/// input is zero before its first sample. A is a companion matrix or two of the same in series (companion_series.h), B
+/// input is zero before its first sample. A is a companion matrix or two of the same in series (companion_pair.h), B
 /// the first unit vector.
 ///
 /// Events are taken in blocks of eight stretches, which are run side by side: first from rest, which tells with the map
-/// of each whole stretch where they begin, then from there. The maps of their steps are made side by side, too
-/// (eight_steps.h), so that nothing waits for the step before it but the state. Nothing is refused: sizes that agree
-/// and rising instants are the caller's.
+/// of each whole stretch where they begin, then from there. The maps of their steps are made side by side, too, so that
+/// nothing waits for the step before it but the state: mode by mode where these can be told apart and the system starts
+/// at rest (eight_modes.h), otherwise by power series (eight_steps.h). Nothing is refused: sizes that agree and rising
+/// instants are the caller's.
 class IrregularFilter {
   public:
-    IrregularFilter(const Matrix& A, const Vector& B, const Matrix& C, Vector D, Hold hold, double delay = 0);
+    IrregularFilter(const Matrix& A, const Vector& B, Matrix C, Vector D, Hold hold, double delay = 0);
 
     /// N x p outputs for the N samples of `u` at the instants `t`; `x` is the state at the first.
     Matrix run(const VectorView& u, const VectorView& t, const Vector& x) const;
 
   private:
-    struct Events;
-
-    Events events(const VectorView& u, const VectorView& t, Vector& input) const;
-    double slope_behind(const VectorView& u, const VectorView& t, Index segment) const;
-    template <int kOrder, bool kTwice>
-    void run_sized(const Events& events, Vector start, Matrix& states) const;
-    template <bool kTwice>
-    void run_systems(const Events& events, const Vector& start, Matrix& states) const;
-
-    CompanionSeries series_;
+    CompanionPair pair_;
     Matrix C_;
     Vector D_;
     Hold hold_;

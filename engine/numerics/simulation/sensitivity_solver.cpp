@@ -46,6 +46,7 @@ constexpr int kMostSteps = 20'000, kMostRejected = 200, kMostMissed = 20;
 constexpr double kRoughShare = 1. / 64,
                  kLeastShare = 1e-10;  // of an interval, for steps taken whatever their error
 constexpr std::size_t kRoughTimes = 10;
+constexpr double kLostState = 1e100;      // beyond, rates are no numbers because states are none
 constexpr double kStabilityBound = 3.25;  // of h times the largest eigenvalue, of the explicit pair
 constexpr int kStiffSteps = 15, kOtherSteps = 6, kNewtonSteps = 12;
 
@@ -201,11 +202,33 @@ void SensitivitySolver::accept(const Stage& last) {
     size_ = size_.cwiseMax(x.cwiseAbs());
 }
 
-void SensitivitySolver::break_down(const Interval& over, double t) {
-    evaluate(over, t, x, stages_[0].at, Derivatives::kNone);
-    std::string states;
+/// Where a step that fails first met a rate that is no number, though the states were: outside of what a root or a
+/// logarithm is defined for.
+void SensitivitySolver::tell_undefined_rate(double t, double h) const {
+    for (std::size_t i = 0; i < kExplicitStages; ++i) {
+        const Stage& stage = stages_[i];
+        if (!(stage.x.cwiseAbs().maxCoeff() < kLostState)) return;
+        for (Index j = 0; j < n_; ++j)
+            if (std::isnan(stage.k[j]))
+                throw SimulationBreakdown(
+                    "At t = " + number_text(t + h * kExplicitNodes[i]) + " the derivative of the state " +
+                    names_[static_cast<std::size_t>(j)] + " is NaN, where " + states_text(stage.x) +
+                    ": a root or a logarithm of a negative number? sqrt(max(x, 0)) has a value everywhere");
+        if (!stage.k.allFinite()) return;
+    }
+}
+
+std::string SensitivitySolver::states_text(const Vector& at) const {
+    std::string text;
     for (Index i = 0; i < n_; ++i)
-        states += (i > 0 ? ", " : "") + names_[static_cast<std::size_t>(i)] + " = " + number_text(x[i]);
+        text += (i > 0 ? ", " : "") + names_[static_cast<std::size_t>(i)] + " = " + number_text(at[i]);
+    return text;
+}
+
+void SensitivitySolver::break_down(const Interval& over, double t, double h) {
+    tell_undefined_rate(t, h);
+    evaluate(over, t, x, stages_[0].at, Derivatives::kNone);
+    const std::string states = states_text(x);
     for (Index i = 0; i < n_; ++i)
         if (!std::isfinite(stages_[0].at.values[i]))
             throw SimulationBreakdown("At t = " + number_text(t) + " the derivative of the state " +
@@ -247,7 +270,7 @@ void SensitivitySolver::advance(double t_begin, double t_end, const double* u_be
             first_is_known_ = false;
             continue;
         }
-        if (!std::isfinite(error)) break_down(over, t);
+        if (!std::isfinite(error)) break_down(over, t, h);
         if (!tolerated) {
             ++missed;
             if (rough_times_.size() < kRoughTimes) rough_times_.push_back(t);

@@ -55,7 +55,9 @@ class SensitivitySolver {
     double scaled_error(const double* weights, std::size_t stages, double h, const Vector& end);
     void look_for_stiffness(double h);
     void accept(const Stage& last);
-    [[noreturn]] void break_down(const Interval& over, double t);
+    [[noreturn]] void break_down(const Interval& over, double t, double h);
+    void tell_undefined_rate(double t, double h) const;
+    std::string states_text(const Vector& at) const;
     Derivatives all_wanted() const { return directions_ > 0 ? Derivatives::kAll : Derivatives::kNone; }
 
     GreyEvaluation& evaluation_;

@@ -2,8 +2,12 @@
 #include <vector>
 
 #include "numerics/simulation/companion_series.h"
+#include "numerics/simulation/irregular_events.h"
 
 namespace dynlab::inline numerics {
+
+constexpr Index kSideBySide = IrregularEvents::kSideBySide;
+using Eight = Eigen::Array<double, kSideBySide, 1>;
 
 /// Where the parts of a map stand, of a companion system of kOrder states x, and (kTwice) of a second one w behind it,
 /// for an input that begins at u and runs with slope s (1/s):

@@ -32,6 +32,7 @@ struct FittedRecord {
     Vector error;               ///< of the whole record: y minus simulated output
     double movement_error = 0;  ///< rms error over rms output of the window, without slow movement where in doubt
     double disturbance = 0;     ///< standard deviation of the slow disturbance that was taken off y
+    Vector taken_off = {};      ///< this disturbance; empty without one
 
     const TransferFunction& model() const { return search.candidate.estimate.models.front(); }
     const std::string& output() const { return data.output_names.front(); }

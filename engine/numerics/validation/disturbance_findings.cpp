@@ -101,6 +101,7 @@ void find_disturbance(FittedRecord& fit, RecordFindings& findings) {
     const double size = std::sqrt(slow.squaredNorm() / static_cast<double>(slow.size()));
     if (!(size > kWorthAWord * fit.deviation())) return;
     fit.disturbance = size;
+    fit.taken_off = slow;
     fit.take_off(slow);
     const StraightLine line = straight_line(slow);
     if (line.share > kStraightLine)

@@ -20,6 +20,7 @@ constexpr double kOffsetAtRest = 0.02;    // of the output's standard deviation
 constexpr Index kFewestAtRest = 20;       // samples
 constexpr double kVisibleStart = 0.05;    // of the output's standard deviation
 constexpr double kAboveError = 2;         // standard deviations of the error
+constexpr double kOverOthers = 3;         // times what a fit finds of such a motion elsewhere
 constexpr double kIntegrates = 0.5;       // of the simulated movement
 
 double spread(const VectorView& x) {
@@ -155,24 +156,42 @@ void find_offset(const FittedRecord& fit, RecordFindings& findings) {
 
 namespace {
 
-/// Largest value of the free motion from before the record; 0 without one, and where it and the offset are large only
-/// to cancel each other.
-double free_motion(const FittedRecord& fit) {
+/// The free motion from before the record; nothing without one, and where it and the offset are large only to cancel
+/// each other.
+Vector free_motion(const FittedRecord& fit) {
     constexpr double kNoSense = 20;  // standard deviations of the output
     const CompareResult& simulated = fit.simulation;
-    if (simulated.start.state != InitialState::kEstimate || simulated.initial_values.size() == 0) return 0;
+    if (simulated.start.state != InitialState::kEstimate || simulated.initial_values.size() == 0) return {};
     const TransferFunction motion(Vector::Ones(1), fit.model().den());
     const Index rows = std::min<Index>(fit.data.sample_count(), 5000);
-    const Vector free = lsim(motion, Vector::Zero(rows), fit.data.Ts, Hold::kZoh, simulated.initial_values);
-    const double largest = free.cwiseAbs().maxCoeff();
-    return largest < kNoSense * fit.deviation() ? largest : 0;
+    Vector free = lsim(motion, Vector::Zero(rows), fit.data.Ts, Hold::kZoh, simulated.initial_values);
+    return free.cwiseAbs().maxCoeff() < kNoSense * fit.deviation() ? free : Vector();
+}
+
+/// How much of such a motion a fit finds in the error further on, where none can begin: the root mean square of its
+/// factors. Errors with a memory, of drift or of what is not linear, are taken for motions anywhere; and what a fit
+/// took for a motion at the beginning is no part of the disturbance that was taken off.
+double found_elsewhere(const Vector& motion, const FittedRecord& fit) {
+    const Vector error = fit.taken_off.size() > 0 ? Vector(fit.error + fit.taken_off) : fit.error;
+    constexpr double kOver = 0.05;  // of the largest value
+    Index length = motion.size();
+    while (length > 1 && std::abs(motion[length - 1]) < kOver * motion.cwiseAbs().maxCoeff()) --length;
+    const auto shape = motion.head(length);
+    const Index step = std::max<Index>(1, length / 4);
+    double squares = 0, count = 0;
+    for (Index first = length; first + length <= error.size(); first += step, ++count)
+        squares += std::pow(shape.dot(error.segment(first, length)) / shape.squaredNorm(), 2);
+    return count > 0 ? std::sqrt(squares / count) : 0;
 }
 
 }  // namespace
 
 void find_running_start(const FittedRecord& fit, RecordFindings& findings) {
-    const double largest = free_motion(fit), error = spread(fit.error);
-    const bool moves = largest > std::max({kVisibleStart * fit.deviation(), kAboveError * error, 3 * fit.disturbance});
+    const Vector motion = free_motion(fit);
+    const double largest = motion.size() > 0 ? motion.cwiseAbs().maxCoeff() : 0, error = spread(fit.error);
+    const bool moves =
+        largest > std::max({kVisibleStart * fit.deviation(), kAboveError * error, 3 * fit.disturbance}) &&
+        kOverOthers * found_elsewhere(motion, fit) < 1;
     if (!moves && !has_strange_beginning(fit)) return;
     findings.push_back(about(fit, "running_start", Weight::kWarning,
                              "The record begins in the middle of a movement of " + fit.output() +

@@ -24,8 +24,8 @@ void find_dead_time(const FittedRecord& fit, RecordFindings& findings);
 /// "offset", chosen by BIC (compare) and more than a tenth of the output's standard deviation; or, as a note, a smaller
 /// one on which the output stands while the input stays at zero at the beginning.
 void find_offset(const FittedRecord& fit, RecordFindings& findings);
-/// "running_start": a free motion, chosen by BIC (compare), that stands out from the error and is worth 5 % of the
-/// output's standard deviation; or only the first of 24 sections does not follow the model (behind a dead time the
+/// "running_start": a free motion, chosen by BIC (compare), that stands out from the error, is worth 5 % of the
+/// output's standard deviation and three times what a fit finds of such a motion further on; or only the first of 24 sections does not follow the model (behind a dead time the
 /// unknown inputs from before the record still act).
 void find_running_start(const FittedRecord& fit, RecordFindings& findings);
 /// "slow_sampling" (below 6 times the bandwidth) and "fast_sampling" (above 400 times).

@@ -6,7 +6,7 @@
 
 #include "scripting/arguments/table_fields.h"
 #include "scripting/arguments/told_sentences.h"
-#include "scripting/objects/model.h"
+#include "scripting/objects/fit_model.h"
 #include "scripting/objects/present.h"
 #include "scripting/objects/process_structure.h"
 #include "scripting/objects/text_form.h"
@@ -113,21 +113,8 @@ const Assessment& assessment_of(const Model& model) {
     throw InvalidArgument(fmt::format("{} gives no robust standard errors", estimate.method));
 }
 
-/// G.report: a plain table.
 int field_report(Call& call) {
-    const Estimate& estimate = estimate_in(model_self(call));
-    lua_newtable(call.state());
-    set_field(call, "method", estimate.method);
-    set_field(call, "message", told(call, estimate.message));
-    set_field(call, "converged", estimate.converged);
-    for (const auto& [name, value] : estimate.numbers) set_field(call, name.c_str(), value);
-    for (const auto& [name, values] : estimate.vectors) set_field(call, name.c_str(), values);
-    for (const auto& [name, values] : estimate.matrices) set_field(call, name.c_str(), values);
-    if (estimate.assessment) {
-        set_field(call, "white", estimate.assessment->white);
-        set_field(call, "residual_verdict", told(call, estimate.assessment->verdict));
-    }
-    set_field(call, "warnings", told(call, estimate.warnings));
+    push_report(call, estimate_in(model_self(call)));
     return 1;
 }
 

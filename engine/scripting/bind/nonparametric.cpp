@@ -3,9 +3,9 @@
 #include "figures/plots/impulse_estimate_plot.h"
 #include "figures/plots/spectral_plot.h"
 #include "numerics/estimators/cra.h"
-#include "numerics/estimators/etfe.h"
+#include "numerics/estimators/frequency/etfe.h"
+#include "numerics/estimators/frequency/spa.h"
 #include "numerics/estimators/impulseest.h"
-#include "numerics/estimators/spa.h"
 #include "scripting/arguments/table_fields.h"
 #include "scripting/arguments/told_sentences.h"
 #include "scripting/bind/bindings.h"
@@ -59,6 +59,7 @@ void print_message(const Call& call, const std::string& message, const std::vect
 int give_spectral(const Call& call, const Options& options, SpectralModels& read, const SpectralEstimate& estimate,
                   const char* method, bool smoothed) {
     name_models(options, read.models);
+    for (NamedModel& model : read.models) model.beside = {read.data.Ts, inter_sample_of(read.data.hold)};
     if (options.flag("quiet", false)) {
         lua_pushnil(call.state());
     } else {

@@ -1,25 +1,18 @@
 #include <array>
 
 #include "numerics/estimators/n4sid.h"
-#include "scripting/arguments/option_words.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/data_object.h"
-#include "scripting/objects/model.h"
+#include "scripting/objects/fit_model.h"
 
 namespace dynlab::inline scripting {
 namespace {
 
 Estimate estimate_of_subspace(const SubspaceFit& result) {
-    Estimate estimate;
-    estimate.method = "n4sid";
-    estimate.message = in_lua_words(result.fit.message);
-    estimate.warnings = result.fit.warnings;
-    estimate.numbers = {{"fit_percent", result.fit.fit_percent[0]},
-                        {"loss", result.fit.loss},
-                        {"condition_number", result.fit.condition_number},
-                        {"block_rows", result.block_rows}};
-    estimate.vectors = {{"fits", result.fit.fit_percent}, {"singular_values", result.singular_values}};
+    Estimate estimate = basic_estimate("n4sid", result.fit);
+    estimate.numbers.emplace_back("block_rows", result.block_rows);
+    estimate.vectors.emplace_back("singular_values", result.singular_values);
     estimate.matrices = {{"initial_states", result.initial_states}};
     return estimate;
 }
@@ -34,13 +27,7 @@ int estimate_n4sid(Call& call) {
     wanted.weighting = parse_subspace_weighting(options.text("Weighting", "MOESP"));
     wanted.feedthrough = options.flag("Feedthrough", wanted.feedthrough);
     const SubspaceFit result = n4sid(data, static_cast<int>(order), wanted);
-    Model model{result.fit.models.front()};
-    if (result.fit.models.size() > 1) model.channels = result.fit.models;
-    model.outputs = static_cast<std::size_t>(data.output_count());
-    model.estimate = std::make_shared<Estimate>(estimate_of_subspace(result));
-    model.system = std::make_shared<StateSpace>(result.system);
-    push_object(call.state(), std::move(model));
-    return 1;
+    return give_system(call, estimate_of_subspace(result), result.fit, result.system);
 }
 
 constexpr std::array kSubspaceFunctions = {

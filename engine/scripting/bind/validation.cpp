@@ -10,6 +10,7 @@
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/figure_object.h"
+#include "scripting/objects/grey_object.h"
 #include "scripting/objects/simulated_model.h"
 
 namespace dynlab::inline scripting {
@@ -66,7 +67,7 @@ int draw_comparison(Call& call, const IdData& data, int first, int options_index
     const std::vector<std::string> labels = options.texts("labels");
     const std::optional<Index> steps = steps_option(options, std::nullopt);
     std::vector<ModelOutputs> models;
-    for (int i = first; holds_comparable_model(call, i); ++i) {
+    for (int i = first; holds_model(call, i); ++i) {
         const std::string name = model_name(call, i, labels, models.size()) + steps_text(steps);
         models.push_back(
             steps ? model_outputs(name, prediction_argument(call, i, data, {steps, compare_options(options)}))
@@ -79,7 +80,7 @@ int draw_comparison(Call& call, const IdData& data, int first, int options_index
 int compare_models(Call& call) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
     int next = 2;
-    while (holds_comparable_model(call, next)) ++next;
+    while (holds_model(call, next)) ++next;
     call.at_most(next);
     read_steps_as_option(call, next);
     return draw_comparison(call, data, 2, next);
@@ -106,17 +107,31 @@ int fit(Call& call) {
 /// What the measures ask of a model with one output.
 struct MeasuredModel {
     Index parameters = 0;
-    std::shared_ptr<const Estimate> estimate;
+    Vector theta;
+    Matrix covariance;  ///< empty where the method gives none
 };
+
+void check_one_output(Index outputs) {
+    if (outputs == 1) return;
+    throw InvalidArgument(fmt::format("fit_measures is of one output, and the model has {}", outputs));
+}
 
 MeasuredModel measured_model(const Call& call, int index) {
     if (const SimulatedModel* simulated = simulated_model(call, index)) {
-        if (simulated->run->output_count() == 1) return {simulated->estimate->theta.size(), simulated->estimate};
-        throw InvalidArgument(
-            fmt::format("fit_measures is of one output, and the model has {}", simulated->run->output_count()));
+        check_one_output(simulated->run->output_count());
+        return {simulated->estimate->theta.size(), simulated->estimate->theta, simulated->estimate->covariance};
+    }
+    if (const GreyEstimate grey = to_grey_box(call, index)) {
+        check_one_output(grey->fit.fit_percent.size());
+        const std::vector<Index> free = grey->model.free_parameters();
+        const auto count = static_cast<Index>(free.size());
+        if (grey->fit.covariance.size() == 0 || !grey->fit.covariance.allFinite()) return {count, {}, {}};
+        return {count, grey->fit.theta(free), grey->fit.covariance(free, free)};
     }
     const Model model = model_argument(call, index, "G");
-    return {parameters_of(model).values.size(), model.estimate};
+    const Index count = parameters_of(model).values.size();
+    if (!model.estimate) return {count, {}, {}};
+    return {count, model.estimate->theta, model.estimate->covariance};
 }
 
 int measure_fit(Call& call) {
@@ -127,18 +142,19 @@ int measure_fit(Call& call) {
     const Comparison comparison = comparison_argument(call, 2, data, options);
     const LevelledOutputs pair = levelled_outputs(data, comparison);
     const Vector &y = pair.measured, &simulated = pair.simulated;
-    const double mean_square = (y - simulated).squaredNorm() / static_cast<double>(y.size());
+    const bool lost = !simulated.allFinite();  // the message says when
+    const double mean_square = lost ? kInfinity : (y - simulated).squaredNorm() / static_cast<double>(y.size());
     const InformationCriteria criteria = information_criteria(mean_square, y.size(), model.parameters);
     lua_createtable(call.state(), 0, 10);
-    set_field(call, "fit_percent", fit_percent(y, simulated));
-    set_field(call, "r_squared_simulation", r_squared_simulation(y, simulated));
+    set_field(call, "fit_percent", lost ? -kInfinity : fit_percent(y, simulated));
+    set_field(call, "r_squared_simulation", lost ? -kInfinity : r_squared_simulation(y, simulated));
     set_field(call, "rmse", std::sqrt(mean_square));
     set_field(call, "fpe", criteria.fpe);
     set_field(call, "aic", criteria.aic);
     set_field(call, "aicc", criteria.aicc);
     set_field(call, "bic", criteria.bic);
-    if (model.estimate && model.estimate->covariance.size() > 0)
-        set_field(call, "yic", yic(y, simulated, model.estimate->theta, model.estimate->covariance).value);
+    if (model.covariance.size() > 0 && !lost)
+        set_field(call, "yic", yic(y, simulated, model.theta, model.covariance).value);
     set_field(call, "output", comparison.results.front().front().output);
     set_field(call, "message", told(call, comparison.results.front().front().message));
     return 1;

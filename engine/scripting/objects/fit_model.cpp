@@ -1,6 +1,8 @@
 #include "scripting/objects/fit_model.h"
 
 #include "scripting/arguments/option_words.h"
+#include "scripting/arguments/table_fields.h"
+#include "scripting/arguments/told_sentences.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -56,7 +58,7 @@ void add_characteristic_fields(Estimate& estimate, const StaticCharacteristic& c
 
 }  // namespace
 
-Estimate estimate_of(const char* method, const Fit& fit) {
+Estimate basic_estimate(const char* method, const Fit& fit) {
     Estimate estimate;
     estimate.method = method;
     estimate.names = fit.names;
@@ -66,11 +68,32 @@ Estimate estimate_of(const char* method, const Fit& fit) {
     estimate.message = in_lua_words(fit.message);
     for (const std::string& warning : fit.warnings) estimate.warnings.push_back(in_lua_words(warning));
     estimate.converged = fit.termination == Termination::kConverged;
-    estimate.numbers = {{"fit_percent", fit.fit_percent[0]},
-                        {"noise_variance", fit.noise_variance[0]},
-                        {"loss", fit.loss},
-                        {"condition_number", fit.condition_number},
-                        {"iterations", static_cast<double>(fit.trace.size())}};
+    estimate.numbers = {
+        {"fit_percent", fit.fit_percent[0]}, {"loss", fit.loss}, {"condition_number", fit.condition_number}};
+    estimate.vectors = {{"fits", fit.fit_percent}};
+    return estimate;
+}
+
+void push_report(const Call& call, const Estimate& estimate) {
+    lua_newtable(call.state());
+    set_field(call, "method", estimate.method);
+    set_field(call, "message", told(call, estimate.message));
+    set_field(call, "converged", estimate.converged);
+    for (const auto& [name, value] : estimate.numbers) set_field(call, name.c_str(), value);
+    for (const auto& [name, values] : estimate.vectors) set_field(call, name.c_str(), values);
+    for (const auto& [name, values] : estimate.matrices) set_field(call, name.c_str(), values);
+    if (estimate.assessment) {
+        set_field(call, "white", estimate.assessment->white);
+        set_field(call, "residual_verdict", told(call, estimate.assessment->verdict));
+    }
+    set_field(call, "warnings", told(call, estimate.warnings));
+}
+
+Estimate estimate_of(const char* method, const Fit& fit) {
+    Estimate estimate = basic_estimate(method, fit);
+    estimate.vectors.clear();  // those of each kind of fit
+    estimate.numbers.insert(estimate.numbers.end(), {{"noise_variance", fit.noise_variance[0]},
+                                                     {"iterations", static_cast<double>(fit.trace.size())}});
     if (!fit.structure.channels.empty()) add_transfer_fields(estimate, fit);
     estimate.history = fit.history;
     if (fit.noise) add_noise_fields(estimate, fit);
@@ -89,6 +112,16 @@ int give_fit(const Call& call, Estimate estimate, const Fit& fit) {
     if (fit.process) model.process = *fit.process;
     if (fit.polynomial) model.polynomial = std::make_shared<PolynomialModel>(*fit.polynomial);
     model.estimate = std::make_shared<Estimate>(std::move(estimate));
+    push_object(call.state(), std::move(model));
+    return 1;
+}
+
+int give_system(const Call& call, Estimate estimate, const Fit& fit, const StateSpace& system) {
+    Model model{fit.models.front()};
+    if (fit.models.size() > 1) model.channels = fit.models;
+    model.outputs = static_cast<std::size_t>(system.C.rows());
+    model.estimate = std::make_shared<Estimate>(std::move(estimate));
+    model.system = std::make_shared<StateSpace>(system);
     push_object(call.state(), std::move(model));
     return 1;
 }

@@ -3,10 +3,18 @@
 
 namespace dynlab::inline scripting {
 
+/// What every fit has: parameters with their errors, message and warnings, fit_percent, loss, condition_number and
+/// fits. Its sentences name the options as scripts do; `method` is the Lua name.
+Estimate basic_estimate(const char* method, const Fit& fit);
+/// Pushes the table G.report of such an estimate.
+void push_report(const Call& call, const Estimate& estimate);
+
 /// What a script can ask of a fit; its sentences name the options as scripts do. `method` is the Lua name.
 Estimate estimate_of(const char* method, const Fit& fit);
 
 /// Pushes the fitted model with all its channels.
 int give_fit(const Call& call, Estimate estimate, const Fit& fit);
+/// The same of a fit with states, which has no theta.
+int give_system(const Call& call, Estimate estimate, const Fit& fit, const StateSpace& system);
 
 }  // namespace dynlab::inline scripting

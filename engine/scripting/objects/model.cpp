@@ -1,7 +1,9 @@
 #include "scripting/objects/model.h"
 
+#include "numerics/number_text.h"
 #include "numerics/simulation/grey_simulation.h"
 #include "scripting/objects/grey_object.h"
+#include "scripting/objects/simulated_model.h"
 
 namespace dynlab::inline scripting {
 
@@ -21,26 +23,31 @@ std::size_t Boxed<StateSpace>::outside_bytes(const StateSpace& system) {
 
 bool holds_model(const Call& call, int index) {
     return index <= lua_gettop(call.state()) &&
-           (to_grey_box(call, index) != nullptr || to_object<Model>(call.state(), index) != nullptr ||
+           (runs_freely(call, index) || to_object<Model>(call.state(), index) != nullptr ||
             to_object<StateSpace>(call.state(), index) != nullptr);
 }
 
 std::string channels_hint(const Model& model) {
-    return fmt::format("it has {} inputs and {} outputs: take one of its channels, {}", model.inputs(), model.outputs,
+    return fmt::format("it has {} and {}: take one of its channels, {}",
+                       counted(static_cast<Index>(model.inputs()), "input"),
+                       counted(static_cast<Index>(model.outputs), "output"),
                        model.outputs == 1 ? "G.channels[1] for the first input"
                                           : "G.channels[2][1] for the second output and first input");
 }
 
 namespace {
 
+[[noreturn]] void refuse_simulated(int index, const char* what, const char* kind) {
+    throw InvalidArgument(
+        fmt::format("argument {} ({}) must be a linear model, but {} is not linear; lsim, compare, fit and resid "
+                    "simulate it",
+                    index, what, kind));
+}
+
 /// A grey box with linear equations, one input and one output.
 Model linear_grey_model(const GreyFit& grey, int index, const char* what) {
     const auto system = linear_system_of(grey.model, grey.fit.theta);
-    if (!system)
-        throw InvalidArgument(
-            fmt::format("argument {} ({}) must be a linear model, but this grey box is not linear; lsim, "
-                        "compare, fit and resid simulate it",
-                        index, what));
+    if (!system) refuse_simulated(index, what, "this grey box");
     if (system->B.cols() == 1 && system->C.rows() == 1) return {to_transfer_function(*system)};
     throw InvalidArgument(fmt::format("argument {} ({}) must have one input and one output, but it has {} and {}",
                                       index, what, system->B.cols(), system->C.rows()));
@@ -56,6 +63,8 @@ Model model_argument(const Call& call, int index, const char* what) {
                                               what, channels_hint(*model)));
         }
         if (const GreyEstimate grey = to_grey_box(call, index)) return linear_grey_model(*grey, index, what);
+        if (const SimulatedModel* simulated = simulated_model(call, index))
+            refuse_simulated(index, what, ("this model by " + simulated->estimate->method).c_str());
         if (call.type(index) == LUA_TNUMBER)
             return {TransferFunction(Vector::Constant(1, call.number(index, what)), Vector::Ones(1))};
         if (const StateSpace* system = to_object<StateSpace>(call.state(), index)) {

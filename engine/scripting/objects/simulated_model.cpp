@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "scripting/arguments/table_fields.h"
-#include "scripting/arguments/told_sentences.h"
+#include "scripting/objects/fit_model.h"
 #include "scripting/objects/grey_object.h"
 #include "scripting/objects/text_form.h"
 
@@ -14,17 +14,8 @@ const SimulatedModel& simulated_self(Call& call) {
     return object_argument<SimulatedModel>(call, 1, "G");
 }
 
-/// G.report: a plain table.
 int report_of_simulated(Call& call) {
-    const Estimate& estimate = *simulated_self(call).estimate;
-    lua_newtable(call.state());
-    set_field(call, "method", estimate.method);
-    set_field(call, "message", told(call, estimate.message));
-    set_field(call, "converged", estimate.converged);
-    for (const auto& [name, value] : estimate.numbers) set_field(call, name.c_str(), value);
-    for (const auto& [name, values] : estimate.vectors) set_field(call, name.c_str(), values);
-    for (const auto& [name, values] : estimate.matrices) set_field(call, name.c_str(), values);
-    set_field(call, "warnings", told(call, estimate.warnings));
+    push_report(call, *simulated_self(call).estimate);
     return 1;
 }
 
@@ -60,10 +51,6 @@ const SimulatedModel* simulated_model(const Call& call, int index) {
 
 bool runs_freely(const Call& call, int index) {
     return simulated_model(call, index) != nullptr || to_grey_box(call, index) != nullptr;
-}
-
-bool holds_comparable_model(const Call& call, int index) {
-    return runs_freely(call, index) || holds_model(call, index);
 }
 
 std::string method_of_model(const Call& call, int index) {

@@ -26,8 +26,6 @@ struct Boxed<SimulatedModel> {
 const SimulatedModel* simulated_model(const Call& call, int index);
 /// A model whose free run is simulated by its own equations, a grey box among them.
 bool runs_freely(const Call& call, int index);
-/// A transfer function, state-space or simulated model: whatever can be compared with a record.
-bool holds_comparable_model(const Call& call, int index);
 /// Name of the method that gave the model of an argument; empty for a model that was written down.
 std::string method_of_model(const Call& call, int index);
 

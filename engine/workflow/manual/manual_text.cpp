@@ -4,12 +4,16 @@
 
 #include <algorithm>
 #include <functional>
+#include <regex>
 #include <set>
 
 #include "documents/text_lines.h"
 #include "numerics/estimators/catalogue.h"
 #include "platform/text/small_letters.h"
+#include "platform/text_file.h"
 #include "scripting/runtime/help.h"
+#include "workflow/demonstration.h"
+#include "workflow/lesson_catalogue.h"
 
 namespace dynlab::inline workflow {
 namespace {
@@ -51,6 +55,21 @@ void append_page(const ManualText& page, MarkdownText& all,
     }
     all.text += "\n";
     all.origin.push_back({});
+}
+
+/// The lessons and demonstrations whose scripts call one of the functions, as "06_physics, 08_frequency"; names of
+/// files.
+std::string places_that_teach(const std::vector<std::string>& functions) {
+    const std::string names = fmt::format("{}", fmt::join(functions, "|"));
+    const std::regex call("(^|[^A-Za-z_0-9.:])(" + names + ")[({]");
+    std::string places;
+    const auto look = [&](const std::string& name, const std::filesystem::path& script) {
+        const std::string text = read_text(script);
+        if (std::regex_search(text, call)) places += (places.empty() ? "" : ", ") + name;
+    };
+    for (const Lesson& lesson : lessons()) look(lesson.slug, lesson.script());
+    for (const Demonstration& demonstration : demonstrations()) look(demonstration.script.stem(), demonstration.script);
+    return places.empty() ? "the example on its page" : places;
 }
 
 const FunctionEntry* entry_of(const std::string& name) {
@@ -142,9 +161,10 @@ ManualText methods_text() {
         const auto page = find_help_page(method.lua_names.front());
         text += fmt::format("## {}\n\n{}\n\n", title, page ? beginning_of(page->text) : "");
         text += fmt::format(
-            "- functions: {}\n- model: `{}`\n- time: {}\n- noise: {}\n- literature: {}\n- source: "
+            "- functions: {}\n- model: `{}`\n- time: {}\n- noise: {}\n- taught in: {}\n- literature: {}\n- source: "
             "`engine/numerics/estimators/{}.h`\n\n",
-            names, method.structure, domain_of(method.domain), method.noise, method.reference, method.file);
+            names, method.structure, domain_of(method.domain), method.noise, places_that_teach(method.lua_names),
+            method.reference, method.file);
     }
     methods.markdown.append(text, "catalogue.cpp", 1);
     return methods;

@@ -35,6 +35,21 @@ TEST(frequency_plots, measured_responses_are_points_with_bands) {
     EXPECT_EQ(figure.panels[0].x_range, std::pair(0.5, 4.0));
 }
 
+TEST(frequency_plots, models_beside_held_samples_are_held) {  // oracle: 1 - exp(-Ts) over z - exp(-Ts), by hand
+    const TransferFunction lag(Vector{{1.0}}, Vector{{1.0, 1.0}});
+    const double Ts = 0.5, a = std::exp(-Ts);
+    const Vector w{{1.0, 3.0}};
+    ComplexVector H(2);
+    for (Index k = 0; k < 2; ++k) H[k] = (1 - a) / (std::polar(1.0, w[k] * Ts) - a);
+    const FrequencyData held = frequency_data(H, w, Vector(), Ts, InterSample::kZoh);
+    const Figure figure = bode_plot({{"lag", lag}}, w, {{"measured", held, 0.99}});
+    EXPECT_EQ(figure.panels[0].curves[0].label, "lag, input held");
+    for (const Panel& panel : figure.panels)
+        EXPECT_LT((panel.curves[0].y - panel.curves[1].y).cwiseAbs().maxCoeff(), 1e-9);
+    const FrequencyData sines = frequency_data(H, w, Vector());
+    EXPECT_EQ(bode_plot({{"lag", lag}}, w, {{"a", held, 0.99}, {"b", sines, 0.99}}).panels[0].curves[0].label, "lag");
+}
+
 TEST(frequency_plots, phases_lie_beside_the_models) {
     // 4 rad/s: -76 degrees of the lag and -687.5 of the delay; from 2 rad/s on alone they would not be unwrapped so far
     const Figure figure = bode_plot({{"model", kLag}}, Vector(), {{"measured", measured(), 0.99}});

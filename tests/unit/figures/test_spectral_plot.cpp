@@ -93,8 +93,18 @@ TEST(spectral_plot, models_lie_over_the_estimate_in_colours_of_their_own) {
     for (const Panel& panel : figure.panels) {
         EXPECT_EQ(panel.curves[1].colour, 1);
         EXPECT_EQ(panel.curves[2].colour, 2);
-        EXPECT_NEAR((panel.curves[1].y - panel.curves[0].y).norm(), 0, 1e-9);
+        EXPECT_EQ(panel.curves[1].x[0], 0.25);
+        EXPECT_EQ(panel.curves[1].x.tail(1)[0], 2);
+        EXPECT_NEAR(panel.curves[1].y[0], panel.curves[0].y[0], 1e-9);
+        EXPECT_NEAR(panel.curves[1].y.tail(1)[0], panel.curves[0].y[3], 1e-9);
     }
+}
+
+TEST(spectral_plot, models_are_drawn_finely) {  // oracle: the height of a peak between two frequencies of the estimate
+    SpectralEstimate estimate = lag();
+    const TransferFunction peak(Vector{{1.0}}, Vector{{1.0, 0.05, 1.44}});
+    const Figure figure = spectral_plot(estimate, "etfe", {{"a", peak}});
+    EXPECT_NEAR(figure.panels[0].curves[1].y.maxCoeff(), 20 * std::log10(1 / (0.05 * 1.2)), 0.1);
 }
 
 TEST(spectral_plot, refuses_what_has_no_frequency_to_draw) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "figures/plots/compare_plot.h"
 #include "figures/plots/pole_zero_map.h"
 #include "figures/plots/regression_plot.h"
 #include "figures/step_construction.h"
@@ -18,6 +19,15 @@ const Curve& curve_called(const Figure& figure, const std::string& label) {
     for (const Curve& curve : figure.panels[0].curves)
         if (curve.label == label) return curve;
     throw std::runtime_error("no curve " + label);
+}
+
+TEST(compare_plot, a_lost_run_leaves_the_axis_to_the_others) {  // oracle: the range of the measured values, 1 to 3
+    const Vector y{{1, 3, 2}}, u = Vector::Ones(3), lost{{1, 1e6, kNaN}};
+    const Figure figure = compare_plot(IdData(Matrix(y), Matrix(u), 1), {{"a", y, Vector::Constant(1, 100)},
+                                                                         {"b", lost, Vector::Constant(1, -kInfinity)}});
+    EXPECT_EQ(curve_called(figure, "b: lost").y[1], 1e6);
+    EXPECT_EQ(curve_called(figure, "a: 100.0 %").y[1], 3);
+    EXPECT_EQ(figure.panels[0].y_range, std::pair(0.5, 3.5));
 }
 
 // Oracle: roots by hand, 1/((s + 1)(s + 2)).

@@ -95,6 +95,20 @@ TEST(child_process, timeout_kills_the_whole_group) {
     EXPECT_TRUE(ends_soon(result.output.substr(0, result.output.find('\n'))));
 }
 
+TEST(child_process, processor_time_is_counted_and_not_the_time_that_passes) {
+    ChildOptions options = shell("while :; do :; done");
+    options.processor_time = 1s;
+    const ChildResult busy = run_child(options, "dash");
+    EXPECT_TRUE(busy.timed_out);
+    EXPECT_EQ(busy.exit_code, 128 + SIGXCPU);
+
+    options = shell("sleep 1.5; echo whole");
+    options.processor_time = 1s;
+    const ChildResult idle = run_child(options, "dash");
+    EXPECT_FALSE(idle.timed_out);
+    EXPECT_EQ(idle.output, "whole\n");
+}
+
 TEST(child_process, is_given_up_when_asked) {
     ChildOptions options = shell("sleep 60 & echo begun; wait");
     int asked = 0;

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "numerics/linalg/matrix_exponential.h"
@@ -53,7 +54,10 @@ std::vector<Matrix> systems_of_all_sizes() {
     std::vector<Matrix> all;
     for (const Vector& den :
          {Vector{{1, 3}}, Vector{{1, 100, 4e4}}, Vector{{1, 4, 5, 2}}, Vector{{1, 20.2, 104.01, 20.8, 1.02}},
-          Vector{{1, 8, 24, 32, 16}}, Vector{{1, 5, 10, 10, 5, 1}}, Vector{{1, 0, 0, 0}}}) {
+          Vector{{1, 8, 24, 32, 16}}, Vector{{1, 5, 10, 10, 5, 1}}, Vector{{1, 0, 0, 0}},
+          // Real poles far apart, one at zero and very fast ones among them.
+          Vector{{1, 4, 3}}, Vector{{1, 1e5 + 3, 3e5}}, Vector{{1, 3, 0}}, Vector{{1, 11, 31, 21}},
+          Vector{{1, 2011, 22010, 2e4}}, Vector{{1, 85, 1490, 7400, 5985}}}) {
         all.push_back(companion(den));
         all.push_back(cascade(all.back()));
     }
@@ -62,7 +66,7 @@ std::vector<Matrix> systems_of_all_sizes() {
 }
 
 // Oracle: a matrix exponential for every step. Steps from a thousandth to a hundred times the fastest time constant,
-// and from one to eleven states, several times the same poles among them, and integrators.
+// from one to eleven states, several times the same poles among them, and integrators; from rest and from elsewhere.
 TEST(irregular_filter, equals_the_matrix_exponential_of_every_step) {
     for (const Matrix& A : systems_of_all_sizes()) {
         const Index n = A.rows(), N = 300;
@@ -70,8 +74,9 @@ TEST(irregular_filter, equals_the_matrix_exponential_of_every_step) {
         RandomStream random(8);
         Vector t(N);
         for (Index k = 0; k < N; ++k) t[k] = k == 0 ? 1 : t[k - 1] + 1e-4 * std::pow(10, 4 * random.uniform());
-        for (const Hold hold : {Hold::kZoh, Hold::kFoh}) {
-            Vector x = 0.1 * Vector::Ones(n);
+        for (const auto& [hold, level] :
+             {std::pair(Hold::kZoh, 0.1), {Hold::kFoh, 0.1}, {Hold::kZoh, 0.0}, {Hold::kFoh, 0.0}}) {
+            Vector x = level * Vector::Ones(n);
             Matrix expected(N, n);
             for (Index k = 0; k < N; ++k) {
                 expected.row(k) = x;
@@ -80,9 +85,10 @@ TEST(irregular_filter, equals_the_matrix_exponential_of_every_step) {
                 x = step.F * x + step.H0.col(0) * u[k] + step.H1.col(0) * u[hold == Hold::kFoh ? k + 1 : k];
             }
             IrregularFilter filter(A, B, Matrix::Identity(n, n), Vector::Zero(n), hold);
-            const Matrix found = filter.run(u, t, 0.1 * Vector::Ones(n));
+            const Matrix found = filter.run(u, t, level * Vector::Ones(n));
             for (Index i = 0; i < n; ++i)
-                EXPECT_LT((found.col(i) - expected.col(i)).norm(), 1e-11 * expected.col(i).norm()) << n << ", " << i;
+                EXPECT_LT((found.col(i) - expected.col(i)).norm(), 1e-11 * expected.col(i).norm())
+                    << n << ", " << i << ", from " << level;
         }
     }
 }

@@ -10,6 +10,7 @@
 
 #include "numerics/linalg/decompositions.h"
 #include "numerics/rigs/crane_experiments.h"
+#include "numerics/rigs/heat_transfer.h"
 #include "numerics/signals/prbs.h"
 #include "numerics/signals/random.h"
 #include "numerics/simulation/lsim.h"
@@ -162,6 +163,33 @@ TEST(advice, a_running_start_is_told) {  // oracle: the record cut out of a move
     (r.x.segment(101, 400) - r.x.segment(100, 400)).cwiseAbs().maxCoeff(&fastest);
     const IdData cut = r.data().range(fastest + 101, 1000);
     EXPECT_THAT(said(advise(cut), "running_start"), HasSubstr("in the middle of a movement"));
+}
+
+TEST(advice, a_drifting_rig_at_rest_does_not_begin_in_a_movement) {  // oracle: a minute at the equilibrium
+    const HeatTransferExperiments experiments;
+    for (const std::uint32_t seed : {1u, 2u, 3u}) {
+        const HeatTransferRecords records = simulate_heat_transfer({}, experiments, seed);
+        for (const RigRecord* r : {&records.estimation, &records.validation, &records.high}) {
+            const Advice advice = advise(IdData(Matrix(r->y), Matrix(r->u), experiments.Ts));
+            EXPECT_FALSE(advice.has("running_start")) << seed << ", from " << r->u[0] << " V\n" << codes(advice);
+        }
+    }
+}
+
+TEST(advice, planted_starts_are_found_whether_the_input_rests_or_moves) {  // oracle: the movement put in
+    for (const Index rest : {0, 60}) {
+        int found = 0;
+        for (std::uint32_t seed = 1; seed <= 10; ++seed) {
+            Record r = record(seed);
+            r.u.head(rest).setZero();
+            const TransferFunction G(Vector{{2.0}}, Vector{{1.0, 1.0, 4.0}});
+            const double level = seed % 2 == 0 ? 0.5 : -0.5;
+            const Vector noise = r.y - r.x;
+            r.y = lsim(G, r.u, kTs, Hold::kZoh, Vector{{0.0, level}}) + noise;
+            found += advise(r.data()).has("running_start");
+        }
+        EXPECT_GE(found, 9) << "the input rests for " << rest << " samples";
+    }
 }
 
 /// The rank of 20 copies of u, each later by the lag at which its autocorrelation has fallen to one half.

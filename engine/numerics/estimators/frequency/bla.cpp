@@ -17,6 +17,7 @@ namespace {
 constexpr double kRepeatsRoughly = 0.02, kRepeatsNot = 0.25;  // of the input's power, that changes between periods
 constexpr Index kEnoughValues = 10;                           // behind every variance
 constexpr Index kFewestSamples = 8;
+constexpr double kSameInput = 0.999;  // correlation of two inputs, at the best shift in time
 
 /// The Fourier coefficients of one realisation at lines 1 .. L, a column for each period.
 struct Periods {
@@ -119,6 +120,17 @@ Lines lines_of(const std::vector<Realisation>& all, double least_input) {
     return lines;
 }
 
+/// The largest correlation of two inputs over all shifts in time: a shifted input answers with a shifted output, and
+/// tells no more than the other one.
+double shifted_correlation(const ComplexVector& a, const ComplexVector& b, Index period) {
+    const ComplexVector cross = a.conjugate().cwiseProduct(b);
+    Vector real = Vector::Zero(period), imaginary = Vector::Zero(period);
+    real.segment(1, cross.size()) = cross.real();
+    imaginary.segment(1, cross.size()) = cross.imag();
+    const TransformPair turned = fourier_transforms(real, imaginary);
+    return (turned.first.real() + turned.second.imag()).maxCoeff() / (a.norm() * b.norm());
+}
+
 Vector mean_over_neighbours(const Vector& values, Index reach) {
     Vector means(values.size());
     for (Index i = 0; i < values.size(); ++i) {
@@ -145,6 +157,7 @@ class Approximation {
         }
         if (all_.empty()) throw InvalidArgument("bla: stopped before the first realisation was looked at");
         check_repetition();
+        check_independence();
         lines_ = lines_of(all_, options.least_input);
         count_ = static_cast<double>(all_.size());
     }
@@ -189,6 +202,7 @@ class Approximation {
         result_.excited = levels(lines_.excited);
         if (!several && !periods) return;
         Vector spread = noise;
+        if (several) result_.realised = G;
         if (several) spread = (G.colwise() - result_.response).rowwise().squaredNorm() / (count_ - 1);
         if (several && periods) {
             const Vector distortion = spread - noise;
@@ -247,6 +261,17 @@ class Approximation {
             result_.warnings.push_back("The input repeats only roughly (" + number_text(100 * part, 3) +
                                        " % of its power changes from period to period): the period is not right or "
                                        "the input is noisy, and leakage may bias the response.");
+    }
+
+    /// Each input is held against the first one and the one before it.
+    void check_independence() const {
+        for (std::size_t m = 1; m < all_.size(); ++m)
+            for (const std::size_t other : {m - 1, std::size_t{0}})
+                if (shifted_correlation(all_[other].U, all_[m].U, options_.period) > kSameInput)
+                    throw InvalidArgument(
+                        "bla: realisations " + std::to_string(other + 1) + " and " + std::to_string(m + 1) +
+                        " have the same input, and distortion shows only where inputs differ: draw other phases for "
+                        "each (multisine does), or take them as periods of one realisation");
     }
 
     void warn_of_transient() {

@@ -33,7 +33,8 @@ struct BlaOptions {
 /// no period are left out. Told in warnings: those, a first period that is not settled, an input that repeats only
 /// roughly (leakage), lines that only some realisations excite, and what one period or one realisation cannot tell.
 /// Throws InvalidArgument for other data, a period (samples) that is not given or does not fit, realisations that do
-/// not divide the record, no period left, and an input that does not repeat. Reference: Pintelon and Schoukens (2012),
+/// not divide the record, no period left, an input that does not repeat, and neighbouring realisations of one input
+/// (shifted in time or not). Reference: Pintelon and Schoukens (2012),
 /// System Identification, chapters 3 and 4.
 FrequencyData bla(const IdData& data, const BlaOptions& options);
 

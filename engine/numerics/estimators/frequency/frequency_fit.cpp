@@ -10,6 +10,7 @@
 #include "numerics/estimators/frequency/frequency_start.h"
 #include "numerics/fit/diagnosis.h"
 #include "numerics/fit/output_error.h"
+#include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/least_squares.h"
 #include "numerics/linalg/polynomial.h"
 #include "numerics/number_text.h"
@@ -105,6 +106,28 @@ std::vector<Start> starts_of(const FrequencyData& data, const TransferStructure&
     return starts;
 }
 
+bool realisations_tell(const FrequencyData& data) {
+    return data.realised.cols() > 1 && data.variance.size() > 0;
+}
+
+/// The covariance of theta, where `plain` takes errors as independent from frequency to frequency. Those of nonlinear
+/// distortion are uncorrelated and yet not independent: a gain that all frequencies share changes with the realisation
+/// (Schoukens and Pintelon 2010, IEEE Trans. Instrum. Meas. 59, 3159-3167). What each realisation would change of theta
+/// tells their covariance; as far as distortion makes the variance it is believed, `plain` counting as one more
+/// realisation.
+Matrix covariance_with_distortion(const FrequencyData& data, const Matrix& plain, const Matrix& changes) {
+    constexpr double kPlainRealisations = 1, kMostlyDistortion = 0.5;
+    const auto M = static_cast<double>(changes.cols());
+    double distortion = 1;  // its share of the variance, at the frequencies that tell most
+    if (data.noise_variance.size() > 0) {
+        const Vector counts = data.response.cwiseAbs2().cwiseQuotient(data.variance);
+        const double noise = counts.dot(data.noise_variance.cwiseQuotient(data.variance)) / counts.sum();
+        distortion -= std::min(1.0, noise);
+    }
+    const double weight = std::min(1.0, distortion / kMostlyDistortion) * (M - 1) / (M - 1 + kPlainRealisations);
+    return (1 - weight) * plain + weight / (M * (M - 1)) * changes * changes.transpose();
+}
+
 /// A search with its end in seconds, and where another one would begin.
 struct Searched {
     Fit fit;
@@ -127,6 +150,18 @@ class FrequencySearch {
         if (end.fit.termination == Termination::kIterationLimit && options_.goes_on)
             end = continued(end, options_.limited(kMostIterations, options_.tolerance), stable_alone);
         return end;
+    }
+
+    /// What each realisation of the response would change of theta, a column each; `plain`: (J'J)^-1 of theta.
+    Matrix changes_by_realisation(const Searched& found, const Matrix& plain) const {
+        const FrequencyOutput model(data_, structure_, found.end.coefficients, range_.least, range_.largest);
+        Vector output;
+        Matrix J, changes(plain.rows(), data_.realised.cols());
+        model.simulate(model.parameters(found.end.coefficients, found.end.delay / model.time_unit()), output, &J);
+        const Matrix slopes = solve_by_lu(model.theta_derivatives().transpose(), J.transpose()).x;
+        for (Index m = 0; m < changes.cols(); ++m)
+            changes.col(m) = plain * (slopes * model.stacked(data_.realised.col(m) - data_.response));
+        return changes;
     }
 
   private:
@@ -187,7 +222,7 @@ void describe(Fit& fit, const FrequencyData& data) {
     if (data.neighbours_share_errors)
         fit.warnings.push_back(
             "Neighbouring values of a smoothed response share their errors: the standard errors are "
-            "too small.");
+            "too small, and narrow peaks are lowered, which looks like damping.");
 }
 
 std::string fit_text(const Fit& fit, const FrequencyData& data) {
@@ -208,15 +243,18 @@ Fit frequency_fit(const std::string& method, const FrequencyData& data, const Tr
     const bool stable_alone = options.stable.value_or(false);
     const FrequencySearch search(data, structure, range, options);
     const std::vector<Start> starts = starts_of(data, structure, delays, stable_alone);
-    Fit fit = search.from(starts, stable_alone).fit;
-    const auto unstable = [&](const Fit& end) { return has_unstable_pole(structure.models(end.theta).front()); };
-    if (!options.stable && unstable(fit)) {
-        Fit other = search.from(starts_of(data, structure, delays, true), true).fit;
-        if (kClearlyBetter * other.loss <= fit.loss) fit = std::move(other);
+    Searched found = search.from(starts, stable_alone);
+    if (!options.stable && has_unstable_pole(structure.models(found.fit.theta).front())) {
+        Searched other = search.from(starts_of(data, structure, delays, true), true);
+        if (kClearlyBetter * other.fit.loss <= found.fit.loss) found = std::move(other);
     }
+    Fit& fit = found.fit;
     fit.structure = structure;
     fit.delay_grid = told.delay_grid, fit.delay_loss = told.delay_loss;
     if (data.variance.size() > 0) fit.covariance /= fit.noise_variance[0];
+    if (realisations_tell(data))
+        fit.covariance =
+            covariance_with_distortion(data, fit.covariance, search.changes_by_realisation(found, fit.covariance));
     warn_of_search(fit, options);
     describe(fit, data);
     warn_of_misfit(fit, data, fit.theta.size());
@@ -240,17 +278,22 @@ Fit frequency_lssvf(const FrequencyData& data, const TransferStructure& structur
     const FrequencyOutput scaled(data, structure, coefficients);
     const Vector F = monic(coefficients.head(n));
     Eigen::MatrixXcd regressors(lines.s.size(), d);
-    Vector spread(2 * lines.s.size());  // of each row's error, against that of the response
+    ComplexVector error(lines.s.size());  // of each equation, that one of the response makes
     for (Index k = 0; k < lines.s.size(); ++k) {
         const double weight = lines.weights[k] / sizes[k];
         for (Index i = 0; i < n; ++i)
             regressors(k, i) = -weight * lines.response[k] * std::pow(lines.s[k], static_cast<double>(n - 1 - i));
         for (Index j = 0; j <= m; ++j) regressors(k, n + j) = weight * std::pow(lines.s[k], static_cast<double>(m - j));
-        spread[k] = spread[k + lines.s.size()] = std::abs(evaluate(F, lines.s[k])) / sizes[k];
+        // without hold and delay the lines are turned, and scaled as their weights are not
+        const Complex turned = lines.weights[k] * lines.response[k] / data.response[k];
+        error[k] = turned * evaluate(F, lines.s[k]) / sizes[k];
     }
     Matrix rows(2 * lines.s.size(), d);
     rows << regressors.real(), regressors.imag();
     const LeastSquares equations = solve_least_squares(rows, Vector::Zero(rows.rows()));
+    const Vector sizes_of_errors = error.cwiseAbs().cwiseQuotient(response_weights(data).head(error.size()));
+    Vector spread(rows.rows());
+    spread << sizes_of_errors, sizes_of_errors;
     const Matrix terms = spread.asDiagonal() * rows * equations.inverse_gram;
 
     Fit fit;
@@ -264,6 +307,16 @@ Fit frequency_lssvf(const FrequencyData& data, const TransferStructure& structur
         1, fit.loss * static_cast<double>(2 * data.w.size()) / static_cast<double>(2 * data.w.size() - d));
     fit.condition_number = equations.condition_number;
     fit.covariance = scaled.seconds().asDiagonal() * (terms.transpose() * terms) * scaled.seconds().asDiagonal();
+    if (realisations_tell(data)) {
+        Matrix changes(d, data.realised.cols());
+        Vector errors(rows.rows());
+        for (Index j = 0; j < changes.cols(); ++j) {
+            const ComplexVector own = error.cwiseProduct((data.realised.col(j) - data.response).head(error.size()));
+            errors << own.real(), own.imag();
+            changes.col(j) = scaled.seconds().cwiseProduct(equations.inverse_gram * (rows.transpose() * errors));
+        }
+        fit.covariance = covariance_with_distortion(data, fit.covariance, changes);
+    }
     if (data.variance.size() == 0) fit.covariance *= fit.noise_variance[0], fit.loss *= 2, fit.noise_variance *= 2;
     describe(fit, data);
     warn_of_cutoff(fit, options.lambda);

@@ -14,7 +14,8 @@ namespace dynlab::inline numerics {
 /// between samples, the model's response is that of its samples, exactly. Of the options least_delay, largest_delay,
 /// delay_count, max_iterations, goes_on, tolerance, stable and cancel count.
 ///
-/// Covariance: (J'J)^-1 with known variances, times the mean square with unknown ones. noise_variance is the mean of
+/// Covariance: (J'J)^-1 with known variances, times the mean square with unknown ones; of a response with several
+/// realisations that nonlinear distortion moves, as these move theta. noise_variance is the mean of
 /// |error|^2/variance over the degrees of freedom, which is near one where model and variances are right, or that of
 /// |error|^2. fit_percent compares the weighted errors with the weighted response about its mean. Told in `warnings`:
 /// errors larger than the variances explain, neighbours that share their errors, and what is told of every fit.

@@ -8,6 +8,7 @@
 
 #include "numerics/criteria/grey_output.h"
 #include "numerics/error.h"
+#include "numerics/estimators/grey_box/missed_start.h"
 #include "numerics/fit/diagnosis.h"
 #include "numerics/fit/output_error.h"
 #include "numerics/linalg/decompositions.h"
@@ -361,6 +362,7 @@ GreyFit greyest(const IdData& data, const GreyModel& model, const GreyOptions& o
     set_parameters(result, criterion, end.fit);
     set_measures(result, criterion, end.fit, data);
     warn_of_bounds(result.fit, result.model, result.model.free_parameters(), end.fit);
+    if (const auto missed = missed_initial_state(data, result, end.weights)) result.fit.warnings.push_back(*missed);
     if (!ambiguous) warn_of_doubtful_parameters(result.fit, "fewer free parameters");
     set_message(result.fit, "Grey box " + ending_text(result.fit) + ": " + simulation_text(result.fit) + ".");
     return result;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "numerics/error.h"
+#include "numerics/estimators/learning/cancelled.h"
 #include "numerics/fit/diagnosis.h"
 #include "numerics/linalg/decompositions.h"
 #include "numerics/number_text.h"
@@ -77,25 +78,29 @@ Index told_apart(const Vector& s) {
 struct Reduced {
     Matrix A, B, U;
     Vector singular_values;
+    double condition_number = 1;  ///< of what the equations are solved with
 };
 
-Reduced reduce(const Snapshots& pairs, int rank) {
+Reduced reduce(const Snapshots& pairs, const DmdcOptions& options) {
+    const int rank = options.rank;
     const Index rows = pairs.next.rows(), nu = pairs.now.rows() - rows;
     // [now; next]' = Q [R11 R12; 0 R22]: all inner products are those of the short columns of R.
     Matrix joint(pairs.now.cols(), pairs.now.rows() + rows);
     joint << pairs.now.transpose(), pairs.next.transpose();
+    check_cancelled("dmdc", options.cancel);
     const Matrix R = triangular_part(joint);
+    check_cancelled("dmdc", options.cancel);
     const Matrix now = R.leftCols(rows + nu).transpose(), next = R.rightCols(rows).transpose();
     const SingularValues of_next = svd_of(next), of_now = svd_of(now);
     const Index seen = told_apart(of_next.s), r = rank > 0 ? rank : seen;
     if (r > seen)
         throw InvalidArgument("dmdc: `rank` is " + std::to_string(rank) + ", and the data show only " +
-                              std::to_string(seen) + " directions");
+                              counted(seen, "direction"));
     const Index p = std::min(r + nu, told_apart(of_now.s));
     const Matrix U = of_next.U.leftCols(r);
     const Matrix G = U.transpose() * next * of_now.V.leftCols(p) * of_now.s.head(p).cwiseInverse().asDiagonal() *
                      of_now.U.leftCols(p).transpose();
-    return {G.leftCols(rows) * U, G.rightCols(nu), U, of_next.s};
+    return {G.leftCols(rows) * U, G.rightCols(nu), U, of_next.s, of_now.s[0] / of_now.s[p - 1]};
 }
 
 void measure_fit(DmdcFit& found, const IdData& data, const Scale& scale, const Matrix& U) {
@@ -138,12 +143,13 @@ DmdcFit dmdc(const IdData& data, const DmdcOptions& options) {
     const Snapshots pairs = neighbouring_snapshots(data, scale, options.delays);
     if (options.rank > pairs.next.rows())
         throw InvalidArgument("dmdc: `rank` is " + std::to_string(options.rank) + ", and a snapshot holds only " +
-                              std::to_string(pairs.next.rows()) + " values");
-    const Reduced reduced = reduce(pairs, options.rank);
+                              counted(pairs.next.rows(), "value"));
+    const Reduced reduced = reduce(pairs, options);
     DmdcFit found;
     found.rank = static_cast<int>(reduced.A.rows());
     found.delays = options.delays;
     found.singular_values = reduced.singular_values;
+    found.fit.condition_number = reduced.condition_number;
     found.eigenvalues = eigenvalues(reduced.A);
     found.system = StateSpace(reduced.A, reduced.B * scale.u.cwiseInverse().asDiagonal(),
                               scale.y.asDiagonal() * reduced.U.topRows(ny), Matrix::Zero(ny, scale.u.size()), data.Ts);

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include "numerics/fit/fit.h"
 #include "numerics/models/state_space.h"
 
@@ -7,13 +8,14 @@ namespace dynlab::inline numerics {
 struct DmdcOptions {
     int rank = 0;    ///< r, states of the model; 0: as many as the singular values tell from rounding
     int delays = 1;  ///< d, samples of outputs and inputs that make up a snapshot; 1: the outputs alone
+    std::function<bool()> cancel = {};  ///< asked before every decomposition; then it throws
 
     /// Throws InvalidArgument naming the option.
     void validate() const;
 };
 
-/// A fit with states and without theta. Of the Fit these are given: models (output by output), fit_percent and loss of
-/// the simulation from the first snapshot, start, warnings and message.
+/// A fit with states and without theta. Of the Fit these are given: models (output by output), fit_percent,
+/// condition_number and loss of the simulation from the first snapshot, start, warnings and message.
 struct DmdcFit {
     Fit fit;
     StateSpace system;          ///< order r, discrete time, D = 0

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "numerics/error.h"
+#include "numerics/estimators/learning/cancelled.h"
 #include "numerics/fit/diagnosis.h"
 #include "numerics/linalg/least_squares.h"
 #include "numerics/linalg/triangular_factor.h"
@@ -19,13 +20,15 @@ constexpr double kDependent = 1e-12;  // of a candidate's power, what the others
 constexpr double kOutOfBounds = 1e3;  // times the largest output of the record
 
 /// R of the candidates' values and the outputs, of which all that follows is made.
-Matrix candidates_and_output(const IdData& data, const NarxLags& lags, const Monomials& monomials) {
+Matrix candidates_and_output(const IdData& data, const NarxLags& lags, const Monomials& monomials,
+                             const std::function<bool()>& cancel) {
     TriangularFactor factor(monomials.count() + 1);
     for (const Experiment& experiment : data.experiments) {
         const Index first = lags.first();
         if (experiment.y.rows() <= first) continue;
         const Matrix past = lags.past_values(experiment.y.col(0), experiment.u);
         for (Index row = 0; row < past.rows(); row += kRowsAtOnce) {
+            check_cancelled("narx", cancel);
             const Index rows = std::min(kRowsAtOnce, past.rows() - row);
             Matrix block(rows, monomials.count() + 1);
             block.leftCols(monomials.count()) = monomials.values(past.middleRows(row, rows));
@@ -50,7 +53,7 @@ struct Choice {
 
 /// The candidates one by one, each time the one that explains most of what is left of the output. What is chosen is
 /// taken off all others (modified Gram and Schmidt).
-Choice choose_forwards(const Matrix& R, Index rows, Index most) {
+Choice choose_forwards(const Matrix& R, Index rows, Index most, const std::function<bool()>& cancel) {
     const Index M = R.cols() - 1;
     Matrix W = R.leftCols(M);
     Vector rest = R.col(M);
@@ -59,6 +62,7 @@ Choice choose_forwards(const Matrix& R, Index rows, Index most) {
     std::vector<bool> taken(static_cast<std::size_t>(M), false);
     Choice choice;
     while (static_cast<Index>(choice.terms.size()) < most) {
+        check_cancelled("narx", cancel);
         Index best = -1;
         double most_explained = 0;
         for (Index j = 0; j < M; ++j) {
@@ -141,6 +145,11 @@ void check(const IdData& data, const NarxLags& lags, const NarxOptions& options,
     if (options.terms > candidates)
         throw InvalidArgument("narx: " + std::to_string(options.terms) + " terms are wanted, and there are only " +
                               std::to_string(candidates) + " candidates");
+    if (rows > least && rows <= candidates)
+        throw InvalidArgument("narx: " + std::to_string(rows) + " samples have their whole past recorded, and there " +
+                              "are " + std::to_string(candidates) +
+                              " candidate terms, among which as many would explain any record: take a longer record, "
+                              "fewer lags or a lower degree");
     if (rows <= least)
         throw InvalidArgument("narx: too few samples: " + std::to_string(std::max<Index>(rows, 0)) +
                               " have their whole past recorded, and more than " + std::to_string(least) +
@@ -151,8 +160,8 @@ void check(const IdData& data, const NarxLags& lags, const NarxOptions& options,
 
 void NarxLags::check(Index inputs) const {
     if (static_cast<Index>(nb.size()) != inputs || nb.size() != nk.size())
-        throw InvalidArgument("narx: the lags are of " + std::to_string(nb.size()) + " input(s), and the data hold " +
-                              std::to_string(inputs));
+        throw InvalidArgument("narx: the lags are of " + counted(static_cast<Index>(nb.size()), "input") +
+                              ", and the data hold " + std::to_string(inputs));
     bool negative = na < 0;
     for (std::size_t j = 0; j < nb.size(); ++j) negative = negative || nb[j] < 0 || nk[j] < 0;
     if (negative) throw InvalidArgument("narx: numbers of lags must not be negative");
@@ -212,11 +221,11 @@ FreeRun NarxModel::free_run(const IdData& data, std::size_t experiment, const Ve
     const Experiment& record = data.experiments[experiment];
     const Index N = record.u.rows() > 0 ? record.u.rows() : record.y.rows(), first = lags_.first();
     if (N <= first)
-        throw InvalidArgument("narx: the run begins after " + std::to_string(first) +
-                              " samples, and the record holds only " + std::to_string(N));
+        throw InvalidArgument("narx: the run begins after " + counted(first, "sample") +
+                              ", and the record holds only " + std::to_string(N));
     if (x0.size() != 0 && x0.size() != first)
-        throw InvalidArgument("narx: x0 holds the first " + std::to_string(first) + " outputs of the run, and has " +
-                              std::to_string(x0.size()) + " values");
+        throw InvalidArgument("narx: x0 holds the first " + counted(first, "output") + " of the run, and has " +
+                              counted(x0.size(), "value"));
     FreeRun run{Matrix::Constant(N, 1, kNaN), {}, "from the recorded first " + counted(first, "sample")};
     auto y = run.output.col(0);
     if (x0.size() > 0) {
@@ -254,9 +263,9 @@ NarxFit narx(const IdData& data, const NarxLags& lags, const NarxOptions& option
     const Monomials monomials("narx", lags.variables(), options.degree);
     check(data, lags, options, monomials.count());
     const Index rows = equation_count(data, lags);
-    const Matrix R = candidates_and_output(data, lags, monomials);
+    const Matrix R = candidates_and_output(data, lags, monomials, options.cancel);
     const Index most = options.terms > 0 ? options.terms : std::min({kMostTerms, monomials.count(), rows - 2});
-    const Choice choice = choose_forwards(R, rows, most);
+    const Choice choice = choose_forwards(R, rows, most, options.cancel);
     if (choice.terms.empty()) throw InvalidArgument("narx: no candidate explains anything of the output");
     const std::vector<Index> terms(choice.terms.begin(), choice.terms.begin() + number_of_terms(choice, options.terms));
     NarxFit found;

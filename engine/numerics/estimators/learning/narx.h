@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -49,7 +50,8 @@ class NarxModel : public FreeRunModel {
 
 struct NarxOptions {
     int degree = 2;
-    Index terms = 0;  ///< how many; 0: as many as the smallest BIC has, at most 50
+    Index terms = 0;                    ///< how many; 0: as many as the smallest BIC has, at most 50
+    std::function<bool()> cancel = {};  ///< asked before every block of the record and every term; then it throws
 
     /// Throws InvalidArgument naming the option.
     void validate() const;

@@ -6,6 +6,7 @@
 
 #include "numerics/criteria/rate_equations.h"
 #include "numerics/error.h"
+#include "numerics/estimators/learning/cancelled.h"
 #include "numerics/fit/diagnosis.h"
 #include "numerics/linalg/least_squares.h"
 #include "numerics/linalg/triangular_factor.h"
@@ -31,6 +32,7 @@ Rotated rotated_equations(const IdData& data, const FunctionLibrary& library, co
     TriangularFactor factor(functions + states);
     Rotated rotated;
     for (std::size_t k = 0; k < data.experiments.size(); ++k) {
+        check_cancelled("sindy", options.cancel);
         const RateEquations own =
             width ? weak_equations(data, k, library, *width) : derivative_equations(data, k, library, options.window);
         Matrix joint(own.B.rows(), functions + states);
@@ -172,8 +174,8 @@ FreeRun SindyModel::free_run(const IdData& data, std::size_t experiment, const V
     const Vector t = data.time(experiment);
     const Index N = t.size(), n = output_count();
     if (x0.size() != 0 && x0.size() != n)
-        throw InvalidArgument("sindy: x0 holds the " + std::to_string(n) + " states at the first sample, and has " +
-                              std::to_string(x0.size()) + " values");
+        throw InvalidArgument("sindy: x0 holds " + counted(n, "state") + " at the first sample, and has " +
+                              counted(x0.size(), "value"));
     FreeRun run{Matrix::Constant(N, n, kNaN), {}, "from the recorded first sample"};
     OdeState x = OdeState::Zero(n);
     if (x0.size() > 0)
@@ -235,6 +237,7 @@ SindyFit sindy(const IdData& data, const FunctionLibrary& library, const SindyOp
     Matrix Xi(functions, states);
     double squares = 0;
     for (Index i = 0; i < states; ++i) {
+        check_cancelled("sindy", options.cancel);
         const Sparse sparse = thresholded(R, functions, i, options);
         Xi.col(i) = sparse.coefficients;
         squares += sparse.loss;

@@ -1,7 +1,10 @@
 #include <array>
+#include <cmath>
+#include <optional>
 
 #include "figures/plots/levels_plot.h"
 #include "numerics/estimators/frequency/bla.h"
+#include "numerics/number_text.h"
 #include "numerics/simulation/sampled_response.h"
 #include "scripting/arguments/table_fields.h"
 #include "scripting/arguments/told_sentences.h"
@@ -42,17 +45,33 @@ void read_names(const Options& options, FrequencyData& data) {
     data.output_unit = options.text("OutputUnit", data.output_unit);
 }
 
+/// Where a response comes from: an analyser, unless the options say samples; the samples of a discrete-time model.
+struct Sampling {
+    double Ts = 0;
+    InterSample inter_sample = InterSample::kBandLimited;
+};
+Sampling sampling_options(const Options& options, const std::optional<TransferFunction>& G) {
+    const bool discrete = G && !G->continuous();
+    const Sampling own{discrete ? G->Ts() : 0, discrete ? InterSample::kZoh : InterSample::kBandLimited};
+    const Sampling wanted{options.number("Ts", own.Ts), inter_sample_option(options, own.inter_sample)};
+    if (discrete && std::abs(wanted.Ts - own.Ts) > 1e-9 * own.Ts)
+        throw InvalidArgument(fmt::format(
+            "option 'Ts' is {} s, but the model is sampled every {} s: leave the option out, or convert the model "
+            "with d2c and c2d",
+            number_text(wanted.Ts), number_text(own.Ts)));
+    return wanted;
+}
+
 /// idfrd(H, w, {options}), or of a model idfrd(G, w, {options})
 int make_response(Call& call) {
     call.at_most(3);
     const Options options(call, 3,
                           {"variance", "Ts", "InterSample", "InputName", "OutputName", "InputUnit", "OutputUnit"});
-    const double Ts = options.number("Ts", 0);
-    const InterSample inter_sample = inter_sample_option(options, InterSample::kBandLimited);
+    std::optional<TransferFunction> G;
+    if (holds_model(call, 1)) G = model_argument(call, 1, "G").G;
+    const auto [Ts, inter_sample] = sampling_options(options, G);
     const VectorMap w = call.vector(2, "w");
-    const ComplexVector H = holds_model(call, 1)
-                                ? response_between_samples(model_argument(call, 1, "G").G, w, Ts, inter_sample)
-                                : complex_argument(call, 1, "H");
+    const ComplexVector H = G ? response_between_samples(*G, w, Ts, inter_sample) : complex_argument(call, 1, "H");
     Vector variance;
     if (options.has("variance")) {
         const bool one = lua_type(call.state(), options.push("variance")) == LUA_TNUMBER;

@@ -3,11 +3,11 @@
 #include <array>
 #include <cmath>
 
-#include "scripting/arguments/option_words.h"
 #include "scripting/arguments/table_fields.h"
 #include "scripting/arguments/told_sentences.h"
 #include "scripting/bind/grey_box/grey_bindings.h"
 #include "scripting/objects/data_object.h"
+#include "scripting/objects/fit_model.h"
 #include "scripting/objects/grey_object.h"
 #include "scripting/objects/named_vector.h"
 
@@ -92,15 +92,8 @@ int give_noise_variance(Call& call) {
 int give_report(Call& call) {
     const GreyFit& grey = fit_self(call);
     const Fit& fit = grey.fit;
-    lua_newtable(call.state());
-    set_field(call, "method", std::string("greyest"));
-    set_field(call, "message", told(call, in_lua_words(fit.message)));
-    set_field(call, "converged", fit.termination == Termination::kConverged);
-    set_field(call, "fit_percent", fit.fit_percent[0]);
-    set_field(call, "fits", fit.fit_percent);
+    push_report(call, basic_estimate("greyest", fit));
     set_field(call, "noise_variance", fit.noise_variance);
-    set_field(call, "loss", fit.loss);
-    set_field(call, "condition_number", fit.condition_number);
     set_field(call, "singular_values", grey.singular_values);
     set_field(call, "iterations", static_cast<double>(fit.trace.size()));
     set_field(call, "intervals", grey.intervals);
@@ -111,9 +104,6 @@ int give_report(Call& call) {
     lua_setfield(call.state(), -2, "outputs");
     give_list(call, grey.states, [&](const Matrix& x) { give_columns(call, x); });
     lua_setfield(call.state(), -2, "states");
-    std::vector<std::string> warnings;
-    for (const std::string& warning : fit.warnings) warnings.push_back(in_lua_words(warning));
-    set_field(call, "warnings", told(call, warnings));
     return 1;
 }
 

@@ -149,9 +149,9 @@ void read_initial_state(const Options& options, ScriptEquations& equations, Grey
     } else if (!lua_isnil(L, place)) {
         if (lua_istable(L, place) == 0 || static_cast<Index>(lua_rawlen(L, place)) != n)
             throw InvalidArgument(
-                fmt::format("option 'x0' must be a table of {} values, one for each state, \"estimate\", "
+                fmt::format("option 'x0' must be a table of {}, one for each state, \"estimate\", "
                             "or a function of p, but {} was given",
-                            n, given_text(L, place)));
+                            counted(n, "value"), given_text(L, place)));
         for (Index i = 0; i < n; ++i) {
             lua_rawgeti(L, place, i + 1);
             read_entry(options.call(), equations, model, i);

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cmath>
+#include <regex>
+#include <set>
 #include <utility>
 
 #include "scripting/bind/grey_box/script_values.h"
@@ -52,6 +54,19 @@ Matrices<Value> read_matrices(lua_State* L, Index n, const Read& read) {
 
 // ---- tracing
 
+/// Lua's own mathematics takes numbers alone: the message says what to write in its place.
+std::string with_remedy(const std::string& message) {
+    static const std::regex kOfMath(R"(bad argument #\d+ to '(\w+)' \(number expected, got)");
+    static const std::set<std::string> kFollowed = {"sin", "cos",  "tan", "atan", "exp",
+                                                    "log", "sqrt", "abs", "max",  "min"};
+    std::smatch found;
+    if (!std::regex_search(message, found, kOfMath)) return message;
+    const std::string name = found[1];
+    return fmt::format("{}; math.{} takes numbers alone: {}", message, name,
+                       kFollowed.contains(name) ? fmt::format("write {}(...) without math, which can be followed", name)
+                                                : "it has no derivatives and cannot be followed");
+}
+
 class Tracer {
   public:
     explicit Tracer(ScriptEquations& equations)
@@ -97,7 +112,7 @@ class Tracer {
     bool called(int arguments, int results) {
         if (lua_pcall(L_, arguments, results, 0) == LUA_OK) return true;
         pass_stop_on(L_);
-        reason_ = luaL_tolstring(L_, -1, nullptr);
+        reason_ = with_remedy(luaL_tolstring(L_, -1, nullptr));
         return false;
     }
     std::optional<Node> node_on_top() const { return traced_node(L_, -1, trace_); }
@@ -182,14 +197,14 @@ class Tracer {
 
 // ---- calling
 
-/// Throws the script's own error as InvalidArgument, so that nothing of Lua's passes through numerics.
-void call_or_throw(lua_State* L, int arguments, int results) {
-    if (lua_pcall(L, arguments, results, 0) == LUA_OK) return;
-    pass_stop_on(L);
-    const std::string message = luaL_tolstring(L, -1, nullptr);
-    lua_pop(L, 2);
-    throw InvalidArgument(message);
-}
+constexpr const char* kMoreThanRates =
+    "f returned several values, and must return the derivatives alone, in one table: return {dx1, dx2}; outputs have "
+    "a function of their own, the option outputs = function(t, x, u, p) return {y1} end";
+constexpr const char* kMoreThanOutputs =
+    "h returned several values, and must return the outputs in one table: return {y1, y2}";
+constexpr const char* kMoreThanStart =
+    "x0 returned several values, and must return the initial states in one table: return {x1, x2}";
+constexpr const char* kMoreThanMatrices = "f returned more than the matrices A, B, C, D";
 
 /// A function of (t, x, u, p), called with numbers.
 Vector called_with(const ScriptEquations& equations, const ScriptFunction& function, const Wanted& wanted, double t,
@@ -201,7 +216,7 @@ Vector called_with(const ScriptEquations& equations, const ScriptFunction& funct
     push_numbers(L, "state", "x", equations.states, x);
     push_inputs(L, u, equations.inputs_indexed);
     push_numbers(L, "parameter", "p", equations.parameters, p);
-    call_or_throw(L, 4, 1);
+    call_or_throw(L, 4, 1, &function == equations.rates.get() ? kMoreThanRates : kMoreThanOutputs);
     return numbers_on_top(L, wanted);
 }
 
@@ -210,7 +225,7 @@ Vector initial_values(const ScriptEquations& equations, const Vector& p) {
         lua_State* L = equations.initial->state();
         equations.initial->push();
         push_numbers(L, "parameter", "p", equations.parameters, p);
-        call_or_throw(L, 1, 1);
+        call_or_throw(L, 1, 1, kMoreThanStart);
         const std::string what = initial_text(equations);
         return numbers_on_top(L, {"x0", what.c_str(), static_cast<Index>(equations.states.size())});
     }
@@ -237,7 +252,7 @@ class CalledMatrices {
         luaL_checkstack(L, 16, "grey-box model");
         equations_.rates->push();
         push_numbers(L, "parameter", "p", equations_.parameters, p);
-        call_or_throw(L, 1, 4);
+        call_or_throw(L, 1, 4, kMoreThanMatrices);
         const auto all =
             read_matrices<double>(L, static_cast<Index>(equations_.states.size()), [L] { return number_at_top(L); });
         matrices_ = {matrix_of(all.A), matrix_of(all.B), matrix_of(all.C),
@@ -291,19 +306,6 @@ CalledFunctions call_signals(const std::shared_ptr<ScriptEquations>& own, const 
 }
 
 }  // namespace
-
-ScriptFunction::ScriptFunction(lua_State* L, int index) : L_(context_of(L).main != nullptr ? context_of(L).main : L) {
-    lua_pushvalue(L, index);
-    reference_ = luaL_ref(L, LUA_REGISTRYINDEX);
-}
-
-ScriptFunction::~ScriptFunction() {
-    luaL_unref(L_, LUA_REGISTRYINDEX, reference_);
-}
-
-void ScriptFunction::push() const {
-    lua_rawgeti(L_, LUA_REGISTRYINDEX, reference_);
-}
 
 std::optional<TracedFunctions> trace_functions(ScriptEquations& equations, std::string& reason) {
     Tracer tracer(equations);

@@ -6,24 +6,9 @@
 
 #include "numerics/models/called_equations.h"
 #include "numerics/models/traced_equations.h"
-#include "scripting/arguments/arguments.h"
+#include "scripting/arguments/script_function.h"
 
 namespace dynlab::inline scripting {
-
-/// A function of a script, kept for as long as somebody needs it.
-class ScriptFunction {
-  public:
-    ScriptFunction(lua_State* L, int index);
-    ~ScriptFunction();
-    ScriptFunction(const ScriptFunction&) = delete;
-    ScriptFunction& operator=(const ScriptFunction&) = delete;
-    lua_State* state() const { return L_; }
-    void push() const;
-
-  private:
-    lua_State* L_;
-    int reference_;
-};
 
 /// Where the initial value of a state comes from.
 struct InitialEntry {

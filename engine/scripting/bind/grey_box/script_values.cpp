@@ -2,12 +2,6 @@
 
 namespace dynlab::inline scripting {
 
-int refuse_name(lua_State* L) {
-    raise_error(L, fmt::format("{1} has no {0} {2}; the {0}s are {3}", lua_tostring(L, lua_upvalueindex(1)),
-                               lua_tostring(L, lua_upvalueindex(2)), luaL_tolstring(L, 2, nullptr),
-                               lua_tostring(L, lua_upvalueindex(3))));
-}
-
 void push_numbers(lua_State* L, const char* kind, const char* table, const Names& names, const Vector& values) {
     push_by_name(L, kind, table, names, [&](Index i) { lua_pushnumber(L, values[i]); });
 }

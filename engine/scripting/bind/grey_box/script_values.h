@@ -4,35 +4,13 @@
 #include <vector>
 
 #include "numerics/number_text.h"
-#include "scripting/arguments/arguments.h"
+#include "scripting/arguments/script_function.h"
 
 namespace dynlab::inline scripting {
 
 using Names = std::vector<std::string>;
 
 // ---- arguments of the functions
-
-/// __index of x and p, raises; upvalues: "state", "x", their names.
-int refuse_name(lua_State* L);
-
-/// Pushes a table of what `push(i)` pushes, by place and by name.
-template <class Push>
-void push_by_name(lua_State* L, const char* kind, const char* table, const Names& names, const Push& push) {
-    lua_createtable(L, static_cast<int>(names.size()), static_cast<int>(names.size()));
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        push(static_cast<Index>(i));
-        lua_pushvalue(L, -1);
-        lua_setfield(L, -3, names[i].c_str());
-        lua_rawseti(L, -2, static_cast<lua_Integer>(i) + 1);
-    }
-    lua_createtable(L, 0, 1);
-    lua_pushstring(L, kind);
-    lua_pushstring(L, table);
-    lua_pushstring(L, fmt::format("{}", fmt::join(names, ", ")).c_str());
-    lua_pushcclosure(L, refuse_name, 3);
-    lua_setfield(L, -2, "__index");
-    lua_setmetatable(L, -2);
-}
 
 void push_numbers(lua_State* L, const char* kind, const char* table, const Names& names, const Vector& values);
 /// One number, or a table where there are several or the function wrote u[1].

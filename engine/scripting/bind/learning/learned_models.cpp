@@ -3,12 +3,12 @@
 #include "numerics/estimators/learning/dmdc.h"
 #include "numerics/estimators/learning/narx.h"
 #include "numerics/estimators/learning/sindy.h"
-#include "scripting/arguments/option_words.h"
 #include "scripting/arguments/order_vector.h"
 #include "scripting/bind/learning/learning_bindings.h"
 #include "scripting/bind/learning/lua_library.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/data_object.h"
+#include "scripting/objects/fit_model.h"
 #include "scripting/objects/simulated_model.h"
 
 namespace dynlab::inline scripting {
@@ -16,23 +16,6 @@ namespace {
 
 constexpr std::array kNarxLags = {OrderEntry{"na", "past outputs"}, OrderEntry{"nb", "values of the input"},
                                   OrderEntry{"nk", "samples of delay, 1 for no direct term"}};
-
-/// What all of them say of a fit.
-Estimate learned_estimate(const char* method, const Fit& fit) {
-    Estimate estimate;
-    estimate.method = method;
-    estimate.names = fit.names;
-    estimate.theta = fit.theta;
-    estimate.std = fit.std;
-    estimate.covariance = fit.covariance;
-    estimate.message = in_lua_words(fit.message);
-    for (const std::string& warning : fit.warnings) estimate.warnings.push_back(in_lua_words(warning));
-    estimate.converged = fit.termination == Termination::kConverged;
-    estimate.numbers = {
-        {"fit_percent", fit.fit_percent[0]}, {"loss", fit.loss}, {"condition_number", fit.condition_number}};
-    estimate.vectors = {{"fits", fit.fit_percent}};
-    return estimate;
-}
 
 NarxLags lags_argument(const Call& call, Index inputs) {
     const auto orders = order_lists(call, 2, kNarxLags);
@@ -51,8 +34,9 @@ int estimate_narx(Call& call) {
     NarxOptions wanted;
     wanted.degree = static_cast<int>(options.size("degree", wanted.degree));
     wanted.terms = options.size("terms", wanted.terms);
+    wanted.cancel = call.cancel();
     const NarxFit found = narx(data, lags, wanted);
-    Estimate estimate = learned_estimate("narx", found.fit);
+    Estimate estimate = basic_estimate("narx", found.fit);
     estimate.numbers.insert(estimate.numbers.end(), {{"noise_variance", found.fit.noise_variance[0]},
                                                      {"prediction_fit_percent", found.fit.prediction_fit_percent}});
     Vector reductions(static_cast<Index>(found.steps.size())), criteria(reductions.size());
@@ -93,8 +77,9 @@ int estimate_sindy(Call& call) {
     wanted.weak = options.flag("weak", wanted.weak);
     wanted.window = static_cast<int>(options.size("window", wanted.window));
     wanted.width = options.optional_number("width");
+    wanted.cancel = call.cancel();
     const SindyFit found = sindy(data, library_option(call, options, data), wanted);
-    Estimate estimate = learned_estimate("sindy", found.fit);
+    Estimate estimate = basic_estimate("sindy", found.fit);
     if (found.width) estimate.numbers.emplace_back("width", *found.width);
     estimate.matrices = {{"coefficients", found.model->coefficients()}};
     push_object(call.state(),
@@ -109,20 +94,12 @@ int estimate_dmdc(Call& call) {
     DmdcOptions wanted;
     wanted.rank = static_cast<int>(options.size("rank", wanted.rank));
     wanted.delays = static_cast<int>(options.size("delays", wanted.delays));
+    wanted.cancel = call.cancel();
     const DmdcFit found = dmdc(data, wanted);
-    Estimate estimate = learned_estimate("dmdc", found.fit);
-    estimate.numbers = {{"fit_percent", found.fit.fit_percent[0]},
-                        {"loss", found.fit.loss},
-                        {"rank", found.rank},
-                        {"delays", found.delays}};
+    Estimate estimate = basic_estimate("dmdc", found.fit);
+    estimate.numbers.insert(estimate.numbers.end(), {{"rank", found.rank}, {"delays", found.delays}});
     estimate.vectors.emplace_back("singular_values", found.singular_values);
-    Model model{found.fit.models.front()};
-    if (found.fit.models.size() > 1) model.channels = found.fit.models;
-    model.outputs = static_cast<std::size_t>(data.output_count());
-    model.estimate = std::make_shared<Estimate>(std::move(estimate));
-    model.system = std::make_shared<StateSpace>(found.system);
-    push_object(call.state(), std::move(model));
-    return 1;
+    return give_system(call, std::move(estimate), found.fit, found.system);
 }
 
 constexpr const char* kLearningArea = "learning from data";

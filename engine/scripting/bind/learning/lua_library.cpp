@@ -2,41 +2,20 @@
 
 #include <memory>
 
+#include "numerics/number_text.h"
+#include "scripting/arguments/script_function.h"
+
 namespace dynlab::inline scripting {
 namespace {
-
-/// A function of the script, kept for as long as a model calls it.
-class KeptFunction {
-  public:
-    KeptFunction(lua_State* L, int index) : L_(context_of(L).main) {
-        lua_pushvalue(L, index);
-        reference_ = luaL_ref(L, LUA_REGISTRYINDEX);
-    }
-    ~KeptFunction() { luaL_unref(L_, LUA_REGISTRYINDEX, reference_); }
-    KeptFunction(const KeptFunction&) = delete;
-    KeptFunction& operator=(const KeptFunction&) = delete;
-
-    lua_State* state() const { return L_; }
-    void push() const { lua_rawgeti(L_, LUA_REGISTRYINDEX, reference_); }
-
-  private:
-    lua_State* L_;
-    int reference_;
-};
 
 struct ChannelNames {
     std::vector<std::string> states, inputs;
 };
 
 /// A table of the columns as vectors, by place and by name.
-void push_channels(lua_State* L, const Matrix& columns, const std::vector<std::string>& names) {
-    lua_createtable(L, static_cast<int>(columns.cols()), static_cast<int>(columns.cols()));
-    for (Index j = 0; j < columns.cols(); ++j) {
-        push_vector(L, columns.rows()).vector() = columns.col(j);
-        lua_pushvalue(L, -1);
-        lua_rawseti(L, -3, j + 1);
-        lua_setfield(L, -2, names[static_cast<std::size_t>(j)].c_str());
-    }
+void push_channels(lua_State* L, const char* kind, const char* table, const std::vector<std::string>& names,
+                   const Matrix& columns) {
+    push_by_name(L, kind, table, names, [&](Index j) { push_vector(L, columns.rows()).vector() = columns.col(j); });
 }
 
 /// The values of one function, on top of the stack, as a column.
@@ -50,19 +29,19 @@ void read_function(lua_State* L, lua_Integer place, Eigen::Ref<Vector> column) {
         throw InvalidArgument(fmt::format("function {} of the library must give a vector or a number, but gave {}",
                                           place, given_text(L, -1)));
     if (block->vector().size() != column.size())
-        throw InvalidArgument(fmt::format("function {} of the library gave {} values for {} samples", place,
-                                          block->vector().size(), column.size()));
+        throw InvalidArgument(fmt::format("function {} of the library gave {} for {}", place,
+                                          counted(block->vector().size(), "value"), counted(column.size(), "sample")));
     column = block->vector();
 }
 
-Matrix call_library(const KeptFunction& function, const ChannelNames& names, const Matrix& X, const Matrix& U) {
+Matrix call_library(const ScriptFunction& function, const ChannelNames& names, const Matrix& X, const Matrix& U) {
     lua_State* L = function.state();
     const int top = lua_gettop(L);
     luaL_checkstack(L, 8, "library of functions");
     function.push();
-    push_channels(L, X, names.states);
-    push_channels(L, U, names.inputs);
-    lua_call(L, 2, 1);
+    push_channels(L, "state", "x", names.states, X);
+    push_channels(L, "input", "u", names.inputs, U);
+    call_or_throw(L, 2, 1, "the library returned several values, and must return one list: return {x[1], x[1]*x[2]}");
     if (lua_type(L, -1) != LUA_TTABLE || lua_rawlen(L, -1) == 0)
         throw InvalidArgument(fmt::format(
             "the library must return a list of vectors, as in function(x, u) return {{x[1], x[1]*x[2]}} end, but it "
@@ -82,7 +61,7 @@ Matrix call_library(const KeptFunction& function, const ChannelNames& names, con
 }  // namespace
 
 FunctionLibrary lua_library(const Call& call, int index, const IdData& data, std::vector<std::string> names) {
-    const auto function = std::make_shared<const KeptFunction>(call.state(), index);
+    const auto function = std::make_shared<const ScriptFunction>(call.state(), index);
     const ChannelNames channels{data.output_names, data.input_names};
     FunctionLibrary library;
     library.values = [function, channels](const Matrix& X, const Matrix& U) {
@@ -91,8 +70,9 @@ FunctionLibrary lua_library(const Call& call, int index, const IdData& data, std
     const Experiment& first = data.experiments.front();
     const Index count = library.values(first.y, first.u).cols();
     if (!names.empty() && static_cast<Index>(names.size()) != count)
-        throw InvalidArgument(
-            fmt::format("option 'names' has {} texts, and the library gives {} functions", names.size(), count));
+        throw InvalidArgument(fmt::format("option 'names' has {}, and the library gives {}",
+                                          counted(static_cast<Index>(names.size()), "text"),
+                                          counted(count, "function")));
     for (Index j = static_cast<Index>(names.size()); j < count; ++j) names.push_back(fmt::format("f{}", j + 1));
     library.names = std::move(names);
     return library;

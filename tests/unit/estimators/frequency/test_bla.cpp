@@ -186,4 +186,24 @@ TEST(bla, refuses_what_it_cannot_use) {
     EXPECT_THAT(refusal(options), HasSubstr("between 0 and 1"));
 }
 
+// Oracle: a system without memory answers each repetition alike, whatever it does to the input.
+TEST(bla, refuses_realisations_of_one_input) {
+    Recording how;
+    how.realisations = 1, how.periods = 12, how.cube = 0.3, how.noise = 0.02;
+    const IdData repeated = recorded(how);
+    BlaOptions options = options_of(how);
+    options.realisations = 4;
+    EXPECT_THAT(thrown_message([&] { bla(repeated, options); }), HasSubstr("realisations 1 and 2 have the same input"));
+    options.realisations = 1;
+    EXPECT_EQ(bla(repeated, options).distortion.size(), 0);
+
+    const IdData shifted = IdData::merge({repeated.range(1, 3 * kPeriod), repeated.range(101, 3 * kPeriod + 100)});
+    EXPECT_THAT(thrown_message([&] { bla(shifted, options); }), HasSubstr("have the same input"));
+    how.realisations = 3, how.periods = 3;
+    const IdData others = recorded(how),
+                 merged = IdData::merge({others.range(1, 3 * kPeriod), others.range(1 + 3 * kPeriod, 6 * kPeriod),
+                                         others.range(1, 3 * kPeriod)});
+    EXPECT_THAT(thrown_message([&] { bla(merged, options); }), HasSubstr("realisations 1 and 3"));
+}
+
 }  // namespace test_bla

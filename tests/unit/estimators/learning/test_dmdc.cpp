@@ -104,7 +104,7 @@ TEST(dmdc, refuses_what_cannot_be_fitted) {
     EXPECT_THAT(thrown_message([&] { dmdc(data, {2, 40}); }), HasSubstr("too few samples"));
     IdData twins = record(system_of_three(), 100, 0, 9);
     twins.experiments[0].y.col(1) = twins.experiments[0].y.col(0);
-    EXPECT_THAT(thrown_message([&] { dmdc(twins, {2, 1}); }), HasSubstr("the data show only 1 directions"));
+    EXPECT_THAT(thrown_message([&] { dmdc(twins, {2, 1}); }), HasSubstr("the data show only 1 direction"));
 }
 
 }  // namespace test_dmdc

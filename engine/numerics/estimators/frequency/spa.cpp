@@ -1,4 +1,4 @@
-#include "numerics/estimators/spa.h"
+#include "numerics/estimators/frequency/spa.h"
 
 #include <algorithm>
 #include <cmath>

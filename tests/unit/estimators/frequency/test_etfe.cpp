@@ -1,4 +1,4 @@
-#include "numerics/estimators/etfe.h"
+#include "numerics/estimators/frequency/etfe.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

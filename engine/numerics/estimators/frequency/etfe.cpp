@@ -1,4 +1,4 @@
-#include "numerics/estimators/etfe.h"
+#include "numerics/estimators/frequency/etfe.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,4 +1,4 @@
-#include "numerics/estimators/spa.h"
+#include "numerics/estimators/frequency/spa.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

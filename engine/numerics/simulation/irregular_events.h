@@ -1,0 +1,39 @@
+#pragma once
+#include <vector>
+
+#include "numerics/linalg/types.h"
+#include "numerics/signals/iddata.h"
+
+namespace dynlab::inline numerics {
+
+/// The steps of a filter over a record sampled at rising instants t, whose input u(t - delay), zero before its first
+/// sample, is held or runs straight between its samples: from one sampling instant, or change of the delayed input
+/// between two, to the next, from the first sample to the last. They come in blocks of eight stretches; steps that are
+/// run side by side lie beside each other, and those that fill up the last block take no time.
+struct IrregularEvents {
+    static constexpr Index kSideBySide = 8, kStretch = 32;  // steps of a stretch, one behind the other
+    static constexpr Index kBlock = kSideBySide * kStretch;
+
+    Vector length;              ///< s
+    Vector input, slope;        ///< at the beginning; slopes (1/s) with straight lines only
+    std::vector<Index> sample;  ///< that is reached, -1 for none
+    Index count = 0;            ///< a multiple of kBlock
+
+    IrregularEvents(const VectorView& u, const VectorView& t, Hold hold, double delay);
+
+  private:
+    void reserve(Index most, bool slopes);
+    template <bool kSlopes>
+    void set(const VectorView& u, const VectorView& t, double delay);
+    template <bool kSlopes>
+    void merge(const VectorView& u, const VectorView& t, double delay);
+    template <bool kSlopes>
+    void add_samples(const VectorView& u, const VectorView& t);
+    template <bool kSlopes>
+    void add(double seconds, double value, double rise, Index reached);
+};
+
+/// u(t - delay) at the instants t.
+Vector delayed_input(const VectorView& u, const VectorView& t, Hold hold, double delay);
+
+}  // namespace dynlab::inline numerics
