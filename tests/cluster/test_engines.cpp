@@ -28,6 +28,33 @@ local d = iddata(lsim(tf({2}, {1, 4, 3}), u, 0.01) + 0.02*M.lssvf.mean[1]*randn(
 print(selcstruc(srivcstruc(d, {poles = {1, 3}, zeros = {0, 2}})))
 )";
 
+/// Some seconds of it.
+constexpr const char* kLongStudy = R"(
+print(montecarlo{system = tf({2}, {1, 4, 3}), input = prbs(7, 4), Ts = 0.01, sigma = 0.2, runs = 6000, seed = 3,
+    estimators = {lssvf = {{2, 1, 0}, 3}, ivsvf = {{2, 1, 0}, 3}}})
+)";
+
+/// Work that lasts until it is ended, watched from outside.
+class Background {
+  public:
+    Background(const Workbench& work, const std::string& command) : work_(work) {
+        work.write("background.sh", command + " > background.txt 2>&1\necho $? > background.code\n");
+        work.shell(
+            "setsid bash background.sh > /dev/null 2>&1 < /dev/null & "
+            "until [ -e background.txt ]; do sleep 0.02; done");
+    }
+    int wait_for_end() {
+        for (int i = 0; i < 2400 && !fs::exists(work_.path("background.code")); ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        return fs::exists(work_.path("background.code")) ? std::stoi(work_.read("background.code")) : -1;
+    }
+
+    bool ended() const { return fs::exists(work_.path("background.code")); }
+
+  private:
+    const Workbench& work_;
+};
+
 class engines : public testing::Test {
   protected:
     engines() : bench_(kAttackAnswers, kAttackChecks, kAttackSolution) {}
@@ -42,12 +69,15 @@ class engines : public testing::Test {
         EXPECT_FALSE(fs::exists(work().path("shared/.spool.key")));
         EXPECT_EQ(workers_of(work()), "");
     }
+    static std::string command(const std::string& out, const std::string& on, const std::string& before = "",
+                               const std::string& more = "") {
+        return fmt::format(
+            "{} \"$DYNLAB\" grade in --lesson 99 --out {} --isolation {} --no-pdf --timeout 10 --secret secret {} {}",
+            before, out, GradingBench::level(), on.empty() ? "" : "--on " + on + " --lease 3", more);
+    }
     int grade(const std::string& out, const std::string& on, const std::string& before = "",
               const std::string& more = "") {
-        const ChildResult graded = work().shell(fmt::format(
-            "{} \"$DYNLAB\" grade in --lesson 99 --out {} --isolation {} --no-pdf --timeout 10 --secret secret "
-            "{} {}",
-            before, out, GradingBench::level(), on.empty() ? "" : "--on " + on + " --lease 3", more));
+        const ChildResult graded = work().shell(command(out, on, before, more));
         said_ = graded.output + graded.error_output;
         return graded.exit_code;
     }
@@ -74,6 +104,32 @@ TEST_F(engines, slurm_gives_what_one_process_gives) {
     EXPECT_EQ(work().shell(slurm.environment() + " squeue --noheader").output, "");
 }
 
+// What Slurm ends is submitted again; Ctrl-C leaves neither tasks nor workers, and what was done is kept.
+TEST_F(engines, slurm_tasks_that_are_preempted_come_again_and_cancelled_ones_do_not) {
+    LoopbackSlurm slurm;
+    if (!slurm.reason_to_skip().empty()) GTEST_SKIP() << slurm.reason_to_skip();
+    hand_in_class(bench_, 120, 15'000'000, {});
+    ASSERT_EQ(grade("alone", ""), 0);
+    const std::string environment = slurm.environment() + " ";
+    Background grading(work(), command("shared", "slurm:tasks=1", environment));
+    const std::string running =
+        "until [ -n \"$(" + environment + "squeue --noheader --states=R --format=%A)\" ]; do sleep 0.1; done; ";
+    const auto first = work().shell("timeout 20 bash -c '" + running + "'; " + environment +
+                                    "squeue --noheader --states=R --format=%A");
+    ASSERT_NE(first.output, "");
+    work().shell("sleep 1; " + environment + "scancel " + first.output);
+    const auto second = work().shell("timeout 20 bash -c '" + running + "'; " + environment +
+                                     "squeue --noheader --states=R --format=%A");
+    EXPECT_NE(second.output, "");
+    EXPECT_NE(second.output, first.output);
+    work().shell("sleep 1; kill -INT $(pgrep -f \"[g]rade in --lesson 99 --out shared\" | head -1)");
+    EXPECT_NE(grading.wait_for_end(), 0);
+    EXPECT_EQ(work().shell(environment + "squeue --noheader").output, "");
+    EXPECT_EQ(workers_of(work()), "");
+    ASSERT_EQ(grade("shared", "processes:2"), 0) << said_;
+    expect_equal_results(work(), "alone", "shared");
+}
+
 TEST_F(engines, a_study_has_the_same_numbers_for_every_split) {
     work().write("study.lua", kStudy);
     const auto numbers = [&](const std::string& command) {
@@ -86,6 +142,77 @@ TEST_F(engines, a_study_has_the_same_numbers_for_every_split) {
     EXPECT_EQ(numbers("study study.lua --on processes:1 --out one"), alone);
     EXPECT_EQ(numbers("study study.lua --on processes:3 --out three"), alone);
     EXPECT_EQ(workers_of(work()), "");
+}
+
+TEST_F(engines, a_study_that_was_ended_goes_on_and_is_not_led_twice) {
+    work().write("study.lua", kLongStudy);
+    const std::string alone = work().shell("\"$DYNLAB\" run study.lua --out alone").output;
+    EXPECT_THAT(alone, HasSubstr("lssvf"));
+    Background study(work(), "\"$DYNLAB\" study study.lua --on processes:2 --out shared");
+    work().shell("timeout 20 bash -c 'until [ -n \"$(ls shared/.spool/results 2>/dev/null)\" ]; do sleep 0.05; done'");
+    const ChildResult twice = work().shell("\"$DYNLAB\" study study.lua --on processes:1 --out shared");
+    EXPECT_NE(twice.exit_code, 0);
+    EXPECT_THAT(twice.error_output, HasSubstr("another dynlab study is at work in"));
+    work().shell("kill -INT $(pgrep -f \"[s]tudy study.lua --on processes:2\" | head -1)");
+    EXPECT_NE(study.wait_for_end(), 0);
+    EXPECT_EQ(workers_of(work()), "");
+    const auto kept = work().shell("ls shared/.spool/results | wc -l").output;
+    EXPECT_NE(kept, "0\n");
+    const ChildResult again = work().shell("\"$DYNLAB\" study study.lua --on processes:2 --out shared");
+    EXPECT_EQ(again.output, alone) << again.error_output;
+    EXPECT_FALSE(fs::exists(work().path("shared/.spool")));
+}
+
+// The copy that students get has a link to the course's data; their own links are left out, as by one process.
+TEST_F(engines, links_in_submissions_are_what_they_are_to_one_process) {
+    bench_.hand_in("linked", "answer('x', #load('data/hairdryer/hairdryer.csv').y)\n");
+    bench_.hand_in("sly", "answer('x', load('records.csv').y[1])\n");
+    work().shell("ln -s \"$DYNLAB_HOME/data\" in/linked/data; ln -s $PWD/secret in/sly/records.csv");
+    expect_same("processes:1");
+    EXPECT_THAT(work().read("shared/runs/linked/run.cbor"), Not(HasSubstr("no such file")));
+}
+
+// A job that takes its worker with it: the batch that it came in, then it alone, three times each.
+TEST_F(engines, a_submission_that_kills_its_worker_three_times_is_left_ungraded_and_named) {
+    hand_in_class(bench_, 12, 1000, {});
+    bench_.hand_in("killer", "local k = 0\nfor i = 1, 1e8 do k = k + i % 7 end\nanswer('x', 42)\n");
+    work().write("in/killer/marker.txt", "");
+    fs::create_directory(work().path("tmp"));
+    ASSERT_EQ(grade("alone", ""), 0);
+    Background grading(work(), command("shared", "processes:1", "TMPDIR=$PWD/tmp"));
+    work().shell(
+        "until [ -e background.code ]; do if ls tmp/dynlab-*/work/marker.txt > /dev/null 2>&1; then "
+        "for w in $(pgrep -f \"[d]ynlab work $PWD/\"); do for h in $(pgrep -P $w -f \"[d]ynlab work\"); do "
+        "kill -9 $h && echo $h >> killed.txt; done; done; rm -f tmp/dynlab-*/work/marker.txt; fi; sleep 0.02; done");
+    EXPECT_EQ(grading.wait_for_end(), 0);
+    const std::string said = work().read("background.txt");
+    EXPECT_THAT(said, HasSubstr("\"killer\" could not be graded: 3 workers were lost with it: on "));
+    EXPECT_THAT(said, HasSubstr("ended with signal 9"));
+    EXPECT_EQ(work().shell("wc -l < killed.txt").output, "6\n");
+    EXPECT_EQ(work().shell("grep -v killer alone/gradebook.csv").output,
+              work().shell("grep -v killer shared/gradebook.csv").output);
+    EXPECT_EQ(grade("shared", "processes:1"), 0);  // the next run tries it again
+    expect_equal_results(work(), "alone", "shared");
+}
+
+TEST_F(engines, a_spool_on_a_full_or_a_read_only_disk_is_named_and_nothing_is_lost) {
+    if (work()
+            .shell("mkdir small fixed && mount -t tmpfs -o size=96k tmpfs small && "
+                   "mount -t tmpfs -o ro,size=1m tmpfs fixed")
+            .exit_code != 0)
+        GTEST_SKIP() << "no small file system can be mounted here";
+    hand_in_class(bench_, 8, 1000, {});
+    work().shell("head -c 200000 /dev/urandom > in/s003/noise.bin");
+    ASSERT_EQ(grade("alone", ""), 0);
+    EXPECT_EQ(grade("shared", "processes:1", "", "--spool fixed/spool"), 1);
+    EXPECT_THAT(said_, HasSubstr("read-only file system"));
+    grade("shared", "processes:1", "", "--spool small/spool");
+    EXPECT_THAT(said_, HasSubstr("no space left on device"));
+    EXPECT_THAT(said_, HasSubstr("small/spool"));
+    EXPECT_EQ(workers_of(work()), "");
+    work().shell("umount -l small fixed");
+    ASSERT_EQ(grade("shared", "processes:1"), 0) << said_;
+    expect_equal_results(work(), "alone", "shared");
 }
 
 TEST_F(engines, what_is_not_there_is_named_with_its_remedy) {
@@ -134,34 +261,12 @@ TEST_F(engines, slurm_that_is_down_and_partitions_unknown_are_named) {
     EXPECT_THAT(said_, HasSubstr("slurmctld is not running or cannot be reached"));
 }
 
-/// Work that lasts until it is ended, watched from outside.
-class Background {
-  public:
-    Background(const Workbench& work, const std::string& command) : work_(work) {
-        work.write("background.sh", command + " > background.txt 2>&1\necho $? > background.code\n");
-        work.shell(
-            "setsid bash background.sh > /dev/null 2>&1 < /dev/null & "
-            "until [ -e background.txt ]; do sleep 0.02; done");
-    }
-    int wait_for_end() {
-        for (int i = 0; i < 2400 && !fs::exists(work_.path("background.code")); ++i)
-            std::this_thread::sleep_for(std::chrono::milliseconds(50));
-        return fs::exists(work_.path("background.code")) ? std::stoi(work_.read("background.code")) : -1;
-    }
-
-  private:
-    const Workbench& work_;
-};
-
-TEST_F(engines, a_node_without_room_waits_and_another_version_is_refused) {
-    if (work().shell("mkdir tiny && mount -t tmpfs -o size=1m tmpfs tiny").exit_code != 0)
+TEST_F(engines, a_node_whose_disk_fills_waits_and_another_version_is_refused) {
+    if (work().shell("mkdir tiny && mount -t tmpfs -o size=600m tmpfs tiny").exit_code != 0)
         GTEST_SKIP() << "no small file system can be mounted here";
     hand_in_class(bench_, 40, 15'000'000, {});
     ASSERT_EQ(grade("alone", ""), 0);
-    Background grading(work(),
-                       "\"$DYNLAB\" grade in --lesson 99 --out shared --no-pdf --timeout 10 --secret secret "
-                       "--isolation " +
-                           GradingBench::level() + " --on processes:1 --lease 3");
+    Background grading(work(), command("shared", "processes:1"));
     work().shell("until [ -e shared/.spool/spool.json ]; do sleep 0.05; done");
     work().shell("cp -rL home newer && echo '-- later' >> newer/lessons/99_small/lesson.lua");
     const ChildResult newer =
@@ -170,15 +275,15 @@ TEST_F(engines, a_node_without_room_waits_and_another_version_is_refused) {
     EXPECT_THAT(newer.error_output, HasSubstr("newer has another version of dynlab, of its lessons"));
     work().shell(
         "TMPDIR=$PWD/tiny setsid timeout 60 \"$DYNLAB\" work shared/.spool --hands 1 --node full > full.txt 2>&1 & "
-        "sleep 0.5");
-    const std::string status = work().shell("sleep 2; \"$DYNLAB\" work --status shared/.spool").output;
+        "timeout 10 bash -c 'until ls tiny/dynlab-*/work/analysis.lua; do sleep 0.02; done'; cat /dev/zero > "
+        "tiny/noise");
+    const std::string status = work().shell("sleep 1; \"$DYNLAB\" work --status shared/.spool").output;
     EXPECT_EQ(grading.wait_for_end(), 0) << work().read("background.txt");
     work().shell("umount -l tiny");
-    EXPECT_THAT(status, HasSubstr("1 MB left, and 512 are needed"));
+    EXPECT_THAT(status, HasSubstr("0 MB left, and 512 are needed"));
     EXPECT_THAT(status, HasSubstr("coordinator: works"));
     EXPECT_THAT(status, HasSubstr("refused: newer has another version"));
     EXPECT_THAT(work().read("background.txt"), HasSubstr("full waits: "));
-    EXPECT_THAT(work().shell("cat shared/logs/*/log.txt").output, Not(HasSubstr("on full,")));
     expect_equal_results(work(), "alone", "shared");
 }
 
@@ -187,10 +292,8 @@ TEST_F(engines, cancelling_leaves_nothing_running_and_loses_nothing) {
     if (!hosts.reason_to_skip().empty()) GTEST_SKIP() << hosts.reason_to_skip();
     hand_in_class(bench_, 120, 15'000'000, {});
     ASSERT_EQ(grade("alone", ""), 0);
-    const ChildResult cancelled = work().shell(hosts.environment() +
-                                               " timeout --signal=INT 7 \"$DYNLAB\" grade in --lesson 99 --out shared "
-                                               "--no-pdf --timeout 10 --secret secret --isolation " +
-                                               GradingBench::level() + " --on parallel:1/n1,1/n2 --lease 3");
+    const ChildResult cancelled =
+        work().shell(command("shared", "parallel:1/n1,1/n2", hosts.environment() + " timeout --signal=INT 7"));
     EXPECT_THAT(cancelled.error_output, HasSubstr("interrupted"));
     EXPECT_EQ(workers_of(work()), "");
     ASSERT_EQ(grade("shared", "processes:2"), 0) << said_;

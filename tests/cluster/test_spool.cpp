@@ -10,6 +10,7 @@
 
 #include <csignal>
 #include <fstream>
+#include <functional>
 
 #include "platform/atomic_file.h"
 #include "platform/error.h"
@@ -193,6 +194,135 @@ TEST_F(spool, a_result_that_the_disk_does_not_take_leaves_the_lease) {
     EXPECT_TRUE(folder.results().empty());
     folder.give_back(claimed->lease);
     EXPECT_TRUE(folder.claim("w.0"));
+}
+
+// Whoever can write here, but has no key, puts links and pipes in the places of files.
+TEST_F(spool, links_and_pipes_in_it_lead_nowhere) {
+    const fs::path thesis = folder_.path() / "thesis.tex";
+    write_file_atomically(thesis, "do not touch me");
+    const Spool folder = begun();
+    const std::string key = folder.key_of(job(1)), piped = folder.key_of(job(2));
+    folder.admit("w", SigningKey::of_seed(std::string(32, 'a')).public_key());
+    folder.put(key, job(1));
+    const auto claimed = folder.claim("w.0");
+    ASSERT_TRUE(claimed);
+    for (const std::string& name : {"results/" + key, "logs/" + key + ".0.txt", std::string("workers/w"),
+                                    std::string("coordinator"), std::string("stop"), std::string("slurm")}) {
+        fs::remove(folder.folder() / name);
+        fs::create_symlink(thesis, folder.folder() / name);
+    }
+    EXPECT_FALSE(folder.result(key));
+    EXPECT_FALSE(folder.log_of(claimed->lease.job));
+    EXPECT_EQ(folder.logged(claimed->lease.job, 100), "");  // no complaint quotes the thesis
+    folder.tell("w", WorkerStatus());
+    folder.tell(CoordinatorStatus());
+    folder.stop();
+    EXPECT_EQ(folder.noted("slurm"), std::nullopt);
+    folder.note("slurm", "17");
+    EXPECT_EQ(folder.noted("slurm"), "17");
+    folder.finish(claimed->lease, result_of(folder, key, SigningKey::of_seed(std::string(32, 'a'))));
+    EXPECT_TRUE(folder.result(key));
+    EXPECT_EQ(read_file(thesis), "do not touch me");
+    // A pipe that nobody writes into, and a file without an end.
+    ASSERT_EQ(::mkfifo((folder.folder() / "results" / piped).c_str(), 0600), 0);
+    EXPECT_FALSE(folder.result(piped));
+    ASSERT_EQ(::mkfifo((folder.folder() / "jobs" / (piped + ".0")).c_str(), 0600), 0);
+    fs::create_symlink("/dev/zero", folder.folder() / "jobs" / "endless.0");
+    folder.refuse_result(piped);
+    EXPECT_FALSE(folder.claim("w.0"));
+    EXPECT_TRUE(fs::exists(fs::symlink_status(folder.folder() / "refused" / (piped + ".0"))));
+}
+
+TEST_F(spool, names_that_lead_elsewhere_are_none_of_ours) {
+    const Spool folder = begun();
+    const SigningKey mine = SigningKey::of_seed(std::string(32, 'a'));
+    folder.admit("w", mine.public_key());
+    const std::string key = folder.key_of(job(1));
+    folder.put(key, job(1));
+    const auto claimed = folder.claim("w.0");
+    ASSERT_TRUE(claimed);
+    for (const char* worker : {"../keys/w", "./w", "..", ".", "", "/etc/passwd"}) {
+        ShareResult result = result_of(folder, key, mine);
+        result.worker = worker;
+        result.signature = mine.sign(folder.signed_text(key, result));
+        folder.finish(claimed->lease, result);
+        EXPECT_FALSE(folder.result(key)) << worker;
+        EXPECT_FALSE(folder.worker(worker)) << worker;
+    }
+    for (const char* name : {".0", "x", "x.", "x.-1", "x.99999", "x.0.0", "x.1e3", "..", "x.0@"})
+        std::ofstream(folder.folder() / "jobs" / name) << "do this";
+    for (const char* name : {"@", "x@w.0", "x.0", ".0@w.0"}) std::ofstream(folder.folder() / "leases" / name) << "";
+    EXPECT_TRUE(folder.listed("jobs").empty() || folder.listed("jobs").contains("x"));
+    EXPECT_FALSE(folder.claim("w.0"));
+    for (const Spool::Lease& lease : folder.leases()) EXPECT_EQ(lease.job.key.find('/'), std::string::npos);
+}
+
+TEST_F(spool, a_file_that_was_cut_is_none_and_costs_no_more_than_itself) {
+    const Spool folder = begun();
+    const auto cut = [&](const std::string& name) {
+        fs::resize_file(folder.folder() / name, fs::file_size(folder.folder() / name) / 2);
+    };
+    const std::string common = folder.put_common("what all share"), key = folder.key_of(job(1));
+    cut("common/" + common);
+    EXPECT_FALSE(folder.common(common));
+    folder.put_common("what all share");
+    EXPECT_EQ(folder.common(common), "what all share");
+    folder.put(key, job(1));
+    cut("jobs/" + key + ".0");
+    EXPECT_FALSE(folder.claim("w.0"));
+    folder.put(key, job(1));
+    EXPECT_TRUE(folder.claim("w.0"));
+    folder.tell(CoordinatorStatus());
+    cut("coordinator");
+    EXPECT_FALSE(folder.coordinator());
+    cut("spool.json");
+    EXPECT_THROW(Spool::open(folder.folder()), EnvironmentError);
+    try {
+        begun();
+        FAIL();
+    } catch (const EnvironmentError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("is spoilt; remove"));
+    }
+    fs::remove_all(folder.folder());
+    const std::string id = begun().identity().id;
+    fs::resize_file(folder.folder() / "identity", 5);
+    EXPECT_THROW(Spool::open(folder.folder()), EnvironmentError);
+    EXPECT_NE(begun().identity().id, id);
+}
+
+/// What it throws, or "taken".
+std::string told_of(const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const EnvironmentError& error) {
+        return error.what();
+    }
+    return "taken";
+}
+
+TEST_F(spool, what_others_own_or_may_look_into_is_not_taken) {
+    const fs::path place = begun().folder();
+    ASSERT_EQ(::chmod(place.c_str(), 0755), 0);
+    EXPECT_THAT(told_of([&] { Spool::open(place); }), HasSubstr("others may look into the spool"));
+    EXPECT_EQ(told_of([&] { begun(); }), "taken");  // and makes it private again
+    EXPECT_EQ(told_of([&] { Spool::open(place); }), "taken");
+    fs::rename(place / "jobs", folder_.path() / "elsewhere");
+    fs::create_directory_symlink(folder_.path() / "elsewhere", place / "jobs");
+    EXPECT_THAT(told_of([&] { Spool::open(place); }), HasSubstr("jobs is no folder that this spool made"));
+    EXPECT_THAT(told_of([&] { begun(); }), HasSubstr("jobs is no folder that this spool made"));
+    fs::remove(place / "jobs");
+    EXPECT_EQ(told_of([&] { begun(); }), "taken");
+    if (::geteuid() != 0) GTEST_SKIP() << "only root may give files away";
+    constexpr uid_t kNobody = 65534;
+    ASSERT_EQ(::chown((place / "results").c_str(), kNobody, kNobody), 0);
+    EXPECT_THAT(told_of([&] { begun(); }), HasSubstr("results is no folder that this spool made"));
+    ASSERT_EQ(::chown(place.c_str(), kNobody, kNobody), 0);
+    EXPECT_THAT(told_of([&] { begun(); }), HasSubstr("belongs to another user"));
+    EXPECT_THAT(told_of([&] { Spool::open(place); }), HasSubstr("belongs to another user"));
+    ASSERT_EQ(::chown(place.c_str(), 0, 0), 0);
+    ASSERT_EQ(::chown((place / "results").c_str(), 0, 0), 0);
+    ASSERT_EQ(::chown((folder_.path() / "key").c_str(), kNobody, kNobody), 0);
+    EXPECT_THAT(told_of([&] { Spool::open(place); }), HasSubstr("belongs to another user; it is not taken"));
 }
 
 TEST(heartbeat_watch, counts_by_the_observers_clock_since_the_last_change) {

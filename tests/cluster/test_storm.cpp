@@ -1,5 +1,6 @@
-// A class of 300, every attack of the suite among them, while two hundred processes are killed: workers, the engine's
-// own, the coordinator, which is started again each time. Oracle: what one process gives, byte by byte.
+// A class while processes are killed at random: workers, the engine's own, the coordinator, which is started again each
+// time. In a storm it is 300, every attack of the suite among them, and two hundred are killed. Oracle: what one
+// process gives, byte by byte.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <signal.h>
@@ -17,16 +18,18 @@ namespace test_storm {
 
 namespace fs = std::filesystem;
 
-constexpr int kSubmissions = 300, kKills = 200;
+constexpr int kSubmissions = 300;
 
-class storm : public testing::Test {
+/// How many processes are killed, and how many seconds lie between two.
+struct Weather {
+    int kills = 0;
+    double seconds = 0;
+};
+constexpr Weather kStorm{200, 1.0};
+
+class gust : public testing::Test {
   protected:
-    storm() : bench_(kAttackAnswers, kAttackChecks, kAttackSolution) {
-        hand_in_class(bench_, 0, 0, kAttacks);
-        hand_in_class(bench_, 0, 0, kEndlessAttacks);
-        const auto attacks = static_cast<int>(std::size(kAttacks) + std::size(kEndlessAttacks));
-        hand_in_class(bench_, kSubmissions - attacks, 15'000'000, {});
-    }
+    gust() : bench_(kAttackAnswers, kAttackChecks, kAttackSolution) {}
     const Workbench& work() { return bench_.bench(); }
     std::string command(const std::string& out, const std::string& on) {
         return fmt::format(
@@ -42,25 +45,25 @@ class storm : public testing::Test {
     /// 0 and 1 are ends of its own.
     int code() { return fs::exists(work().path("code")) ? std::atoi(work().read("code").c_str()) : -1; }
 
-    /// `seconds`: between two kills; `engine` gives the engine's own processes and `mend` starts them again.
-    void endure(const std::string& on, const std::string& environment, double seconds,
+    /// `engine` gives the engine's own processes and `mend` starts them again.
+    void endure(const std::string& on, const std::string& environment, const Weather& weather,
                 const std::function<std::string()>& engine, const std::function<void()>& mend) {
         ASSERT_EQ(work().shell(command("alone", "")).exit_code, 0);
         std::mt19937 random(1);
         std::uniform_real_distribution<double> share(0, 1);
         start(on, environment);
         int kills = 0, starts = 1;
-        while (kills < kKills || code() < 0 || code() > 1) {
-            if (fs::exists(work().path("code")) && (code() > 1 || kills < kKills)) {
+        while (kills < weather.kills || code() < 0 || code() > 1) {
+            if (fs::exists(work().path("code")) && (code() > 1 || kills < weather.kills)) {
                 ASSERT_LT(++starts, 100) << work().read("said.txt");
                 if (code() <= 1) work().shell("rm -rf shared/results shared/runs");  // done too early: again
                 start(on, environment);
             }
-            if (kills == kKills) {
+            if (kills == weather.kills) {
                 std::this_thread::sleep_for(std::chrono::milliseconds(200));
                 continue;
             }
-            std::this_thread::sleep_for(std::chrono::duration<double>(seconds * (0.4 + 1.2 * share(random))));
+            std::this_thread::sleep_for(std::chrono::duration<double>(weather.seconds * (0.4 + 1.2 * share(random))));
             const double what = share(random);
             const std::string pids = what < 0.04 ? work().read("pid") : what < 0.12 ? engine() : workers_of(work());
             std::istringstream words(pids);
@@ -82,16 +85,32 @@ class storm : public testing::Test {
     GradingBench bench_;
 };
 
+TEST_F(gust, over_processes) {
+    hand_in_class(bench_, 60, 15'000'000, {});
+    endure(
+        "processes:2", "", {20, 0.4}, [this] { return workers_of(work()); }, [] {});
+}
+
+class storm : public gust {
+  protected:
+    storm() {
+        hand_in_class(bench_, 0, 0, kAttacks);
+        hand_in_class(bench_, 0, 0, kEndlessAttacks);
+        const auto attacks = static_cast<int>(std::size(kAttacks) + std::size(kEndlessAttacks));
+        hand_in_class(bench_, kSubmissions - attacks, 15'000'000, {});
+    }
+};
+
 TEST_F(storm, over_processes) {
     endure(
-        "processes:2", "", 0.8, [this] { return workers_of(work()); }, [] {});
+        "processes:2", "", kStorm, [this] { return workers_of(work()); }, [] {});
 }
 
 TEST_F(storm, over_hosts_by_ssh) {
     LoopbackHosts hosts;
     if (!hosts.reason_to_skip().empty()) GTEST_SKIP() << hosts.reason_to_skip();
     endure(
-        "parallel:1/n1,1/n2", hosts.environment(), 1.2, [&] { return hosts.pids(); },
+        "parallel:1/n1,1/n2", hosts.environment(), kStorm, [&] { return hosts.pids(); },
         [&] { hosts.restart_what_ended(); });
 }
 
@@ -99,7 +118,27 @@ TEST_F(storm, over_slurm) {
     LoopbackSlurm slurm;
     if (!slurm.reason_to_skip().empty()) GTEST_SKIP() << slurm.reason_to_skip();
     endure(
-        "slurm:tasks=2", slurm.environment(), 1.2, [&] { return slurm.pids(); }, [&] { slurm.restart_what_ended(); });
+        "slurm:tasks=2", slurm.environment(), kStorm, [&] { return slurm.pids(); },
+        [&] { slurm.restart_what_ended(); });
+}
+
+// All processes of one of two nodes stand still for a minute, then go on with what others have done meanwhile.
+TEST_F(storm, over_a_node_that_lies_dead_for_a_minute) {
+    LoopbackHosts hosts;
+    if (!hosts.reason_to_skip().empty()) GTEST_SKIP() << hosts.reason_to_skip();
+    ASSERT_EQ(work().shell(command("alone", "")).exit_code, 0);
+    start("parallel:1/n1,1/n2", hosts.environment());
+    const std::string all = "for w in $(pgrep -f \"[d]ynlab work $PWD/.*--node n1\"); do echo $w; pgrep -P $w; done";
+    work().shell("timeout 30 bash -c 'until ls shared/.spool/leases | grep -q n1; do sleep 0.05; done'");
+    const std::string stopped = work().shell("pids=$(" + all + "); kill -STOP $pids; echo $pids").output;
+    ASSERT_NE(stopped, "\n");
+    std::this_thread::sleep_for(std::chrono::seconds(60));
+    work().shell("kill -CONT " + stopped.substr(0, stopped.size() - 1));
+    for (int i = 0; i < 1200 && code() < 0; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    EXPECT_GE(code(), 0);
+    EXPECT_LE(code(), 1) << work().read("said.txt");
+    EXPECT_EQ(work().read("alone/gradebook.csv"), work().read("shared/gradebook.csv"));
+    EXPECT_EQ(workers_of(work()), "");
 }
 
 }  // namespace test_storm

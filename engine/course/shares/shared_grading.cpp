@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <utility>
 
 #include "course/grading/grade_description.h"
 #include "course/grading/job_descriptions.h"
@@ -45,7 +46,7 @@ struct GradedBatch {
 DYNLAB_DESCRIBE(SentFile, path, bytes)
 DYNLAB_DESCRIBE(SharedRules, lesson, lesson_folder, lesson_digest, own_checks, checks, secret, isolation, timeout_ms,
                 broken)
-DYNLAB_DESCRIBE(SentSubmission, name, files, seed, of_notebook)
+DYNLAB_DESCRIBE(SentSubmission, name, files, seed, of_notebook, linked_data)
 DYNLAB_DESCRIBE(SubmissionBatch, submissions)
 DYNLAB_DESCRIBE(GradedSubmission, work, grade, log)
 DYNLAB_DESCRIBE(GradedBatch, submissions)
@@ -54,14 +55,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr char kGradeKind[] = "grade";
+constexpr char kGradeKind[] = "grade", kDataFolder[] = "data";
+constexpr std::uint64_t kMostBytesOfABatch = 32 << 20;
 constexpr auto kMostOfABatch = std::chrono::seconds(2);
 constexpr auto kMarginOfASubmission = std::chrono::seconds(180);  // its box, its checks one by one, its document
 
-std::vector<SentFile> files_to_send(const fs::path& folder) {
+enum class Links { kFollowed, kLeft };
+
+std::vector<SentFile> files_to_send(const fs::path& folder, Links links) {
     std::vector<SentFile> files;
-    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const auto options =
+        links == Links::kFollowed ? fs::directory_options::follow_directory_symlink : fs::directory_options::none;
+    for (const auto& entry : fs::recursive_directory_iterator(folder, options)) {
         const std::string path = entry.path().lexically_relative(folder).generic_string();
+        if (links == Links::kLeft && entry.is_symlink()) continue;
         if (entry.is_directory())
             files.push_back({path + "/", ""});
         else if (entry.is_regular_file())
@@ -88,7 +95,7 @@ SharedRules shared_rules(const GradingRules& rules) {
     shared.lesson_folder = fs::absolute(setup.lesson.folder).string();
     shared.lesson_digest = digest_of_folder(setup.lesson.folder).hex();
     shared.own_checks = setup.more_checks.has_value();
-    if (setup.more_checks) shared.checks = files_to_send(*setup.more_checks);
+    if (setup.more_checks) shared.checks = files_to_send(*setup.more_checks, Links::kFollowed);
     shared.secret = setup.secret;
     shared.isolation = isolation_name(setup.isolation);
     shared.timeout_ms = setup.timeout.count();
@@ -132,6 +139,8 @@ class RulesOfClass {
             if (!works.empty() && std::chrono::steady_clock::now() > latest) break;
             const TemporaryFolder folder;
             write_sent_files(submission.files, folder.path() / "work");
+            if (submission.linked_data)
+                fs::create_directory_symlink(shared_folder() / kDataFolder, folder.path() / "work" / kDataFolder);
             std::string log = fmt::format("on {}, isolation {}\n", node, isolation_name(rules_->setup().isolation));
             GradedSubmission one;
             one.work = rules_->work_in(folder.path() / "work", submission.seed, log, submission.of_notebook);
@@ -174,11 +183,28 @@ SharedGrading::SharedGrading(const GradingRequest& request, const GradingRules& 
 }
 
 SentSubmission sent_submission(const std::string& name, const StagedWork& staged, const GradingRules::GroupSeed& seed) {
-    return {name, files_to_send(staged.folder), seed, staged.of_notebook};
+    return {name, files_to_send(staged.folder, Links::kLeft), seed, staged.of_notebook,
+            fs::is_symlink(staged.folder / kDataFolder)};
 }
 
+/// In parts, where it is large: a worker has it in its memory more than once.
 void SharedGrading::give(std::vector<Given> batch) {
-    if (batch.empty()) return;
+    std::vector<Given> part;
+    std::uint64_t bytes = 0;
+    for (Given& one : batch) {
+        std::uint64_t more = 0;
+        for (const SentFile& file : one.submission.files) more += file.bytes.size();
+        if (!part.empty() && bytes + more > kMostBytesOfABatch) {
+            give_at_once(std::exchange(part, {}));
+            bytes = 0;
+        }
+        bytes += more;
+        part.push_back(std::move(one));
+    }
+    if (!part.empty()) give_at_once(std::move(part));
+}
+
+void SharedGrading::give_at_once(std::vector<Given> batch) {
     SubmissionBatch sent;
     for (const Given& one : batch) sent.submissions.push_back(one.submission);
     const std::string& first = batch.front().submission.name;

@@ -24,6 +24,7 @@ struct SentSubmission {
     std::vector<SentFile> files;  ///< of the folder that holds its analysis.lua
     GradingRules::GroupSeed seed;
     bool of_notebook = false;
+    bool linked_data = false;  ///< its data/ is the link to the course's, as in the copy that students get
 };
 SentSubmission sent_submission(const std::string& name, const StagedWork& staged, const GradingRules::GroupSeed& seed);
 
@@ -66,6 +67,8 @@ class SharedGrading {
     std::vector<std::string> notes() { return coordinator_->complaints(); }
 
   private:
+    void give_at_once(std::vector<Given> batch);
+
     std::unique_ptr<Coordinator> coordinator_;
     std::string common_;
     int hands_ = 1;

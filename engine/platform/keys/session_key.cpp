@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "platform/error.h"
-#include "platform/files/replacement_file.h"
+#include "platform/files/plain_file.h"
 #include "platform/system_call.h"
 
 namespace dynlab::inline platform {
@@ -61,7 +61,7 @@ SessionKey SessionKey::fresh() {
 SessionKey SessionKey::in_file(const fs::path& file) {
     begin_with_sodium();
     const FileDescriptor opened(
-        retry_interrupted([&] { return ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW); }));
+        retry_interrupted([&] { return ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK); }));
     if (!opened)
         throw EnvironmentError(
             fmt::format("the session's key {} cannot be read: {}; this machine must see the folder "
@@ -77,15 +77,7 @@ SessionKey SessionKey::in_file(const fs::path& file) {
 }
 
 void SessionKey::save(const fs::path& file) const {
-    const fs::path growing = file.string() + fmt::format(".{}", ::getpid());
-    ::unlink(growing.c_str());
-    FileDescriptor made(::open(growing.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
-    if (!made || !write_all(made.get(), bytes_.data(), bytes_.size()) || ::fsync(made.get()) != 0 ||
-        made.close() != 0 || ::rename(growing.c_str(), file.c_str()) != 0) {
-        const int reason = errno;
-        ::unlink(growing.c_str());
-        fail_to_write(file, reason);
-    }
+    write_plain_file(file, bytes_);
 }
 
 std::string SessionKey::seal(std::string_view bytes, std::string_view place) const {

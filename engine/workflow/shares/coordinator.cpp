@@ -6,7 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/interrupt.h"
 
@@ -190,7 +189,8 @@ void Coordinator::take_back_leases() {
 /// hit that often by chance. Of all that are wanted less than a hundredth may be wronged so.
 bool Coordinator::is_guilty(int losses) const {
     if (losses >= kMostTries) return true;
-    const double others = static_cast<double>(status_.lost) - losses, done = static_cast<double>(status_.done);
+    const double others = static_cast<double>(status_.lost) - static_cast<double>(status_.blamed) - losses;
+    const double done = static_cast<double>(status_.done);
     const double share = (others + kCaution) / (others + done + kCaution);  // of jobs that lose their worker by chance
     if (others <= 0) return true;
     if (done == 0) return losses >= kTriesBeforeAnyIsDone;  // a storm from the start, or a study that always crashes
@@ -205,6 +205,7 @@ void Coordinator::judge_suspects() {
             continue;
         }
         spool_.give_up(job);
+        status_.blamed += static_cast<std::uint64_t>(losses);
         if (out_.erase(key) == 0) continue;
         ++status_.given_up;
         finished_.push_back({key, {}, fmt::format("{} workers were lost with it{}", losses, log_of(job))});
@@ -213,8 +214,7 @@ void Coordinator::judge_suspects() {
 
 std::string Coordinator::log_of(const JobFile& job) const {
     std::string log;
-    for (int k = 0; k < job.losses; ++k)
-        if (const auto file = spool_.log_of({job.key, k}); std::filesystem::exists(file)) log += read_file(file);
+    for (int k = 0; k < job.losses && log.size() <= kMostOfLog; ++k) log += spool_.logged({job.key, k}, kMostOfLog);
     if (log.size() > kMostOfLog) log = log.substr(0, kMostOfLog) + " ...";
     while (!log.empty() && log.back() == '\n') log.pop_back();
     std::replace(log.begin(), log.end(), '\n', ';');

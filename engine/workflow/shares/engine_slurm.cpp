@@ -5,9 +5,9 @@
 #include <sstream>
 #include <thread>
 
-#include "platform/atomic_file.h"
 #include "platform/child_process.h"
 #include "platform/error.h"
+#include "platform/files/plain_file.h"
 #include "workflow/shares/worker_engine.h"
 
 namespace dynlab::inline workflow {
@@ -21,6 +21,8 @@ constexpr char kSlurmPackage[] = "slurm-client";
 constexpr auto kSlurmAnswers = 30s;
 constexpr auto kBetweenQuestions = 4s;
 constexpr auto kEndOfTasks = 15s;
+constexpr char kArrays[] = "slurm";
+constexpr std::size_t kMostOfATaskLog = 1 << 20;
 constexpr int kMostTasks = 1000;  // MaxArraySize as Slurm comes
 constexpr int kMostQuickEnds = 3;
 constexpr int kJobsOfATask = 4;  // the longest ones, at least, that a task's time must do for
@@ -61,8 +63,8 @@ SlurmOptions slurm_options_in(const std::string& list, WorkerCommand& command) {
 class SlurmTasks : public WorkerEngine {
   public:
     SlurmTasks(const std::string& options, const Spool& spool, WorkerCommand command)
-        : folder_(spool.folder()), command_(std::move(command)), options_(slurm_options_in(options, command_)) {
-        if (fs::exists(memory())) arrays_ = words_of(read_file(memory()));  // of a coordinator that was ended
+        : spool_(spool), command_(std::move(command)), options_(slurm_options_in(options, command_)) {
+        arrays_ = words_of(spool_.noted(kArrays).value_or(""));  // of a coordinator that was ended
     }
 
     int wanted() const override { return options_.tasks * command_.hands; }
@@ -96,7 +98,7 @@ class SlurmTasks : public WorkerEngine {
     std::vector<std::string> complaints() override { return std::exchange(complaints_, {}); }
 
   private:
-    fs::path memory() const { return folder_ / "slurm"; }
+    fs::path logs() const { return spool_.folder() / "logs"; }
 
     static std::vector<std::string> words_of(const std::string& text) {
         std::istringstream words(text);
@@ -141,8 +143,8 @@ class SlurmTasks : public WorkerEngine {
                                           "--open-mode=append",
                                           "--signal=B:TERM@30",
                                           fmt::format("--cpus-per-task={}", command_.hands),
-                                          fmt::format("--chdir={}", folder_.string()),
-                                          fmt::format("--output={}", (folder_ / "logs/slurm-%A_%a.txt").string())};
+                                          fmt::format("--chdir={}", spool_.folder().string()),
+                                          fmt::format("--output={}", (logs() / "slurm-%A_%a.txt").string())};
         if (!options_.memory) words.push_back(fmt::format("--mem-per-cpu={}M", command_.memory_bytes >> 20));
         if (!options_.time) {
             const auto time = std::max<std::chrono::seconds>(kShortestTask, kJobsOfATask * command_.longest_job);
@@ -161,7 +163,7 @@ class SlurmTasks : public WorkerEngine {
             refuse(told);
         }
         arrays_.push_back(array.front().substr(0, array.front().find(';')));  // a cluster's name may follow
-        write_file_atomically(memory(), fmt::format("{}\n", fmt::join(arrays_, "\n")));
+        spool_.note(kArrays, fmt::format("{}\n", fmt::join(arrays_, "\n")));
         submitted_ = true;
     }
 
@@ -184,17 +186,18 @@ class SlurmTasks : public WorkerEngine {
         std::string words;
         fs::file_time_type newest{};
         std::error_code gone;
-        for (const auto& entry : fs::directory_iterator(folder_ / "logs", gone)) {
-            if (!entry.path().filename().string().starts_with("slurm-") || entry.last_write_time() < newest) continue;
-            newest = entry.last_write_time();
-            words = read_file(entry.path());
+        for (const auto& entry : fs::directory_iterator(logs(), gone)) {
+            const auto written = entry.last_write_time(gone);
+            if (!entry.path().filename().string().starts_with("slurm-") || gone || written < newest) continue;
+            newest = written;
+            words = start_of_plain_file(entry.path(), kMostOfATaskLog);
         }
         while (!words.empty() && words.back() == '\n') words.pop_back();
         words = words.substr(words.rfind('\n') + 1);
-        return words.empty() ? "nothing (does the node see " + folder_.string() + "?)" : words;
+        return words.empty() ? "nothing (does the node see " + spool_.folder().string() + "?)" : words;
     }
 
-    fs::path folder_;
+    const Spool spool_;
     WorkerCommand command_;
     SlurmOptions options_;
     std::vector<std::string> arrays_;  ///< ids of array jobs

@@ -10,6 +10,6 @@ DYNLAB_DESCRIBE(SpoolIdentity, id, purpose, program, isolation, lease_ms, grace_
 DYNLAB_DESCRIBE(ShareJob, kind, common, title, bytes)
 DYNLAB_DESCRIBE(ShareResult, worker, node, signature, bytes, trouble)
 DYNLAB_DESCRIBE(WorkerStatus, node, isolation, hands, beat, done, trouble, refused, ended)
-DYNLAB_DESCRIBE(CoordinatorStatus, beat, wanted, done, given_up, lost)
+DYNLAB_DESCRIBE(CoordinatorStatus, beat, wanted, done, given_up, lost, blamed)
 
 }  // namespace dynlab::inline workflow

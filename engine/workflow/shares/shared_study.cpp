@@ -105,7 +105,12 @@ std::size_t pieces_of_a_part(std::size_t pieces) {
     return std::clamp<std::size_t>((pieces + kParts - 1) / kParts, 1, kMostOfAPart);
 }
 
-SharedStudy::SharedStudy(const Request& request) {
+SharedStudy::SharedStudy(const Request& request) : lock_(request.key.parent_path() / ".lock") {
+    if (!lock_.held())
+        throw EnvironmentError(
+            fmt::format("another dynlab study is at work in {}; wait until it is done, or name another folder with "
+                        "--out",
+                        request.key.parent_path().string()));
     const fs::path script = fs::absolute(request.script).lexically_normal();
     SpoolIdentity identity;
     identity.purpose = "study " + script.string();

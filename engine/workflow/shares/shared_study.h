@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "platform/locks/file_lock.h"
 #include "scripting/memoized_calls/shared_pieces.h"
 #include "workflow/shares/coordinator.h"
 #include "workflow/shares/worker.h"
@@ -24,7 +25,7 @@ class SharedStudy : public SharedPieces {
         std::filesystem::path key;    ///< where the session's key lies, not in the spool
         int lease_seconds = 30;
     };
-    /// Throws EnvironmentError for a spool of other work.
+    /// Throws EnvironmentError for a spool of other work, and where the same study is under way.
     explicit SharedStudy(const Request& request);
 
     std::vector<std::string> all(const std::string& what, std::size_t pieces, const Some& some) override;
@@ -33,6 +34,7 @@ class SharedStudy : public SharedPieces {
     std::vector<std::string> notes() { return coordinator_->complaints(); }
 
   private:
+    FileLock lock_;  ///< two at once would take each other's parts
     std::unique_ptr<Coordinator> coordinator_;
     std::string common_;
     std::vector<std::vector<std::string>> calls_;  ///< keys of the parts of each, as far as they were made

@@ -9,8 +9,8 @@
 #include <random>
 
 #include "data_io/values/json_values.h"
-#include "platform/atomic_file.h"
 #include "platform/error.h"
+#include "platform/files/plain_file.h"
 #include "platform/files/replacement_file.h"
 #include "platform/signature.h"
 #include "platform/system_call.h"
@@ -22,6 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr char kNoticeFile[] = "spool.json";
+constexpr std::uintmax_t kMostOfAFile = std::uintmax_t{2} << 30, kMostOfANotice = 1 << 16;
 constexpr const char* kSpoolFolders[] = {"jobs",    "suspects", "leases", "done",    "failed", "results",
                                          "refused", "common",   "logs",   "workers", "keys"};
 
@@ -32,9 +33,9 @@ struct SpoolNotice {
 DYNLAB_DESCRIBE(SpoolNotice, purpose, key)
 
 std::optional<SpoolNotice> notice_of(const fs::path& folder) {
-    if (!fs::exists(folder / kNoticeFile)) return {};
+    if (!fs::exists(fs::symlink_status(folder / kNoticeFile))) return {};
     try {
-        return from_json<SpoolNotice>(read_file(folder / kNoticeFile));
+        return from_json<SpoolNotice>(read_plain_file(folder / kNoticeFile, kMostOfANotice).value_or(""));
     } catch (const ValueError&) {
         throw EnvironmentError(
             fmt::format("{} is spoilt; remove {} and begin again: what was finished stays in the "
@@ -83,6 +84,38 @@ std::optional<T> value_of(const std::optional<std::string>& bytes) {
                     folder.string(), purpose, ours));
 }
 
+/// In a stranger's folder jobs and keys would be taken that the stranger put there, and links be followed out of it.
+void refuse_places_of_others(const fs::path& folder) {
+    struct stat status {};
+    if (::stat(folder.c_str(), &status) != 0 || !S_ISDIR(status.st_mode)) return;
+    if (status.st_uid != ::geteuid())
+        throw EnvironmentError(
+            fmt::format("the spool {} belongs to another user; name a folder of yours with --spool", folder.string()));
+    for (const char* name : kSpoolFolders) {
+        const fs::path inner = folder / name;
+        if (::lstat(inner.c_str(), &status) != 0) continue;
+        if (!S_ISDIR(status.st_mode) || status.st_uid != ::geteuid())
+            throw EnvironmentError(
+                fmt::format("{} is no folder that this spool made; somebody else writes there: name a folder that is "
+                            "yours alone with --spool",
+                            inner.string()));
+    }
+}
+
+/// Logs are what programs said; and a folder that others may write into is no place to work.
+void refuse_open_folder(const fs::path& folder) {
+    struct stat status {};
+    if (::stat(folder.c_str(), &status) == 0 && (status.st_mode & 077) != 0)
+        throw EnvironmentError(fmt::format(
+            "others may look into the spool {0}; `chmod 700 {0}`, or, where its file system keeps no such permissions, "
+            "name a folder on another one with --spool",
+            folder.string()));
+}
+
+std::string log_name(const JobFile& job) {
+    return job.text() + ".txt";
+}
+
 }  // namespace
 
 std::string JobFile::text() const {
@@ -100,6 +133,7 @@ void Spool::make_folders() const {
     if (::chmod(folder_.c_str(), 0700) != 0)
         throw EnvironmentError(
             fmt::format("the spool {} cannot be made yours alone: {}", folder_.string(), system_reason(errno)));
+    refuse_open_folder(folder_);
     for (const char* name : kSpoolFolders)
         if (::mkdir((folder_ / name).c_str(), 0700) != 0 && errno != EEXIST) fail_to_write(folder_ / name, errno);
 }
@@ -107,6 +141,7 @@ void Spool::make_folders() const {
 Spool Spool::begin(const fs::path& folder, const fs::path& key_file, SpoolIdentity identity) {
     const fs::path place = fs::absolute(folder).lexically_normal();
     const fs::path key = fs::absolute(key_file).lexically_normal();
+    refuse_places_of_others(place);
     const auto notice = notice_of(place);
     if (notice && (notice->purpose != identity.purpose || notice->key != key))
         refuse_spool_of(place, notice->purpose, identity.purpose);
@@ -133,13 +168,15 @@ Spool Spool::begin(const fs::path& folder, const fs::path& key_file, SpoolIdenti
     identity.id = spool.key_.name_of(random_bytes(32));
     spool.identity_ = identity;
     spool.write_sealed(place / "identity", "identity", cbor_of(identity));
-    write_file_atomically(place / kNoticeFile, json_of(SpoolNotice{identity.purpose, key}, 2) + "\n");
+    write_plain_file(place / kNoticeFile, json_of(SpoolNotice{identity.purpose, key}, 2) + "\n");
     return spool;
 }
 
 Spool Spool::open(const fs::path& folder) {
     const fs::path place = fs::absolute(folder).lexically_normal();
+    refuse_places_of_others(place);
     const auto notice = notice_of(place);
+    if (notice) refuse_open_folder(place);
     if (!notice)
         throw EnvironmentError(
             fmt::format("there is no spool {0} here; `dynlab grade --on` makes one, and this machine "
@@ -170,7 +207,7 @@ bool Spool::stopped() const {
 }
 
 void Spool::stop() const {
-    const FileDescriptor made(::open((folder_ / "stop").c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600));
+    (void)open_plain_file(folder_ / "stop");
 }
 
 void Spool::unstop() const {
@@ -182,21 +219,22 @@ bool Spool::move(const fs::path& from, const fs::path& to) const {
 }
 
 std::optional<std::string> Spool::read_sealed(const fs::path& file, const std::string& place) const {
-    try {
-        return key_.open(read_file(file), place);
-    } catch (const EnvironmentError&) {
-        return {};
-    }
+    const auto sealed = read_plain_file(file, kMostOfAFile);
+    return sealed ? key_.open(*sealed, place) : std::nullopt;
 }
 
 void Spool::write_sealed(const fs::path& file, const std::string& place, const std::string& bytes) const {
-    write_file_atomically(file, key_.seal(bytes, place));
+    const std::string sealed = key_.seal(bytes, place);
+    if (sealed.size() > kMostOfAFile)
+        throw EnvironmentError(fmt::format("{} MB at once are too many for a spool, which takes {} MB",
+                                           sealed.size() >> 20, kMostOfAFile >> 20));
+    write_plain_file(file, sealed);
 }
 
 /// In place, without waiting for the disk: what a full disk still takes. Who reads a half of it does not open it.
 void Spool::overwrite_sealed(const fs::path& file, const std::string& place, std::string bytes) const {
     const std::string sealed = key_.seal(bytes, place);
-    const FileDescriptor opened(::open(file.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600));
+    const FileDescriptor opened = open_plain_file(file);
     if (!opened) return;
     if (::pwrite(opened.get(), sealed.data(), sealed.size(), 0) == static_cast<ssize_t>(sealed.size()))
         (void)!::ftruncate(opened.get(), static_cast<off_t>(sealed.size()));
@@ -212,7 +250,7 @@ void Spool::put(const std::string& key, const ShareJob& job, int losses) const {
 
 std::string Spool::put_common(const std::string& bytes) const {
     const std::string name = key_.name_of(bytes);
-    if (!fs::exists(folder_ / "common" / name)) write_sealed(folder_ / "common" / name, "common " + name, bytes);
+    if (!common(name)) write_sealed(folder_ / "common" / name, "common " + name, bytes);
     return name;
 }
 
@@ -323,8 +361,26 @@ std::vector<Spool::Lease> Spool::leases() const {
     return leases;
 }
 
-fs::path Spool::log_of(const JobFile& job) const {
-    return folder_ / "logs" / (job.text() + ".txt");
+FileDescriptor Spool::log_of(const JobFile& job) const {
+    return open_plain_file(folder_ / "logs" / log_name(job), O_APPEND);
+}
+
+std::string Spool::logged(const JobFile& job, std::size_t most) const {
+    return start_of_plain_file(folder_ / "logs" / log_name(job), most);
+}
+
+void Spool::drop_empty_log(const JobFile& job) const {
+    std::error_code ignored;
+    const fs::path file = folder_ / "logs" / log_name(job);
+    if (fs::file_size(file, ignored) == 0 && !ignored) fs::remove(file, ignored);
+}
+
+void Spool::note(const std::string& name, const std::string& bytes) const {
+    write_sealed(folder_ / name, "note " + name, bytes);
+}
+
+std::optional<std::string> Spool::noted(const std::string& name) const {
+    return read_sealed(folder_ / name, "note " + name);
 }
 
 void Spool::admit(const std::string& worker, const std::string& public_key) const {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "platform/keys/session_key.h"
+#include "platform/system_call.h"
 
 namespace dynlab::inline workflow {
 
@@ -51,7 +52,9 @@ struct WorkerStatus {
 
 /// What the coordinator says, likewise. The counts let one that is started again go on judging fairly.
 struct CoordinatorStatus {
-    std::uint64_t beat = 0, wanted = 0, done = 0, given_up = 0, lost = 0;
+    std::uint64_t beat = 0, wanted = 0, done = 0, given_up = 0;
+    std::uint64_t lost = 0;    ///< how often a job lost its worker
+    std::uint64_t blamed = 0;  ///< of these, by jobs that were given up for it
 };
 
 /// A job's place in the folder: its name says how many workers it has lost.
@@ -70,16 +73,18 @@ struct JobFile {
 ///     jobs/KEY.N           waiting, N workers lost so far; suspects/KEY.N: to be judged by the coordinator first
 ///     leases/KEY.N@ID.H    being done by hand H of a worker, as long as its heart beats
 ///     done/KEY.N           its result is to be looked at;  failed/KEY.N: given up
-///     results/KEY, common/NAME, logs/KEY.N.txt
+///     results/KEY, common/NAME, logs/KEY.N.txt, slurm (note())
 ///     stop                 workers give back what they have and end
 ///
 /// Everything but spool.json and the logs is sealed with the session's key for its place: who can only write here can
-/// hinder, but neither read nor forge. Logs are what programs said on standard error; the folder is its owner's only.
+/// hinder, but neither read nor forge, nor lead the processes out of the folder by links (platform/files/plain_file.h).
+/// Logs are what programs said on standard error; the folder is its owner's only.
 /// A job done twice gives the same result twice. No clock of any machine is compared with that of another.
 class Spool {
   public:
     /// Makes the folder, or opens one of the same purpose, program and key, to go on. One of another program is cleared
-    /// when the purpose and the key are ours. Throws EnvironmentError for another's spool.
+    /// when the purpose and the key are ours. Throws EnvironmentError for another's spool, a folder of another user,
+    /// and one that others may look into.
     static Spool begin(const std::filesystem::path& folder, const std::filesystem::path& key_file,
                        SpoolIdentity identity);
     /// As workers do. Throws EnvironmentError where there is none.
@@ -107,7 +112,11 @@ class Spool {
     void forget(const std::string& key) const;         ///< nor its result
     void give_up(const JobFile& job) const;            ///< from suspects
     void clear_of_suspicion(const JobFile& job) const;
-    void retry_failed() const;  ///< all that was given up is waiting again
+    void retry_failed() const;                                       ///< all that was given up is waiting again
+    std::string logged(const JobFile& job, std::size_t most) const;  ///< the first `most` bytes of its log
+    /// What an engine must know when it goes on.
+    void note(const std::string& name, const std::string& bytes) const;
+    std::optional<std::string> noted(const std::string& name) const;
 
     // The worker's side.
     struct Lease {
@@ -126,7 +135,8 @@ class Spool {
     void give_back(const Lease& lease) const;
     void lose(const Lease& lease) const;  ///< whoever did it is gone
     std::vector<Lease> leases() const;
-    std::filesystem::path log_of(const JobFile& job) const;
+    FileDescriptor log_of(const JobFile& job) const;  ///< to write at its end; none where that cannot be
+    void drop_empty_log(const JobFile& job) const;
     std::string signed_text(const std::string& key, const ShareResult& result) const;
 
     // Heartbeats.

@@ -51,27 +51,21 @@ constexpr auto kEndOfHands = 15s;
 /// What a job writes to standard error goes to its log while one of these lives; a log without a word is removed.
 class ErrorLog {
   public:
-    explicit ErrorLog(fs::path file) : file_(std::move(file)), before_(::dup(STDERR_FILENO)) {
-        const FileDescriptor log(::open(file_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600));
-        if (log) ::dup2(log.get(), STDERR_FILENO);
+    ErrorLog(const Spool& spool, const JobFile& job) : spool_(spool), job_(job), before_(::dup(STDERR_FILENO)) {
+        if (const FileDescriptor log = spool_.log_of(job_)) ::dup2(log.get(), STDERR_FILENO);
     }
     ~ErrorLog() {
         ::dup2(before_.get(), STDERR_FILENO);
-        std::error_code ignored;
-        if (fs::exists(file_, ignored) && fs::file_size(file_, ignored) == 0) fs::remove(file_, ignored);
+        spool_.drop_empty_log(job_);
     }
     ErrorLog(const ErrorLog&) = delete;
     ErrorLog& operator=(const ErrorLog&) = delete;
 
   private:
-    fs::path file_;
+    const Spool& spool_;
+    const JobFile& job_;
     FileDescriptor before_;
 };
-
-void append_to_log(const fs::path& file, const std::string& line) {
-    const FileDescriptor log(::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600));
-    if (log) write_all(log.get(), line.data(), line.size());
-}
 
 /// "signal 11 (segmentation fault)"
 std::string end_of_process(int status) {
@@ -221,8 +215,9 @@ class WorkerProcess {
                 spool_.give_back(lease);
                 continue;
             }
-            append_to_log(spool_.log_of(lease.job), fmt::format("on {}: the process that did it ended with {}\n",
-                                                                options_.node, end_of_process(status)));
+            const std::string line =
+                fmt::format("on {}: the process that did it ended with {}\n", options_.node, end_of_process(status));
+            if (const FileDescriptor log = spool_.log_of(lease.job)) write_all(log.get(), line.data(), line.size());
             spool_.lose(lease);
         }
     }
@@ -316,7 +311,7 @@ std::optional<Spool::Claimed> WorkingHand::next() {
 void WorkingHand::finish(const Spool::Claimed& job, const std::function<std::string()>& work) {
     ShareResult result;
     {
-        const ErrorLog log(spool_.log_of(job.lease.job));
+        const ErrorLog log(spool_, job.lease.job);
         try {
             result.bytes = work();
         } catch (const Interrupted&) {
