@@ -30,13 +30,16 @@ std::string square_of(const ShareJob& job) {
     return std::to_string(number * number);
 }
 
-/// "crash" ends its process, "slow" takes a quarter of a second, "throws" says why it cannot be done.
+/// "crash" ends its process, "slow" takes a quarter of a second, "throws" says why it cannot be done; "halves" and
+/// "sulks" are slow, and return or throw something else when they are interrupted.
 void do_test_job(WorkingHand& hand, const Spool::Claimed& claimed) {
     hand.finish(claimed, [&] {
         if (claimed.job.title == "crash") ::raise(SIGSEGV);
         if (claimed.job.title == "throws") throw EnvironmentError("there is no such thing");
-        const auto until = std::chrono::steady_clock::now() + (claimed.job.title == "slow" ? 250ms : 0ms);
+        const auto until = std::chrono::steady_clock::now() + (claimed.job.title == "" ? 0ms : 250ms);
         while (std::chrono::steady_clock::now() < until) {
+            if (interrupted() && claimed.job.title == "halves") return std::string("half");
+            if (interrupted() && claimed.job.title == "sulks") throw EnvironmentError("not now");
             throw_if_interrupted();
             ::usleep(5000);
         }
@@ -165,17 +168,20 @@ TEST_F(coordinator, is_ended_and_another_goes_on) {
 
 TEST_F(coordinator, a_worker_asked_to_end_gives_back_what_it_has) {
     const Spool spool = begun();
-    const pid_t asked = start_worker("asked");
+    const pid_t asked = start_worker("asked", 6);
     Coordinator leader(spool, nullptr);
-    for (int i = 0; i < 4; ++i) leader.put(job(i, "slow"));
-    while (spool.leases().empty()) ::usleep(5000);
+    std::map<std::string, std::string> expected;
+    for (const char* title : {"slow", "halves", "sulks"})
+        for (int i = 0; i < 2; ++i) expected[leader.put(job(i, title))] = std::to_string(i * i);
+    while (spool.leases().size() < 6) ::usleep(5000);
     end(asked, SIGTERM);
     ::waitpid(asked, nullptr, 0);
     std::erase(workers_, asked);
     EXPECT_TRUE(spool.leases().empty());
+    EXPECT_EQ(spool.listed("jobs").size(), 6u);
     for (const auto& [key, losses] : spool.listed("jobs")) EXPECT_EQ(losses, 0);
     start_worker("other");
-    EXPECT_EQ(collected(leader).size(), 4u);
+    EXPECT_EQ(collected(leader), expected);
 }
 
 TEST_F(coordinator, a_stranger_who_writes_into_the_spool_changes_no_result) {

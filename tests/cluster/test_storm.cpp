@@ -86,9 +86,9 @@ class gust : public testing::Test {
 };
 
 TEST_F(gust, over_processes) {
-    hand_in_class(bench_, 60, 15'000'000, {});
+    hand_in_class(bench_, 80, 5'000'000, {});
     endure(
-        "processes:2", "", {20, 0.4}, [this] { return workers_of(work()); }, [] {});
+        "processes:2", "", {20, 0.3}, [this] { return workers_of(work()); }, [] {});
 }
 
 class storm : public gust {

@@ -112,6 +112,7 @@ class SlurmTasks : public WorkerEngine {
         child.command = words;
         child.input = input;
         child.timeout = kSlurmAnswers;
+        child.heeds_interrupt = false;  // tasks that were submitted are known, and cancelled, whatever comes between
         return run_child(child, kSlurmPackage);
     }
 

@@ -314,12 +314,13 @@ void WorkingHand::finish(const Spool::Claimed& job, const std::function<std::str
         const ErrorLog log(spool_, job.lease.job);
         try {
             result.bytes = work();
-        } catch (const Interrupted&) {
-            spool_.give_back(job.lease);
-            throw;
         } catch (const std::exception& error) {
             result.trouble = error.what();
         }
+    }
+    if (interrupted()) {  // what it returned or threw may be for that: a study stops half way, and gives that half
+        spool_.give_back(job.lease);
+        throw Interrupted();
     }
     if (trouble_of_machine()) return spool_.give_back(job.lease);
     hand_in(job, std::move(result));

@@ -23,7 +23,8 @@ class WorkingHand {
     /// is looked at: as long as it has no room for temporary files none is.
     std::optional<Spool::Claimed> next();
     /// Does a job by `work` and hands in what it returns, or what it threw, as the job's trouble. A result counts only
-    /// where the machine is still well after it; else the job is given back. Throws Interrupted, the job given back.
+    /// where the machine is still well after it, and nobody asked this process to end; else the job is given back, in
+    /// the second case with Interrupted thrown.
     void finish(const Spool::Claimed& job, const std::function<std::string()>& work);
     /// For the next one who asks.
     void take_back(Spool::Claimed job) { waiting_ = std::move(job); }
