@@ -29,7 +29,7 @@ print(selcstruc(srivcstruc(d, {poles = {1, 3}, zeros = {0, 2}})))
 )";
 
 /// A class that takes one process some seconds.
-constexpr int kSomeSeconds = 60, kTurns = 5'000'000;
+constexpr int kSomeSeconds = 40, kTurns = 4'000'000;
 
 /// Some seconds of it.
 constexpr const char* kLongStudy = R"(
@@ -98,17 +98,21 @@ class engines : public testing::Test {
     std::string said_;
 };
 
+/// With sshd or Slurm, whose ports are theirs alone: one test at a time (tests/CMakeLists.txt).
+class loopback : public engines {};
+class long_loopback : public engines {};
+
 TEST_F(engines, processes_give_what_one_gives) {
     expect_same("processes:2");
 }
 
-TEST_F(engines, hosts_by_ssh_give_what_one_process_gives) {
+TEST_F(loopback, hosts_by_ssh_give_what_one_process_gives) {
     LoopbackHosts hosts;
     if (!hosts.reason_to_skip().empty()) GTEST_SKIP() << hosts.reason_to_skip();
     expect_same("parallel:1/n1,1/n2", hosts.environment());
 }
 
-TEST_F(engines, slurm_gives_what_one_process_gives) {
+TEST_F(loopback, slurm_gives_what_one_process_gives) {
     LoopbackSlurm slurm;
     if (!slurm.reason_to_skip().empty()) GTEST_SKIP() << slurm.reason_to_skip();
     expect_same("slurm:tasks=2,partition=short", slurm.environment());
@@ -116,7 +120,7 @@ TEST_F(engines, slurm_gives_what_one_process_gives) {
 }
 
 // What Slurm ends is submitted again; Ctrl-C leaves neither tasks nor workers, and what was done is kept.
-TEST_F(engines, slurm_tasks_that_are_preempted_come_again_and_cancelled_ones_do_not) {
+TEST_F(loopback, slurm_tasks_that_are_preempted_come_again_and_cancelled_ones_do_not) {
     LoopbackSlurm slurm;
     if (!slurm.reason_to_skip().empty()) GTEST_SKIP() << slurm.reason_to_skip();
     hand_in_class(bench_, kSomeSeconds, kTurns, {});
@@ -253,7 +257,7 @@ TEST_F(engines, programs_that_lack_are_named_with_their_package) {
     EXPECT_THAT(said_, HasSubstr("slurm-client"));
 }
 
-TEST_F(engines, a_host_that_refuses_is_named) {
+TEST_F(loopback, a_host_that_refuses_is_named) {
     LoopbackHosts hosts;
     if (!hosts.reason_to_skip().empty()) GTEST_SKIP() << hosts.reason_to_skip();
     hand_in_class(bench_, 4, 100, {});
@@ -263,7 +267,7 @@ TEST_F(engines, a_host_that_refuses_is_named) {
     EXPECT_THAT(said_, HasSubstr("no worker can be started on any host; closed says: ssh: connect"));
 }
 
-TEST_F(engines, slurm_that_is_down_and_partitions_unknown_are_named) {
+TEST_F(loopback, slurm_that_is_down_and_partitions_unknown_are_named) {
     LoopbackSlurm slurm;
     if (!slurm.reason_to_skip().empty()) GTEST_SKIP() << slurm.reason_to_skip();
     hand_in_class(bench_, 1, 100, {});
@@ -300,7 +304,7 @@ TEST_F(engines, a_node_whose_disk_fills_waits_and_another_version_is_refused) {
     expect_equal_results(work(), "alone", "shared");
 }
 
-TEST_F(engines, cancelling_leaves_nothing_running_and_loses_nothing) {
+TEST_F(long_loopback, cancelling_leaves_nothing_running_and_loses_nothing) {
     LoopbackHosts hosts;
     if (!hosts.reason_to_skip().empty()) GTEST_SKIP() << hosts.reason_to_skip();
     hand_in_class(bench_, kSomeSeconds, kTurns, {});
