@@ -538,27 +538,27 @@ report.value("pendulum_error", largest_error(study.pendulum, truth.natural_frequ
 --     v' + coupling c w' = gain u - viscous v - dry sign(v) + coupling s w^2,    w' + c v'/length = -(g/length) s - (pivot + air |w|) w.
 -- Runge-Kutta steps of fourth order; where the trolley stops, a step ends, and friction holds it or lets it go.
 local function drive(p, wide, record)
-    local sine, cosine = math.sin, math.cos
-    local coupling, length = p.coupling, p.length
+    local sine, cosine, size = math.sin, math.cos, math.abs
+    local gain, viscous, dry, coupling, length, pivot, air = p.gain, p.viscous, p.dry, p.coupling, p.length, p.pivot, p.air
     local x, v, phi, w = 0, 0, 0, 0
-    local function swing_torque(angle, rate)
-        return -(9.81/length)*(wide and sine(angle) or angle) - (p.pivot + p.air*math.abs(rate))*rate
-    end
-    local function drive_force(u, speed, angle, rate)
-        return p.gain*u - p.viscous*speed + (wide and coupling*sine(angle)*rate^2 or 0)
+    -- What accelerates the trolley but for friction, what accelerates the load, and c.
+    local function drives(u, speed, angle, rate)
+        local s, c, square = angle, 1, 0
+        if wide then s, c, square = sine(angle), cosine(angle), rate^2 end
+        return gain*u - viscous*speed + coupling*s*square, -(9.81/length)*s - (pivot + air*size(rate))*rate, c
     end
     local function rates(u, side, speed, angle, rate)
-        local c, torque = wide and cosine(angle) or 1, swing_torque(angle, rate)
+        local force, torque, c = drives(u, speed, angle, rate)
         if side == 0 then return 0, torque end
-        local force = drive_force(u, speed, angle, rate) - p.dry*side
-        local acceleration = (force - coupling*c*torque)/(1 - coupling*c^2/length)
+        local acceleration = (force - dry*side - coupling*c*torque)/(1 - coupling*c^2/length)
         return acceleration, torque - c*acceleration/length
     end
     local function advance(u, h)
         local side = v > 0 and 1 or v < 0 and -1 or 0
         if side == 0 then
-            local pushed = drive_force(u, 0, phi, w) - coupling*(wide and cosine(phi) or 1)*swing_torque(phi, w)
-            if math.abs(pushed) > p.dry then side = pushed > 0 and 1 or -1 end
+            local force, torque, c = drives(u, 0, phi, w)
+            local pushed = force - coupling*c*torque
+            if size(pushed) > dry then side = pushed > 0 and 1 or -1 end
         end
         local a1, b1 = rates(u, side, v, phi, w)
         local a2, b2 = rates(u, side, v + h/2*a1, phi + h/2*w, w + h/2*b1)

@@ -212,8 +212,7 @@ TEST(engine_sentences, of_advice_are_french) {
             expect_french(english, french_engine_sentences().translated(english));
         }
     };
-    for (const CorpusKind& kind : faulty_kinds())
-        for (const std::uint32_t seed : {1u, 2u}) expect_advice(kind.record(seed));
+    for (const CorpusKind& kind : faulty_kinds()) expect_advice(kind.record(1));
     expect_told_in_french(kRecord + R"(
 local function with(change) local y = vector(x + 0.02*randn(#u)) change(y) return y end
 advice(iddata(with(function(y) y[100] = 30 y[101] = 31 end), u, 0.1))

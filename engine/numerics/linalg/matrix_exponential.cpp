@@ -44,15 +44,21 @@ std::optional<StepMatrices> short_step_of(const MatrixView& A, const MatrixView&
     return StepMatrices{step->F, step->G, step->H0, step->H1};
 }
 
-/// For the numbers of states that one and two poles have, alone and in series.
+/// For the numbers of states that one to four poles have, alone and in series.
 std::optional<StepMatrices> short_step_of(const MatrixView& A, const MatrixView& B, double h) {
     switch (A.rows()) {
         case 1:
             return short_step_of<1>(A, B, h);
         case 2:
             return short_step_of<2>(A, B, h);
+        case 3:
+            return short_step_of<3>(A, B, h);
         case 4:
             return short_step_of<4>(A, B, h);
+        case 6:
+            return short_step_of<6>(A, B, h);
+        case 8:
+            return short_step_of<8>(A, B, h);
         default:
             return {};
     }

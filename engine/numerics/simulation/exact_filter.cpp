@@ -1,49 +1,15 @@
 #include "numerics/simulation/exact_filter.h"
 
 #include <algorithm>
+#include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace dynlab::inline numerics {
 
 namespace {
 
 constexpr Index kWidestWindow = ExactFilter::kBlock + 2;  // u[k-d-1] ... u[k-d+kBlock]
-
-/// How a block of samples depends on [state; widest input window], by running the recursion symbolically.
-struct BlockMaps {
-    std::vector<Matrix> outputs;
-    Matrix step;
-};
-
-BlockMaps block_maps(const SampledSystem& system) {
-    const Index n = system.F.rows(), p = system.C.rows();
-    BlockMaps maps;
-    maps.outputs.assign(static_cast<std::size_t>(p), Matrix::Zero(ExactFilter::kBlock, n + kWidestWindow));
-    Matrix state = Matrix::Zero(n, n + kWidestWindow);
-    state.leftCols(n).setIdentity();
-    for (Index i = 0; i < ExactFilter::kBlock; ++i) {
-        const Index previous = n + i, now = previous + 1, next = now + 1;
-        Matrix output = system.C * state;
-        output.col(now) += system.D.col(0);
-        output.col(previous) += system.D.col(1);
-        for (Index j = 0; j < p; ++j) maps.outputs[static_cast<std::size_t>(j)].row(i) = output.row(j);
-        state = system.F * state;
-        state.col(next) += system.G.col(0);
-        state.col(now) += system.G.col(1);
-        state.col(previous) += system.G.col(2);
-    }
-    maps.step = state;
-    return maps;
-}
-
-/// Drops the first or last column of the input window where no sample has weight there.
-Matrix cut_window(const Matrix& map, Index order, bool sees_previous, bool sees_next) {
-    const Index first = sees_previous ? 0 : 1;
-    const Index width = kWidestWindow - first - (sees_next ? 0 : 1);
-    Matrix cut(map.rows(), order + width);
-    cut << map.leftCols(order), map.middleCols(order + first, width);
-    return cut;
-}
 
 /// map [x; w], with x and w of fixed or dynamic size; the window first, so that the sum waits for x only at its end.
 template <class Map, class State>
@@ -56,15 +22,69 @@ auto apply(const Map& map, const State& x, const double* w, Index order) {
     return sum;
 }
 
+/// use(order), as a number that the compiler knows where there is a loop of that size: up to six poles with their
+/// sensitivities.
+template <class Use>
+auto with_known_order(Index order, const Use& use) {
+    switch (order) {
+        case 1:
+            return use(std::integral_constant<int, 1>());
+        case 2:
+            return use(std::integral_constant<int, 2>());
+        case 3:
+            return use(std::integral_constant<int, 3>());
+        case 4:
+            return use(std::integral_constant<int, 4>());
+        case 5:
+            return use(std::integral_constant<int, 5>());
+        case 6:
+            return use(std::integral_constant<int, 6>());
+        case 7:
+            return use(std::integral_constant<int, 7>());
+        case 8:
+            return use(std::integral_constant<int, 8>());
+        case 10:
+            return use(std::integral_constant<int, 10>());
+        case 12:
+            return use(std::integral_constant<int, 12>());
+        default:
+            return use(std::integral_constant<int, Eigen::Dynamic>());
+    }
+}
+
 }  // namespace
 
 ExactFilter::ExactFilter(SampledSystem system) : system_(std::move(system)) {
     sees_next_ = !system_.G.col(0).isZero(0);
     sees_previous_ = !system_.G.col(2).isZero(0) || !system_.D.col(1).isZero(0);
-    const BlockMaps maps = block_maps(system_);
-    for (const Matrix& output : maps.outputs)
-        block_outputs_.push_back(cut_window(output, order(), sees_previous_, sees_next_));
-    block_step_ = cut_window(maps.step, order(), sees_previous_, sees_next_);
+    with_known_order(order(), [&](auto known) { prepare_blocks<known>(); });
+}
+
+/// How a block of samples depends on [state; input window], by running the recursion symbolically.
+template <int kOrder>
+void ExactFilter::prepare_blocks() {
+    constexpr int kColumns = kOrder == Eigen::Dynamic ? Eigen::Dynamic : kOrder + static_cast<int>(kWidestWindow);
+    const Index n = order(), first = n + (sees_previous_ ? 0 : 1), last = n + kWidestWindow - (sees_next_ ? 0 : 1);
+    const Index columns = n + last - first;  // the first and the last of the widest window have no weight in most
+    const Eigen::Matrix<double, kOrder, kOrder> F = system_.F;
+    Eigen::Matrix<double, kOrder, kColumns> state =
+        Eigen::Matrix<double, kOrder, kColumns>::Identity(n, n + kWidestWindow);
+    block_outputs_.resize(kBlock, output_count() * columns);
+    for (Index i = 0; i < kBlock; ++i) {
+        const Index previous = n + i, now = previous + 1, next = now + 1;
+        Eigen::Matrix<double, Eigen::Dynamic, kColumns> output = system_.C.lazyProduct(state);
+        output.col(now) += system_.D.col(0);
+        output.col(previous) += system_.D.col(1);
+        for (Index j = 0; j < output_count(); ++j)
+            block_outputs_.row(i).segment(j * columns, columns) << output.row(j).head(n),
+                output.row(j).segment(first, last - first);
+        state = F.lazyProduct(state).eval();
+        state.col(next) += system_.G.col(0);
+        state.col(now) += system_.G.col(1);
+        state.col(previous) += system_.G.col(2);
+    }
+    block_step_.resize(n, columns);
+    block_step_ << state.leftCols(n), state.middleCols(first, last - first);
 }
 
 Matrix ExactFilter::run(const VectorView& u) const {
@@ -83,6 +103,10 @@ void ExactFilter::run(const VectorView& u, Vector x, Eigen::Ref<Matrix> y) const
 Index ExactFilter::run_start(const VectorView& u, Vector& x, Eigen::Ref<Matrix>& y) const {
     const Index N = u.size();
     Index k = 0;
+    if (x.isZero(0)) {
+        k = std::min(system_.delay, N);
+        y.topRows(k).setZero();
+    }
     for (; k < std::min(system_.delay, N); ++k) {
         y.row(k) = system_.C * x;
         x = system_.F * x;
@@ -110,8 +134,10 @@ Index ExactFilter::run_blocks(const VectorView& u, Index k, Vector& x_now, Eigen
     constexpr int kColumns = kOrder == Eigen::Dynamic ? Eigen::Dynamic : kOrder + kWindow;
     using OutputMap = Eigen::Matrix<double, kBlock, kColumns>;
     const Eigen::Matrix<double, kOrder, kColumns> step = block_step_;
-    const std::vector<OutputMap> outputs(block_outputs_.begin(), block_outputs_.end());
-    const Index n = kOrder == Eigen::Dynamic ? order() : kOrder;
+    const Index n = kOrder == Eigen::Dynamic ? order() : kOrder, columns = step.cols();
+    std::vector<OutputMap> outputs(static_cast<std::size_t>(output_count()));
+    for (std::size_t j = 0; j < outputs.size(); ++j)
+        outputs[j] = block_outputs_.middleCols(static_cast<Index>(j) * columns, columns);
     const Index window_start = -system_.delay - (sees_previous_ ? 1 : 0);
     const Index end = std::min(y.rows(), u.size() + system_.delay - (sees_next_ ? 1 : 0));
     Eigen::Matrix<double, kOrder, 1> x = x_now;
@@ -125,31 +151,13 @@ Index ExactFilter::run_blocks(const VectorView& u, Index k, Vector& x_now, Eigen
     return k;
 }
 
-template <int kOrder>
 Index ExactFilter::run_blocks(const VectorView& u, Index k, Vector& x, Eigen::Ref<Matrix>& y) const {
     const Index window = block_step_.cols() - order();
-    if (window == kBlock) return run_blocks<kOrder, kBlock>(u, k, x, y);
-    if (window == kBlock + 1) return run_blocks<kOrder, kBlock + 1>(u, k, x, y);
-    return run_blocks<kOrder, kBlock + 2>(u, k, x, y);
-}
-
-Index ExactFilter::run_blocks(const VectorView& u, Index k, Vector& x, Eigen::Ref<Matrix>& y) const {
-    switch (order()) {
-        case 1:
-            return run_blocks<1>(u, k, x, y);
-        case 2:
-            return run_blocks<2>(u, k, x, y);
-        case 3:
-            return run_blocks<3>(u, k, x, y);
-        case 4:
-            return run_blocks<4>(u, k, x, y);
-        case 5:
-            return run_blocks<5>(u, k, x, y);
-        case 6:
-            return run_blocks<6>(u, k, x, y);
-        default:
-            return run_blocks<Eigen::Dynamic, Eigen::Dynamic>(u, k, x, y);
-    }
+    return with_known_order(order(), [&](auto known) {
+        if (window == kBlock) return run_blocks<known, kBlock>(u, k, x, y);
+        if (window == kBlock + 1) return run_blocks<known, kBlock + 1>(u, k, x, y);
+        return run_blocks<known, kBlock + 2>(u, k, x, y);
+    });
 }
 
 }  // namespace dynlab::inline numerics

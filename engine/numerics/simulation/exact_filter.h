@@ -1,6 +1,4 @@
 #pragma once
-#include <vector>
-
 #include "numerics/linalg/types.h"
 #include "numerics/models/sampled_system.h"
 
@@ -8,8 +6,8 @@ namespace dynlab::inline numerics {
 
 /// Runs a SampledSystem over long records. Four samples are advanced together: their outputs and the state after
 /// them are linear in the state before and in the samples they see, so one small matrix product takes the place of
-/// four dependent steps. Orders 1 to 6 have loops of fixed size, higher ones a loop of any size. The results agree
-/// with the sample-by-sample recursion to rounding.
+/// four dependent steps. Orders 1 to 8, 10 and 12 have loops of fixed size, others a loop of any size. The results
+/// agree with the sample-by-sample recursion to rounding.
 class ExactFilter {
   public:
     explicit ExactFilter(SampledSystem system);
@@ -26,9 +24,9 @@ class ExactFilter {
     static constexpr Index kBlock = 4;  ///< samples advanced together
 
   private:
-    template <int kOrder, int kWindow>
-    Index run_blocks(const VectorView& u, Index k, Vector& x, Eigen::Ref<Matrix>& y) const;
     template <int kOrder>
+    void prepare_blocks();
+    template <int kOrder, int kWindow>
     Index run_blocks(const VectorView& u, Index k, Vector& x, Eigen::Ref<Matrix>& y) const;
     Index run_blocks(const VectorView& u, Index k, Vector& x, Eigen::Ref<Matrix>& y) const;
 
@@ -37,8 +35,8 @@ class ExactFilter {
 
     SampledSystem system_;
     bool sees_next_ = false, sees_previous_ = false;  // whether u[k-d+1], u[k-d-1] have weight
-    std::vector<Matrix> block_outputs_;  // per output: kBlock x (order + window), acting on [state; input window]
-    Matrix block_step_;                  // order x (order + window)
+    Matrix block_outputs_;  // for each output kBlock x (order + window), acting on [state; input window], side by side
+    Matrix block_step_;     // order x (order + window)
 };
 
 }  // namespace dynlab::inline numerics

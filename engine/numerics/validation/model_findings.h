@@ -25,8 +25,8 @@ void find_dead_time(const FittedRecord& fit, RecordFindings& findings);
 /// one on which the output stands while the input stays at zero at the beginning.
 void find_offset(const FittedRecord& fit, RecordFindings& findings);
 /// "running_start": a free motion, chosen by BIC (compare), that stands out from the error, is worth 5 % of the
-/// output's standard deviation and three times what a fit finds of such a motion further on; or only the first of 24 sections does not follow the model (behind a dead time the
-/// unknown inputs from before the record still act).
+/// output's standard deviation and three times what a fit finds of such a motion further on; or only the first of 24
+/// sections does not follow the model (behind a dead time the unknown inputs from before the record still act).
 void find_running_start(const FittedRecord& fit, RecordFindings& findings);
 /// "slow_sampling" (below 6 times the bandwidth) and "fast_sampling" (above 400 times).
 void find_sampling_rate(const FittedRecord& fit, RecordFindings& findings);

@@ -6,6 +6,7 @@
 #include "scripting/arguments/table_fields.h"
 #include "scripting/arguments/told_sentences.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/data_object.h"
 
 namespace dynlab::inline scripting {
@@ -49,7 +50,7 @@ int advice_to_text(lua_State* L) {
     return 1;
 }
 
-int give_advice(Call& call) {
+int advice_table(Call& call) {
     call.at_most(1);
     const IdData& data = object_argument<IdData>(call, 1, "data");
     const Advice advice = advise(data, call.cancel());
@@ -57,6 +58,12 @@ int give_advice(Call& call) {
     give_list(call, advice.findings, [&](const RecordFinding& finding) { push_finding(call, finding); });
     set_field(call, "clean", advice.clean());
     set_segments(call, "discard", advice.discard);
+    return 1;
+}
+
+/// A recalled result is a plain table: how it is printed is added here.
+int give_advice(Call& call) {
+    run_memoized_call(call, advice_table);
     lua_createtable(call.state(), 0, 1);
     lua_pushcfunction(call.state(), advice_to_text);
     lua_setfield(call.state(), -2, "__tostring");

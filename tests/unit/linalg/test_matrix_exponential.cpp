@@ -55,9 +55,11 @@ TEST(matrix_exponential, step_of_an_integrator_and_a_lag) {  // oracle: analytic
 // oracle: second route, the exponential of Van Loan's block matrix; steps short enough for the series and just too long
 TEST(matrix_exponential, short_steps_agree_with_the_block_matrix) {
     for (const double h : {1e-6, 0.003, 0.06, 0.12, 0.2})
-        for (const Index n : {1, 2, 4}) {
+        for (const Index n : {1, 2, 3, 4, 6, 8}) {
             Matrix A = companion(power(Eigen::Vector2d(1, 3), static_cast<int>(n)));
             if (n == 4) A = cascade_matrix(Eigen::Vector3d(1, 0.8, 4), 0);
+            if (n == 6) A = cascade_matrix(Eigen::Vector4d(1, 2.8, 5.6, 8), 0);
+            if (n == 8) A = cascade_matrix(Vector{{1, 1.6, 8.64, 6.4, 16}}, 0);
             const Vector B = Vector::Unit(n, 0);
             Matrix block = Matrix::Zero(n + 2, n + 2);
             block.topLeftCorner(n, n) = h * A;

@@ -100,7 +100,7 @@ TEST_P(exact_filter_of_order, irregular_filter_agrees_on_equal_steps) {  // orac
         }
 }
 
-INSTANTIATE_TEST_SUITE_P(exact_filter, exact_filter_of_order, testing::Values(1, 2, 3, 4, 5, 6, 7, 9));
+INSTANTIATE_TEST_SUITE_P(exact_filter, exact_filter_of_order, testing::Values(1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12));
 
 TEST(exact_filter, derivatives_fulfil_their_identity) {  // oracle: definition, sum den_i s^(n-i)/den u = u
     const Vector den = Eigen::Vector4d(1, 3, 5, 2), u = RandomStream(9).normal(200);

@@ -47,9 +47,8 @@ std::optional<std::string> missed_initial_state(const IdData& data, const GreyFi
         return std::nullopt;
     const double fitted = fit_percent_of_sums(now, variation), better = fit_percent_of_sums(then, variation);
     if (better - fitted < kWorthPoints) return std::nullopt;
-    return "The record does not begin where the model's initial state says: with `initial_state` = \"estimate\" the "
-           "fit "
-           "is about " +
+    return "The record does not begin where the model's initial state says: with `initial_state` = \"estimate\" "
+           "the fit is about " +
            number_text(better, 3) + " % instead of " + number_text(fitted, 3) + " %.";
 }
 
