@@ -7,6 +7,7 @@
 
 #include "cli/commands.h"
 #include "cli/document_command.h"
+#include "cli/options/share_options.h"
 #include "course/grading/grading.h"
 #include "numerics/number_text.h"
 #include "platform/atomic_file.h"
@@ -20,10 +21,10 @@ namespace {
 namespace fs = std::filesystem;
 
 struct GradeArguments {
-    std::string submissions, lesson, out, checks, secret, roster, owners, deadlines, timezone, keep = "best",
-                                                                                               isolation = "full";
+    std::string submissions, lesson, out, checks, secret, roster, owners, deadlines, timezone, on, spool,
+        keep = "best", isolation = "full";
     std::vector<std::string> only;
-    int jobs = 0, timeout = 60;
+    int jobs = 0, timeout = 60, lease = 30;
     bool regrade = false, again = false, no_pdf = false, answers = false;
 };
 
@@ -65,9 +66,13 @@ int grade(const GradeArguments& words) {
     request.again = words.again;
     request.regrade = words.regrade;
     request.pdf = !words.no_pdf;
+    request.on = words.on;
+    request.spool = given(words.spool);
+    request.lease_seconds = words.lease;
     if (words.secret.empty())
         std::cerr << "dynlab: no --secret FILE: anybody who reads the project can compute the hidden records\n";
     const GradingOutcome outcome = grade_class(request);
+    for (const std::string& note : outcome.notes) std::cerr << "dynlab: note: " << terminal_text(note) << '\n';
     for (const std::string& complaint : outcome.complaints) std::cerr << "dynlab: " << terminal_text(complaint) << '\n';
     std::cout << fmt::format("{}: {} graded now, {} unchanged{}; isolation {}\n",
                              counted(outcome.submissions, "submission"), outcome.made, outcome.kept,
@@ -127,6 +132,7 @@ void add_grade(CLI::App& app, Action& action) {
     command->add_option("--jobs", words->jobs, "So many at once; as many as there are cores unless given")
         ->type_name("N")
         ->check(CLI::Range(1, 256));
+    add_share_options(*command, words->on, words->spool, words->lease);
     command->add_option("--timeout", words->timeout, "Seconds for each run of a script")
         ->type_name("S")
         ->capture_default_str()

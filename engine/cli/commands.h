@@ -41,6 +41,8 @@ void add_lsp(CLI::App& app, Action& action);
 void add_test_lesson(CLI::App& app, Action& action);
 void add_verify(CLI::App& app, Action& action);
 void add_course(CLI::App& app, Action& action);
+void add_study(CLI::App& app, Action& action);
+void add_work(CLI::App& app, Action& action);
 void add_boxed(CLI::App& app, Action& action);
 void add_complete(CLI::App& app, Action& action);
 void add_man_pages(CLI::App& app, Action& action);

@@ -76,11 +76,11 @@ int main(int argc, char** argv) {
 
     Action action;
     for (const auto add :
-         {add_run,        add_look,      add_identify,    add_report,   add_sheet,    add_hint,     add_weave,
-          add_preview,    add_app,       add_new,         add_check,    add_lessons,  add_demo,     add_help,
-          add_manual,     add_doctor,    add_pack,        add_verify,   add_bundle,   add_checks,   add_grade,
-          add_gradescope, add_hand_back, add_similar,     add_course,   add_boxed,    add_notebook, add_kernel,
-          add_lint,       add_lsp,       add_test_lesson, add_complete, add_man_pages})
+         {add_run,        add_look,      add_identify,    add_report,   add_sheet,     add_hint,     add_weave,
+          add_preview,    add_app,       add_new,         add_check,    add_lessons,   add_demo,     add_help,
+          add_manual,     add_doctor,    add_pack,        add_verify,   add_bundle,    add_checks,   add_grade,
+          add_gradescope, add_hand_back, add_similar,     add_course,   add_boxed,     add_notebook, add_kernel,
+          add_lint,       add_lsp,       add_test_lesson, add_complete, add_man_pages, add_work,     add_study})
         add(app, action);
     app.footer(kFooter);  // commands made before have no part in it, nor in the next
     app.set_help_flag("-h,--help", "Show this text, or a command's: dynlab run --help");

@@ -117,9 +117,9 @@ std::unique_ptr<ProcessGroup> start(const ChildOptions& options, const std::stri
     if (child == 0) {
         become_program(launch, parent, output.write_end.get(), error_output.write_end.get(), failure.write_end.get());
     }
-    auto group =
-        std::make_unique<ProcessGroup>(child, std::move(output.read_end), std::move(error_output.read_end),
-                                       ProcessGroup::Limits{options.timeout, options.output_bytes, options.give_up});
+    auto group = std::make_unique<ProcessGroup>(
+        child, std::move(output.read_end), std::move(error_output.read_end),
+        ProcessGroup::Limits{options.timeout, options.output_bytes, options.give_up, options.heeds_interrupt});
     failure.write_end.close();
     int reason = 0;
     if (retry_interrupted([&] { return ::read(failure.read_end.get(), &reason, sizeof reason); }) > 0) {
@@ -158,6 +158,10 @@ void ChildProcess::give_input(const std::string& input) {
     }
     state_->input.close();
     if (state_->group) state_->group->start_clock();
+}
+
+bool ChildProcess::ended() const {
+    return !state_->group || state_->group->leader_exited();
 }
 
 ChildResult ChildProcess::wait() {

@@ -25,6 +25,7 @@ struct ChildOptions {
     std::optional<std::uint64_t> file_bytes;    ///< of the largest file the child may write; SIGXFSZ ends it
     std::uint64_t output_bytes = 64u << 20;     ///< more output than this ends the child
     std::function<bool()> give_up = {};         ///< asked twenty times a second: true ends the child
+    bool heeds_interrupt = true;  ///< false: Ctrl-C is left for later, as what is begun or undone must be whole
 };
 
 struct ChildResult {
@@ -51,6 +52,7 @@ class ChildProcess {
     /// The standard input of a child that was started with `input_later`, whole; the child must read it before it
     /// writes more than a pipe holds. A child that has ended takes nothing; wait() tells.
     void give_input(const std::string& input);
+    bool ended() const;  ///< by itself: wait() will return at once
     ChildResult wait();
 
   private:

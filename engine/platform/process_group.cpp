@@ -78,7 +78,8 @@ ProcessGroup::ProcessGroup(pid_t leader, FileDescriptor output, FileDescriptor e
       leader_exit_(open_process(leader)),
       timeout_(limits.timeout),
       output_bytes_(limits.output_bytes),
-      give_up_(limits.give_up) {
+      give_up_(limits.give_up),
+      heeds_interrupt_(limits.heeds_interrupt) {
     ::setpgid(leader, leader);  // by parent and child, so that the group exists whoever runs first
     start_clock();
     for (const FileDescriptor* stream : {&output_, &error_output_}) {
@@ -110,7 +111,7 @@ void ProcessGroup::collect_until_exit() {
                              {error_output_.get(), POLLIN, 0},
                              {leader_exit_.get(), POLLIN, 0}};  // closed ones (-1) are passed over
         ::poll(waiting, 3, milliseconds_to_poll());
-        throw_if_interrupted();
+        if (heeds_interrupt_) throw_if_interrupted();
         collect(output_, result_.output);
         collect(error_output_, result_.error_output);
         result_.timed_out = deadline_ && Clock::now() >= *deadline_ && !leader_exited();

@@ -31,6 +31,7 @@ class ProcessGroup {
         std::optional<std::chrono::milliseconds> timeout;  ///< from construction, or the last start_clock
         std::uint64_t output_bytes;
         std::function<bool()> give_up = {};
+        bool heeds_interrupt = true;
     };
     ProcessGroup(pid_t leader, FileDescriptor output, FileDescriptor error_output, const Limits& limits);
     ~ProcessGroup();  ///< kills the group when wait() has not reaped the leader
@@ -38,14 +39,15 @@ class ProcessGroup {
     ProcessGroup& operator=(const ProcessGroup&) = delete;
 
     void start_clock();  ///< the timeout counts from now on
-    /// Collects output until the leader ends, by itself or killed at a limit. Throws Interrupted.
+    /// Collects output until the leader ends, by itself or killed at a limit. Throws Interrupted,
+    /// where it heeds it.
     ChildResult wait();
+    bool leader_exited() const;
 
   private:
     void collect_until_exit();
     void collect(FileDescriptor& stream, std::string& text);
     int milliseconds_to_poll() const;
-    bool leader_exited() const;
     void kill_and_reap();
 
     pid_t leader_;
@@ -54,6 +56,7 @@ class ProcessGroup {
     std::optional<std::chrono::steady_clock::time_point> deadline_;
     std::uint64_t output_bytes_;
     std::function<bool()> give_up_;
+    bool heeds_interrupt_;
     ChildResult result_;
 };
 

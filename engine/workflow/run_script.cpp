@@ -11,6 +11,7 @@
 #include "documents/text_lines.h"
 #include "figures/french_texts.h"
 #include "platform/written_files.h"
+#include "scripting/memoized_calls/shared_pieces.h"
 #include "workflow/script_world.h"
 
 namespace dynlab::inline workflow {
@@ -100,6 +101,7 @@ ScriptWorld::ScriptWorld(const RunRequest& request, GnuplotRenderer& renderer)
     runtime.set_service(&language);
     if (request.written != nullptr) runtime.set_service(request.written);
     runtime.set_service(&sliders);
+    if (request.shared != nullptr) runtime.set_service(request.shared);
 }
 
 RunRecord run_script(const RunRequest& request, GnuplotRenderer& renderer) {

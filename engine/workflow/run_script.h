@@ -16,6 +16,7 @@ class WrittenFiles;
 
 namespace dynlab::inline scripting {
 class CallCache;
+class SharedPieces;
 }
 
 namespace dynlab::inline workflow {
@@ -31,6 +32,7 @@ struct RunRequest {
     bool stay_in_folder = false;      ///< files are read from the script's folder and the installed data only
     WrittenFiles* written = nullptr;  ///< says which files the script may replace; all without
     CallCache* call_cache = nullptr;  ///< where results of long calls are kept
+    SharedPieces* shared = nullptr;   ///< who shares the work of long calls with other machines
 };
 
 /// Runs a script from top to bottom. An error of the script stands in the record; Ctrl-C throws Interrupted. Throws

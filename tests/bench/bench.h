@@ -38,5 +38,6 @@ void measure_lua(Report& report);
 void measure_searches(Report& report);
 void measure_advice(Report& report);
 void measure_grey_box(Report& report);
+void measure_cluster(Report& report);  ///< Slurm's row needs slurmctld and slurmd, and root
 
 }  // namespace dynlab::bench

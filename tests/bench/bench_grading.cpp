@@ -19,15 +19,6 @@ constexpr int kCores = 2;
 constexpr double kMostSeconds = 0.040, kGoalSeconds = 0.030, kMostSecondsOfFeedback = 0.5;
 constexpr double kMostSecondsOfRegrade = 0.020, kMostSecondsOfSimilarity = 2;
 
-// All of lesson 4's answers but the Monte Carlo study's.
-constexpr const char* kSubmission =
-    "local u = prbs(4, 100)\nlocal x = lsim(tf({2}, {1, 4, 3}), u, 0.01)\n"
-    "local data = iddata(x + 0.2*randn(#u), u, 0.01)\n"
-    "answer('own_without_noise', lssvf(iddata(x, u, 0.01), {2, 1, 0}, 3).param)\n"
-    "answer('own', lssvf(data, {2, 1, 0}, 3).param)\nanswer('record', data)\n"
-    "answer('G_lssvf', lssvf(data, {2, 1, 0}, 3))\nanswer('G_ivsvf', ivsvf(data, {2, 1, 0}, 3))\n"
-    "answer('G_final', tfsrivc(data, 2, 0, {TdMax = 0}))\n";
-
 struct Seconds {
     double whole = 0, scripts = 0;
 };
@@ -50,7 +41,7 @@ Seconds grading_seconds(const Workbench& bench, int jobs, bool pdf) {
 }
 
 void add_submissions(const Workbench& bench, int from, int to) {
-    for (int i = from; i <= to; ++i) bench.write("in/s" + std::to_string(i) + "/analysis.lua", kSubmission);
+    for (int i = from; i <= to; ++i) bench.write("in/s" + std::to_string(i) + "/analysis.lua", kSubmissionOfLesson4);
 }
 
 double seconds_of(const Workbench& bench, const std::vector<std::string>& words) {

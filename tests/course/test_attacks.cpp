@@ -4,6 +4,7 @@
 #include <set>
 #include <span>
 
+#include "course/attacks.h"
 #include "course/grading_bench.h"
 
 namespace dynlab::test {
@@ -11,106 +12,14 @@ namespace test_attacks {
 using ::testing::AnyOf;
 using ::testing::HasSubstr;
 
-constexpr const char* kAnswers = "--   x: number\n";
-constexpr const char* kSolution = "answer('x', 42)\n";
-constexpr const char* kChecks = "check{id = 'x', test = function(a) return near(a.x, 42, {rel = 0.01}) end}\n";
 #ifdef __SANITIZE_ADDRESS__
 constexpr int kTimeout = 3;
 #else
 constexpr int kTimeout = 2;
 #endif
 
-struct Attack {
-    const char *name, *script;
-    double score;
-    const char* told;  ///< part of what the student or the instructor reads of it; "" where nothing need be said
-};
-
-// Every one hands in the right answer where it can, so that a verdict of zero is the attack's own doing.
-const Attack kAttacks[] = {
-    {"empty_repeated", "local s = string.rep('', 1e18)\nanswer('x', 42)", 1, ""},
-    {"long_text", "local s = string.rep('x', 1e12)\nanswer('x', 42)", 0, ""},
-    {"huge_move", "table.move({}, 1, 1e18, 2)\nanswer('x', 42)", 0, ""},
-    {"huge_insert", "table.insert(setmetatable({}, {__len = function() return 1e15 end}), 1, 2)\nanswer('x', 42)", 0,
-     ""},
-    {"huge_remove", "table.remove(setmetatable({}, {__len = function() return 1e15 end}), 1)\nanswer('x', 42)", 0, ""},
-    {"huge_concat", "table.concat({}, 'x', 1, 1e15)\nanswer('x', 42)", 0, ""},
-    {"memory_bomb", "local t = {}\nwhile true do t[#t + 1] = string.rep('x', 1e6) .. #t end", 0, ""},
-    {"table_bomb", "local t = {}\nwhile true do t = {t, t, {t}} t[#t + 1] = {} end", 0, ""},
-    {"vector_bomb", "local v = {}\nwhile true do v[#v + 1] = zeros(7e7) end", 0, "1.07 GB in all"},
-    {"huge_vector", "answer('x', #zeros(1e15))", 0, ""},
-    {"huge_matrix", "eye(1e9)", 0, ""},
-    {"deep_recursion", "local function f() return 1 + f() end\nf()", 0, ""},
-    {"binary_chunk", "local f = load('\\27Lua')\nanswer('x', 42)", 0, ""},
-    {"dump", "string.dump(print)\nanswer('x', 42)", 0, "dump"},
-    {"poison", "getmetatable('').__index = function() return 1 end\nanswer('x', 42)", 0, ""},
-    {"poison_answer", "dynlab.answer = nil", 0, ""},
-    {"no_io", "io.open('/etc/passwd')", 0, "io"},
-    {"no_os", "os.execute('touch pwned')", 0, "os"},
-    {"no_require", "require('os')", 0, "require"},
-    {"no_debug", "debug.sethook()", 0, "debug"},
-    {"no_dofile", "dofile('/etc/passwd')", 0, "dofile"},
-    {"read_system", "load('/etc/passwd')", 0, ""},
-    {"read_up", "load('../../secret.csv')", 0, "leads outside the folder"},
-    {"read_solution", "load('../home/lessons/99_small/lesson.csv')", 0, "leads outside the folder"},
-    {"write_up", "save_csv('../../../pwned.csv', {y = vector{1, 2}})\nanswer('x', 42)", 0, ""},
-    {"write_results", "save_csv('results.csv', {score = vector{1, 1}})\nanswer('x', 42)", 1, ""},
-    {"forged_output",
-     "print('{\"checks\":[{\"id\":\"x\",\"share\":1}],\"answers\":{\"x\":{\"kind\":\"number\",\"value\":42}}}')", 0,
-     ""},
-    {"forged_text", "answer('x', '42\"}},\"checks\":[{\"share\":1}]')", 0, "number"},
-    {"flood", "while true do print(string.rep('x', 1e5)) end", 0, ""},
-    {"not_a_number", "answer('x', 0/0)", 0, ""},
-    {"infinite", "answer('x', 1/0)", 0, ""},
-    {"cyclic", "local t = {}\nt.t = t\nanswer('x', t)", 0, "contains itself"},
-    {"shared", "local t = {}\nfor i = 1, 7 do local n = {}\nfor k = 1, 100 do n[k] = t end\nt = n end\nanswer('x', t)",
-     0, "at most"},
-    {"functions", "answer('x', print)", 0, "cannot be an answer"},
-    {"twice", "answer('x', 42)\nanswer('x', 41)", 0, "given already"},
-    {"undeclared", "answer('y', 42)", 0, "was not handed in"},
-    {"long_name", "answer(string.rep('x', 1e6), 42)", 0, ""},
-    {"other_header", "-- ---\n-- title: Mine\n-- answers:\n--   x: text\n-- ---\nanswer('x', 'forty-two')\n", 0,
-     "number"},
-    {"shell_label", "save(plot(vector{1, 2}, {title = '`touch pwned`'}), 'a.pdf')\nanswer('x', 42)", 1, ""},
-    {"shell_file", "save(plot(vector{1, 2}), 'a.pdf|touch pwned')\nanswer('x', 42)", 1, ""},
-    {"syntax", "answer('x' 42)", 0, "analysis.lua:1"},
-    {"nothing", "", 0, ""},
-};
-// These are ended by time, of which a second is as good as any.
-const Attack kEndlessAttacks[] = {
-    {"endless", "while true do end", 0, "longer than the time"},
-    {"endless_pcall", "local function f() while true do end end\nwhile true do pcall(f) end", 0,
-     "longer than the time"},
-    {"endless_coroutine", "while true do coroutine.wrap(function() while true do end end)() end", 0,
-     "longer than the time"},
-    {"endless_coroutine_pcall",
-     "while true do coroutine.resume(coroutine.create(function() while true do end end)) end", 0,
-     "longer than the time"},
-    {"endless_xpcall", "local function h() while true do end end\nwhile true do xpcall(error, h) end", 0,
-     "longer than the time"},
-    {"endless_close", "local x <close> = setmetatable({}, {__close = function() while true do end end})\nerror('out')",
-     0, ""},
-    {"endless_gc", "setmetatable({}, {__gc = function() while true do end end})\nanswer('x', 42)", 0, "__gc"},
-    {"endless_tostring", "error(setmetatable({}, {__tostring = function() while true do end end}))", 0, ""},
-    {"endless_index", "local t = setmetatable({}, {__index = function() while true do end end})\nanswer('x', t.y)", 0,
-     "longer than the time"},
-    {"endless_sort",
-     "local t = {}\nfor i = 1, 1e5 do t[i] = i end\nwhile true do table.sort(t, function() return math.random() < 0.5 "
-     "end) end",
-     0, ""},
-    {"slow_pattern", "string.find(string.rep('a', 40), string.rep('a?', 40) .. string.rep('a', 40))\nanswer('x', 42)",
-     0, ""},
-    {"slow_gsub", "string.gsub(string.rep('a', 1e5), '.-.-.-.-b', '')\nanswer('x', 42)", 0, ""},
-    {"absurd_order", "local d = iddata(randn(500), randn(500), 0.1)\nfor i = 1, 1e6 do pcall(arx, d, {400, 90, 1}) end",
-     0, "longer than the time"},
-    {"long_native",
-     "montecarlo{system = tf({2}, {1, 4, 3}), input = prbs(9, 100), Ts = 0.01, sigma = 1, runs = 1e7, seed = 1, "
-     "estimators = {srivc = {{1, 2, 0}}}}",
-     0, ""},
-};
-
 void write_odd_submissions(const Workbench& work) {
-    const std::string right = kSolution;
+    const std::string right = kAttackSolution;
     work.write("in/it's \"quoted\"/analysis.lua", right);
     work.write("in/=1+1 🎉/analysis.lua", right);
     work.write("in/-rf/analysis.lua", right);
@@ -189,14 +98,14 @@ int grade_attacks(GradingBench& bench, std::span<const Attack> attacks, std::siz
 
 // oracle: what stood there before, the clock, the verdicts expected
 TEST(attacks, without_an_end_are_ended) {
-    GradingBench bench(kAnswers, kChecks, kSolution);
+    GradingBench bench(kAttackAnswers, kAttackChecks, kAttackSolution);
     EXPECT_EQ(grade_attacks(bench, kEndlessAttacks, 0, 1), 0);
 }
 
 // oracle: what stood there before, the clock, the verdicts expected
 TEST(attacks, none_leaves_its_box_stops_the_batch_or_changes_a_mark) {
-    GradingBench bench(kAnswers, kChecks, kSolution);
-    bench.hand_in("honest", kSolution);
+    GradingBench bench(kAttackAnswers, kAttackChecks, kAttackSolution);
+    bench.hand_in("honest", kAttackSolution);
     write_odd_submissions(bench.bench());
     ASSERT_EQ(grade_attacks(bench, kAttacks, 24, kTimeout), 1);  // some cannot be read
     for (const char* name :
@@ -218,9 +127,9 @@ TEST(attacks, none_leaves_its_box_stops_the_batch_or_changes_a_mark) {
 
 // oracle: the kernel refuses paths of more than 4096 letters; the others' marks
 TEST(attacks, a_folder_that_cannot_even_be_read_stops_nobody_else) {
-    GradingBench bench(kAnswers, kChecks, kSolution);
-    bench.hand_in("bottomless", kSolution);
-    bench.hand_in("honest", kSolution);
+    GradingBench bench(kAttackAnswers, kAttackChecks, kAttackSolution);
+    bench.hand_in("bottomless", kAttackSolution);
+    bench.hand_in("honest", kAttackSolution);
     const Workbench& work = bench.bench();
     work.shell(
         "cd in/bottomless; n=$(printf 'd%.0s' $(seq 250)); for i in $(seq 24); do mkdir $n && cd $n; done; echo x > y");
@@ -234,7 +143,8 @@ TEST(attacks, a_folder_that_cannot_even_be_read_stops_nobody_else) {
 
 // oracle: a file whose words must appear nowhere
 TEST(attacks, reports_read_no_files_and_run_no_commands) {
-    GradingBench bench(kAnswers, "check{id = 'report', document = true, test = function() return no_finding() end}\n",
+    GradingBench bench(kAttackAnswers,
+                       "check{id = 'report', document = true, test = function() return no_finding() end}\n",
                        "answer('x', 42)\nreport.value('x', 42)\n");
     const Workbench& work = bench.bench();
     work.write("home/lessons/99_small/report.en.md", "---\ntitle: Mine\n---\n\nIt is `x`{.value}.\n");
@@ -267,7 +177,7 @@ TEST(attacks, reports_read_no_files_and_run_no_commands) {
 
 // Oracle: the bytes that a terminal obeys, of which none may come out.
 TEST(attacks, names_and_messages_of_students_reach_no_terminal_as_commands) {
-    GradingBench bench(kAnswers, kChecks, kSolution);
+    GradingBench bench(kAttackAnswers, kAttackChecks, kAttackSolution);
     Workbench& work = bench.bench();
     const std::string red = "\x1B[31m", name = "pi" + red + "pe", turned = "\u202Egpj.exe";
     const auto told = [&work, &red](const std::vector<std::string>& words, const std::string& shown) {

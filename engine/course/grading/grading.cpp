@@ -6,11 +6,13 @@
 #include <atomic>
 #include <exception>
 #include <functional>
+#include <map>
 #include <mutex>
 #include <set>
 #include <thread>
 #include <utility>
 
+#include "course/grading/class_owners.h"
 #include "course/grading/class_results.h"
 #include "course/grading/content_hash.h"
 #include "course/grading/deadlines.h"
@@ -18,9 +20,8 @@
 #include "course/grading/feedback.h"
 #include "course/grading/grading_memory.h"
 #include "course/grading/manual_marks.h"
-#include "course/grading/roster.h"
-#include "course/hand_ins/owners.h"
 #include "course/hand_ins/staging.h"
+#include "course/shares/shared_grading.h"
 #include "course/store/course_clock.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
@@ -52,12 +53,16 @@ class ClassGrader {
         if (!request.timezone.empty()) const CourseClock clock(request.timezone);
         if (request.deadlines) deadlines_ = Deadlines(*request.deadlines);
         outcome_.complaints = rules_.try_solution(request.out / "runs/.worked_solution.cbor", request.regrade);
-        read_owners();
+        owners_.emplace(request);
+        if (owners_->roster() != nullptr && owners_->roster()->converted())
+            outcome_.complaints.push_back(
+                fmt::format("{} is not UTF-8; it was read as Latin-1 (Windows-1252)", request.roster->string()));
         for (const std::string& clause : left_out_) outcome_.complaints.push_back(clause + "; it is left out");
         grades_.resize(submissions_.size());
         contents_.resize(submissions_.size());
         remember_inputs(request);
-        chosen_ = chosen();
+        chosen_ = owners_->chosen(submissions_, request.only);
+        if (!request.on.empty()) shared_.emplace(request, rules_);
     }
 
     void run() {
@@ -67,6 +72,10 @@ class ClassGrader {
         for (int i = 0; i < std::max(1, request_.setup.jobs); ++i) threads.emplace_back([&] { work(bar); });
         for (std::thread& thread : threads) thread.join();
         if (failure_) std::rethrow_exception(failure_);
+        if (shared_) {
+            shared_->conclude();
+            outcome_.notes = shared_->notes();
+        }
         take_the_others();
         tell_strays();
         tell_which_counts(results());
@@ -97,18 +106,6 @@ class ClassGrader {
         return export_.path() / "all";
     }
 
-    void read_owners() {
-        if (request_.owners && !request_.roster)
-            throw EnvironmentError("--owners tells who of a roster handed in what; give --roster CSV, too");
-        if (!request_.roster) return;
-        roster_.emplace(*request_.roster);
-        if (roster_->converted())
-            outcome_.complaints.push_back(
-                fmt::format("{} is not UTF-8; it was read as Latin-1 (Windows-1252)", request_.roster->string()));
-        owners_.emplace(roster_->students());
-        if (request_.owners) owners_->read_list(*request_.owners);
-    }
-
     /// What the instructor wrote about nobody, most likely by a slip of the pen.
     void tell_strays() {
         std::set<std::string> names;
@@ -116,52 +113,10 @@ class ClassGrader {
         for (const Submission& submission : submissions_) names.insert(submission.name);
         for (const CheckDescription& check : rules_.checks()) checks[check.id] = check.points;
         for (std::string& sentence : manual_.strays(names, checks)) outcome_.complaints.push_back(std::move(sentence));
-        std::vector<std::string> known;
-        if (roster_)
-            for (const Student& student : roster_->students())
-                for (const std::string& name : known_names_of(student)) known.push_back(name);
-        for (const std::string& name : deadlines_.strays(submissions_, known))
+        for (const std::string& name : deadlines_.strays(submissions_, owners_->all_names()))
             outcome_.complaints.push_back(fmt::format("the deadline of \"{}\": there is no such submission", name));
-        if (!owners_) return;
         for (const std::string& name : owners_->strays(submissions_))
             outcome_.complaints.push_back(fmt::format("the owner of \"{}\": there is no such submission", name));
-    }
-
-    std::vector<std::size_t> chosen() const {
-        std::vector<std::size_t> indices;
-        for (const std::string& word : request_.only) {
-            const std::size_t before = indices.size();
-            for (std::size_t i = 0; i < submissions_.size(); ++i)
-                if (is_meant(submissions_[i], word)) indices.push_back(i);
-            if (indices.size() == before)
-                throw EnvironmentError(
-                    fmt::format("there is no submission \"{}\", nor one of a group or student of that name", word));
-        }
-        if (request_.only.empty())
-            for (std::size_t i = 0; i < submissions_.size(); ++i) indices.push_back(i);
-        std::sort(indices.begin(), indices.end());
-        indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
-        return indices;
-    }
-
-    /// By its name, its number, or its owner's group, id or name.
-    bool is_meant(const Submission& submission, const std::string& word) const {
-        const bool by_name = submission.name == word || submission.lms_id == word || submission.person == word ||
-                             submission.path.filename() == word;
-        if (by_name || !owners_) return by_name;
-        Submission wanted;
-        wanted.name = word;
-        const std::vector<std::size_t> owners = owners_->find(wanted).students;
-        return !owners.empty() && owners == owners_->find(submission).students;
-    }
-
-    /// By what else than its own name a submission is known.
-    std::vector<std::string> names_of_owners(const Submission& submission) const {
-        std::vector<std::string> names;
-        if (owners_)
-            for (const std::size_t student : owners_->find(submission).students)
-                for (const std::string& name : known_names_of(roster_->students()[student])) names.push_back(name);
-        return names;
     }
 
     fs::path folder_of(const Submission& submission) const { return request_.out / "results" / submission.name; }
@@ -177,13 +132,14 @@ class ClassGrader {
     /// How many are judged in one box: enough to forget its start, few enough to keep all threads busy.
     std::size_t judged_together() const {
         constexpr std::size_t kMost = 16, kSharesOfAThread = 4;
-        const auto threads = static_cast<std::size_t>(std::max(1, request_.setup.jobs));
+        const auto threads = static_cast<std::size_t>(std::max(1, shared_ ? shared_->hands() : request_.setup.jobs));
         return std::clamp<std::size_t>(chosen_.size() / (kSharesOfAThread * threads), 1, kMost);
     }
 
     void work(ProgressBar& bar) {
         try {
             std::vector<Started> waiting;
+            if (shared_) return work_with_others(bar);
             for (std::size_t k = next_++; k < chosen_.size() && !stopped_; k = next_++) {
                 throw_if_interrupted();
                 tried(chosen_[k], bar, [&] {
@@ -199,6 +155,55 @@ class ClassGrader {
         }
     }
 
+    /// Where others run and judge: what they have done meanwhile is finished first, and no more are given out than they
+    /// need. Submissions are given out in batches of neighbours, so that a run that goes on finds the same ones.
+    void work_with_others(ProgressBar& bar) {
+        const std::size_t size = judged_together();
+        while (!stopped_) {
+            throw_if_interrupted();
+            if (finish_shared(bar)) continue;
+            const std::size_t from = shared_->has_room() ? size * next_++ : chosen_.size();
+            if (from < chosen_.size())
+                give_out(from, std::min(from + size, chosen_.size()), bar);
+            else if (!shared_->wait())
+                return;
+        }
+    }
+
+    void give_out(std::size_t from, std::size_t to, ProgressBar& bar) {
+        std::vector<SharedGrading::Given> batch;
+        std::vector<Started> known;  // their runs at least
+        for (std::size_t k = from; k < to; ++k)
+            tried(chosen_[k], bar, [&] {
+                if (std::optional<Started> started = begun(chosen_[k], bar, &batch))
+                    known.push_back(*std::move(started));
+            });
+        shared_->give(std::move(batch));
+        judge(std::move(known), bar);
+    }
+
+    /// What one of the workers has done, if there is anything.
+    bool finish_shared(ProgressBar& bar) {
+        const auto batch = shared_->done();
+        {
+            const std::lock_guard lock(mutex_);
+            bar.message(fmt::format("grading on {}", shared_->sight()));
+        }
+        if (!batch) return false;
+        for (const SharedGrading::Done& done : batch->submissions)
+            tried(done.given.index, bar, [&] {
+                if (!done.trouble.empty()) throw EnvironmentError(done.trouble);
+                write_kept_runs(memory_of(submissions_[done.given.index]) / "run.cbor",
+                                {done.given.of_runs, done.work, done.given.remark, done.given.language});
+                Grade grade = done.grade;
+                grade.fingerprint = done.given.fingerprint;
+                grade.remark = done.given.remark, grade.language = done.given.language;
+                complete(done.given.index, std::move(grade), false, bar);
+            });
+        shared_->forget(batch->key);
+        return true;
+    }
+
     /// What goes wrong with one submission stops no other.
     void tried(std::size_t index, ProgressBar& bar, const std::function<void()>& action) {
         try {
@@ -210,18 +215,19 @@ class ClassGrader {
         }
     }
 
-    /// Finishes what is known already or cannot be judged; gives the others.
-    std::optional<Started> begun(std::size_t index, ProgressBar& bar) {
+    /// Finishes what is known already or cannot be judged; gives the others, as far as they do not go into `batch`.
+    std::optional<Started> begun(std::size_t index, ProgressBar& bar,
+                                 std::vector<SharedGrading::Given>* batch = nullptr) {
         const Submission& submission = submissions_[index];
         contents_[index] = hash_of_content(submission);
-        const std::string fingerprint = rules_.fingerprint(contents_[index], seed_of(submission));
+        const std::string fingerprint = rules_.fingerprint(contents_[index], owners_->seed_of(submission));
         std::optional<Grade> grade = request_.regrade ? std::nullopt : earlier_grade(folder_of(submission));
         if (grade && grade->fingerprint == fingerprint) {
             complete(index, *std::move(grade), true, bar);
             return {};
         }
         try {
-            return with_runs(index, fingerprint);
+            return with_runs(index, fingerprint, batch);
         } catch (const SubmissionError& error) {
             Grade unreadable = rules_.unreadable(submission.name, error.what());
             unreadable.fingerprint = fingerprint;
@@ -256,8 +262,8 @@ class ClassGrader {
     /// With what the roster and the deadlines say of it.
     void complete(std::size_t index, Grade grade, bool kept, ProgressBar& bar) {
         const Submission& submission = submissions_[index];
-        address(submission, grade);
-        const Deadlines::Lateness late = deadlines_.of(submission, names_of_owners(submission));
+        owners_->address(submission, grade);
+        const Deadlines::Lateness late = deadlines_.of(submission, owners_->names_of(submission));
         grade.late_hours = late.hours;
         grade.lateness = late.reason("en");
         grade.lateness_told = late.reason(grade.language);
@@ -271,19 +277,6 @@ class ClassGrader {
         bar.advance(++done_);
     }
 
-    /// Whom the feedback is for, and in which language, as far as the outside and the roster tell.
-    void address(const Submission& submission, Grade& grade) const {
-        grade.title = submission.person;
-        if (!owners_) return;
-        const Owners::Found owner = owners_->find(submission);
-        if (!owner.group.empty()) grade.title = owner.group;
-        for (const std::size_t student : owner.students) {
-            const Student& one = roster_->students()[student];
-            if (owner.group.empty()) grade.title = one.name.empty() ? one.id : one.name;
-            if (!one.language.empty()) grade.language = one.language;
-        }
-    }
-
     /// Of several hand-ins of one owner, each that does not count says so: known only when all are graded.
     void tell_which_counts(const ClassResults& all) {
         const std::vector<std::string> instead = counted_instead(all);
@@ -295,7 +288,7 @@ class ClassGrader {
             if (!grade) continue;
             grade->counts_instead = instead[i];
             grade->newest_counts = request_.newest_counts;
-            const double percent = deadlines_.of(submissions_[i], names_of_owners(submissions_[i])).percent;
+            const double percent = deadlines_.of(submissions_[i], owners_->names_of(submissions_[i])).percent;
             finish(submissions_[i], *std::move(grade), percent, i);
         }
     }
@@ -312,30 +305,33 @@ class ClassGrader {
         outcome_.complaints.push_back(fmt::format("\"{}\" could not be graded: {}", name, reason));
     }
 
-    GradingRules::GroupSeed seed_of(const Submission& submission) const {
-        const auto owners = owners_ ? owners_->find(submission).students : std::vector<std::size_t>{};
-        return owners.empty() ? std::nullopt : roster_->students()[owners.front()].seed;
-    }
-
-    /// The runs of before where nothing that they depend on has changed. Throws SubmissionError.
-    Started with_runs(std::size_t index, const std::string& fingerprint) const {
+    /// The runs of before where nothing that they depend on has changed; nothing where the submission goes into a batch
+    /// for others. Throws SubmissionError.
+    std::optional<Started> with_runs(std::size_t index, const std::string& fingerprint,
+                                     std::vector<SharedGrading::Given>* batch) {
         const Submission& submission = submissions_[index];
         const fs::path kept_file = memory_of(submission) / "run.cbor";
-        const GradingRules::GroupSeed seed = seed_of(submission);
+        const GradingRules::GroupSeed seed = owners_->seed_of(submission);
         const std::string of_runs = rules_.run_fingerprint(contents_[index], seed);
         if (auto kept = request_.regrade ? std::nullopt : read_kept_runs(kept_file, of_runs))
-            return {index,
-                    {submission.name, std::move(kept->work), seed, "the runs are those of before\n"},
-                    fingerprint,
-                    kept->remark,
-                    kept->language};
+            return Started{index,
+                           {submission.name, std::move(kept->work), seed, "the runs are those of before\n"},
+                           fingerprint,
+                           kept->remark,
+                           kept->language};
         const TemporaryFolder work;
         const StagedWork staged =
             stage_submission(submission, work.path(), request_.setup.isolation, request_.setup.program);
+        if (batch != nullptr) {
+            batch->push_back({index, fingerprint, of_runs, staged.remark, staged.language,
+                              sent_submission(submission.name, staged, seed)});
+            return {};
+        }
         std::string log;
         CheckedSubmission checked = rules_.work_in(staged.folder, seed, log, staged.of_notebook);
         write_kept_runs(kept_file, {of_runs, checked, staged.remark, staged.language});
-        return {index, {submission.name, std::move(checked), seed, log}, fingerprint, staged.remark, staged.language};
+        return Started{
+            index, {submission.name, std::move(checked), seed, log}, fingerprint, staged.remark, staged.language};
     }
 
     /// Marks, penalty and files; the file of results last, as it tells that the work is done.
@@ -378,7 +374,7 @@ class ClassGrader {
                 contents_[i] = hash_of_content(submissions_[i]);
             } catch (const fs::filesystem_error&) {  // cannot be looked into, so that its content is none
             }
-            if (grade->fingerprint != rules_.fingerprint(contents_[i], seed_of(submissions_[i])))
+            if (grade->fingerprint != rules_.fingerprint(contents_[i], owners_->seed_of(submissions_[i])))
                 outcome_.complaints.push_back(fmt::format(
                     "the marks of \"{}\" are from before it, the checks or the program changed; grade it, too",
                     submissions_[i].name));
@@ -391,7 +387,7 @@ class ClassGrader {
     /// Needed where the newest hand-in counts; 0 for what cannot even be looked into.
     long received(const Submission& submission) const {
         try {
-            return request_.newest_counts ? deadlines_.received(submission, names_of_owners(submission)) : 0;
+            return request_.newest_counts ? deadlines_.received(submission, owners_->names_of(submission)) : 0;
         } catch (const fs::filesystem_error&) {
             return 0;
         }
@@ -402,13 +398,12 @@ class ClassGrader {
         results.out = request_.out;
         results.setup = &request_.setup;
         results.pdf = request_.pdf, results.documents = &documents_;
-        results.roster = roster_ ? &*roster_ : nullptr;
+        results.roster = owners_->roster();
         results.newest_counts = request_.newest_counts;
         results.deadlines = request_.deadlines.has_value();
         for (std::size_t i = 0; i < submissions_.size(); ++i) {
             const Submission& one = submissions_[i];
-            results.entries.push_back(
-                {one, grades_[i], owners_ ? owners_->find(one) : Owners::Found{}, received(one), contents_[i]});
+            results.entries.push_back({one, grades_[i], owners_->of(one), received(one), contents_[i]});
         }
         results.complaints = outcome_.complaints;
         return results;
@@ -424,8 +419,7 @@ class ClassGrader {
     ManualMarks manual_;
     BoxedDocuments documents_;
     Deadlines deadlines_;
-    std::optional<Roster> roster_;
-    std::optional<Owners> owners_;
+    std::optional<ClassOwners> owners_;
     std::vector<std::optional<Grade>> grades_;
     std::vector<std::string> contents_;  ///< hashes, of those that were looked at
     std::vector<std::size_t> chosen_;
@@ -434,6 +428,7 @@ class ClassGrader {
     std::size_t done_ = 0;
     std::mutex mutex_;
     std::exception_ptr failure_;
+    std::optional<SharedGrading> shared_;  ///< where others run and judge
 };
 
 }  // namespace

@@ -18,12 +18,18 @@ struct GradingRequest {
     bool again = false;             ///< all anew where `out` was made with other checks or options
     bool regrade = false;           ///< also those that have a result already
     bool pdf = true;                ///< feedback and summary as PDF, besides Markdown
+    /// Who runs and judges: "processes:4", "parallel:HOSTS", "slurm:OPTIONS" (workflow/shares); this process when
+    /// empty.
+    std::string on = {};
+    std::optional<std::filesystem::path> spool = {};  ///< folder through which they work; else in `out`
+    int lease_seconds = 30;  ///< without a sign of life, after which a worker's job is given to another
 };
 
 struct GradingOutcome {
     int submissions = 0, made = 0, kept = 0, not_whole = 0;  ///< not_whole: a check is left ungraded
     int unowned = 0, unreadable = 0;
     std::vector<std::string> complaints;  ///< whole sentences for the instructor
+    std::vector<std::string> notes;       ///< of machines that did not work along, a sentence each
     std::vector<std::string> eye;         ///< submissions that need the instructor's eye, a sentence each
 };
 

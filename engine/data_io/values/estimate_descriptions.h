@@ -50,6 +50,9 @@ DYNLAB_DESCRIBE(OrderCandidate, poles, zeros, delay, failure, estimate, r_square
                 unstable)
 DYNLAB_DESCRIBE(OrderSelection, candidates, samples, validated, cancelled)
 DYNLAB_DESCRIBE(OrderChoice, place, explanation)
+DYNLAB_DESCRIBE(MonteCarloEstimate, theta, std, names, continuous, converged)
+DYNLAB_DESCRIBE(MonteCarloOutcome, estimate, failure, done)
+DYNLAB_DESCRIBE(MonteCarloRun, outcomes)
 DYNLAB_DESCRIBE(MonteCarloResult, label, names, theta, std, truth, mean, spread, median, low, high, reported, bias,
                 bound, estimated, failed, not_converged, first_failure)
 DYNLAB_DESCRIBE(MonteCarlo, results, sigma, snr, runs, cancelled)

@@ -24,12 +24,7 @@ namespace {
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
-/// One run of one method.
-struct Outcome {
-    MonteCarloEstimate estimate;
-    std::string failure;  ///< empty when there is an estimate
-    bool done = false;
-};
+using Outcome = MonteCarloOutcome;
 
 std::string failure_of(const MonteCarloEstimate& estimate) {
     if (estimate.theta.size() == 0) return "it gave no parameters";
@@ -94,25 +89,28 @@ class NoisyRecords {
 /// Joins what the threads of a study share: the noise-free record, the outcomes, progress and the wish to stop.
 class Runner {
   public:
+    /// Of `count` runs from `first` on.
     Runner(const MonteCarloStudy& study, const std::vector<MonteCarloMethod>& methods, const NoisyRecords& records,
-           double sigma)
+           double sigma, std::size_t first, std::size_t count)
         : study_(study),
           methods_(methods),
           records_(records),
           sigma_(sigma),
-          outcomes_(methods.size(), std::vector<Outcome>(static_cast<std::size_t>(study.runs))) {}
+          first_(static_cast<int>(first)),
+          runs_(count, MonteCarloRun{std::vector<Outcome>(methods.size())}) {}
 
     void run() {
         if (any(true)) run_concurrently();
         if (!any(false)) return;
         IdData record = records_.empty_record();
-        for (int k = 0; k < study_.runs; ++k) one_run(k, false, record);
+        for (int k = first_; k < end(); ++k) one_run(k, false, record);
     }
 
-    const std::vector<Outcome>& outcomes(std::size_t method) const { return outcomes_[method]; }
+    std::vector<MonteCarloRun> take() { return std::move(runs_); }
     bool cancelled() const { return cancelled_; }
 
   private:
+    int end() const { return first_ + static_cast<int>(runs_.size()); }
     bool any(bool concurrent) const {
         return std::any_of(methods_.begin(), methods_.end(),
                            [&](const MonteCarloMethod& method) { return method.concurrent == concurrent; });
@@ -123,7 +121,7 @@ class Runner {
         tbb::task_arena arena(thread_count(study_.threads));
         arena.execute([&] {
             tbb::parallel_for(
-                tbb::blocked_range<int>(0, study_.runs, 1),
+                tbb::blocked_range<int>(first_, end(), 1),
                 [&](const tbb::blocked_range<int>& runs) {
                     // A nested parallel loop of a method may not bring another run into this thread's record.
                     for (int k = runs.begin(); k < runs.end(); ++k)
@@ -141,7 +139,7 @@ class Runner {
             if (methods_[j].concurrent != concurrent) continue;
             Outcome outcome = outcome_of(methods_[j], record);
             if (asked_to_stop()) return;  // the method may have been stopped half way
-            outcomes_[j][static_cast<std::size_t>(k)] = std::move(outcome);
+            runs_[static_cast<std::size_t>(k - first_)].outcomes[j] = std::move(outcome);
             tell_progress();
         }
     }
@@ -163,7 +161,8 @@ class Runner {
     const std::vector<MonteCarloMethod>& methods_;
     const NoisyRecords& records_;
     double sigma_;
-    std::vector<std::vector<Outcome>> outcomes_;  // per method, per run
+    int first_;
+    std::vector<MonteCarloRun> runs_;
     std::mutex callbacks_;
     std::atomic<bool> cancelled_ = false;
     std::size_t estimations_ = 0;
@@ -220,6 +219,15 @@ void fill_runs(MonteCarloResult& result, const std::vector<Outcome>& outcomes, I
         result.theta.row(k) = estimate.theta.transpose();
         if (estimate.std.size() == d) result.std.row(k) = estimate.std.transpose();
     }
+}
+
+std::vector<Outcome> outcomes_of_method(std::vector<MonteCarloRun>& runs, std::size_t method) {
+    std::vector<Outcome> outcomes;
+    for (MonteCarloRun& run : runs) {
+        if (run.outcomes.size() <= method) throw InvalidArgument("a run of the study lacks an estimator");
+        outcomes.push_back(std::move(run.outcomes[method]));
+    }
+    return outcomes;
 }
 
 const MonteCarloEstimate* first_estimate(const std::vector<Outcome>& outcomes) {
@@ -301,11 +309,16 @@ MonteCarlo monte_carlo(const MonteCarloStudy& study, const std::vector<MonteCarl
     all.runs = study.runs;
     all.sigma = study.sigma ? *study.sigma : scale * std::pow(10.0, -*study.snr / 20);
     all.snr = 20 * std::log10(scale / all.sigma);
-    Runner runner(study, methods, records, all.sigma);
-    runner.run();
-    all.cancelled = runner.cancelled();
+    const auto some = [&](std::size_t first, std::size_t count) {
+        Runner runner(study, methods, records, all.sigma, first, count);
+        runner.run();
+        all.cancelled = all.cancelled || runner.cancelled();
+        return runner.take();
+    };
+    const auto count = static_cast<std::size_t>(study.runs);
+    std::vector<MonteCarloRun> runs = study.elsewhere ? study.elsewhere(count, some) : some(0, count);
     for (std::size_t j = 0; j < methods.size(); ++j)
-        all.results.push_back(result_of(study, methods[j], runner.outcomes(j), all.sigma));
+        all.results.push_back(result_of(study, methods[j], outcomes_of_method(runs, j), all.sigma));
     return all;
 }
 

@@ -8,6 +8,7 @@
 #include "numerics/models/transfer_function.h"
 #include "numerics/signals/iddata.h"
 #include "numerics/simulation/closed_loop.h"
+#include "numerics/validation/elsewhere.h"
 
 namespace dynlab::inline numerics {
 
@@ -24,6 +25,18 @@ struct MonteCarloMethod {
     std::string label;
     std::function<MonteCarloEstimate(const IdData&)> estimate;
     bool concurrent = true;  ///< may be called by several threads at once; otherwise by the caller's thread only
+};
+
+/// What one run of one method gave.
+struct MonteCarloOutcome {
+    MonteCarloEstimate estimate;
+    std::string failure;  ///< why it gave none; empty when it did
+    bool done = false;    ///< false: the study was stopped before
+};
+
+/// One run: of every method, in their order.
+struct MonteCarloRun {
+    std::vector<MonteCarloOutcome> outcomes;
 };
 
 /// The same experiment again and again: the noise-free output x of `system` for the input u, plus white noise. Run
@@ -43,6 +56,7 @@ struct MonteCarloStudy {
     std::function<void(std::size_t done)> progress = {};  ///< estimations done; called by one thread at a time
     std::function<bool()> cancel = {};                    ///< asked before every run, by one thread at a time
     std::optional<LoopController> controller = {};        ///< of a closed loop
+    Elsewhere<MonteCarloRun> elsewhere = {};              ///< who has the runs made, where others share them
 
     /// Throws InvalidArgument naming the field.
     void validate() const;

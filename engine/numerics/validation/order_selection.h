@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "numerics/fit/fit.h"
+#include "numerics/validation/elsewhere.h"
 
 namespace dynlab::inline numerics {
 
@@ -48,6 +49,8 @@ struct OrderSelectionOptions {
     bool integration = false;                             ///< every structure has an integrator besides its poles
     std::function<void(std::size_t done)> progress = {};  ///< called by one thread at a time
     std::function<bool()> cancel = {};                    ///< asked before every candidate, by one thread at a time
+    /// Who has the structures of one level estimated (as many poles and zeros together), where others share them.
+    Elsewhere<OrderCandidate> elsewhere = {};
 };
 
 /// All structures with poles and zeros from .. to, fewer zeros than poles or with `feedthrough` as many, and each of

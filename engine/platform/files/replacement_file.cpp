@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <utility>
 
 #include "platform/error.h"
 
@@ -40,10 +41,23 @@ ReplacementFile::ReplacementFile(const fs::path& file) : file_(destination_of(fi
     if (present && !S_ISREG(present->st_mode)) {  // a device or a pipe cannot be replaced: write into it
         fd_ = FileDescriptor(::open(file_.c_str(), O_WRONLY | O_CLOEXEC));
     } else {
-        create_beside();
+        create_beside(0666);
         if (fd_ && present) ::fchmod(fd_.get(), present->st_mode & 07777);
     }
     if (!fd_) fail_to_write(file, errno);
+}
+
+ReplacementFile::ReplacementFile(ReplacementFile&& other) noexcept
+    : file_(std::move(other.file_)),
+      temporary_(std::exchange(other.temporary_, fs::path())),
+      fd_(std::move(other.fd_)) {}
+
+ReplacementFile ReplacementFile::of_owner(const fs::path& file) {
+    ReplacementFile made;
+    made.file_ = file;
+    made.create_beside(0600);
+    if (!made.fd_) fail_to_write(file, errno);
+    return made;
 }
 
 ReplacementFile::~ReplacementFile() {
@@ -69,12 +83,12 @@ void ReplacementFile::commit() {
 }
 
 /// Not mkstemp: its files are private, while a new file here gets the permissions the user's umask grants.
-void ReplacementFile::create_beside() {
+void ReplacementFile::create_beside(mode_t mode) {
     static std::atomic<unsigned> counter{0};
     do {
         temporary_ = file_.parent_path() /
                      fmt::format(".{}.{}-{}", file_.filename().string().substr(0, 200), ::getpid(), counter++);
-        fd_ = FileDescriptor(::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+        fd_ = FileDescriptor(::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode));
     } while (!fd_ && errno == EEXIST);
     if (!fd_) temporary_.clear();
 }

@@ -14,7 +14,10 @@ namespace dynlab::inline platform {
 class ReplacementFile {
   public:
     explicit ReplacementFile(const std::filesystem::path& file);
+    /// One for its owner only, in whose place whatever stands there is replaced, a link too (plain_file.h).
+    static ReplacementFile of_owner(const std::filesystem::path& file);
     ~ReplacementFile();
+    ReplacementFile(ReplacementFile&& other) noexcept;
     ReplacementFile(const ReplacementFile&) = delete;
     ReplacementFile& operator=(const ReplacementFile&) = delete;
 
@@ -24,7 +27,8 @@ class ReplacementFile {
     void commit();
 
   private:
-    void create_beside();
+    ReplacementFile() = default;
+    void create_beside(mode_t mode);
 
     std::filesystem::path file_, temporary_;
     FileDescriptor fd_;

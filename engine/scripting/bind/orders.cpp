@@ -1,6 +1,7 @@
 #include <array>
 #include <cmath>
 
+#include "data_io/values/estimate_descriptions.h"
 #include "figures/plots/arx_order_plot.h"
 #include "figures/plots/delay_plot.h"
 #include "figures/plots/order_plot.h"
@@ -14,6 +15,7 @@
 #include "scripting/arguments/transfer_arguments.h"
 #include "scripting/bind/study_bindings.h"
 #include "scripting/memoized_calls/memoized_call.h"
+#include "scripting/memoized_calls/shared_pieces.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/study_objects.h"
@@ -125,6 +127,8 @@ int try_structures(Call& call) {
     wanted.threads = static_cast<int>(options.size("threads", 0));
     wanted.cancel = call.cancel();
     wanted.estimation = estimation_options(options);
+    wanted.elsewhere = shared_out<OrderCandidate>(call.state(), "srivcstruc");
+    if (wanted.elsewhere) wanted.threads = 1;  // each of those who share it has a core
     ProgressBar bar("order search", structures.size());
     wanted.progress = [&bar](std::size_t done) { bar.advance(done); };
     OrderTable table{select_order(data, structures, wanted), {}};

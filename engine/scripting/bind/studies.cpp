@@ -1,12 +1,14 @@
 #include <algorithm>
 #include <array>
 
+#include "data_io/values/estimate_descriptions.h"
 #include "numerics/validation/monte_carlo.h"
 #include "platform/terminal/progress.h"
 #include "scripting/arguments/estimation.h"
 #include "scripting/arguments/loop_arguments.h"
 #include "scripting/bind/study_bindings.h"
 #include "scripting/memoized_calls/memoized_call.h"
+#include "scripting/memoized_calls/shared_pieces.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/model.h"
 #include "scripting/objects/study_objects.h"
@@ -213,6 +215,8 @@ int run_study(Call& call) {
                            "runs", "seed", "threads", "estimators"});
     MonteCarloStudy study = study_of(options);
     const std::vector<MonteCarloMethod> methods = methods_of(call, options.push("estimators"));
+    study.elsewhere = shared_out<MonteCarloRun>(call.state(), "montecarlo");
+    if (study.elsewhere) study.threads = 1;  // each of those who share it has a core
     ProgressBar bar("Monte Carlo", static_cast<std::size_t>(study.runs) * methods.size());
     study.progress = [&bar](std::size_t done) { bar.advance(done); };
     MonteCarlo result = monte_carlo(study, methods);

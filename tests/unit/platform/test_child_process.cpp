@@ -212,6 +212,16 @@ TEST(child_process, interrupt_kills_the_group_and_throws) {
     EXPECT_TRUE(ends_soon(process.substr(0, process.size() - 1)));
 }
 
+TEST(child_process, one_that_must_end_whole_does_so_although_it_is_interrupted) {
+    const InterruptScope scope;
+    ::raise(SIGINT);
+    ASSERT_TRUE(interrupted());
+    ChildOptions options = shell("sleep 0.2; echo undone");
+    EXPECT_THROW(run_child(options, "dash"), Interrupted);
+    options.heeds_interrupt = false;
+    EXPECT_EQ(run_child(options, "dash").output, "undone\n");
+}
+
 TEST(child_process, works_while_others_do) {
     ChildProcess first(shell("sleep 0.2; echo first"), "dash"), second(shell("echo second"), "dash");
     EXPECT_EQ(second.wait().output, "second\n");

@@ -1,0 +1,30 @@
+#pragma once
+#include "course/grading/grade.h"
+#include "data_io/values/described.h"
+
+namespace dynlab::inline course {
+
+/// A submission's result as data_io/values/described.h stores it: without its log, and without what only the log tells.
+
+template <Is<CheckGrade> T, class V>
+void describe(T& object, V& member) {
+    auto& [id, about, hint, message, points, earned, visible, graded, by_hand, rubric, for_instructor] = object;
+    member("id", id), member("about", about), member("hint", hint), member("message", message);
+    member("points", points), member("earned", earned), member("visible", visible), member("graded", graded);
+    member("by_hand", by_hand), member("rubric", rubric);
+}
+
+template <Is<Grade> T, class V>
+void describe(T& object, V& member) {
+    auto& [submission, lesson, isolation, fingerprint, trouble, unreadable, began, silent, remark, printed, checks,
+           late_hours, penalty, lateness, lateness_told, title, language, counts_instead, newest_counts, log] = object;
+    member("submission", submission), member("lesson", lesson), member("isolation", isolation);
+    member("fingerprint", fingerprint), member("trouble", trouble), member("unreadable", unreadable);
+    member("began", began), member("silent", silent), member("remark", remark), member("printed", printed);
+    member("checks", checks), member("late_hours", late_hours), member("penalty", penalty);
+    member("lateness", lateness), member("lateness_told", lateness_told);
+    member("title", title), member("language", language);
+    member("counts_instead", counts_instead), member("newest_counts", newest_counts);
+}
+
+}  // namespace dynlab::inline course

@@ -1,0 +1,354 @@
+#include "workflow/shares/worker.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <signal.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/statvfs.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstring>
+#include <ctime>
+#include <iostream>
+#include <thread>
+#include <vector>
+
+#include "platform/error.h"
+#include "platform/interrupt.h"
+#include "platform/locks/abandoned_folders.h"
+#include "platform/signature.h"
+#include "platform/system_call.h"
+#include "workflow/shares/heartbeat_watch.h"
+#include "workflow/shares/shared_identity.h"
+
+namespace dynlab::inline workflow {
+
+struct HandReport {
+    std::atomic<std::uint64_t> done{0};
+    std::array<char, 240> trouble{};  ///< why it waits; a reader may see it half written, which is shown as it is
+
+    void wait_because(const std::string& reason) {
+        trouble.fill('\0');
+        std::memcpy(trouble.data(), reason.data(), std::min(reason.size(), trouble.size() - 1));
+    }
+};
+
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+using namespace std::chrono_literals;
+
+constexpr std::uint64_t kRoomNeeded = 512ull << 20;  // a submission, unpacked and copied
+constexpr auto kShortestWait = 20ms, kLongestWait = 150ms;
+constexpr auto kBeat = 1s;
+constexpr auto kEndOfHands = 15s;
+
+/// What a job writes to standard error goes to its log while one of these lives; a log without a word is removed.
+class ErrorLog {
+  public:
+    ErrorLog(const Spool& spool, const JobFile& job) : spool_(spool), job_(job), before_(::dup(STDERR_FILENO)) {
+        if (const FileDescriptor log = spool_.log_of(job_)) ::dup2(log.get(), STDERR_FILENO);
+    }
+    ~ErrorLog() {
+        ::dup2(before_.get(), STDERR_FILENO);
+        spool_.drop_empty_log(job_);
+    }
+    ErrorLog(const ErrorLog&) = delete;
+    ErrorLog& operator=(const ErrorLog&) = delete;
+
+  private:
+    const Spool& spool_;
+    const JobFile& job_;
+    FileDescriptor before_;
+};
+
+/// "signal 11 (segmentation fault)"
+std::string end_of_process(int status) {
+    if (WIFSIGNALED(status)) return fmt::format("signal {} ({})", WTERMSIG(status), ::strsignal(WTERMSIG(status)));
+    return fmt::format("exit code {}", WEXITSTATUS(status));
+}
+
+/// A worker: starts hands, replaces those that crash, shows that it lives.
+class WorkerProcess {
+  public:
+    WorkerProcess(const Spool& spool, const WorkerOptions& options)
+        : spool_(spool),
+          options_(options),
+          id_(fmt::format("{}-{}-{}", file_name_of(options.node), ::getpid(),
+                          spool.key_of({"", "", "", random_bytes(16)}).substr(0, 6))),
+          seed_(random_bytes(32)) {
+        status_.node = options.node;
+        status_.hands = options.hands;
+        status_.isolation = spool.identity().isolation;
+        void* const shared = ::mmap(nullptr, sizeof(HandReport) * static_cast<std::size_t>(options.hands),
+                                    PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+        if (shared == MAP_FAILED) throw EnvironmentError("no memory for a worker: " + system_reason(errno));
+        reports_ = static_cast<HandReport*>(shared);
+        for (int i = 0; i < options.hands; ++i) new (reports_ + i) HandReport;
+        hands_.resize(static_cast<std::size_t>(options.hands));
+    }
+    ~WorkerProcess() { ::munmap(reports_, sizeof(HandReport) * hands_.size()); }
+    WorkerProcess(const WorkerProcess&) = delete;
+    WorkerProcess& operator=(const WorkerProcess&) = delete;
+
+    std::optional<std::string> run() {
+        status_.refused = reason_to_refuse();
+        if (!status_.refused.empty()) {
+            end();
+            return status_.refused;
+        }
+        spool_.admit(id_, SigningKey::of_seed(seed_).public_key());
+        while (!must_end()) {
+            for (std::size_t i = 0; i < hands_.size(); ++i)
+                if (hands_[i].process == 0 && Clock::now() >= hands_[i].not_before) start(i);
+            beat();
+            reap();
+            std::this_thread::sleep_for(50ms);
+        }
+        end();
+        return {};
+    }
+
+  private:
+    struct Hand {
+        pid_t process = 0;
+        Clock::time_point not_before{}, started{};
+        int quick_ends = 0;
+    };
+
+    static std::string file_name_of(std::string node) {
+        std::replace_if(
+            node.begin(), node.end(), [](unsigned char c) { return !std::isalnum(c) && c != '_'; }, '_');
+        return node;
+    }
+    std::string name_of_hand(std::size_t i) const { return fmt::format("{}.{}", id_, i); }
+
+    std::string reason_to_refuse() const {
+        if (spool_.identity().program != shared_identity())
+            return fmt::format(
+                "{} has another version of dynlab, of its lessons or of their data than the coordinator, or a "
+                "processor "
+                "of another level; install the same one there",
+                options_.node);
+        if (spool_.identity().isolation != isolation_name(Isolation::kFull)) return "";
+        const auto obstacle = obstacle_to(Isolation::kFull);
+        return obstacle ? fmt::format("{}: {}", options_.node, *obstacle) : "";
+    }
+
+    bool must_end() {
+        if (interrupted() || spool_.stopped()) return true;
+        if (const auto coordinator = spool_.coordinator()) silence_.see(coordinator->beat);
+        return silence_.lasting() > std::chrono::milliseconds(spool_.identity().grace_ms);
+    }
+
+    void start(std::size_t i) {
+        const pid_t parent = ::getpid();
+        std::cout.flush(), std::cerr.flush();
+        const pid_t child = ::fork();
+        if (child < 0) return;
+        if (child == 0) {
+            ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+            if (::getppid() != parent) ::_exit(0);
+            ::_exit(do_jobs(i));
+        }
+        hands_[i].process = child;
+        hands_[i].started = Clock::now();
+    }
+
+    int do_jobs(std::size_t i) const {
+        try {
+            WorkingHand hand(spool_, name_of_hand(i), options_.node, seed_, reports_[i]);
+            while (auto job = hand.next()) {
+                const auto kind = options_.kinds.find(job->job.kind);
+                if (kind == options_.kinds.end())
+                    hand.finish(*job, [&]() -> std::string {
+                        throw EnvironmentError("no worker knows how to do jobs of the kind " + job->job.kind);
+                    });
+                else
+                    kind->second(hand, *std::move(job));
+            }
+        } catch (const Interrupted&) {
+        } catch (const std::exception& error) {
+            std::cerr << "dynlab work: " << error.what() << std::endl;
+            return 1;
+        }
+        return 0;
+    }
+
+    void beat() {
+        if (Clock::now() < next_beat_) return;
+        next_beat_ = Clock::now() + kBeat;
+        ++status_.beat;
+        status_.done = 0;
+        status_.trouble.clear();
+        for (std::size_t i = 0; i < hands_.size(); ++i) {
+            status_.done += reports_[i].done;
+            const auto& text = reports_[i].trouble;
+            if (text[0] != '\0') status_.trouble = std::string(text.data(), ::strnlen(text.data(), text.size()));
+        }
+        spool_.tell(id_, status_);
+    }
+
+    void reap() {
+        int status = 0;
+        for (pid_t ended; (ended = ::waitpid(-1, &status, WNOHANG)) > 0;)
+            for (std::size_t i = 0; i < hands_.size(); ++i)
+                if (hands_[i].process == ended) take_leave(i, status);
+    }
+
+    /// A hand has ended. One that ends again and again is waited with.
+    void take_leave(std::size_t i, int status) {
+        Hand& hand = hands_[i];
+        hand.process = 0;
+        const bool quick = Clock::now() - hand.started < 5s;
+        hand.quick_ends = quick ? hand.quick_ends + 1 : 0;
+        hand.not_before = Clock::now() + (hand.quick_ends > 3 ? 1s : 0s);
+        const bool ended_well = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+        for (const Spool::Lease& lease : spool_.leases()) {
+            if (lease.worker != name_of_hand(i)) continue;
+            if (ending_ || ended_well) {
+                spool_.give_back(lease);
+                continue;
+            }
+            const std::string line =
+                fmt::format("on {}: the process that did it ended with {}\n", options_.node, end_of_process(status));
+            if (const FileDescriptor log = spool_.log_of(lease.job)) write_all(log.get(), line.data(), line.size());
+            spool_.lose(lease);
+        }
+    }
+
+    /// Hands get the time to give back what they have.
+    void end() {
+        ending_ = true;
+        for (const Hand& hand : hands_)
+            if (hand.process != 0) ::kill(hand.process, SIGTERM);
+        const auto latest = Clock::now() + kEndOfHands;
+        const auto busy = [&] {
+            return std::any_of(hands_.begin(), hands_.end(), [](const Hand& hand) { return hand.process != 0; });
+        };
+        while (busy() && Clock::now() < latest) {
+            beat();
+            reap();
+            std::this_thread::sleep_for(20ms);
+        }
+        for (const Hand& hand : hands_)
+            if (hand.process != 0) ::kill(hand.process, SIGKILL);
+        while (busy()) {
+            reap();
+            std::this_thread::sleep_for(20ms);
+        }
+        status_.ended = true;
+        next_beat_ = {};
+        if (spool_.exists()) beat();
+    }
+
+    const Spool& spool_;
+    const WorkerOptions& options_;
+    const std::string id_, seed_;
+    WorkerStatus status_;
+    HandReport* reports_ = nullptr;
+    std::vector<Hand> hands_;
+    Clock::time_point next_beat_{};
+    HeartbeatWatch silence_;
+    bool ending_ = false;
+};
+
+}  // namespace
+
+std::string name_of_node() {
+    if (const char* const slurm = std::getenv("SLURMD_NODENAME"); slurm && *slurm) return slurm;
+    std::array<char, 256> name{};
+    ::gethostname(name.data(), name.size() - 1);
+    return name.data();
+}
+
+std::optional<std::string> trouble_of_machine() {
+    const fs::path folder = parent_of_temporary_folders();
+    struct statvfs room {};
+    if (::statvfs(folder.c_str(), &room) != 0)
+        return fmt::format("{} cannot be looked at: {}", folder.string(), system_reason(errno));
+    if ((room.f_flag & ST_RDONLY) != 0) return fmt::format("nothing can be written to {}", folder.string());
+    const std::uint64_t bytes = static_cast<std::uint64_t>(room.f_bavail) * room.f_frsize;
+    if (bytes < kRoomNeeded)
+        return fmt::format("{} has {} MB left, and {} are needed: make room, or set TMPDIR", folder.string(),
+                           bytes >> 20, kRoomNeeded >> 20);
+    if (::access(folder.c_str(), W_OK) != 0)
+        return fmt::format("{} cannot be written to: {}", folder.string(), system_reason(errno));
+    return {};
+}
+
+WorkingHand::WorkingHand(const Spool& spool, std::string worker, std::string node, const std::string& seed,
+                         HandReport& report)
+    : spool_(spool), worker_(std::move(worker)), node_(std::move(node)), seed_(seed), report_(report) {}
+
+bool WorkingHand::must_end() const {
+    return interrupted() || spool_.stopped();
+}
+
+void WorkingHand::wait_a_little(int& waited) const {
+    std::this_thread::sleep_for(
+        std::min<std::chrono::milliseconds>(kShortestWait * (1 << std::min(waited, 5)), kLongestWait));
+    ++waited;
+}
+
+std::optional<Spool::Claimed> WorkingHand::next() {
+    for (int waited = 0; !must_end(); wait_a_little(waited)) {
+        if (waiting_) return std::exchange(waiting_, std::nullopt);
+        const auto trouble = trouble_of_machine();
+        report_.wait_because(trouble.value_or(""));
+        if (trouble) continue;
+        if (auto job = spool_.claim(worker_)) return job;
+    }
+    if (waiting_) spool_.give_back(waiting_->lease);
+    return {};
+}
+
+void WorkingHand::finish(const Spool::Claimed& job, const std::function<std::string()>& work) {
+    ShareResult result;
+    {
+        const ErrorLog log(spool_, job.lease.job);
+        try {
+            result.bytes = work();
+        } catch (const std::exception& error) {
+            result.trouble = error.what();
+        }
+    }
+    if (interrupted()) {  // what it returned or threw may be for that: a study stops half way, and gives that half
+        spool_.give_back(job.lease);
+        throw Interrupted();
+    }
+    if (trouble_of_machine()) return spool_.give_back(job.lease);
+    hand_in(job, std::move(result));
+}
+
+/// A spool whose disk is full takes it later: the work is not done twice for that.
+void WorkingHand::hand_in(const Spool::Claimed& job, ShareResult result) {
+    const std::size_t dot = worker_.rfind('.');
+    result.worker = worker_.substr(0, dot);
+    result.node = node_;
+    result.signature = SigningKey::of_seed(seed_).sign(spool_.signed_text(job.lease.job.key, result));
+    for (int waited = 0;; wait_a_little(waited)) {
+        try {
+            spool_.finish(job.lease, result);
+            break;
+        } catch (const EnvironmentError& error) {
+            report_.wait_because(error.what());
+        }
+        if (!must_end()) continue;
+        spool_.give_back(job.lease);
+        throw Interrupted();
+    }
+    report_.wait_because("");
+    ++report_.done;
+}
+
+std::optional<std::string> work_for(const Spool& spool, const WorkerOptions& options) {
+    return WorkerProcess(spool, options).run();
+}
+
+}  // namespace dynlab::inline workflow
