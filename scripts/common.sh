@@ -41,6 +41,7 @@ purpose_text() {
     test) echo "to test it" ;;
     fuzz) echo "to feed it mutated inputs" ;;
     package) echo "to make a package of it" ;;
+    cluster) echo "to test work on several machines" ;;
     *) echo "for its $1" ;;
   esac
 }
