@@ -41,7 +41,9 @@ plot_history(G, {truth = {a1 = a, b0 = b}})
 
 -- %% [markdown]
 -- Long memory follows slowly and scatters little, short memory the other way
--- round. Which is better depends on how fast the plant changes.
+-- round. Which is better depends on how fast the plant changes. An estimate
+-- that lags leaves errors that hang together, so the band of 0.999 is no
+-- narrower than that of 0.99, and the truth still lies outside now and then.
 
 -- %% id=memory
 local quick = rsrivc(data, {1, 1, 0}, 3, {forgetting = 0.95})

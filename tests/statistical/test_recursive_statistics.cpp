@@ -51,4 +51,31 @@ TEST(recursive_statistics, refined_ones_are_not_either) {
     expect_consistent(study_with(rsrivc));
 }
 
+/// Root mean square of errors in reported standard errors, over all parameters, 20 records and the history behind 50 s.
+template <class Method>
+double errors_in_standard_errors(const Method& method, double forgetting) {
+    const Vector truth = values({1.5, 2}), u = prbs(9, 8).head(4000);
+    const Vector clean = lsim(TransferFunction(values({2}), values({1, 1.5})), u, 0.05);
+    RecursiveOptions options = recursive(3);
+    options.forgetting = forgetting;
+    double squares = 0, count = 0;
+    for (std::uint32_t seed = 1; seed <= 20; ++seed) {
+        const IdData data(Matrix(clean + 0.1 * RandomStream(seed).normal(u.size())), Matrix(u), 0.05);
+        const ParameterHistory history = *method(data, TransferStructure::single(1, 0), options).history;
+        for (Index i = 0; i < history.t.size(); ++i) {
+            if (history.t[i] <= 50) continue;
+            squares += (history.theta.row(i) - truth.transpose()).cwiseQuotient(history.std.row(i)).squaredNorm();
+            count += 2;
+        }
+    }
+    return std::sqrt(squares / count);
+}
+
+TEST(recursive_statistics, standard_errors_tell_the_scatter_of_any_memory) {
+    for (const double forgetting : {0.95, 0.99, 0.999}) {
+        EXPECT_NEAR(errors_in_standard_errors(rivsvf, forgetting), 1, 0.15) << "rivsvf, " << forgetting;
+        EXPECT_NEAR(errors_in_standard_errors(rsrivc, forgetting), 1, 0.15) << "rsrivc, " << forgetting;
+    }
+}
+
 }  // namespace test_recursive_statistics

@@ -41,7 +41,8 @@ TEST(impulse_estimate_plot, draws_stems_per_second_in_the_band_of_chance) {
 TEST(impulse_estimate_plot, marks_a_dead_time_where_there_is_one) {
     const auto vertical_lines = [](const ImpulseEstimate& estimate) {
         std::vector<ReferenceLine> lines;
-        for (const ReferenceLine& line : impulse_estimate_plot(estimate, kTs, {}).panels[0].references)
+        const Figure figure = impulse_estimate_plot(estimate, kTs, {});
+        for (const ReferenceLine& line : figure.panels[0].references)
             if (!line.horizontal) lines.push_back(line);
         return lines;
     };

@@ -3,6 +3,21 @@
 
 namespace dynlab::inline numerics {
 
+/// Weights w of samples that are forgotten.
+class FadingWeights {
+  public:
+    /// The weights of all so far are multiplied by `weight`.
+    void add(double weight) {
+        sum_ = weight * sum_ + 1;
+        squares_ = weight * weight * squares_ + 1;
+    }
+    /// sum w^2/sum w: what white errors leave of the variance (sum w z z')^-1 of an estimate.
+    double factor() const { return squares_ / sum_; }
+
+  private:
+    double sum_ = 0, squares_ = 0;
+};
+
 /// The mean square of weighted errors that come one by one. kInstruments: of the later half to three quarters of them,
 /// for the first are those of a theta that is hardly known; otherwise of all.
 template <bool kInstruments>

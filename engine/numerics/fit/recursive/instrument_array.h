@@ -14,8 +14,9 @@ namespace dynlab::inline numerics {
 /// of the weighted rows: a new row is rotated into the array (Givens), so that nothing is ever inverted or subtracted,
 /// and theta = C^-1 c is the batch estimate to rounding at every sample, from an exactly diffuse start. Its covariance
 /// variance (C'C)^-1 = variance (Z'Phi)^-1 Z'Z (Phi'Z)^-1 for white errors is positive whatever happened before, and so
-/// is variance C^-1 T C^-T for coloured ones, T from the sums of z e over blocks of samples (product_colour.h). With
-/// z = phi, C is R and this is the square-root information filter of least squares (Bierman 1977, chapter V).
+/// is variance C^-1 T C^-T for coloured ones, T from the sums of z e over blocks of samples (product_colour.h). Where
+/// weights w(k) forget, both are multiplied by sum w(k)^2/sum w(k): 1/2 for a long memory (Ljung 1999, section 11.2).
+/// With z = phi, C is R and this is the square-root information filter of least squares (Bierman 1977, chapter V).
 /// Sizes: kCount parameters, or with Eigen::Dynamic as many as the constructor says.
 template <int kCount, bool kInstruments>
 class InstrumentArray {
@@ -51,17 +52,19 @@ class InstrumentArray {
         double left = y;
         if constexpr (kInstruments)
             for (std::size_t j = 0; j < d; ++j) left -= phi[j] * theta_[j];
+        if (!silent) memory_.add(forgetting);
         errors_.add(left, silent ? 1 : forgetting, known_);
         if constexpr (kInstruments) {
             if (!known_) return;
             double error = given_y;
             for (std::size_t j = 0; j < d; ++j) error -= given_phi[j] * theta_[j];
-            colour_.add(given_z, error, d);
+            colour_.add(given_z, error, d, silent ? 1 : forgetting);
         }
     }
 
     /// The parameters walk: their covariance grows by variance times diag(steps), theta stays.
     void walk(const Row& steps) {
+        walks_ = true;
         const std::size_t d = size();
         Square U{};  // I + C diag(steps) C' = U U'
         for (std::size_t i = 0; i < d; ++i)
@@ -87,11 +90,12 @@ class InstrumentArray {
         const Matrix inverse = inverse_regressors();
         return inverse * inverse.transpose();
     }
-    /// Of theta: with instruments for errors of any colour, of least squares for white ones.
+    /// Of theta: with instruments for errors of any colour; of least squares and a Kalman filter for white ones.
     Matrix covariance() const {
-        if constexpr (!kInstruments) return variance() * inverse_gram();
+        const double scale = variance() * memory_.factor();
+        if (!kInstruments || walks_) return scale * inverse_gram();
         const Matrix inverse = inverse_regressors();
-        return variance() * inverse * colour_.ratio(count_) * inverse.transpose();
+        return scale * inverse * colour_.ratio(count_) * inverse.transpose();
     }
 
     /// Whether white errors leave the first `count` parameters standard errors of no more than `part` of themselves.
@@ -123,11 +127,6 @@ class InstrumentArray {
         if constexpr (kInstruments) return C_[i][j];
         return j < i ? 0 : R_[i][j];
     }
-    static void rotate(double cosine, double sine, double& kept, double& left) {
-        const double before = kept;
-        kept = cosine * before + sine * left;
-        left = cosine * left - sine * before;
-    }
     void multiply_row(std::size_t i, double factor) {
         for (std::size_t j = i; j < size(); ++j) R_[i][j] *= factor;
         if constexpr (kInstruments)
@@ -153,8 +152,9 @@ class InstrumentArray {
     Square R_{}, C_{};
     Row c_{}, theta_{};
     ErrorVariance<kInstruments> errors_;
+    FadingWeights memory_;
     ProductColour<kMost> colour_;
-    bool known_ = false;
+    bool known_ = false, walks_ = false;
 };
 
 }  // namespace dynlab::inline numerics

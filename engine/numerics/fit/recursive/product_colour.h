@@ -11,14 +11,17 @@ namespace dynlab::inline numerics {
 /// within blocks of samples they are summed, and the sums' squares are compared with what white errors of the same size
 /// would give (batch means; the blocks are to outlast the errors' memory, and grow with the cube root of the record).
 /// Of the later half to three quarters of the samples, all of the same weight: the first errors are those of a theta
-/// that is hardly known, and a forgetting that leaves few blocks could not tell any colour.
+/// that is hardly known, and a forgetting that leaves few blocks could not tell any colour. An estimate that forgets
+/// follows the noise, which shortens the sums of a block of L samples: by (1 - w^L)/(L (1 - w)) for white errors in the
+/// scalar case, where e is w times the change of a first-order lag; they are set against that.
 template <std::size_t kMost>
 class ProductColour {
   public:
     /// `block`: samples, above zero.
     explicit ProductColour(double block) : shortest_(block), length_(block) {}
 
-    void add(const SmallRow<kMost>& z, double error, std::size_t d) {
+    /// The weights of all samples before were multiplied by `weight`.
+    void add(const SmallRow<kMost>& z, double error, std::size_t d, double weight) {
         for (std::size_t i = 0; i < d; ++i) {
             block_[i] += z[i] * error;
             for (std::size_t j = i; j < d; ++j) now_.gram[i][j] += z[i] * z[j];
@@ -27,6 +30,7 @@ class ProductColour {
         now_.rows += 1;
         samples_ += 1;
         in_block_ += 1;
+        block_weight_ = weight * block_weight_ + 1;
         if (in_block_ >= length_) close(d);
     }
 
@@ -65,18 +69,19 @@ class ProductColour {
     };
 
     void close(std::size_t d) {
+        const double shortened = block_weight_ / in_block_;
         for (std::size_t i = 0; i < d; ++i)
-            for (std::size_t j = i; j < d; ++j) now_.products[i][j] += block_[i] * block_[j];
+            for (std::size_t j = i; j < d; ++j) now_.products[i][j] += block_[i] * block_[j] / shortened;
         now_.blocks += 1;
         block_ = {};
-        in_block_ = 0;
+        in_block_ = block_weight_ = 0;
         if (now_.blocks < 2 * earlier_.blocks) return;
         earlier_ = now_;
         now_ = {};
         length_ = shortest_ * std::max(1.0, std::cbrt(samples_ / (kFewBlocks * shortest_)));
     }
 
-    double shortest_, length_, in_block_ = 0, samples_ = 0;
+    double shortest_, length_, in_block_ = 0, block_weight_ = 0, samples_ = 0;
     SmallRow<kMost> block_{};
     Sums now_, earlier_;
 };

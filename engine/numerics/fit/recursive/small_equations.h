@@ -13,6 +13,13 @@ using SmallRow = std::array<double, kMost>;
 template <std::size_t kMost>
 using SmallMatrix = std::array<SmallRow<kMost>, kMost>;
 
+/// A Givens rotation of two entries.
+inline void rotate(double cosine, double sine, double& kept, double& left) {
+    const double before = kept;
+    kept = cosine * before + sine * left;
+    left = cosine * left - sine * before;
+}
+
 /// A pivot against the size of its column, below which the equations count as singular.
 inline constexpr double kSmallRank = 1e-9;
 
