@@ -278,7 +278,7 @@ TEST_F(loopback, slurm_that_is_down_and_partitions_unknown_are_named) {
     EXPECT_THAT(said_, HasSubstr("slurmctld is not running or cannot be reached"));
 }
 
-TEST_F(engines, a_node_whose_disk_fills_waits_and_another_version_is_refused) {
+TEST_F(engines, a_node_whose_disk_fills_waits_and_another_version_or_no_isolation_is_refused) {
     if (work().shell("mkdir tiny && mount -t tmpfs -o size=600m tmpfs tiny").exit_code != 0)
         GTEST_SKIP() << "no small file system can be mounted here";
     hand_in_class(bench_, kSomeSeconds, kTurns, {});
@@ -290,6 +290,10 @@ TEST_F(engines, a_node_whose_disk_fills_waits_and_another_version_is_refused) {
         work().shell("DYNLAB_HOME=$PWD/newer timeout 20 \"$DYNLAB\" work shared/.spool --hands 1 --node newer");
     EXPECT_EQ(newer.exit_code, 1);
     EXPECT_THAT(newer.error_output, HasSubstr("newer has another version of dynlab, of its lessons"));
+    const bool boxes = std::string(GradingBench::level()) == "full";
+    const ChildResult open =
+        work().shell("timeout 20 env PATH=$PWD \"$DYNLAB\" work shared/.spool --hands 1 --node open");
+    EXPECT_EQ(open.exit_code == 1, boxes) << open.error_output;
     work().shell(
         "TMPDIR=$PWD/tiny setsid timeout 60 \"$DYNLAB\" work shared/.spool --hands 1 --node full > full.txt 2>&1 & "
         "timeout 10 bash -c 'until ls tiny/dynlab-*/work/analysis.lua; do sleep 0.02; done'; cat /dev/zero > "
@@ -300,6 +304,9 @@ TEST_F(engines, a_node_whose_disk_fills_waits_and_another_version_is_refused) {
     EXPECT_THAT(status, HasSubstr("0 MB left, and 512 are needed"));
     EXPECT_THAT(status, HasSubstr("coordinator: works"));
     EXPECT_THAT(status, HasSubstr("refused: newer has another version"));
+    if (boxes) {
+        EXPECT_THAT(status, HasSubstr("refused: open: full isolation needs bubblewrap"));
+    }
     EXPECT_THAT(work().read("background.txt"), HasSubstr("full waits: "));
     expect_equal_results(work(), "alone", "shared");
 }

@@ -26,12 +26,20 @@ const Workbench& copy_of_a_lesson() {
     return bench;
 }
 
+// oracle: the schemas of LuaLS (setting/schema.json) and of VS Code's tasks (version 2.0.0), read once
 TEST(editors, find_settings_that_they_document) {
     const Workbench& bench = copy_of_a_lesson();
     const json settings = json::parse(bench.read("mine/.luarc.json"));
     const std::set<std::string> documented = {"$schema",           "runtime.version",           "runtime.builtin",
                                               "workspace.library", "workspace.checkThirdParty", "diagnostics.disable"};
     for (const auto& [key, value] : settings.items()) EXPECT_TRUE(documented.contains(key)) << key;
+    const std::set<std::string> libraries = {"basic", "bit",  "bit32", "builtin", "coroutine", "debug", "ffi", "io",
+                                             "jit",   "math", "os",    "package", "string",    "table", "utf8"};
+    for (const auto& [library, how] : settings.at("runtime.builtin").items()) {
+        EXPECT_TRUE(libraries.contains(library)) << library;
+        EXPECT_EQ(how, "disable");
+    }
+    EXPECT_EQ(settings.at("workspace.checkThirdParty"), false);
     EXPECT_EQ(settings.at("workspace.library"), json({".dynlab"}));
     EXPECT_EQ(settings.at("runtime.version"), "Lua 5.4");
     EXPECT_THAT(bench.read("mine/.dynlab/types.lua"), HasSubstr("\nfunction srivc("));
@@ -50,7 +58,15 @@ TEST(editors, mark_the_lines_that_messages_name) {
                              bench.dynlab({"run", bench.path("stops.lua")}).error_output;
     for (const json& task : tasks.at("tasks")) {
         for (const auto& [key, value] : task.items()) EXPECT_TRUE(documented.contains(key)) << key;
-        const json& pattern = task.at("problemMatcher").at("pattern");
+        EXPECT_EQ(task.at("type"), "process");
+        const json &problems = task.at("problemMatcher"), &pattern = problems.at("pattern");
+        for (const auto& [key, value] : problems.items())
+            EXPECT_TRUE(std::set<std::string>({"owner", "fileLocation", "pattern"}).contains(key)) << key;
+        for (const auto& [key, value] : pattern.items())
+            EXPECT_TRUE(std::set<std::string>({"regexp", "file", "line", "column", "message"}).contains(key)) << key;
+        EXPECT_EQ(problems.at("fileLocation"), json({"autoDetect", "${workspaceFolder}"}));
+        const json usual = {{"kind", "build"}, {"isDefault", true}};
+        EXPECT_EQ(task.value("group", usual), usual);
         const std::regex matcher(pattern.at("regexp").get<std::string>());
         std::vector<std::string> places;
         std::istringstream lines(told);

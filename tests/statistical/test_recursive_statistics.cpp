@@ -51,7 +51,8 @@ TEST(recursive_statistics, refined_ones_are_not_either) {
     expect_consistent(study_with(rsrivc));
 }
 
-/// Root mean square of errors in reported standard errors, over both parameters, the records and the history behind 50 s.
+/// Root mean square of errors in reported standard errors, over both parameters, the records and the history behind 50
+/// s.
 template <class Method>
 double errors_in_standard_errors(const Method& method, double forgetting, std::uint32_t records) {
     const Vector truth = values({1.5, 2}), u = prbs(9, 8).head(4000);

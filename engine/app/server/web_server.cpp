@@ -21,6 +21,8 @@ using namespace std::chrono_literals;
 
 /// Threads for requests beside those that streams hold.
 constexpr std::size_t kThreadsForRequests = 8;
+/// An open connection without requests ends then; a server that ends waits for it.
+constexpr auto kIdleConnection = 1s;
 /// How often a silent stream says that it lives, so that one whose tab is gone is found.
 constexpr auto kSignOfLife = 20s;
 
@@ -73,6 +75,7 @@ class WebServer::Work {
         server_.new_task_queue = [threads] { return new httplib::ThreadPool(threads); };
         server_.set_payload_max_length(options.largest_body);
         server_.set_tcp_nodelay(true);
+        server_.set_keep_alive_timeout(kIdleConnection.count());
         // Not SO_REUSEPORT, which would share a port that is taken.
         server_.set_socket_options([](socket_t socket) {
             const int yes = 1;
