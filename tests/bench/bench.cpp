@@ -82,7 +82,7 @@ int main(int argc, char** argv) {
         {"cluster", measure_cluster},     {"live", measure_live},         {"workbench", measure_workbench},
         {"manual", measure_manual},       {"numerics", measure_numerics}, {"estimators", measure_estimators},
         {"irregular", measure_irregular}, {"lua", measure_lua},           {"searches", measure_searches},
-        {"advice", measure_advice},       {"grey_box", measure_grey_box}, {"cluster", measure_cluster}};
+        {"advice", measure_advice},       {"grey_box", measure_grey_box}};
     const std::vector<std::string> named(argv + 1, argv + argc);
     for (const std::string& name : named) {
         if (std::any_of(groups.begin(), groups.end(), [&](const auto& group) { return group.first == name; })) continue;

@@ -323,6 +323,7 @@ Vector best_cutoff_start(const IdData& data, const TransferStructure& structure,
     double best_loss = kInfinity;
     const bool all = trials == CutoffTrials::kAll;
     if (!all) starts = valleys_over_the_cutoff(starts);
+    if (!all && starts.size() == 1 && std::isfinite(starts.front().loss)) return starts.front().theta;  // no rivals
     std::stable_sort(starts.begin(), starts.end(),
                      [](const CutoffStart& a, const CutoffStart& b) { return a.loss < b.loss; });
     for (const CutoffStart& start : starts) {
