@@ -30,9 +30,9 @@ ComplexVector complex_argument(const Call& call, int index, const char* what) {
         wrong_argument(call.state(), index, what, "complex vector, as freqresp gives it, or {re, im} of two vectors");
     const MatrixMap parts = call.matrix(index, what);
     if (parts.cols() != 2)
-        throw InvalidArgument(fmt::format(
-            "argument {} ({}) needs a real and an imaginary part: {{re, im}} of two vectors, but {} columns were given",
-            index, what, parts.cols()));
+        throw InvalidArgument(
+            fmt::format("argument {} ({}) needs a real and an imaginary part: {{re, im}} of two vectors, not {}", index,
+                        what, counted(parts.cols(), "column")));
     ComplexVector values(parts.rows());
     values.real() = parts.col(0), values.imag() = parts.col(1);
     return values;
