@@ -5,6 +5,7 @@
 #include "cli/commands.h"
 #include "course/checks/check_trial.h"
 #include "platform/atomic_file.h"
+#include "platform/cache.h"
 #include "platform/error.h"
 #include "platform/program_lookup.h"
 #include "platform/terminal/terminal_text.h"
@@ -26,6 +27,7 @@ int try_them(const ChecksArguments& words) {
     setup.program = running_program();
     setup.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     if (!words.secret.empty()) setup.secret = read_file(words.secret);
+    if (const Cache cache; cache.lasting()) setup.call_memory = cache.root();
     const CheckTrial trial = try_checks_of(setup);
     std::cout << terminal_text(trial_in_words(trial));
     return trial.sound() ? kDone : kFailed;

@@ -93,7 +93,7 @@ TEST_P(check_tolerances, are_neither_harsh_nor_lenient) {
     namespace fs = std::filesystem;
     const std::string lesson = GetParam(), moves = read_file(lesson_folder(lesson) / "moved_answers.lua");
     ASSERT_NE(moves, "") << lesson;
-    const Workbench bench;
+    const Workbench bench(Workbench::Memory::kShared);
     const fs::path copy = bench.path("lessons/" + lesson);
     fs::create_directories(copy.parent_path());
     fs::copy(lesson_folder(lesson), copy, fs::copy_options::recursive);
@@ -106,6 +106,7 @@ TEST_P(check_tolerances, are_neither_harsh_nor_lenient) {
     setup.isolation = strongest_isolation();
     setup.program = DYNLAB_PROGRAM;
     setup.jobs = 2;
+    setup.call_memory = bench.cache() / "dynlab";
     std::string log;
     const CheckedSubmission all = GradingRules(setup).work_in(bench.path("in"), {}, log);
     setup.lesson.folder = lesson_folder(lesson);

@@ -8,8 +8,10 @@ namespace dynlab::test {
 namespace test_grading {
 using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using ::testing::Key;
 using ::testing::Not;
+using ::testing::SizeIs;
 
 constexpr const char* kAnswers = "--   x: number\n--   G: model\n";
 constexpr const char* kSolution = "answer('x', 42 + 0*randn(1)[1])\nanswer('G', tf({2}, {1, 3}))\n";
@@ -54,6 +56,33 @@ TEST(grading, gives_points_partial_credit_and_messages) {
     EXPECT_EQ(bench.result("right").at("score"), 5);
     EXPECT_THAT(bench.bench().read("out/gradebook.csv"), HasSubstr(",near,graded,4,5,0,0,1,3\r\n"));
     EXPECT_THAT(bench.bench().read("out/results/near/feedback.md"), HasSubstr("*Six times seven.*"));
+}
+
+// What an author tries may be recalled; of a submission everything is computed, whatever others have kept.
+TEST(grading, recalls_nothing_and_keeps_nothing) {
+    const std::string solution =
+        "local heat = load('heat_transfer')\n"
+        "local found = srivcstruc(iddata(heat.y, heat.u, 1), {poles = {1, 4}})\n"
+        "answer('x', found and 42)\n";
+    GradingBench bench("--   x: number\n", "check{id = 'x', test = function(a) return near(a.x, 42) end}\n", solution);
+    const auto kept_calls = [&bench] {
+        std::vector<std::filesystem::path> names;
+        std::error_code none;
+        for (const auto& call : std::filesystem::directory_iterator(bench.bench().cache() / "dynlab/calls", none))
+            names.push_back(call.path());
+        return names;
+    };
+    bench.hand_in("right", solution);
+    const ChildResult graded = bench.grade();
+    ASSERT_EQ(graded.exit_code, 0) << graded.output << graded.error_output;
+    EXPECT_THAT(kept_calls(), IsEmpty());
+    const ChildResult tried = bench.bench().dynlab({"checks", "try", "--lesson", "99"});
+    ASSERT_EQ(tried.exit_code, 0) << tried.output << tried.error_output;
+    ASSERT_THAT(kept_calls(), SizeIs(1));
+    for (const std::filesystem::path& call : kept_calls()) std::filesystem::last_write_time(call, {});
+    ASSERT_EQ(bench.grade({"--regrade"}).exit_code, 0);
+    for (const std::filesystem::path& call : kept_calls())
+        EXPECT_EQ(std::filesystem::last_write_time(call), std::filesystem::file_time_type()) << "it was recalled";
 }
 
 // oracle: the same script in English; the words of what is printed are beside no record in a box

@@ -35,7 +35,7 @@ TEST_P(lesson_checks, give_full_marks_none_and_the_intended_message) {
     const std::string checks = read_file(lesson_folder(lesson) / "checks.lua");
     EXPECT_GE(std::distance(std::sregex_iterator(checks.begin(), checks.end(), declaration), std::sregex_iterator()),
               6);
-    const Workbench bench;
+    const Workbench bench(Workbench::Memory::kShared);
     const std::filesystem::path copy = bench.path("lessons/" + lesson);
     std::filesystem::create_directories(copy.parent_path());
     std::filesystem::copy(lesson_folder(lesson), copy, std::filesystem::copy_options::recursive);

@@ -143,10 +143,10 @@ TEST(script_grey_box, refuses_in_words) {  // oracle: the mistakes written here
     EXPECT_THAT(
         refusal(
             "greyest(data, idgrey(f, names, {states = 2, outputs = function(t, x, u, p) return {x[1], x[2]} end}))"),
-        HasSubstr("The model gives 2 outputs, and the record has 1"));
+        HasSubstr("greyest: the model gives 2 outputs, and the record has 1"));
     EXPECT_THAT(
         refusal("greyest(data, idgrey(function(t, x, u, p) return {p.a1*x[1]^3 + u[2]} end, {a1 = 1}, {states = 1}))"),
-        HasSubstr("The model has 2 inputs, and the record has 1"));
+        HasSubstr("greyest: the model has 2 inputs, and the record has 1"));
     EXPECT_THAT(
         refusal(
             "greyest(data, idgrey(function(t, x, u, p) return {p.a1*x[1]^3 + u} end, {a1 = 50}, {states = {'h'}}))"),

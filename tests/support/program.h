@@ -16,6 +16,8 @@ class Workbench {
     enum class Memory { kOwn, kShared };
 
     std::filesystem::path path(const std::string& name = "") const { return folder_.path() / "work" / name; }
+    /// XDG_CACHE_HOME of what is run.
+    const std::filesystem::path& cache() const { return cache_; }
     void write(const std::string& name, const std::string& text) const;
     std::string read(const std::string& name) const;
     std::vector<std::string> files() const;  ///< names in the folder, hidden ones too, sorted

@@ -7,6 +7,7 @@
 #include "course/checks/lesson_trial.h"
 #include "numerics/number_text.h"
 #include "platform/atomic_file.h"
+#include "platform/cache.h"
 #include "platform/program_lookup.h"
 #include "platform/terminal/activity_line.h"
 #include "platform/terminal/terminal_text.h"
@@ -27,6 +28,7 @@ GradingSetup setup_of(const Lesson& lesson, const TestLessonArguments& words) {
     setup.program = running_program();
     setup.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     if (!words.secret.empty()) setup.secret = read_file(words.secret);
+    if (const Cache cache; cache.lasting()) setup.call_memory = cache.root();
     return setup;
 }
 

@@ -6,7 +6,9 @@
 #include "documents/percent_script.h"
 #include "documents/words/sentence_catalogue.h"
 #include "figures/gnuplot_renderer.h"
+#include "platform/cache.h"
 #include "platform/confinement.h"
+#include "scripting/memoized_calls/call_cache.h"
 #include "scripting/runtime/report_language.h"
 #include "scripting/runtime/runtime.h"
 
@@ -69,7 +71,11 @@ GradedRun run_for_grading(const RunJob& job) {
         const PercentScript script = read_for_grading(job);
         GnuplotRenderer renderer;
         ReportLanguage language{script.header.language};
-        Runtime runtime(options_of(job, script), renderer);
+        RunOptions options = options_of(job, script);
+        std::optional<Cache> cache;
+        std::optional<CallCache> calls;
+        if (job.recalls) options.call_cache = &calls.emplace(cache.emplace());
+        Runtime runtime(options, renderer);
         runtime.set_service(&language);
         const auto start = std::chrono::steady_clock::now();
         GradedRun run = graded_run(runtime.run(script), script);

@@ -33,6 +33,7 @@ struct RunJob {
     std::vector<ExpectedAnswer> answers;  ///< as the lesson declares them
     std::int64_t time_ms = 0;             ///< most milliseconds
     std::uint64_t memory_bytes = 0;       ///< most bytes of the script
+    bool recalls = false;                 ///< long calls, from the cache of its environment: never of a submission
 };
 
 /// Runs the script in this process, which should be in a box and is confined here. The data are those of DYNLAB_HOME.

@@ -159,6 +159,10 @@ GradedRun GradingRules::run(const std::string& name, const fs::path& folder, con
     job.answers = answers_;
     job.memory_bytes = kScriptMemory;
     job.time_ms = (setup_.timeout - kMargin).count();
+    job.recalls = setup_.call_memory.has_value();
+    if (job.recalls)
+        box.set_environment("XDG_CACHE_HOME",
+                            box.add_writable(*setup_.call_memory, "/box/caches/dynlab").parent_path());
     const auto result = run_boxed(box, setup_.program, job, setup_.timeout + kStartTime, kMostAnswers);
     const std::chrono::duration<double> most = setup_.timeout;
     const std::string reason = result.timed_out ? fmt::format("it took more than {} s", most.count()) : result.reason;

@@ -30,6 +30,9 @@ struct GradingSetup {
     std::chrono::milliseconds timeout{60000};  ///< of each run of a student's script
     std::filesystem::path program;             ///< dynlab
     int jobs = 1;                              ///< boxes that may run at once
+    /// Cache::root() of a lasting cache, from which runs recall long calls and in which they keep them: for scripts of
+    /// the course itself. What is graded computes everything.
+    std::optional<std::filesystem::path> call_memory;
 };
 
 /// What all submissions of a lesson are held against: the checks, the hidden records, and the check of the checks

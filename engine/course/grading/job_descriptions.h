@@ -12,7 +12,7 @@ namespace dynlab::inline course {
 /// Jobs for boxes and what comes of them, as data_io/values/described.h stores them.
 
 DYNLAB_DESCRIBE(GradedRun, answers, figures, values, printed, error, seconds, lesson, began)
-DYNLAB_DESCRIBE(RunJob, script, french_sentences, seed, answers, time_ms, memory_bytes)
+DYNLAB_DESCRIBE(RunJob, script, french_sentences, seed, answers, time_ms, memory_bytes, recalls)
 DYNLAB_DESCRIBE(CheckFile, name, source, visible)
 DYNLAB_DESCRIBE(AnswerChange, name, factor)
 DYNLAB_DESCRIBE(CheckedSubmission, runs, findings, source, change)

@@ -74,13 +74,20 @@ std::string argument_label(int index, const char* what) {
     return fmt::format("argument {} ({})", index, what);
 }
 
+/// Behind a name and a colon a sentence goes on in small letters; names and symbols (Phi, A) keep theirs.
+std::string going_on(std::string message) {
+    for (const std::string_view word : {"All ", "At ", "Each ", "Irregular ", "The ", "With "})
+        if (message.starts_with(word)) message.front() += 'a' - 'A';
+    return message;
+}
+
 /// A failure with the called function's name before it, once. Where one method does the work of another, as lssvf
 /// that of lsgpmf, the name is that of the one that was called.
 std::string with_name(const std::string& name, const std::string& message) {
     const std::string first = message.substr(0, message.find_first_of(": "));
     if (first == name) return message;
     const bool of_method = message.compare(first.size(), 2, ": ") == 0 && find_method(first) && find_method(name);
-    return name + ": " + (of_method ? message.substr(first.size() + 2) : message);
+    return name + ": " + going_on(of_method ? message.substr(first.size() + 2) : message);
 }
 
 /// Messages count the arguments of a method as the script writes them, without the object.
