@@ -16,6 +16,7 @@
 #include "workflow/manual/manual_folder.h"
 #include "workflow/manual/manual_page.h"
 #include "workflow/manual/search_index.h"
+#include "workflow/manual/table_columns.h"
 
 namespace dynlab::test {
 namespace test_manual {
@@ -336,6 +337,31 @@ TEST(manual, pages_lead_to_what_their_code_names) {
                              "<div class=\"choice\"><code>srivc</code></div>"})
         EXPECT_EQ(linked(same), same);
     EXPECT_EQ(with_links_to_pages("<code>lua</code>", pages, "help-lua.html"), "<code>lua</code>");
+}
+
+// Oracle: 90 characters a line, shared by hand.
+TEST(manual, columns_of_wide_tables_are_as_wide_as_what_stands_in_them) {
+    const std::string words(60, 'w'), more(120, 'm');
+    const auto rule = [](const std::string& table) {
+        return table.substr(table.find("\n|-"), table.rfind("\n| ") - table.find("\n|-"));
+    };
+    const auto dashes = [](int a, int b, int c) {
+        return "\n|" + std::string(a + 2, '-') + "|" + std::string(b + 2, '-') + "|" + std::string(c + 2, '-') + "|";
+    };
+    // 10 and 20 characters fit, 60 are left for the third.
+    const std::string table =
+        "| route | wants | done |\n|---|---|---|\n| `" + std::string(10, 'r') + "` | " + std::string(20, 'x') + " | ";
+    EXPECT_EQ(rule(with_fitted_columns(table + more + " |\n")), dashes(10, 20, 60));
+    // 60 and 120 characters for the 80 that are left: one third and two.
+    EXPECT_EQ(
+        rule(with_fitted_columns("| a | b | c |\n|---|---|---|\n| 1234567890 | " + words + " | " + more + " |\n")),
+        dashes(10, 27, 53));
+    EXPECT_EQ(
+        with_fitted_columns("| a | b |\n|:--|--:|\n| \\| `|` | " + more + " |\n"),
+        "| a | b |\n|:" + std::string(4, '-') + "-|-" + std::string(86, '-') + ":|\n| \\| `|` | " + more + " |\n");
+    for (const std::string& as_it_is :
+         {std::string("| a | b |\n|---|---|\n| 1 | 2 |\n"), "```\n" + table + more + " |\n```\n"})
+        EXPECT_EQ(with_fitted_columns(as_it_is), as_it_is);
 }
 
 TEST(manual, words_are_what_readers_type) {

@@ -14,6 +14,7 @@
 #include "scripting/runtime/help.h"
 #include "workflow/demonstration.h"
 #include "workflow/lesson_catalogue.h"
+#include "workflow/manual/table_columns.h"
 
 namespace dynlab::inline workflow {
 namespace {
@@ -122,7 +123,8 @@ std::vector<ManualText> help_texts(const HelpExamples& examples) {
         const std::string name(page.name);
         const PercentScript& script = examples.pages.at(name);
         const FunctionEntry* entry = entry_of(name);
-        const MarkdownText text = weave_cells(script, examples.record);
+        MarkdownText text = weave_cells(script, examples.record);
+        text.text = with_fitted_columns(text.text);
         if (entry)
             functions.push_back({name, entry->area, text});
         else
