@@ -6,6 +6,7 @@
 #include "bench/bench.h"
 #include "numerics/error.h"
 #include "numerics/estimators/procsrivc.h"
+#include "numerics/estimators/rivc.h"
 #include "numerics/estimators/srivc.h"
 #include "support/search_corpus.h"
 
@@ -66,16 +67,21 @@ void count_unsolved(const char* method, int systems, Index longest, bool irregul
 /// How many random systems are not found from default settings.
 void measure_searches(Report& report) {
     const auto transfer = [](const test::SearchCase& one) { return srivc(one.data, structure_of(one)); };
+    const auto with_noise = [](const test::SearchCase& one) {
+        return rivc(one.data, structure_of(one), NoiseOrders{.nd = 1});  // as tfrivc has it
+    };
     const auto process = [](const test::SearchCase& one) {
         return procsrivc(one.data, ProcessStructure::parse(process_name(one)), {});
     };
     const auto add = [&](const std::string& what, const char* against, int failed, int tried, double bar) {
         report.results.push_back({what, against, static_cast<double>(failed), static_cast<double>(tried), bar, 0});
     };
-    Count regular, processes, irregular;
+    Count regular, noisy, processes, irregular;
     count_unsolved("tfsrivc", kSystems, 20'000, false, transfer, regular);
     add("tfsrivc: systems not solved", "all", regular.failed, regular.tried, 1.0 / 204);
     add("tfsrivc: unstable models", "all", regular.unstable, regular.tried, 0.02);
+    count_unsolved("tfrivc", kSystems, 20'000, false, with_noise, noisy);
+    add("tfrivc: systems not solved", "all", noisy.failed, noisy.tried, 1.0 / 204);
     count_unsolved("procsrivc", kSystems, 20'000, false, process, processes);
     add("procsrivc: systems not solved", "all", processes.failed, processes.tried, 1.0 / 97);
     count_unsolved("irregular", kIrregularSystems, kLongestIrregular, true, transfer, irregular);
