@@ -281,8 +281,8 @@ TEST(bad_input, models_of_the_wrong_kind_are_refused) {
         "local P = procsrivc(d, 'P1')\nlocal D = arx(d, {2, 2, 1})\n"
         "local M = srivc(iddata(y, matrix{u, e}, 0.05), {{1, 1}, {2, 2}, {0, 0}})\n";
     const std::vector<std::pair<std::string, std::string>> kCases = {
-        {"compare(d, M)", "The model needs one transfer function from each of the 1 input(s)"},
-        {"resid(d, M)", "The model needs one transfer function from each of the 1 input(s)"},
+        {"compare(d, M)", "the model needs one transfer function from each of the 1 input(s)"},
+        {"resid(d, M)", "the model needs one transfer function from each of the 1 input(s)"},
         {"fit_measures(d, M)", "must have one input and one output"},
         {"lsim(M, u, 0.05)", "must have one input and one output"},
         {"compare(iddata(y, u, 0.1), D)", "the model is discrete with Ts = 0.05 s"},
@@ -304,7 +304,7 @@ TEST(bad_input, static_methods_refuse_what_has_no_answer) {
         {"lsq(matrix{u}, {1, 2})", "504 rows but the right-hand side has 2 values"},
         {"lsq(matrix{u*(0/0)}, y)", "not finite"},
         {"lsq(matrix{{1, 2}}, {1})", "cannot determine 2 parameters"},
-        {"gradient_descent(matrix{zeros(3)}, {1, 2, 3})", "All regressors are zero"},
+        {"gradient_descent(matrix{zeros(3)}, {1, 2, 3})", "gradient_descent: all regressors are zero"},
         {"gradient_descent(matrix{u}, y*(0/0))", "finite numbers only"},
         {"polyfit_report({1, 1, 1}, {1, 2, 3}, 1)", "at least 2 different x"},
     };
