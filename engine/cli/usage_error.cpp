@@ -2,6 +2,8 @@
 
 #include <regex>
 
+#include "platform/text/regex_limit.h"
+
 namespace dynlab::inline cli {
 namespace {
 
@@ -22,9 +24,8 @@ constexpr UsageSentence kSentences[] = {
 
 std::string usage_message(const CLI::App* app, const CLI::Error& error) {
     std::string message = error.what();
-    constexpr std::size_t kMostRead = 2000;  // std::regex takes stack for every character
     for (const auto& [theirs, ours] : kSentences) {
-        if (message.size() > kMostRead) break;
+        if (message.size() > kLongestForRegex) break;
         const std::regex pattern(theirs);
         if (!std::regex_match(message, pattern)) continue;
         message = std::regex_replace(message, pattern, ours);

@@ -18,6 +18,7 @@
 #include "platform/atomic_file.h"
 #include "platform/program_lookup.h"
 #include "platform/temporary_folder.h"
+#include "platform/text/regex_limit.h"
 
 namespace dynlab::inline documents {
 namespace {
@@ -63,7 +64,7 @@ std::string section_of(const std::string& body, int line) {
         const bool is_heading =
             text.find("section{") != std::string::npos && text.starts_with("\\") && open < text.size();
         const std::size_t close = std::min(text.find("}\\label{"), text.rfind('}'));
-        if (std::regex_match(text, title, slide)) heading = title[2];
+        if (text.size() <= kLongestForRegex && std::regex_match(text, title, slide)) heading = title[2];
         if (is_heading) heading = text.substr(open + 1, close - open - 1);
     }
     return heading.empty() ? "" : " in section \"" + heading + "\"";

@@ -4,11 +4,10 @@
 #include <regex>
 
 #include "documents/text_lines.h"
+#include "platform/text/regex_limit.h"
 
 namespace dynlab::inline documents {
 namespace {
-
-constexpr std::size_t kLongestLine = 4000;  // std::regex takes stack for every character
 
 /// The line without code between backticks, formulas between dollar signs and escaped backslashes.
 std::string prose_of(const std::string& line) {
@@ -38,7 +37,7 @@ void find_latex_brackets(const MarkdownText& markdown, Complaints& complaints) {
     int number = 0;
     for (const std::string& line : lines_of(markdown.text)) {
         ++number;
-        if (fence.holds(line) || line.size() > kLongestLine) continue;
+        if (fence.holds(line) || line.size() > kLongestForRegex) continue;
         const std::string prose = prose_of(line);
         if (std::regex_search(prose, round))
             complaints.add(markdown.origin_of(number),

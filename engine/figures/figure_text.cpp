@@ -5,6 +5,7 @@
 #include <regex>
 
 #include "figures/style.h"
+#include "platform/text/regex_limit.h"
 #include "platform/utf8.h"
 
 namespace dynlab::inline figures {
@@ -108,6 +109,7 @@ std::vector<TextPiece> text_pieces(std::string_view utf8) {
 }
 
 std::string with_marked_indices(const std::string& text) {
+    if (text.size() > kLongestForRegex) return text;
     static const std::regex index(
         R"((^|[^A-Za-z0-9_])([A-Za-z]_|(?:[A-Za-z]*|[0-9]+)\^-?)([A-Za-z0-9]{1,2})(?![A-Za-z0-9_{]))");
     std::string marked;

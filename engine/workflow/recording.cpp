@@ -4,13 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <regex>
-#include <set>
 
 #include "data_io/tables/unit_text.h"
 #include "platform/error.h"
 #include "platform/spelling.h"
 #include "scripting/runtime/lua_text.h"
+#include "scripting/runtime/lua_tokens.h"
 
 namespace dynlab::inline workflow {
 namespace {
@@ -24,11 +23,7 @@ std::string lua_texts(const std::vector<std::string>& texts) {
 
 /// What stands behind a table to give its field: .y, or ["water level"].
 std::string field_of(const std::string& name) {
-    static const std::regex kName("[A-Za-z_][A-Za-z0-9_]*");
-    static const std::set<std::string> kReserved = {
-        "and", "break", "do",  "else", "elseif", "end",    "false",  "for",  "function", "goto",  "if",
-        "in",  "local", "nil", "not",  "or",     "repeat", "return", "then", "true",     "until", "while"};
-    return std::regex_match(name, kName) && !kReserved.contains(name) ? "." + name : "[" + lua_text(name) + "]";
+    return is_variable_name(name) ? "." + name : "[" + lua_text(name) + "]";
 }
 
 /// The even spacing of the instants as one writes it, where that leads no sample astray by a hundredth of a spacing.

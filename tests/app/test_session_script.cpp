@@ -118,6 +118,20 @@ TEST(session_script, what_shares_its_lines_with_other_text_is_no_step) {
     EXPECT_EQ(only_step("-- off: z = f(1)  -- why\n").rest, "  -- why");
 }
 
+/// Nobody writes such lines, but programs do, and the session that shows them must not end.
+TEST(session_script, lines_may_be_long) {
+    const std::string letters(3'000'000, 'x'), blanks(3'000'000, ' ');
+    const std::string remark = "--" + letters, step = "a = 1";
+    EXPECT_EQ(only_step(remark + "\n" + step + "\n").first_line, 2);
+    EXPECT_EQ(only_step(step + " " + remark).rest, " " + remark);
+    EXPECT_EQ(only_step(step + blanks).names, std::vector<std::string>{"a"});
+    EXPECT_EQ(only_step("-- off: " + step + " " + remark).rest, " " + remark);
+    EXPECT_EQ(only_step(letters + " = 1\n").names, std::vector<std::string>{letters});
+    EXPECT_EQ(only_step("--[==[" + letters + "]]\n-- off: b = 2\n]==]\n" + step).first_line, 4);
+    EXPECT_TRUE(only_step("a = f(" + letters).broken);
+    EXPECT_TRUE(session_steps(letters + " = f(" + blanks).empty()) << "no name has so many letters";
+}
+
 TEST(session_script, edits_keep_the_line_ends_of_the_script) {
     const std::string source = "G = f(a,\r\n  b)\r\nz = 1\r\n";
     EXPECT_EQ(with_edits(source, {{3, 3, "z = 2\ny = 3"}}), "G = f(a,\r\n  b)\r\nz = 2\r\ny = 3\r\n");

@@ -119,6 +119,8 @@ TEST_F(workbench_attacks, a_script_that_is_too_long_is_refused_and_ends_nothing)
     EXPECT_FALSE(page.page().contains("error"));
     EXPECT_EQ(page.write(most)->status, kOk) << "what fits can be read again";
     EXPECT_EQ(text_of("s.lua"), most);
+    EXPECT_EQ(page.write(kPrints)->status, kOk) << "after one line of 4 MB";
+    EXPECT_TRUE(page.prints("a", "2\n"));
 }
 
 TEST_F(workbench_attacks, settings_that_are_nested_deep_are_refused) {

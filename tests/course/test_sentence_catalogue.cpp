@@ -38,6 +38,8 @@ TEST(sentence_catalogue, tells_sentence_by_sentence_and_keeps_what_it_does_not_k
                                               "demande des Hz.\n\nThe name of {} stands there: \"{}\".\n  Le nom de "
                                               "{} est là : « {} ».\nThe {}.\n  {} ?\nfigure\n  la figure\n");
     EXPECT_EQ(known.translated("It is 0.25 away. Hz is wanted."), "Il s'en faut de 0,25. On demande des Hz.");
+    const std::string endless(1'000'000, 'x');
+    EXPECT_EQ(known.translated(endless), endless);
     EXPECT_EQ(known.translated("Something else. Hz is wanted."), "Something else. On demande des Hz.");
     EXPECT_EQ(known.translated("Hz is wanted"), "Hz is wanted");
     EXPECT_EQ(known.translated("The name of A. B. stands there: \"x. y\"."), "Le nom de A. B. est là : « x. y ».")

@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <limits>
 #include <map>
-#include <regex>
 
 #include "app/workbench/session_script.h"
 #include "data_io/data_file.h"
@@ -15,6 +14,7 @@
 #include "documents/percent_script.h"
 #include "documents/text_lines.h"
 #include "platform/error.h"
+#include "scripting/runtime/lua_tokens.h"
 #include "workflow/look.h"
 #include "workflow/recording.h"
 
@@ -177,8 +177,7 @@ RecordChoice look_at_record(const std::string& data, bool tells) {
 }
 
 std::string record_lines(const RecordOrder& order) {
-    static const std::regex kName("[A-Za-z_][A-Za-z0-9_]*");
-    if (!std::regex_match(order.name, kName)) throw EnvironmentError("a record's name must be one of a variable");
+    if (!is_variable_name(order.name)) throw EnvironmentError("a record's name must be one of a variable");
     if (order.inputs.empty() || order.outputs.empty())
         throw EnvironmentError("a record needs an input and an output at least");
     Recording recording(order.data, order.inputs, order.outputs, order.Ts > 0 ? std::optional(order.Ts) : std::nullopt,

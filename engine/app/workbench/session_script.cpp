@@ -10,6 +10,7 @@
 
 #include "data_io/values/value_limits.h"
 #include "documents/text_lines.h"
+#include "platform/text/regex_limit.h"
 #include "scripting/runtime/lua_tokens.h"
 
 namespace dynlab::inline app {
@@ -173,25 +174,38 @@ class Lines {
     std::vector<std::size_t> ends_;
 };
 
+std::string_view without_blanks_before(std::string_view text) {
+    return text.substr(std::min(text.find_first_not_of(" \t\r\f\v"), text.size()));
+}
+
+/// How many signs = stand between the brackets with which a remark of several lines begins; nothing for others.
+std::optional<std::size_t> level_of_remark(std::string_view remark) {
+    if (!remark.starts_with("--[")) return {};
+    const std::size_t second = std::min(remark.find_first_not_of('=', 3), remark.size());
+    return second < remark.size() && remark[second] == '[' ? std::optional(second - 3) : std::nullopt;
+}
+
 /// Whether nothing but a remark that ends with its line stands behind a statement.
 bool is_remark(const std::string& rest) {
-    static const std::regex kRemark(R"(\s*;?\s*(--(?!\[=*\[).*)?)");
-    return std::regex_match(rest, kRemark);
+    std::string_view left = without_blanks_before(rest);
+    if (left.starts_with(';')) left = without_blanks_before(left.substr(1));
+    return left.empty() || (left.starts_with("--") && !level_of_remark(left));
 }
 
 /// Whether a line begins as an assignment or a cell does, so that an unfinished statement cannot go on there.
 bool begins_anew(const std::string& line) {
-    static const std::regex kBegin(R"(^(-- %%|(local\s+)?[A-Za-z_]\w*(\s*,\s*[A-Za-z_]\w*)*\s*=[^=]).*)");
-    return std::regex_match(line, kBegin);
+    static const std::regex kBegin(R"(^(-- %%|(local\s+)?[A-Za-z_]\w*(\s*,\s*[A-Za-z_]\w*)*\s*=[^=]))");
+    return std::regex_search(line.substr(0, kLongestForRegex), kBegin);
 }
 
 /// The first line of a statement that is no statement of Lua, with the lines behind it that can belong to it, where it
 /// gives names to something.
 std::optional<SessionStep> broken_step(const std::vector<std::string>& lines, int first) {
-    static const std::regex kNames(R"(^(local\s+)?([A-Za-z_]\w*(?:\s*,\s*[A-Za-z_]\w*)*)\s*=(.*))"), kName(R"(\w+)");
+    static const std::regex kNames(R"(^(local\s+)?([A-Za-z_]\w*(?:\s*,\s*[A-Za-z_]\w*)*)\s*=)"), kName(R"(\w+)");
     std::smatch found;
-    const std::string& begin = lines[static_cast<std::size_t>(first - 1)];
-    if (!std::regex_match(begin, found, kNames)) return {};
+    const std::string& line_of_names = lines[static_cast<std::size_t>(first - 1)];
+    const std::string begin = line_of_names.substr(0, kLongestForRegex);
+    if (!std::regex_search(begin, found, kNames)) return {};
     SessionStep step;
     step.broken = true;
     step.first_line = step.last_line = first;
@@ -199,7 +213,7 @@ std::optional<SessionStep> broken_step(const std::vector<std::string>& lines, in
     const std::string names = found[2];
     for (std::sregex_iterator name(names.begin(), names.end(), kName), last; name != last; ++name)
         step.names.push_back(name->str());
-    std::string text = trimmed(found[3].str());
+    std::string text = trimmed(std::string_view(line_of_names).substr(static_cast<std::size_t>(found.length())));
     for (int line = first + 1; line <= static_cast<int>(lines.size()); ++line) {
         const std::string& more = lines[static_cast<std::size_t>(line - 1)];
         if (is_blank(more) || begins_anew(more)) break;
@@ -263,7 +277,6 @@ void add_running_steps(const std::string& source, std::vector<SessionStep>& step
 
 /// The lines that begin inside a text or a remark of several lines.
 std::set<int> lines_inside(const std::string& source) {
-    static const std::regex kLong(R"(--\[(=*)\[|--[^\n]*)");
     const Lines lines(source);
     std::set<int> inside;
     const auto add = [&](std::size_t begin, std::size_t end) {
@@ -271,15 +284,13 @@ std::set<int> lines_inside(const std::string& source) {
     };
     std::size_t next = 0;
     const auto add_remarks = [&](std::size_t end) {
-        std::smatch found;
-        while (next < end && std::regex_search(source.cbegin() + static_cast<long>(next),
-                                               source.cbegin() + static_cast<long>(end), found, kLong)) {
-            const auto begin = next + static_cast<std::size_t>(found.position());
-            next = begin + static_cast<std::size_t>(found.length());
-            if (found.str(0).back() != '[' || !found[1].matched) continue;
-            const std::size_t close = source.find("]" + found.str(1) + "]", next);
-            next = close == std::string::npos ? source.size() : close + found.str(1).size() + 2;
-            add(begin, next);
+        const std::string_view before = std::string_view(source).substr(0, end);
+        for (std::size_t begin; (begin = before.find("--", next)) != std::string_view::npos;) {
+            const auto level = level_of_remark(std::string_view(source).substr(begin));
+            const std::string close = level ? "]" + std::string(*level, '=') + "]" : "\n";
+            const std::size_t last = source.find(close, begin + (level ? *level + 4 : 0));
+            next = last == std::string::npos ? source.size() : last + close.size();
+            if (level) add(begin, next);
         }
         next = end;
     };

@@ -3,16 +3,16 @@
 #include <regex>
 
 #include "documents/text_lines.h"
+#include "platform/text/regex_limit.h"
 
 namespace dynlab::inline documents {
 namespace {
 
 /// Longer lines are prose: std::regex takes stack for every character.
-constexpr std::size_t kLongestMark = 2000;
 
 bool matches(const std::string& line, const std::regex& pattern, std::smatch* found = nullptr) {
     std::smatch unused;
-    return line.size() <= kLongestMark && std::regex_search(line, found ? *found : unused, pattern);
+    return line.size() <= kLongestForRegex && std::regex_search(line, found ? *found : unused, pattern);
 }
 
 /// Follows fences, comments and tables with empty lines through the text.

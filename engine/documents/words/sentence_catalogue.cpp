@@ -8,6 +8,7 @@
 #include "documents/text_lines.h"
 #include "platform/error.h"
 #include "platform/program_lookup.h"
+#include "platform/text/regex_limit.h"
 #include "platform/text_file.h"
 
 namespace dynlab::inline documents {
@@ -52,7 +53,7 @@ bool ends_sentence(std::string_view text, std::size_t at) {
 std::size_t place_in_script(std::string_view text) {
     static const std::regex place(R"(^[^\s:]+(?::\d+|, cell \d+, line \d+): (?:[A-Za-z_][\w.]*: )?)");
     std::cmatch found;
-    return std::regex_search(text.data(), text.data() + text.size(), found, place)
+    return std::regex_search(text.data(), text.data() + std::min(text.size(), kLongestForRegex), found, place)
                ? static_cast<std::size_t>(found.length())
                : 0;
 }

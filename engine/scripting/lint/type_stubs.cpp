@@ -23,11 +23,6 @@ std::string class_of_options(const std::string& function) {
     return "dynlab." + replaced(function, ".", "_") + ".options";
 }
 
-bool is_lua_name(const std::string& word) {
-    const std::vector<LuaToken> tokens = lua_tokens(word);
-    return tokens.size() == 1 && tokens[0].kind == LuaToken::Kind::kName;
-}
-
 /// "{nb, nf, nk}" becomes the name nb_nf_nk, "x | data" x_or_data.
 std::string name_of(const std::string& argument) {
     std::string name;
@@ -41,7 +36,7 @@ std::string name_of(const std::string& argument) {
         gap = false;
         name += c;
     }
-    return is_lua_name(name) ? name : "value_" + name;
+    return is_variable_name(name) ? name : "value_" + name;
 }
 
 std::vector<Parameter> parameters_of(const std::string& function, const std::string& form) {

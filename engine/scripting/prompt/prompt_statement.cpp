@@ -5,6 +5,7 @@
 #include <regex>
 #include <string_view>
 
+#include "platform/text/regex_limit.h"
 #include "scripting/runtime/lua_reader.h"
 #include "scripting/runtime/lua_tokens.h"
 #include "scripting/runtime/shown_calls.h"
@@ -91,7 +92,7 @@ class LocalsToAssignments {
 std::optional<std::string> without_habit(const std::string& source, const Tokens& tokens) {
     static const std::regex help(R"(\s*help(\s+([\w.]+))?\s*;?\s*)");
     std::smatch words;
-    if (tokens.size() <= 5 && std::regex_match(source, words, help))
+    if (tokens.size() <= 5 && source.size() <= kLongestForRegex && std::regex_match(source, words, help))
         return words[2].matched ? "help(\"" + words[2].str() + "\")" : "help()";
     if (tokens.size() <= 2 && (tokens.front().is("who") || tokens.front().is("whos")) &&
         (tokens.size() == 1 || tokens.back().is(";")))

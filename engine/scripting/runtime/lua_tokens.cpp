@@ -142,4 +142,10 @@ bool is_name_character(char c) {
     return is_digit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
 }
 
+bool is_variable_name(std::string_view word) {
+    const std::vector<std::string_view>& reserved = lua_keywords();
+    return !word.empty() && !is_digit(word.front()) && std::all_of(word.begin(), word.end(), is_name_character) &&
+           !std::binary_search(reserved.begin(), reserved.end(), word);
+}
+
 }  // namespace dynlab::inline scripting

@@ -24,6 +24,7 @@ bool begins_line(std::string_view code, const std::vector<LuaToken>& tokens, std
 /// The reserved words, sorted.
 const std::vector<std::string_view>& lua_keywords();
 
-bool is_name_character(char c);  ///< letter, digit or underscore (ASCII)
+bool is_name_character(char c);                ///< letter, digit or underscore (ASCII)
+bool is_variable_name(std::string_view word);  ///< begins with no digit, and is not reserved
 
 }  // namespace dynlab::inline scripting

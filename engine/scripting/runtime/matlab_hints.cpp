@@ -8,6 +8,7 @@
 #include <regex>
 #include <string_view>
 
+#include "platform/text/regex_limit.h"
 #include "platform/utf8.h"
 
 namespace dynlab::inline scripting {
@@ -247,7 +248,7 @@ bool begins_foreign_comment(const std::string& line) {
 }
 
 std::string matlab_syntax_hint(const std::string& line, const std::string& near) {
-    if (line.size() > 2000) return {};  // std::regex takes stack for every character
+    if (line.size() > kLongestForRegex) return {};
     const std::string code = code_only(line);
     if (std::string hint = command_hint(code, near); !hint.empty()) return hint;
     const auto first = code.find_first_not_of(" \t");

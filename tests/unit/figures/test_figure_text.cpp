@@ -32,6 +32,8 @@ TEST(figure_text, indices_and_exponents_need_no_braces) {
         {"(a+b)^2", "(a+b)^{2}"}, {"x_{max}", "x_{max}"},     {"time_ms", "time_ms"},
         {"my_y_2", "my_y_2"},     {"a_test", "a_test"},       {"2 ^ 3", "2 ^ 3"}};
     for (const auto& [written, marked] : texts) EXPECT_EQ(with_marked_indices(written), marked);
+    const std::string endless(1'000'000, 'a');
+    EXPECT_EQ(with_marked_indices(endless), endless);
 }
 
 TEST(figure_text, bytes_that_are_not_utf8_become_question_marks) {
