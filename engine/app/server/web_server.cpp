@@ -23,7 +23,9 @@ using namespace std::chrono_literals;
 constexpr std::size_t kThreadsForRequests = 8;
 /// An open connection without requests ends then; a server that ends waits for it.
 constexpr auto kIdleConnection = 1s;
-/// How often a silent stream says that it lives, so that one whose tab is gone is found.
+/// How often a silent stream looks whether its tab is gone, which gives its place to another, ...
+constexpr auto kLook = 250ms;
+/// ... and how often it says that it lives.
 constexpr auto kSignOfLife = 20s;
 
 const char* const kNoEntrance =
@@ -195,8 +197,12 @@ class WebServer::Work {
         if (first_) stream->put(EventStreams::written("page", first_()));
         sending.unlock();
         const auto give = [stream](std::size_t, httplib::DataSink& sink) {
-            const std::optional<std::string> next = stream->take(kSignOfLife);
-            if (!next) return false;
+            std::optional<std::string> next;
+            for (auto silent = 0ms; silent < kSignOfLife; silent += kLook) {
+                next = stream->take(kLook);
+                if (!next || !sink.is_writable()) return false;
+                if (!next->empty()) break;
+            }
             const std::string text = next->empty() ? ": still here\n\n" : *next;
             return sink.write(text.data(), text.size());
         };
