@@ -195,12 +195,12 @@ bool TransferOutput::usable(const Vector& theta) const {
 }
 
 void TransferOutput::keep_stable() {
-    constexpr double kLeastCoefficient = 1e-9;
+    constexpr double kSlowest = 1e-9;  // per time unit: the i-th coefficient of the slowest poles is its i-th power
     stable_only_ = true;
     // Necessary for stable poles, and bounds can be followed where rejected points cannot.
     for (std::size_t d = 0; d < structure_.poles.size(); ++d)
-        lower_.segment(structure_.denominator_start(static_cast<Index>(d)), structure_.poles[d])
-            .setConstant(kLeastCoefficient);
+        for (int i = 1; i <= structure_.poles[d]; ++i)
+            lower_[structure_.denominator_start(static_cast<Index>(d)) + i - 1] = std::pow(kSlowest, i);
 }
 
 void TransferOutput::fix(const std::map<std::string, double>& values) {

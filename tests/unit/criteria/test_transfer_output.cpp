@@ -4,6 +4,7 @@
 
 #include "numerics/criteria/transfer_output.h"
 #include "numerics/error.h"
+#include "numerics/linalg/polynomial.h"
 #include "numerics/signals/random.h"
 #include "numerics/simulation/lsim.h"
 
@@ -165,6 +166,24 @@ TEST(transfer_output, has_no_end_instead_of_failing) {  // oracle: definition
     }
     EXPECT_THROW(TransferOutput(structure, {InitialState::kZero, false}, record(2, 1, Hold::kZoh, true), 0, 0),
                  InvalidArgument);
+}
+
+/// Oracle: the poles, which are given.
+TEST(transfer_output, bounds_of_stable_models_let_slow_ones_be) {
+    const IdData data = record(1, 1, Hold::kZoh, true);
+    for (const double radians : {1.0, 1e-2, 1e-4}) {  // of the slowest pole in a sample
+        const TransferStructure structure = TransferStructure::single(6, 0);
+        TransferOutput model(structure, {InitialState::kZero, false}, data, 0, 0);
+        model.keep_stable();
+        ComplexVector poles(6);
+        for (Index i = 0; i < 6; ++i) poles[i] = -radians * static_cast<double>(1 + i);
+        Vector theta = Vector::Ones(model.parameter_count()), output;
+        theta.head(6) = polynomial_from_roots(poles).tail(6);
+        theta = theta.cwiseMax(model.lower()).cwiseMin(model.upper());
+        EXPECT_EQ(Vector(theta.head(6)), Vector(polynomial_from_roots(poles).tail(6))) << radians;
+        model.simulate(theta, output, nullptr);
+        EXPECT_TRUE(output.allFinite()) << radians;
+    }
 }
 
 }  // namespace test_transfer_output
