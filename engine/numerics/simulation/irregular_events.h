@@ -1,4 +1,5 @@
 #pragma once
+#include <memory>
 #include <vector>
 
 #include "numerics/linalg/types.h"
@@ -32,6 +33,10 @@ struct IrregularEvents {
     template <bool kSlopes>
     void add(double seconds, double value, double rise, Index reached);
 };
+
+/// Those of a record that a search filters again and again: looked for among the last few of this thread first, by what
+/// they were made of. Records that are long forget them, for their memory is worth more.
+std::shared_ptr<const IrregularEvents> recent_events(const VectorView& u, const VectorView& t, Hold hold, double delay);
 
 /// u(t - delay) at the instants t.
 Vector delayed_input(const VectorView& u, const VectorView& t, Hold hold, double delay);

@@ -109,22 +109,22 @@ Matrix IrregularFilter::run(const VectorView& u, const VectorView& t, const Vect
     Matrix y = Matrix::Zero(u.size(), D_.size());
     if (!D_.isZero(0)) y = delayed_input(u, t, hold_, delay_) * D_.transpose();
     if (C_.cols() == 0) return y;
-    const IrregularEvents events(u, t, hold_, delay_);
+    const auto events = recent_events(u, t, hold_, delay_);
     Matrix states(u.size(), C_.cols());
     if (const auto modes = x.isZero(0) ? separate_modes(pair_) : std::nullopt) {
         if (pair_.twice)
-            run_modes<true>(*modes, events, x, states);
+            run_modes<true>(*modes, *events, x, states);
         else
-            run_modes<false>(*modes, events, x, states);
+            run_modes<false>(*modes, *events, x, states);
         add_outputs(C_ * modes->states, states, y);
         return y;
     }
     const CompanionSeries series(pair_);
     const Vector start = x.cwiseQuotient(series.scale);
     if (series.twice)
-        run_series<true>(series, events, start, states);
+        run_series<true>(series, *events, start, states);
     else
-        run_series<false>(series, events, start, states);
+        run_series<false>(series, *events, start, states);
     add_outputs(C_ * series.scale.asDiagonal(), states, y);
     return y;
 }
