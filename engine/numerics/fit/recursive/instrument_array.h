@@ -38,7 +38,7 @@ class InstrumentArray {
         for (std::size_t i = 0; i < d; ++i) {
             if (z[i] == 0) continue;
             const double length = std::sqrt(R_[i][i] * R_[i][i] + z[i] * z[i]);
-            const double cosine = R_[i][i] / length, sine = z[i] / length;
+            const double reciprocal = 1 / length, cosine = R_[i][i] * reciprocal, sine = z[i] * reciprocal;
             kept *= cosine * cosine;
             R_[i][i] = length;
             for (std::size_t j = i + 1; j < d; ++j) rotate(cosine, sine, R_[i][j], z[j]);

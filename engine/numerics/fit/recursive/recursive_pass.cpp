@@ -137,7 +137,12 @@ class Pass {
         model_.n = filter_.n = n_;
         model_.m = filter_.m = m_;
         const Vector E = filter_denominator(options.lambda, n_);
-        for (int i = 0; i < n_; ++i) filter_.a[static_cast<std::size_t>(i)] = E[i + 1];
+        for (int i = 0; i < n_; ++i) {
+            const auto place = static_cast<std::size_t>(i);
+            filter_.a[place] = E[i + 1];
+            in_cutoffs_[place] = (i > 0 ? in_cutoffs_[place - 1] : 1) / options.lambda;
+            quickest_size_ = (1 + kQuickest) * quickest_size_ + kQuickest;
+        }
         fixed_.emplace(filter_);
     }
 
@@ -243,13 +248,10 @@ class Pass {
 
     /// Against poles at kQuickest times the cut-off frequency.
     bool too_quick(const EvolvingModel& model) const {
-        double size = 0, bound = 0, power = 1;
-        for (int i = 0; i < model.n; ++i) {
-            power /= options_.lambda;
-            bound = (1 + kQuickest) * bound + kQuickest;
-            size += std::abs(model.a[static_cast<std::size_t>(i)]) * power;
-        }
-        return !(size <= bound);
+        double size = 0;
+        for (std::size_t i = 0; i < static_cast<std::size_t>(kOrder > 0 ? kOrder : n_); ++i)
+            size += std::abs(model.a[i]) * in_cutoffs_[i];
+        return !(size <= quickest_size_);
     }
 
     const Samples& samples_;
@@ -257,6 +259,8 @@ class Pass {
     Array array_;
     int n_ = 0, m_ = 0;
     EvolvingModel filter_, model_;
+    EvolvingState in_cutoffs_{};  // lambda^-(i + 1)
+    double quickest_size_ = 0;    // sum |a_i| lambda^-i of poles all at kQuickest
     std::optional<FixedFilter<kOrder>> fixed_;
     EvolvingState y_{}, u_{}, x_{}, behind_{};
     double output_ = 0;

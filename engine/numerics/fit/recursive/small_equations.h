@@ -41,7 +41,7 @@ bool solve_triangular(const SmallMatrix<kMost>& U, SmallRow<kMost> b, std::size_
 /// A x = b by elimination with row pivots; x stays, and false is returned, where A is singular.
 template <std::size_t kMost>
 bool solve_small(SmallMatrix<kMost> A, SmallRow<kMost> b, std::size_t d, SmallRow<kMost>& x) {
-    SmallRow<kMost> sizes{};
+    SmallRow<kMost> sizes{}, reciprocals;
     for (std::size_t i = 0; i < d; ++i)
         for (std::size_t j = 0; j < d; ++j) sizes[j] += std::abs(A[i][j]);
     for (std::size_t j = 0; j < d; ++j) {
@@ -53,16 +53,16 @@ bool solve_small(SmallMatrix<kMost> A, SmallRow<kMost> b, std::size_t d, SmallRo
             std::swap(A[pivot], A[j]);
             std::swap(b[pivot], b[j]);
         }
-        const double reciprocal = 1 / A[j][j];
+        reciprocals[j] = 1 / A[j][j];
         for (std::size_t i = j + 1; i < d; ++i) {
-            const double factor = A[i][j] * reciprocal;
+            const double factor = A[i][j] * reciprocals[j];
             for (std::size_t l = j + 1; l < d; ++l) A[i][l] -= factor * A[j][l];
             b[i] -= factor * b[j];
         }
     }
     for (std::size_t i = d; i-- > 0;) {
         for (std::size_t j = i + 1; j < d; ++j) b[i] -= A[i][j] * x[j];
-        x[i] = b[i] / A[i][i];
+        x[i] = b[i] * reciprocals[i];
     }
     return true;
 }
