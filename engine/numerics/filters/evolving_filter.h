@@ -99,20 +99,30 @@ void advance_filter(const EvolvingModel& model, EvolvingState& state, double fro
         term = evolving::next_term<kOrder>(model, term, 0, h / k);
 }
 
-/// The same of the filter and of a second one behind it whose signal is B v_f: its state becomes p^i B/A^2 v.
+/// A signal that runs straight over a step.
+struct StraightSignal {
+    double from, to;
+    /// What drives the k-th term of the series.
+    double part(int k) const { return k == 1 ? from : k == 2 ? to - from : 0; }
+};
+
+/// The same of two signals through filters of the same model, y through the first one alone, v on into a second one
+/// whose signal is B v_f: its state becomes p^i B/A^2 v. Three series side by side take little longer than one.
 template <int kOrder>
-void advance_cascade(const EvolvingModel& model, EvolvingState& first, EvolvingState& second, double from, double to,
-                     double h) {
-    const double signals[] = {from, to - from, 0};
-    EvolvingState term = first, behind = second;
+void advance_cascade(const EvolvingModel& model, EvolvingState& alone, StraightSignal y, EvolvingState& first,
+                     EvolvingState& second, StraightSignal v, double h) {
+    EvolvingState other = alone, term = first, behind = second;
     const int n = kOrder > 0 ? kOrder : model.n;
     bool counts = true;
     for (int k = 1; (counts || k <= 2 * n + 2) && k < evolving::kMostTerms; ++k) {
-        const double signal = signals[k < 3 ? k - 1 : 2], rate = h / k;
-        behind = evolving::next_term<kOrder>(model, behind, filtered_numerator<kOrder>(model, term, signal), rate);
-        term = evolving::next_term<kOrder>(model, term, signal, rate);
-        counts = evolving::add_term<kOrder>(model.n, term, first);
-        counts = evolving::add_term<kOrder>(model.n, behind, second) || counts;
+        const double rate = h / k;
+        behind = evolving::next_term<kOrder>(model, behind, filtered_numerator<kOrder>(model, term, v.part(k)), rate);
+        term = evolving::next_term<kOrder>(model, term, v.part(k), rate);
+        other = evolving::next_term<kOrder>(model, other, y.part(k), rate);
+        const bool of_first = evolving::add_term<kOrder>(model.n, term, first),
+                   of_second = evolving::add_term<kOrder>(model.n, behind, second),
+                   of_other = evolving::add_term<kOrder>(model.n, other, alone);
+        counts = of_first || of_second || of_other;
     }
 }
 

@@ -67,11 +67,14 @@ TEST(evolving_filter, cascades_are_exact) {
             }
         }
         const StepMatrices step = exact_step(joint, direct, 0.2);
-        EvolvingState first{0.3, -1}, second{2, 0.7};
-        advance_cascade<2>(model, first, second, 1.5, -0.5, 0.2);
+        EvolvingState alone{-0.4, 1}, first{0.3, -1}, second{2, 0.7};
+        advance_cascade<2>(model, alone, {0.6, 0.8}, first, second, {1.5, -0.5}, 0.2);
         const Vector expected = step.F * Vector{{0.3, -1, 2, 0.7}} + step.H0.col(0) * 1.5 + step.H1.col(0) * -0.5;
         const Vector found{{first[0], first[1], second[0], second[1]}};
         EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 1e-14) << B.transpose();
+        const StepMatrices single = exact_step(companion(A), Vector::Unit(2, 0), 0.2);
+        const Vector of_alone = single.F * Vector{{-0.4, 1}} + single.H0.col(0) * 0.6 + single.H1.col(0) * 0.8;
+        EXPECT_LT((Vector::Map(alone.data(), 2) - of_alone).cwiseAbs().maxCoeff(), 1e-14) << B.transpose();
     }
 }
 

@@ -197,8 +197,8 @@ class Pass {
         const double u1 = samples_.held_u || k == samples_.delay ? u0 : samples_.input(k);
         if constexpr (kMethod == RecursiveMethod::kRefined) {
             in_pieces(h, [&](double piece, double from, double to) {
-                advance_filter<kOrder>(model_, y_, y0 + from * (y1 - y0), y0 + to * (y1 - y0), piece);
-                advance_cascade<kOrder>(model_, u_, x_, u0 + from * (u1 - u0), u0 + to * (u1 - u0), piece);
+                advance_cascade<kOrder>(model_, y_, {y0 + from * (y1 - y0), y0 + to * (y1 - y0)}, u_, x_,
+                                        {u0 + from * (u1 - u0), u0 + to * (u1 - u0)}, piece);
             });
             return;
         }
