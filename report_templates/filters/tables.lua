@@ -7,10 +7,13 @@ function tables.new(layout) return setmetatable({ layout = layout }, { __index =
 
 local function raw(format, text) return pandoc.RawInline(format, text) end
 
+-- A script may write a minus as it is printed.
+local function with_typed_sign(cell) return (cell:gsub("^\u{2212}", "-")) end
+
 -- The parts of a cell that is a number: sign and digits before the point, point and digits after it, then the same of
 -- an error behind ±, then a percent sign. Nothing for other texts.
 local function number_parts(cell)
-  local value, percent = cell:match("^(.-)(%s*%%?)$")
+  local value, percent = with_typed_sign(cell):match("^(.-)(%s*%%?)$")
   local main, gap, err = value:match("^(.-)(%s*±%s*)(.*)$")
   main, gap, err = main or value, gap or "", err or ""
   local whole, fraction = main:match("^([+-]?%d+)(%.?%d*)$")
@@ -20,6 +23,7 @@ local function number_parts(cell)
 end
 
 local function is_number(cell)
+  cell = with_typed_sign(cell)
   return cell == "" or cell == "-" or number_parts(cell) ~= nil or tonumber((cell:gsub("%s*%%$", ""))) ~= nil or
     cell:match("^[+-]?[%d.]+e?[+-]?%d*%s*±%s*[%d.]+e?[+-]?%d*$") ~= nil
 end

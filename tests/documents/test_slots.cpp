@@ -56,10 +56,11 @@ TEST_F(slots, french_numbers_have_a_comma_and_names_keep_their_point) {
 }
 
 TEST_F(slots, a_table_has_its_caption_and_numbers_to_the_right) {
-    record_.tables["models"] = {{"Model", "Fit"}, {{"P1 *", "-93.2"}, {"P2", "7"}}};
+    record_.tables["models"] = {{"Model", "Fit", "Printed"}, {{"P1 *", "-93.2", "−3"}, {"P2", "7", "4"}}};
     const std::string text = html("::: {.table name=models}\nTwo models. {#tbl:models}\n:::\n\nSee @tbl:models.\n");
     EXPECT_THAT(text, HasSubstr("<strong>Table 1.</strong> Two models.</caption>"));
     EXPECT_THAT(text, HasSubstr("<td style=\"text-align: right;\">−93.2</td>"));
+    EXPECT_THAT(text, HasSubstr("<td style=\"text-align: right;\">−3</td>")) << "a minus as it is printed";
     EXPECT_THAT(text, HasSubstr("<td style=\"text-align: left;\">P1 *</td>"));
     EXPECT_THAT(text, HasSubstr("<a href=\"#tbl:models\">Table 1</a>"));
 }
