@@ -391,8 +391,8 @@ report.table("cures", cures)
 report.value("own_gain", own[3]/own[2], "%.2f")
 report.value("true_gain", dcgain(truth.G), "%.2f")
 report.value("direct_gain", dcgain(routes.tracking.srivc), "%.2f")
-report.value("two_plain", Gtwo.std[1], "%.1f")
-report.value("two_robust", Gtwo.robust_std[1], "%.1f")
+report.value("two_plain", Gtwo.std[1], "%.2f")
+report.value("two_robust", Gtwo.robust_std[1], "%.2f")
 for name, G in pairs{iv = Giv, cl = Gcl, library = Glib} do report.value(name .. "_gain", dcgain(G), "%.2f") end
 -- END SOLUTION
 
@@ -484,7 +484,7 @@ report.table("repeated", repeated)
 report.value("repetitions", repetitions, "%d")
 local function scatter(i) return select(2, summary(i, 1)) end
 for i, name in ipairs{"ls", "srivc", "rivc", "poor_rivc", "own", "own_second", "clivsvf", "clivsvf_fast", "clsrivc", "indirect", "library_two", "two"} do
-    report.value(name .. "_scatter", scatter(i), "%.1f")
+    report.value(name .. "_scatter", scatter(i), "%.2f")
     report.value(name .. "_gain_t", select(3, summary(i, 4)), "%.1f")
     report.value(name .. "_t", select(3, summary(i, 1)), "%.1f")
 end
@@ -729,14 +729,15 @@ local function back(gain)
     end
     return first or #gain - cleaning - 1, last
 end
-local forgetting_rows = {{"method", "$f$", "sd $K$", "sd $T$", "mean $T$", "later", "inside", "outside"}}
+local forgetting_rows = {{"method", "$f$", "rms $K$", "rms $T$", "mean $T$", "later", "inside", "outside"}}
+local function rms(v) return norm(v)/math.sqrt(#v) end
 local function judge(method, f, gain, time, short)
     local K, T = within(before, gain - scale.gain), within(before, time - scale.time_constant)
     local late = mean(within(later, time - scale.time_constant))
     local first, last = back(gain)
-    table.insert(forgetting_rows, {method, f and string.format("%g", f) or "", string.format("%.4f", std(K)), string.format("%.1f", std(T)),
+    table.insert(forgetting_rows, {method, f and string.format("%g", f) or "", string.format("%.4f", rms(K)), string.format("%.1f", rms(T)),
         signed("%.1f", mean(T)), signed("%.1f", late), string.format("%d", first), string.format("%d", last)})
-    for name, value in pairs{K = {std(K), "%.3f"}, T = {std(T), "%.1f"}, bias = {math.abs(mean(T)), "%.1f"}, late = {math.abs(late), "%.0f"}, first = {first, "%d"}, last = {last, "%d"}} do
+    for name, value in pairs{K = {rms(K), "%.3f"}, T = {rms(T), "%.1f"}, bias = {math.abs(mean(T)), "%.1f"}, late = {math.abs(late), "%.0f"}, first = {first, "%d"}, last = {last, "%d"}} do
         report.value(short .. "_" .. name, value[1], value[2])
     end
 end
@@ -753,16 +754,16 @@ report.value("end_of_record", #heater.t - cleaning - 1, "%d")
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- ::: {.table name=forgetting #tbl:forgetting}
--- Forgetting factors and methods: before the cleaning the standard deviation of the errors of $K$ (K/%) and $T$ (s) and the mean error of $T$ (s); later, from ten minutes after the cleaning on, the mean error of $T$ (s); how long (s) after the cleaning the gain is first inside 5 % of the truth, and last outside (`end_of_record`{.value} s is the end of the record)
+-- Forgetting factors and methods: before the cleaning the root mean square of the errors of $K$ (K/%) and $T$ (s) and the mean error of $T$ (s); later, from ten minutes after the cleaning on, the mean error of $T$ (s); how long (s) after the cleaning the gain is first inside 5 % of the truth, and last outside
 -- :::
 --
--- There is no best one (@tbl:forgetting). With a short memory the estimate follows quickly and scatters. A long one is smooth and late: with $f = 0.998$ the time constant is already `own998_bias`{.value} s off before the cleaning, since the memory is longer than the drift allows. The gain, which every sample tells, wants a shorter memory than the time constant, which
+-- There is no best one (@tbl:forgetting). With a short memory the estimate follows quickly and scatters. A long one is smooth and late: with $f = 0.998$ the time constant is already `own998_bias`{.value} s off before the cleaning, since the memory is longer than the drift allows. The error, scatter and delay together, is smallest with 0.98 for the gain, which every sample tells, and with 0.99 for the time constant, which
 -- only the switchings tell; a forgetting factor has to serve both.
 --
 -- How long a method takes depends on what is asked. With $f = 0.99$ the gain comes inside 5 % after `own990_first`{.value} s and stays there; with 0.995 after `own995_first`{.value} s, but the new scale grows faster than this memory follows, and the gain is last outside after `own995_last`{.value} s. With $f = 1$ the old scale is remembered to the end:
 -- that the gain is inside after `own1000_first`{.value} s is because the truth comes down to meet the average. RLSSVF passes through the band after `rls_first`{.value} s and is last outside after `rls_last`{.value} s.
 --
--- A random walk of the parameters (`drift`, here $10^{-6}$ for the variance of a step of each) says how far they may move from one sample to the next. RIVSVF with it is inside after `walk_first`{.value} s, and outside again and again up to the end: what it pays is scatter, `walk_K`{.value} in the gain before the cleaning against `riv_K`{.value} with $f = 0.99$. RSRIVC lets its filter and its instruments follow the
+-- A random walk of the parameters (`drift`, here $10^{-6}$ for the variance of a step of each) says how far they may move from one sample to the next. RIVSVF with it is inside after `walk_first`{.value} s, and outside again and again up to the end of the record, `end_of_record`{.value} s after the cleaning: what it pays is scatter, `walk_K`{.value} in the gain before the cleaning against `riv_K`{.value} with $f = 0.99$. RSRIVC lets its filter and its instruments follow the
 -- estimate. With $f = 0.99$ its time constant is as good as that of the others (its gain leaves the band once more, `rsriv990_last`{.value} s after the cleaning); a longer memory does not help it: with 0.995 and 0.998 its time constant is `rsriv995_late`{.value} and `rsriv998_late`{.value} s too small from ten minutes after the cleaning on. All this is one record; on another one neighbours may change places.
 -- END SOLUTION
 --
