@@ -399,7 +399,7 @@ for name, G in pairs{iv = Giv, cl = Gcl, library = Glib} do report.value(name ..
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- From $r$ to $u$ nothing is fed back: $r$ knows nothing of the disturbance, so any open-loop method is right. $S = C/(1 + C G)$ has three poles, two of the plant and one of the controller's integrator, as many zeros, for the controller passes a jump of $r$ on, and one sample of delay. What the second stage takes for noise is
--- coloured, so its plain standard errors (± `two_plain`{.value} for $a_1$) are too small; the robust ones (± `two_robust`{.value}) come near the scatter of @sec:which, `two_scatter`{.value}. The library projects the voltage on the past of the reference instead of modelling $S$ by few
+-- coloured, so its plain standard errors (± `two_plain`{.value} for $a_1$) are too small; the robust ones are ± `two_robust`{.value}. The library projects the voltage on the past of the reference instead of modelling $S$ by few
 -- parameters, and finds a gain of `library_gain`{.value}.
 --
 -- ::: {.table name=cures #tbl:cures}
@@ -442,8 +442,7 @@ local ways = {
     end},
     {"two stages", function(data)
         return clsrivc(data, orders, {route = "two-stage"}).param
-    end},
-    {"own two stages", function(_, record) return two_stage(record).param end}}
+    end}}
 local results = {}
 for i = 1, #ways do results[i] = {{}, {}, {}, {}} end
 for k = 1, repetitions do
@@ -483,7 +482,7 @@ end
 report.table("repeated", repeated)
 report.value("repetitions", repetitions, "%d")
 local function scatter(i) return select(2, summary(i, 1)) end
-for i, name in ipairs{"ls", "srivc", "rivc", "poor_rivc", "own", "own_second", "clivsvf", "clivsvf_fast", "clsrivc", "indirect", "library_two", "two"} do
+for i, name in ipairs{"ls", "srivc", "rivc", "poor_rivc", "own", "own_second", "clivsvf", "clivsvf_fast", "clsrivc", "indirect", "library_two"} do
     report.value(name .. "_scatter", scatter(i), "%.2f")
     report.value(name .. "_gain_t", select(3, summary(i, 4)), "%.1f")
     report.value(name .. "_t", select(3, summary(i, 1)), "%.1f")
@@ -500,7 +499,7 @@ report.value("poor_rivc_a2_t", math.abs(select(3, summary(4, 2))), "%.0f")
 -- All routes on forty repetitions of `tracking`: mean and standard deviation (scatter) of $a_1$ and of the gain; $t$ is the distance of the mean from the truth, in standard errors of the mean, where more than about 3 is no chance. Behind RIVC stand the orders of its noise model; *own* are the own programs, *indirect* and *two stages* routes of CLSRIVC
 -- :::
 --
--- *Bias.* The direct routes without a model of the noise are off by many standard errors of their means (@tbl:repeated), LSSVF most; more records would only make that surer. RIVC with two coefficients each in $C$ and $D$ is right, and it scatters least of all (`rivc_scatter`{.value} in $a_1$): it uses all of
+-- *Bias.* The direct routes without a model of the noise are off by many standard errors of their means (@tbl:repeated), LSSVF most; more records would only make that surer. RIVC with two coefficients each in $C$ and $D$ is right, and it scatters least of all that are (`rivc_scatter`{.value} in $a_1$): it uses all of
 -- the record and not only what the reference moved. But it is right because its noise model is rich enough: with one each, $a_2$ is off by `poor_rivc_a2_t`{.value} standard errors. The cures made of the reference ask for no noise model. Their means agree with the truth, with one doubt: the two stages of CLSRIVC
 -- are at `library_two_t`{.value} in $a_1$, and that stays with more repetitions.
 --
@@ -764,7 +763,7 @@ report.value("end_of_record", #heater.t - cleaning - 1, "%d")
 -- that the gain is inside after `own1000_first`{.value} s is because the truth comes down to meet the average. RLSSVF passes through the band after `rls_first`{.value} s and is last outside after `rls_last`{.value} s.
 --
 -- A random walk of the parameters (`drift`, here $10^{-6}$ for the variance of a step of each) says how far they may move from one sample to the next. RIVSVF with it is inside after `walk_first`{.value} s, and outside again and again up to the end of the record, `end_of_record`{.value} s after the cleaning: what it pays is scatter, `walk_K`{.value} in the gain before the cleaning against `riv_K`{.value} with $f = 0.99$. RSRIVC lets its filter and its instruments follow the
--- estimate. With $f = 0.99$ its time constant is as good as that of the others (its gain leaves the band once more, `rsriv990_last`{.value} s after the cleaning); a longer memory does not help it: with 0.995 and 0.998 its time constant is `rsriv995_late`{.value} and `rsriv998_late`{.value} s too small from ten minutes after the cleaning on. All this is one record; on another one neighbours may change places.
+-- estimate. With $f = 0.99$ its time constant is as good as that of the others (its gain is last outside after `rsriv990_last`{.value} s); a longer memory does not help it: with 0.995 and 0.998 its time constant is `rsriv995_late`{.value} and `rsriv998_late`{.value} s too small from ten minutes after the cleaning on. All this is one record; on another one neighbours may change places.
 -- END SOLUTION
 --
 -- # What was learnt
@@ -772,7 +771,7 @@ report.value("end_of_record", #heater.t - cleaning - 1, "%d")
 -- BEGIN SOLUTION
 -- * In the loop the input contains the disturbance. Methods that are right in the open loop are biased there, and neither their standard errors nor a validation record of the same loop tells.
 -- * Without a reference that moves, a record of the loop shows the inverse of the controller; the process cannot be had from it in practice.
--- * The reference is what cures: as an instrument, through a model of the whole loop (CLSRIVC), or in two stages. They are right on the average for any noise, and scatter more than the wrong model does; which filter is the best depends on the noise. A direct route with the right model of the noise is right, too, and scatters least.
+-- * The reference is what cures: as an instrument, through a model of the whole loop (CLSRIVC), or in two stages. They are right on the average for any noise (the two stages of CLSRIVC up to a small rest), and scatter more than the wrong model does; which filter is the best depends on the noise. A direct route with the right model of the noise is right, too, and scatters least.
 -- * Recursive estimates follow what changes. Their memory is a compromise between scatter and delay that no data decide for the user. What lies in the memory from before a jump disturbs: least squares takes it for dynamics of the process, instruments do so less.
 -- END SOLUTION
 --

@@ -53,12 +53,10 @@ TEST(lesson_07_feedback, finds_the_bias_of_the_loop_its_cures_and_the_drift) {
 
     EXPECT_EQ(number(record, "repetitions"), 40);
     for (const char* direct : {"ls_gain_t", "srivc_gain_t"}) EXPECT_LT(number(record, direct), -10) << direct;
-    for (const char* cure : {"own", "clivsvf", "clsrivc", "indirect", "library_two", "two", "rivc"})
+    for (const char* cure : {"own", "clivsvf", "clsrivc", "indirect", "library_two", "rivc"})
         EXPECT_LT(std::abs(number(record, cure + std::string("_gain_t"))), 3) << cure;
     EXPECT_GT(number(record, "own_scatter"), number(record, "srivc_scatter")) << "the price of being right";
-    EXPECT_NEAR(number(record, "two_robust"), number(record, "two_scatter"), 0.3)
-        << "the robust errors tell the scatter";
-    EXPECT_LT(number(record, "two_plain"), 0.3 * number(record, "two_scatter"));
+    EXPECT_LT(number(record, "two_plain"), 0.3 * number(record, "two_robust")) << "the noise is coloured";
 
     const DriftingProcessParameters heater;
     const int third = 3, fourth = 4, fifth = 5, first = 1;  // rows of the pieces, behind the whole record
