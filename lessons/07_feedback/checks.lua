@@ -7,16 +7,17 @@ local function plant(a) return truth(a, "drive").G end
 local function heater(a) return truth(a, "drifting_process") end
 local function judge(message) return {share = 0, message = message} end
 
--- The regression of question 5 with any instruments.
+-- The regression of question 5: with instruments of the reference through a filter of this order, or by least squares.
 local function regression(record, instruments)
     local Y = svf(record.y, 2, lambda, {Ts = Ts, hold = "foh"})
     local U = svf(record.u, 2, lambda, {Ts = Ts, hold = "zoh"})
     local Phi = matrix{-Y:col(2), -Y:col(3), U:col(3)}
-    local R = svf(record.r, 4, lambda, {Ts = Ts, hold = "zoh"})
-    local Z = instruments == "reference" and matrix{R:col(3), R:col(4), R:col(5)} or Phi
+    if not instruments then return solve(Phi:t()*Phi, Phi:t()*Y:col(1)) end
+    local R, n = svf(record.r, instruments, lambda, {Ts = Ts, hold = "zoh"}), instruments
+    local Z = matrix{R:col(n - 1), R:col(n), R:col(n + 1)}
     return solve(Z:t()*Phi, Z:t()*Y:col(1))
 end
-local wanted, least_squares = regression(official, "reference"), regression(official)
+local wanted, second_order, least_squares = regression(official, 4), regression(official, 2), regression(official)
 local direct = srivc(data, {1, 2, 0})
 local opened = load("drive").open_loop
 local in_the_open = srivc(iddata(opened.y, opened.u, Ts), {1, 2, 0})
@@ -39,6 +40,8 @@ check { id = "own_instruments", points = 3, about = "Instruments made of the ref
     mistakes = {
         {when = function(a) return near(a.own_instruments, least_squares, {rel = 1e-2}) end,
          say = "This is least squares: the instruments are the regressors themselves."},
+        {when = function(a) return near(a.own_instruments, second_order, {rel = 1e-2}) end,
+         say = "The reference went through a filter of second order, whose second derivative jumps; a filter of fourth order is wanted."},
         {when = function(a) return near(a.own_instruments, wanted*vector{-1, -1, 1}, {rel = 1e-2}) end,
          say = "The signs of a1 and a2 are turned round: the regressors of the output have a minus."},
         {when = function(a) return near(a.own_instruments, wanted*vector{-1, -1, -1}, {rel = 1e-2}) end,
@@ -46,9 +49,10 @@ check { id = "own_instruments", points = 3, about = "Instruments made of the ref
     },
     hint = "solve(Z:t()*Phi, Z:t()*Y) with the last three columns of svf(r, 4, 10, ...) as Z." }
 
--- The gain of the direct route is a fifth too small; cures scatter by some 8 % on one record.
+-- The gain of the direct route is a fifth too small; cures scatter by some 8 % on one record. CLSRIVC scatters most: a1 of
+-- one drive in some hundreds is more than 60 % off, though within two of its own standard errors.
 local function cured(G, facts)
-    return all_of(near(dcgain(G), dcgain(facts), {rel = 0.45, half = 0.6}), near(G.den[2]/G.den[1], facts.den[2], {rel = 0.6, half = 0.8}))
+    return all_of(near(dcgain(G), dcgain(facts), {rel = 0.45, half = 0.6}), near(G.den[2]/G.den[1], facts.den[2], {rel = 0.75, half = 0.95}))
 end
 local function says_direct(a, name)
     return near(a[name].param, a.G_direct.param, {rel = 1e-6})

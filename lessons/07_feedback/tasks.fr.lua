@@ -55,7 +55,7 @@
 -- END SOLUTION
 --
 -- **Question 3.** D'où cela vient-il ? Prenez le vrai $G$ et calculez ce qu'il laisse dans `tracking` et dans `open_loop`, $v = y - G u$. Corrélez $v$ avec les tensions antérieures et
--- ultérieures. Quel côté n'est pas nul, et à quoi ressemblerait-il sans boucle ?
+-- ultérieures. Sur un seul enregistrement la corrélation se disperse : prenez la moyenne de vingt répétitions, `rig("drive", {seed = k})`, et tracez à quel point elle est sûre. Où n'est-elle pas nulle, pourquoi des deux côtés, et à quoi ressemblerait-elle sans boucle ?
 
 -- %% [markdown]
 -- BEGIN SOLUTION
@@ -72,8 +72,8 @@
 --
 -- La consigne est ce que quelqu'un a choisi. Elle meut la tension et la vitesse, et elle est indépendante de la perturbation : c'est tout ce qu'on demande à un instrument.
 --
--- **Question 5.** Écrivez la régression de la leçon 4, $Z^T Y = Z^T \Phi\,\theta$, avec les colonnes $p^2 r_f$, $p\,r_f$, $r_f$ de la consigne filtrée comme instruments (`svf`, `solve` ; $\lambda = 10$ rad/s). Une tension
--- n'a pas de dérivée seconde : `svf(r, 4, lambda, ...)` donne assez de colonnes d'un filtre plus lisse. Essayez ensuite `clivsvf`.
+-- **Question 5.** Écrivez la régression de la leçon 4, $Z^T Y = Z^T \Phi\,\theta$, avec les colonnes $p^2 r_f$, $p\,r_f$, $r_f$ de la consigne filtrée comme instruments (`svf`, `solve` ; $\lambda = 10$ rad/s). Prenez
+-- un filtre d'ordre quatre, `svf(r, 4, lambda, ...)`, et ses trois dernières colonnes. Un filtre d'ordre deux les a aussi, mais son $p^2 r_f$ saute avec la consigne, ce que ne fait aucun régresseur ; la question 8 dit ce que cela coûte. Essayez ensuite `clivsvf`.
 
 -- %% [markdown]
 -- BEGIN SOLUTION
@@ -104,7 +104,8 @@
 -- :::
 --
 -- **Question 8.** Un enregistrement est un seul coup de dés. `rig("drive", {seed = 2})` répète les essais avec un autre ordre de bits et une autre charge. Répétez toutes les voies quarante
--- fois. Lesquelles sont biaisées, et de combien de leurs erreurs types ? Quel remède se disperse le moins, et pourquoi ?
+-- fois, et deux de plus : la voie directe avec un modèle du bruit, `rivc(data, {1, 2, 2, 2, 0})`, et `route = "indirect"` de CLSRIVC, qui ajuste toute la boucle de $r$ à $y$. Lesquelles sont biaisées, et de combien d'erreurs types de leur moyenne ? Laquelle se disperse le moins, et pourquoi ? Laquelle
+-- recommandez-vous ?
 
 -- %% [markdown]
 -- BEGIN SOLUTION
@@ -145,14 +146,14 @@
 -- compte, ce sont les $1/(1 - f)$ derniers.
 --
 -- **Question 10.** Écrivez la récursion pour l'@eq:heater ($\lambda = 0{,}05$ rad/s, $f = 0{,}99$). Prenez ensuite comme instrument la sortie du modèle unique de la question 9 au lieu de $y$. Tracez gain et constante de temps au
--- fil du temps à côté de la vérité, `rig_truth("drifting_process")`. Quelle est la différence entre les deux ?
+-- fil du temps à côté de la vérité, `rig_truth("drifting_process")`. Comparez $a$, $b$ et $T$ à la vérité avant le détartrage, dans les dix minutes qui suivent, et plus tard. Quelle est la différence entre les deux ?
 
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- END SOLUTION
 --
 -- **Question 11.** Quel facteur d'oubli est le meilleur ? Essayez $f =$ 0,98, 0,99, 0,995, 0,998, 0,999 et 1. Prenez ensuite `rlssvf`, `rivsvf` et `rsrivc` de la bibliothèque [@young2011] : elles gardent toute l'histoire dans `G.history`, avec des écarts types. Au bout de combien de temps
--- chacune a-t-elle oublié le tartre qu'on a ôté ?
+-- chacune a-t-elle oublié le tartre qu'on a ôté ? Dites quand, après le détartrage, son gain est pour la première fois à moins de 5 % de la vérité, et quand il en est éloigné de plus pour la dernière fois.
 
 -- %% [markdown]
 -- BEGIN SOLUTION
@@ -167,7 +168,7 @@
 --
 -- ::: {.note}
 -- Là où cette leçon est notée, `answer(nom, valeur)` rend vos résultats, et `dynlab check` dit ce qui manque : `G_direct`, le modèle biaisé que SRIVC trouve dans `tracking` comme s'il n'y avait pas de boucle ; `own_instruments`, ce que vos propres instruments y
--- trouvent ($a_1$, $a_2$, $b_0$ ; $\lambda = 10$ rad/s) ; `G_two_stage`, le modèle du troisième remède ; `G_final`, le modèle de l'entraînement que vous recommandez ; `before_cleaning` et `after_cleaning`, gain (K/%) et constante de temps (s) du chauffe-eau à
+-- trouvent ($a_1$, $a_2$, $b_0$ ; $\lambda = 10$ rad/s, la consigne passée par un filtre d'ordre quatre) ; `G_two_stage`, le modèle du troisième remède ; `G_final`, le modèle de l'entraînement que vous recommandez ; `before_cleaning` et `after_cleaning`, gain (K/%) et constante de temps (s) du chauffe-eau à
 -- 2600 s et à 4500 s. Votre script sera exécuté sur les enregistrements d'un autre entraînement et d'un autre chauffe-eau. Les figures que l'on cherche sont `correlation` et `tracking`.
 -- :::
 

@@ -24,7 +24,7 @@ return {
   { "circle", 9.1, 2.75, 0.07, shade = 1 },
   { "text", 9.1, 3.85, { en = "speed", fr = "vitesse" }, width = 1.6 },
   { "line", 9.1, 1.95, 9.1, 0.7, 1.55, 0.7, 1.55, 2.55, arrow = true },
-  { "text", 5.3, 0.95, "$y$", width = 0.6 },
+  { "text", 3.2, 0.95, "$y$", width = 0.6 },
   { "text", 1.8, 2.25, "$-$", width = 0.5 },
   { "line", 7.2, 1.15, 7.2, 1.95, arrow = true },
   { "text", 7.05, 1.4, { en = "load torque", fr = "couple résistant" }, align = "right", width = 2.6 },
