@@ -212,8 +212,6 @@ for seed = 2, 4 do
     repeated[seed] = greyest(again, everything, {Tol = 1e-3})
 end
 local pushed = greyest(swinging(crane.steps), everything, {Tol = 1e-3})
-print("dry friction (V), estimation:", dry_voltage(physics))
-print("dry friction (V), steps:", dry_voltage(pushed))
 -- END SOLUTION
 
 -- %% id=meaning_report echo=false
@@ -352,7 +350,7 @@ for _, warning in ipairs(simple.report.warnings) do print(warning) end
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- The warning names $k_1$, $k_2$, $k_4$ and the start $h_1(0)$. If $h_1$ is counted in a unit that is $s$ times smaller, $h_1$ becomes $s\,h_1$, and the same reading follows from $k_1\sqrt{s}$, $k_2/\sqrt{s}$, $s\,k_4$ and $s\,h_1(0)$: four numbers, of which the record knows three combinations. For
--- inches $s = 1/2.54$: $k_1/\sqrt{2.54}$, $k_2\sqrt{2.54}$, $k_4/2.54$. No experiment with this sensor can do better, as long as nothing in the equations fixes the unit of the hidden level. What can be found is found all the same, and the model simulates: its free run is wrong by `simple_error`{.value} V, more than that of the linear model. Half of the physics is not half as good: it has no freedom left to make up for what is missing.
+-- inches $s = 1/2.54$: $k_1/\sqrt{2.54}$, $k_2\sqrt{2.54}$, $k_4/2.54$. No experiment with this sensor can do better, as long as nothing in the equations fixes the unit of the hidden level. What can be found is found all the same, and the model simulates: its free run is wrong by `simple_error`{.value} V, more than that of the linear model: it has no freedom left to make up for the rims that are missing.
 -- END SOLUTION
 --
 -- **Question 7.** Now the rims. What comes in too much runs over: a flow `spill = 5*max(h1 - 20, 0)` (cm/s) leaves the upper tank, and the part $q$ of it reaches the lower tank, which has such a rim too. Estimate the six
@@ -368,7 +366,6 @@ end
 local six = starts()
 six.part = {0.5, min = 0, max = 1}
 local tank_model = greyest(estimation, idgrey(with_rims, six, levels))
-print(tank_model)
 -- END SOLUTION
 
 -- %% id=six_parameters_report echo=false
@@ -418,7 +415,7 @@ for _, try in ipairs{{2, 2}, {3, 2}, {3, 3}, {4, 1}, {4, 2}} do
     if not learned or e < error_on(validation, learned) then learned = G end
 end
 -- The readings that the six parameters simulate are free of noise.
-local noiseless = iddata(compare(estimation, tank_model).curves[2].y, estimation.u, 4)
+local noiseless = iddata(tank_model.report.outputs[1], estimation.u, 4)
 local unspoilt = narx(noiseless, {4, 4, 1}, {degree = 2, terms = #learned.param})
 print(string.format("from readings without noise: %.3f V",
                     error_on(validation, unspoilt)))
@@ -483,16 +480,15 @@ for k = 1, repetitions do
     judged.six[k] = error_on(record, tank_model)
     judged.narx[k] = error_on(record, learned)
 end
-local picture = compare(validation, tank_model, best_linear, learned)
-local function missed(k) return validation.y - picture.curves[k + 1].y end
-local function missed_by(name, k, label)
-    return plot(validation.t, missed(k), {title = name, ylabel = "error (V)",
-                                          xlabel = label, y_range = {-1, 1}})
-end
-report.figure("free_run", subplot(3, 1, {missed_by("six parameters", 1),
-                                         missed_by("linear", 2),
-                                         missed_by("NARX", 3, "time (s)")})
-                                  :set{height = 9}, "Errors of the free run")
+local picture = compare(validation, tank_model, best_linear, learned,
+                        {labels = {"six parameters", "linear", "NARX"}})
+local errors = plot(validation.t, validation.y - picture.curves[2].y,
+                    validation.t, validation.y - picture.curves[3].y,
+                    validation.t, validation.y - picture.curves[4].y,
+                    {xlabel = "time (s)", ylabel = "error (V)",
+                     colour = {"blue", "orange", "green"}, dash = {0, 1, 2}})
+report.figure("free_run", subplot(2, 1, {picture, errors}):set{height = 9},
+              "Free run, and its errors")
 -- END SOLUTION
 
 -- %% id=verdict_report echo=false
@@ -537,7 +533,7 @@ report.value("kept_others", mean(vector(kept)), "%.3f")
 -- Free-run errors on `validation`, and mean ± standard deviation on the validation records of ten repetitions
 -- :::
 --
--- ![Errors of the free run on `validation`: measured less simulated](figure:free_run){#fig:free_run}
+-- ![Free run on `validation`; below, measured less simulated](figure:free_run){#fig:free_run}
 --
 -- Physics with its rims is better than everything else by a factor of six and more (@tbl:verdict, @fig:free_run), on all ten records alike, and says what is in the tank that nobody measures. The plain linear model is the second; without rims physics is behind it, and on the ten records before NARX. What
 -- `fit` takes from the record is where it starts: the levels, the first readings, for the linear model its state and its offset. Held at the offset of `estimation`, the linear model comes to `kept_here`{.value} V, and to `kept_others`{.value} V on the ten others: the order stays.
