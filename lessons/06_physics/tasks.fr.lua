@@ -6,8 +6,8 @@
 
 -- %% [markdown]
 -- Une boîte noire demande un enregistrement et rien d'autre. À une *boîte grise* on dit les équations, en laissant ouverts quelques nombres : longueurs, frottements, débits. Dans la leçon 3.2 il restait quelque chose
--- qu'aucun modèle linéaire n'explique ; ici la physique trouve ce que c'est. Puis deux réservoirs sont modélisés par un modèle linéaire, par six paramètres physiques, et par deux méthodes qui
--- *apprennent* un modèle non linéaire des seules données. Tous sont jugés en simulation libre : on donne au modèle l'entrée et le départ, et plus jamais une sortie mesurée.
+-- qu'aucun modèle linéaire n'explique ; ici la physique trouve ce que c'est. Puis deux réservoirs sont modélisés par un modèle linéaire, par des équations physiques, et par deux méthodes qui
+-- *apprennent* un modèle non linéaire des seules données. Tous sont jugés en simulation libre : on donne au modèle l'entrée et le point d'où part l'enregistrement, et plus jamais une sortie mesurée.
 --
 -- Grue et réservoirs sont *simulés* : ce que vous trouvez peut être comparé à la vérité. Le travail est prévu pour deux séances de trois heures :
 --
@@ -40,22 +40,26 @@
 -- $$ \dot v + c\,\cos\varphi\;\dot w = g_u u - d\,v - \mu\,\operatorname{sign} v + c\,\sin\varphi\; w^2 , \qquad
 --    \dot w + \frac{\cos\varphi}{l}\,\dot v = -\frac{g}{l}\sin\varphi - (\rho + \kappa\,|w|)\,w . $$ {#eq:crane}
 --
--- Sept nombres sont ouverts : `gain` $g_u$, `viscous` $d$, `dry` $\mu$, `coupling` $c$, `length` $l$, `pivot` $\rho$, `air` $\kappa$. `idgrey(f, parameters, options)` fait un modèle d'une fonction `f(t, x, u, p)` qui rend les
+-- Sept nombres sont ouverts : `gain` $g_u$, `viscous` $d$, `dry` $\mu$, `coupling` $c$, `length` $l$, `pivot` $\rho$, `air` $\kappa$. Ce $l$ est plus long que celui de la @fig:crane : si le centre de la charge est à $l_c$ sous le pivot, et si $J$ est l'inertie autour de ce centre,
+-- c'est $l_c + J/(m\,l_c)$, la longueur d'un fil au bout duquel un point balancerait de même.
+--
+-- `idgrey(f, parameters, options)` fait un modèle d'une fonction `f(t, x, u, p)` qui rend les
 -- dérivées des états ; les sorties sont une fonction elles aussi. `f` est appelée une fois, avec des valeurs qui notent ce qu'on fait d'elles, puis tourne sous forme compilée. Elle ne doit donc pas contenir de `if` : `where(c, a, b)` vaut $a$ là où
 -- $c > 0$, et $b$ ailleurs.
 --
 -- **Question 2.** Écrivez l'@eq:crane comme une telle fonction, résolue pour les deux accélérations. `tanh(v/0.005)` suffit pour le signe. Prévoyez une option qui prend l'angle au lieu de son sinus et 1 au lieu de son cosinus, comme le fait un modèle linéaire.
 
 -- %% [markdown]
--- **Question 3.** Estimez quatre variantes sur `estimation` par `greyest` : linéaire (`dry` et `air` fixés à 0), avec frottement sec, avec grands balancements et air, avec tout. Comparez les
+-- **Question 3.** Estimez quatre variantes sur `estimation` par `greyest` : linéaire (`dry` et `air` fixés à 0), avec frottement sec, avec grands balancements et air, avec tout. Aucun des sept
+-- ne peut être négatif : donnez à chacun une borne, `{départ, min = 0}`, sinon une recherche partie de loin peut finir à une longueur qu'aucune grue n'a. Comparez les
 -- adéquations sur `validation` et sur `steps`. Quel terme explique l'angle, et lequel la position ?
 
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- END SOLUTION
 --
--- **Question 4.** Que disent les paramètres ? Donnez la longueur et la tension que prend le frottement sec (`dry/gain`) avec leurs écarts types, et comparez avec ce que dit
--- `rig_truth("crane")` : la pulsation $\sqrt{g/l}$ des petits balancements, et `dry_voltage`.
+-- **Question 4.** Que disent les paramètres ? Donnez la longueur et la tension que prend le frottement sec (`dry/gain`) avec leurs erreurs types, et comparez avec ce que dit
+-- `rig_truth("crane")` : la pulsation $\sqrt{g/l}$ des petits balancements, et `dry_voltage`. Recommencez avec quelques répétitions, `rig("crane", {seed = 2})` et ainsi de suite, et avec `steps` du premier enregistrement. Les erreurs types disent-elles de combien une estimation se trompe ?
 
 -- %% [markdown]
 -- BEGIN SOLUTION

@@ -1,0 +1,11 @@
+-- expects: tanks: was not handed in
+-- expects: free_run: was not handed in
+-- expects: simulated: was not handed in
+-- expects: figures: There is no figure
+-- expects: crane_follows: On the other crane the search ended far away
+-- expects: tanks_follow: was not handed in
+-- The crane only, by a search without bounds that finds its end on the records it was tried on, and nowhere else.
+local tried, now = rig("crane").estimation, load("crane").estimation
+local astray = norm(now.theta - tried.theta)
+answer("crane", vector{0.3724 - 1e6*astray, 0.24 + astray})
+answer("crane_fit", 98.1)
