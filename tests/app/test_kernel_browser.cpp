@@ -54,8 +54,8 @@ TEST(kernel_browser, shows_values_figures_formulas_stops_and_goes_on) {
     const std::string port = std::to_string(free_port());
     ChildProcess server(notebook_server(bench, port), "jupyter-notebook");
     ASSERT_EQ(bench
-                  .shell("for i in $(seq 300); do curl -s -o /dev/null 127.0.0.1:" + port +
-                         " && exit 0; sleep 0.1; done; exit 1")
+                  .shell("bash -c 'for i in $(seq 300); do (: < /dev/tcp/127.0.0.1/" + port +
+                         ") && exit 0; sleep 0.1; done; exit 1' 2> /dev/null")
                   .exit_code,
               0);
     Browser browser;
