@@ -426,7 +426,9 @@ local ways = {
     {"SRIVC", function(data) return srivc(data, orders).param end},
     {"RIVC, 2 and 2", function(data) return rivc(data, {1, 2, 2, 2, 0}).param end},
     {"RIVC, 1 and 1", function(data) return rivc(data, {1, 1, 1, 2, 0}).param end},
-    {"own, order 4", function(_, record) return own_instruments(record, lambda) end},
+    {"own, order 4", function(_, record)
+        return own_instruments(record, lambda)
+    end},
     {"own, order 2", function(_, record)
         return own_instruments(record, lambda, 2)
     end},
