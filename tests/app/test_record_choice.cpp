@@ -36,11 +36,12 @@ TEST_F(record_choice, orders_that_are_no_records_are_refused) {
     std::filesystem::current_path(folder.path());
     const RecordOrder good = suggested_order(look_at_record("plant.csv"));
     EXPECT_THAT(record_lines(good), HasSubstr("data = iddata(data_file.y, data_file.u, "));
-    RecordOrder code = good, without_input = good, without_output = good;
+    RecordOrder code = good, word = good, without_input = good, without_output = good;
+    word.name = "end";
     code.name = "x = 1\nfoo()\nz";
     without_input.inputs.clear();
     without_output.outputs.clear();
-    for (const RecordOrder& order : {code, without_input, without_output})
+    for (const RecordOrder& order : {code, word, without_input, without_output})
         EXPECT_THROW(record_lines(order), EnvironmentError);
     std::filesystem::current_path(before);
 }

@@ -62,16 +62,17 @@ class engines : public testing::Test {
   protected:
     engines() : bench_(kAttackAnswers, kAttackChecks, kAttackSolution) {}
 
-    /// Until there is a file `at_full_speed`, the workers that `grade` starts itself stand still nine tenths of the
-    /// time, which their hearts survive: so that work is left for others, however slow the machine is.
+    /// For two minutes, or until there is a file `at_full_speed`, the workers that `grade` starts itself stand still
+    /// nine tenths of the time, which their hearts survive: so that work is left for others, however slow the machine
+    /// is.
     void slow_workers() {
         work().write("slow.sh",
-                     "until [ -e at_full_speed ]; do for signal in STOP CONT; do\n"
+                     "touch slow; for turn in $(seq 120); do for signal in STOP CONT; do\n"
                      "for p in $(pgrep -f '[d]ynlab work .*shared/.spool'); do\n"
                      "[ \"$(readlink /proc/$p/cwd)\" = \"$PWD\" ] || continue\n"
-                     "grep -qaE 'newer|open|full' /proc/$p/cmdline || kill -$signal $p; done\n"
-                     "[ $signal = STOP ] && sleep 0.9 || sleep 0.1; done; done\n");
-        work().shell("setsid bash slow.sh > /dev/null 2>&1 < /dev/null &");
+                     "tr '\\0' ' ' < /proc/$p/cmdline | grep -qE 'node (newer|open|full)' || kill -$signal $p; done\n"
+                     "[ $signal = STOP ] && sleep 0.9 || sleep 0.1; done; [ -e at_full_speed ] && exit; done\n");
+        work().shell("setsid bash slow.sh > /dev/null 2>&1 < /dev/null & until [ -e slow ]; do sleep 0.02; done");
     }
     /// Graded alone, then by `on`: marks, messages and figures of the class must be equal to the last byte.
     void expect_same(const std::string& on, const std::string& before = "") {

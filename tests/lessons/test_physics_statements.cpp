@@ -96,22 +96,26 @@ TEST(lesson_06_physics, finds_what_the_linear_models_leave) {
     EXPECT_LT(number(record, "kept_here"), cell(record, "verdict", 1, 2));
 }
 
+/// The crane's equations in names of our own, and what its records show of them.
+const std::string kCraneEquations = R"lua(local function crane_equations(t, s, u, p)
+    local sine, cosine = sin(s[3]), cos(s[3])
+    local torque = -(9.81/p.length)*sine - (p.pivot + p.air*abs(s[4]))*s[4]
+    local push = p.gain*u - p.viscous*s[2] - p.dry*tanh(s[2]/0.005) + p.pull*sine*s[4]^2
+    local a = (push - p.pull*cosine*torque)/(1 - p.pull*cosine^2/p.length)
+    return {s[2], a, s[4], torque - cosine*a/p.length}
+end
+local from_rest = {states = 4, outputs = function(t, s) return {s[1], s[3]} end, x0 = {0, 0, 0, 0}}
+)lua";
+
 // The equations once more, with other names and from other starts, on records that the lesson does not use.
 TEST(lesson_06_physics, of_friction_the_pushes_tell_more_than_their_standard_error) {
     const Workbench bench(Workbench::Memory::kShared);
-    const auto record = record_of_code(bench, R"lua(local Ts = 0.02
+    const auto record = record_of_code(bench, kCraneEquations + R"lua(local Ts = 0.02
 local function rested(r) return detrend(iddata(matrix{r.x, r.theta}, r.u, Ts), "start", {samples = 50}) end
 local function model(gain, viscous, length)
-    local function f(t, s, u, p)
-        local sine, cosine = sin(s[3]), cos(s[3])
-        local torque = -(9.81/p.length)*sine - (p.pivot + p.air*abs(s[4]))*s[4]
-        local push = p.gain*u - p.viscous*s[2] - p.dry*tanh(s[2]/0.005) + p.pull*sine*s[4]^2
-        local a = (push - p.pull*cosine*torque)/(1 - p.pull*cosine^2/p.length)
-        return {s[2], a, s[4], torque - cosine*a/p.length}
-    end
-    return idgrey(f, {gain = {gain, min = 0}, viscous = {viscous, min = 0}, dry = {0.1, min = 0}, pull = {0.05, min = 0},
+    return idgrey(crane_equations, {gain = {gain, min = 0}, viscous = {viscous, min = 0}, dry = {0.1, min = 0}, pull = {0.05, min = 0},
                       length = {length, min = 0.1, max = 2}, pivot = {0.1, min = 0}, air = {0, min = 0}},
-                  {states = 4, outputs = function(t, s) return {s[1], s[3]} end, x0 = {0, 0, 0, 0}})
+                  from_rest)
 end
 -- no record of the lesson; the second from a start far away, within bounds
 for _, case in ipairs{{5, "estimation", 1, 15, 0.4}, {9, "estimation", 1, 1, 0.5}, {6, "steps", 1, 15, 0.4}} do
@@ -155,17 +159,10 @@ report.value("strongest", found, "%.3f")
 // White noise on what the equations themselves simulate.
 TEST(lesson_06_physics, standard_errors_hold_where_the_equations_are_right) {
     const Workbench bench(Workbench::Memory::kShared);
-    const auto record = record_of_code(bench, R"lua(local Ts = 0.02
+    const auto record = record_of_code(bench, kCraneEquations + R"lua(local Ts = 0.02
 local function model(dry, gain)
-    local function f(t, s, u, p)
-        local sine, cosine = sin(s[3]), cos(s[3])
-        local torque = -(9.81/p.length)*sine - (p.pivot + p.air*abs(s[4]))*s[4]
-        local push = p.gain*u - p.viscous*s[2] - p.dry*tanh(s[2]/0.005) + p.pull*sine*s[4]^2
-        local a = (push - p.pull*cosine*torque)/(1 - p.pull*cosine^2/p.length)
-        return {s[2], a, s[4], torque - cosine*a/p.length}
-    end
-    return idgrey(f, {gain = gain, viscous = 14.5, dry = {dry, min = 0}, pull = 0.0334, length = 0.3722, pivot = 0.1, air = {0.024, min = 0}},
-                  {states = 4, outputs = function(t, s) return {s[1], s[3]} end, x0 = {0, 0, 0, 0}})
+    return idgrey(crane_equations, {gain = gain, viscous = 14.5, dry = {dry, min = 0}, pull = 0.0334, length = 0.3722, pivot = 0.1, air = {0.024, min = 0}},
+                  from_rest)
 end
 local u = load("crane").estimation.u
 local y, n = lsim(model(0.24, 1), u, Ts), #u

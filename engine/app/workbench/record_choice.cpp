@@ -177,7 +177,10 @@ RecordChoice look_at_record(const std::string& data, bool tells) {
 }
 
 std::string record_lines(const RecordOrder& order) {
-    if (!is_variable_name(order.name)) throw EnvironmentError("a record's name must be one of a variable");
+    if (!is_variable_name(order.name))
+        throw EnvironmentError(
+            "a record's name is made of letters, digits and _, begins with no digit and is no word of Lua, such as "
+            "end");
     if (order.inputs.empty() || order.outputs.empty())
         throw EnvironmentError("a record needs an input and an output at least");
     Recording recording(order.data, order.inputs, order.outputs, order.Ts > 0 ? std::optional(order.Ts) : std::nullopt,

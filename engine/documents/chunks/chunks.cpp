@@ -8,8 +8,7 @@
 namespace dynlab::inline documents {
 namespace {
 
-/// Longer lines are prose: std::regex takes stack for every character.
-
+/// Longer lines are prose.
 bool matches(const std::string& line, const std::regex& pattern, std::smatch* found = nullptr) {
     std::smatch unused;
     return line.size() <= kLongestForRegex && std::regex_search(line, found ? *found : unused, pattern);

@@ -34,8 +34,8 @@ struct IrregularEvents {
     void add(double seconds, double value, double rise, Index reached);
 };
 
-/// Those of a record that a search filters again and again: looked for among the last few of this thread first, by what
-/// they were made of. Records that are long forget them, for their memory is worth more.
+/// Those of a record that a search filters again and again: the last few of each thread are kept and known by what they
+/// were made of, but for long records, whose events would take too much memory.
 std::shared_ptr<const IrregularEvents> recent_events(const VectorView& u, const VectorView& t, Hold hold, double delay);
 
 /// u(t - delay) at the instants t.
