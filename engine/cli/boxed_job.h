@@ -4,8 +4,8 @@
 #include <iterator>
 #include <string>
 
-#include "course/grading/boxed_work.h"
-#include "course/grading/job_descriptions.h"
+#include "course/boxes/boxed_work.h"
+#include "course/boxes/job_descriptions.h"
 
 namespace dynlab::inline cli {
 

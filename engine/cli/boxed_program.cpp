@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "cli/boxed_job.h"
+#include "course/checks/check_descriptions.h"
 #include "platform/interrupt.h"
 #include "platform/memory.h"
 

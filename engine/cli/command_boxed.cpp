@@ -2,6 +2,8 @@
 
 #include "cli/boxed_job.h"
 #include "cli/commands.h"
+#include "course/checks/check_descriptions.h"
+#include "course/review/version_description.h"
 
 namespace dynlab::inline cli {
 namespace {

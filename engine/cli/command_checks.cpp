@@ -3,7 +3,7 @@
 #include <thread>
 
 #include "cli/commands.h"
-#include "course/checks/check_trial.h"
+#include "course/grading/check_trial.h"
 #include "platform/atomic_file.h"
 #include "platform/cache.h"
 #include "platform/error.h"

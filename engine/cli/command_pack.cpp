@@ -8,7 +8,7 @@
 
 #include "cli/commands.h"
 #include "course/grading/hand_in.h"
-#include "course/grading/roster.h"
+#include "course/hand_ins/roster.h"
 #include "documents/pdf/pdf_layout.h"
 #include "numerics/number_text.h"
 #include "platform/error.h"

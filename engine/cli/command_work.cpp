@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "cli/commands.h"
-#include "course/shares/shared_grading.h"
+#include "course/grading/shared_grading.h"
 #include "course/store/aligned_table.h"
 #include "platform/error.h"
 #include "platform/terminal/terminal_text.h"

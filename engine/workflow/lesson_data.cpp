@@ -12,8 +12,8 @@
 #include "platform/cache.h"
 #include "platform/error.h"
 #include "platform/temporary_folder.h"
+#include "scripting/interpreter/runtime.h"
 #include "scripting/runtime/report_language.h"
-#include "scripting/runtime/runtime.h"
 
 namespace dynlab::inline workflow {
 

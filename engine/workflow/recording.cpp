@@ -8,8 +8,8 @@
 #include "data_io/tables/unit_text.h"
 #include "platform/error.h"
 #include "platform/spelling.h"
-#include "scripting/runtime/lua_text.h"
-#include "scripting/runtime/lua_tokens.h"
+#include "scripting/source/lua_text.h"
+#include "scripting/source/lua_tokens.h"
 
 namespace dynlab::inline workflow {
 namespace {

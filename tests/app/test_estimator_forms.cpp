@@ -8,8 +8,8 @@
 #include <regex>
 
 #include "figures/gnuplot_renderer.h"
+#include "scripting/interpreter/runtime.h"
 #include "scripting/runtime/function_entry.h"
-#include "scripting/runtime/runtime.h"
 
 namespace test_estimator_forms {
 using namespace dynlab;

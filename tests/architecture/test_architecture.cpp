@@ -16,7 +16,7 @@
 #include <sstream>
 
 #include "numerics/estimators/catalogue.h"
-#include "scripting/arguments/option_words.h"
+#include "scripting/conversions/option_words.h"
 #include "scripting/runtime/function_entry.h"
 #include "scripting/runtime/help.h"
 
@@ -102,21 +102,22 @@ TEST(architecture, layers_include_only_layers_above_them) {
 }
 
 // The order of the rooms is the one in which engine/README.md names them.
-TEST(architecture, rooms_of_numerics_include_only_rooms_named_before_them) {
-    const std::vector<std::string> rows =
-        matches(text_of(kRoot / "engine/README.md"), "\n\\| `numerics` \\| `([a-z ]+)` \\|");
-    ASSERT_EQ(rows.size(), 1u);
-    std::map<std::string, int> places;
-    std::istringstream names(rows[0]);
-    for (std::string name; names >> name;) places.emplace(name, static_cast<int>(places.size()));
+TEST(architecture, rooms_include_only_rooms_of_their_layer_named_before_them) {
+    const std::string readme = text_of(kRoot / "engine/README.md");
     std::vector<std::string> offences;
-    for (const fs::path& file : sources_below(kRoot / "engine/numerics")) {
-        const fs::path below = fs::relative(file, kRoot / "engine/numerics");
-        if (!below.has_parent_path()) continue;
-        const std::string room = below.begin()->string();
-        if (!places.contains(room)) offences.push_back(room + " stands in no order");
-        for (const std::string& included : matches(text_of(file), "#include \"numerics/([a-z_]+)/"))
-            if (places[included] > places[room]) offences.push_back(place_of(file) + " includes " + included);
+    for (const auto& [layer, layers] : allowed_layers()) {
+        const std::vector<std::string> rows = matches(readme, "\n\\| `" + layer + "` \\| `([a-z_ ]+)`");
+        std::map<std::string, std::size_t> places;
+        std::istringstream names(rows.empty() ? "" : rows[0]);
+        for (std::string name; names >> name;) places.emplace(name, places.size());
+        for (const fs::path& file : sources_below(kRoot / "engine" / layer)) {
+            const fs::path below = fs::relative(file, kRoot / "engine" / layer);
+            if (!below.has_parent_path()) continue;
+            const std::string room = below.begin()->string();
+            if (!places.contains(room)) offences.push_back(layer + "/" + room + " stands in no order");
+            for (const std::string& included : matches(text_of(file), "#include \"" + layer + "/([a-z_]+)/"))
+                if (places[included] > places[room]) offences.push_back(place_of(file) + " includes " + included);
+        }
     }
     EXPECT_THAT(offences, IsEmpty());
 }

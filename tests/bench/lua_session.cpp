@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <stdexcept>
 
-#include "scripting/objects/numeric.h"
+#include "scripting/conversions/numeric.h"
 
 namespace dynlab::bench {
 

@@ -4,8 +4,8 @@
 #include "figures/gnuplot_renderer.h"
 #include "numerics/linalg/types.h"
 #include "platform/temporary_folder.h"
+#include "scripting/interpreter/runtime.h"
 #include "scripting/memoized_calls/call_cache.h"
-#include "scripting/runtime/runtime.h"
 
 namespace dynlab::bench {
 

@@ -5,8 +5,9 @@
 
 #include <random>
 
-#include "course/grading/boxed_work.h"
-#include "course/grading/job_descriptions.h"
+#include "course/boxes/boxed_work.h"
+#include "course/checks/check_descriptions.h"
+#include "course/review/version_description.h"
 #include "support/program.h"
 
 namespace dynlab {

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "course/findings/folder_check.h"
+#include "course/grading/folder_check.h"
 #include "support/program.h"
 
 namespace dynlab::test {

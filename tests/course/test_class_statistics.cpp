@@ -3,7 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "course/returns/class_statistics.h"
+#include "course/grading/class_statistics.h"
 
 namespace dynlab::test {
 namespace test_class_statistics {

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "course/checks/check_descriptions.h"
 #include "course/grading/grading_rules.h"
-#include "course/grading/job_descriptions.h"
 #include "course/grading_bench.h"
 #include "data_io/values/cbor_values.h"
 

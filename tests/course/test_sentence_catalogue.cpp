@@ -6,9 +6,9 @@
 #include <regex>
 #include <set>
 
-#include "course/findings/folder_check.h"
 #include "course/findings/french_sentences.h"
 #include "course/grading/feedback.h"
+#include "course/grading/folder_check.h"
 #include "documents/text_lines.h"
 #include "platform/error.h"
 #include "platform/text_file.h"

@@ -4,8 +4,8 @@
 #include <map>
 
 #include "course/course_bench.h"
-#include "course/grading/submission.h"
 #include "course/grading_bench.h"
+#include "course/hand_ins/submission.h"
 #include "course/names/byte_text.h"
 
 namespace dynlab::test {

@@ -3,7 +3,7 @@
 #include "fuzz/fuzz_input.h"
 #include "numerics/error.h"
 #include "scripting/answers/answer_value.h"
-#include "scripting/runtime/runtime.h"
+#include "scripting/interpreter/runtime.h"
 
 using namespace dynlab;
 

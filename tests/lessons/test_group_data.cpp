@@ -8,7 +8,7 @@
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/temporary_folder.h"
-#include "scripting/runtime/runtime.h"
+#include "scripting/interpreter/runtime.h"
 #include "workflow/lesson_data.h"
 #include "workflow/specimen_record.h"
 #include "workflow/student_copy.h"

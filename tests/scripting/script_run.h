@@ -2,8 +2,8 @@
 #include <string>
 
 #include "figures/gnuplot_renderer.h"
+#include "scripting/interpreter/runtime.h"
 #include "scripting/runtime/report_language.h"
-#include "scripting/runtime/runtime.h"
 
 namespace dynlab::test {
 

@@ -11,7 +11,7 @@
 #include "documents/words/sentence_catalogue.h"
 #include "numerics/validation/advice.h"
 #include "platform/text_file.h"
-#include "scripting/arguments/option_words.h"
+#include "scripting/conversions/option_words.h"
 #include "scripting/script_run.h"
 #include "support/advice_corpus.h"
 

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "script_run.h"
-#include "scripting/arguments/option_words.h"
+#include "scripting/conversions/option_words.h"
 
 namespace test_option_words {
 

@@ -1,6 +1,6 @@
 // What is typed at the prompt. Oracles: Lua's grammar (reference manual 5.4, chapter 9), and for the rewritten locals
 // the definition: every statement gives what one script of all of them would give.
-#include "scripting/prompt/prompt_statement.h"
+#include "scripting/runtime/prompt_statement.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 #include "platform/temporary_folder.h"
 #include "script_run.h"
 #include "scripting/prompt/prompt_session.h"
-#include "scripting/runtime/lua_tokens.h"
+#include "scripting/source/lua_tokens.h"
 
 namespace dynlab::test {
 namespace test_prompt_statement {

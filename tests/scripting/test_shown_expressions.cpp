@@ -7,8 +7,8 @@
 
 #include "platform/temporary_folder.h"
 #include "script_run.h"
+#include "scripting/conversions/numeric_types.h"
 #include "scripting/objects/data_object.h"
-#include "scripting/objects/numeric_types.h"
 #include "scripting/runtime/shown_calls.h"
 #include "scripting/runtime/shown_expressions.h"
 

@@ -18,8 +18,8 @@
 #include "platform/interrupt.h"
 #include "platform/terminal/terminal_text.h"
 #include "platform/utf8.h"
-#include "scripting/prompt/prompt_statement.h"
-#include "scripting/runtime/lua_reader.h"
+#include "scripting/runtime/prompt_statement.h"
+#include "scripting/source/lua_reader.h"
 #include "workflow/notebooks/notebook.h"
 
 namespace dynlab::inline app {

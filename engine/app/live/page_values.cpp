@@ -8,9 +8,9 @@
 #include "documents/weave.h"
 #include "documents/words/sentence_catalogue.h"
 #include "figures/french_texts.h"
-#include "scripting/arguments/arguments.h"
+#include "scripting/conversions/arguments.h"
+#include "scripting/conversions/numeric.h"
 #include "scripting/objects/figure_object.h"
-#include "scripting/objects/numeric.h"
 #include "scripting/runtime/context.h"
 
 namespace dynlab::inline app {

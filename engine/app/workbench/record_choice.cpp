@@ -14,7 +14,7 @@
 #include "documents/percent_script.h"
 #include "documents/text_lines.h"
 #include "platform/error.h"
-#include "scripting/runtime/lua_tokens.h"
+#include "scripting/source/lua_tokens.h"
 #include "workflow/look.h"
 #include "workflow/recording.h"
 

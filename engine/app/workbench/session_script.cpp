@@ -11,7 +11,7 @@
 #include "data_io/values/value_limits.h"
 #include "documents/text_lines.h"
 #include "platform/text/regex_limit.h"
-#include "scripting/runtime/lua_tokens.h"
+#include "scripting/source/lua_tokens.h"
 
 namespace dynlab::inline app {
 namespace {

@@ -16,7 +16,7 @@
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/interrupt.h"
-#include "scripting/prompt/prompt_statement.h"
+#include "scripting/runtime/prompt_statement.h"
 
 namespace dynlab::inline app {
 namespace {

@@ -4,7 +4,7 @@
 #include <thread>
 
 #include "cli/commands.h"
-#include "course/checks/lesson_trial.h"
+#include "course/grading/lesson_trial.h"
 #include "numerics/number_text.h"
 #include "platform/atomic_file.h"
 #include "platform/cache.h"

@@ -5,8 +5,8 @@
 
 #include "cli/commands.h"
 #include "cli/course/course_commands.h"
+#include "course/office/course_status.h"
 #include "course/store/assignments.h"
-#include "course/store/course_status.h"
 #include "course/store/groups.h"
 #include "numerics/error.h"
 #include "platform/terminal/terminal_text.h"

@@ -4,8 +4,8 @@
 
 #include "cli/course/course_commands.h"
 #include "course/corrections/corrections.h"
+#include "course/office/hand_ins.h"
 #include "course/review/review_marks.h"
-#include "course/store/hand_ins.h"
 #include "course/store/receipts.h"
 #include "numerics/error.h"
 #include "platform/terminal/terminal_text.h"

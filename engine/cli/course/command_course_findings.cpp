@@ -5,8 +5,8 @@
 #include "cli/course/course_commands.h"
 #include "cli/terminal_colour.h"
 #include "course/findings/findings_report.h"
+#include "course/office/stored_findings.h"
 #include "course/review/review_pairs.h"
-#include "course/store/stored_findings.h"
 #include "numerics/error.h"
 
 namespace dynlab::inline cli {

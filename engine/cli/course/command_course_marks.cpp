@@ -4,9 +4,9 @@
 #include <iostream>
 
 #include "cli/course/course_commands.h"
+#include "course/office/course_export.h"
 #include "course/review/oral_marks.h"
 #include "course/store/aligned_table.h"
-#include "course/store/course_export.h"
 #include "course/store/graded_work.h"
 #include "course/store/groups.h"
 #include "platform/atomic_file.h"

@@ -5,9 +5,9 @@
 
 #include "cli/course/course_commands.h"
 #include "course/corrections/arrival_times.h"
+#include "course/office/hand_ins.h"
 #include "course/store/aligned_table.h"
 #include "course/store/graded_work.h"
-#include "course/store/hand_ins.h"
 #include "course/store/receipts.h"
 #include "course/store/store_check.h"
 #include "numerics/number_text.h"

@@ -4,7 +4,7 @@
 #include "course/checks/check_functions.h"
 #include "course/checks/check_session.h"
 #include "platform/spelling.h"
-#include "scripting/arguments/arguments.h"
+#include "scripting/conversions/arguments.h"
 #include "scripting/runtime/context.h"
 
 namespace dynlab::inline course {

@@ -12,8 +12,8 @@
 #include "numerics/number_text.h"
 #include "platform/spelling.h"
 #include "scripting/answers/answer_value.h"
-#include "scripting/arguments/arguments.h"
-#include "scripting/arguments/table_fields.h"
+#include "scripting/conversions/arguments.h"
+#include "scripting/conversions/table_fields.h"
 #include "scripting/runtime/context.h"
 #include "scripting/runtime/errors.h"
 

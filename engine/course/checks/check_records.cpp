@@ -3,8 +3,8 @@
 #include <array>
 
 #include "course/checks/check_session.h"
-#include "scripting/arguments/arguments.h"
-#include "scripting/arguments/table_fields.h"
+#include "scripting/conversions/arguments.h"
+#include "scripting/conversions/table_fields.h"
 #include "scripting/runtime/context.h"
 #include "scripting/runtime/sandbox.h"
 

@@ -5,16 +5,16 @@
 #include <chrono>
 #include <cstdlib>
 
+#include "course/boxes/boxed_work.h"
+#include "course/checks/check_descriptions.h"
 #include "course/checks/check_functions.h"
 #include "course/checks/check_records.h"
 #include "course/checks/check_session.h"
-#include "course/grading/boxed_work.h"
-#include "course/grading/job_descriptions.h"
 #include "documents/text_lines.h"
 #include "figures/gnuplot_renderer.h"
 #include "platform/confinement.h"
 #include "platform/guarded_call.h"
-#include "scripting/runtime/runtime.h"
+#include "scripting/interpreter/runtime.h"
 
 namespace dynlab::inline course {
 namespace {

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "course/findings/finding.h"
-#include "course/grading/graded_run.h"
+#include "course/boxes/graded_run.h"
+#include "course/hand_ins/finding.h"
 
 namespace dynlab::inline course {
 

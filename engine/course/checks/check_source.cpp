@@ -3,9 +3,9 @@
 
 #include "course/checks/check_functions.h"
 #include "course/checks/check_session.h"
-#include "scripting/arguments/arguments.h"
+#include "scripting/conversions/arguments.h"
 #include "scripting/runtime/context.h"
-#include "scripting/runtime/lua_tokens.h"
+#include "scripting/source/lua_tokens.h"
 
 namespace dynlab::inline course {
 namespace {

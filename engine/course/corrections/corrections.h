@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "course/store/assignments.h"
+#include "course/store/exceptions.h"
 #include "course/store/groups.h"
 
 namespace dynlab::inline course {
@@ -12,8 +13,6 @@ namespace dynlab::inline course {
 // and a line in the journal; what was received and signed stays as it was. All throw InvalidArgument for a reason that
 // is empty, and where there is nothing to be corrected.
 
-void refuse_without_reason(const std::string& reason);
-
 /// What a correction is about.
 struct HandedInWanted {
     std::string group, stage = "first";  ///< "first", "review", "final"
@@ -21,9 +20,6 @@ struct HandedInWanted {
     std::string report;  ///< of a review: the pseudonym of the report; may be empty where the group wrote one only
     std::optional<std::int64_t> number;  ///< of the version; the newest that stands unless given
 };
-
-/// The deadline of a group, extended or not. Throws InvalidArgument for a stage that the assignment does not have.
-Instant due_for(Course& course, const Assignment& assignment, std::int64_t group, const std::string& stage);
 
 /// The files were received at that time; each gets a further signed receipt. Returns their versions' ids.
 std::vector<std::int64_t> correct_arrival(Course& course, const Assignment& assignment, const HandedInWanted& wanted,
@@ -40,8 +36,6 @@ void extend(Course& course, const Assignment& assignment, const std::string& gro
 /// Keeps a group's report (stage "first") from its reviewers, or a review from the authors, or gives it free again.
 void hold(Course& course, const Assignment& assignment, const HandedInWanted& wanted, bool held,
           const std::string& reason, Instant now);
-/// Whether a group's report, or its review of a pair, is held back.
-bool is_held(Course& course, const Assignment& assignment, std::int64_t group, std::optional<std::int64_t> pair);
 
 struct JournalLine {
     Instant at = 0;

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "course/findings/document_text.h"
-#include "course/findings/finding.h"
+#include "course/hand_ins/finding.h"
 
 namespace dynlab::inline course {
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <map>
 
+#include "course/grading/class_statistics.h"
 #include "course/grading/feedback.h"
-#include "course/returns/class_statistics.h"
 #include "data_io/text_table.h"
 #include "figures/gnuplot_renderer.h"
 #include "figures/histogram.h"

@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "course/grading/boxed_document.h"
+#include "course/boxes/boxed_document.h"
 #include "course/grading/grading_rules.h"
-#include "course/grading/roster.h"
-#include "course/grading/submission.h"
 #include "course/hand_ins/owners.h"
+#include "course/hand_ins/roster.h"
+#include "course/hand_ins/submission.h"
 
 namespace dynlab::inline course {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "course/grading/submission.h"
+#include "course/hand_ins/submission.h"
 
 namespace dynlab::inline course {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "course/grading/submission.h"
+#include "course/hand_ins/submission.h"
 
 namespace dynlab::inline course {
 

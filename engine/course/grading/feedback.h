@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <string>
 
-#include "course/grading/boxed_document.h"
+#include "course/boxes/boxed_document.h"
 #include "course/grading/grade.h"
 
 namespace dynlab::inline course {

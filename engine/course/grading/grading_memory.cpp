@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "course/grading/job_descriptions.h"
+#include "course/checks/check_descriptions.h"
 #include "data_io/values/cbor_values.h"
 #include "data_io/values/json_values.h"
 #include "platform/atomic_file.h"

@@ -1,7 +1,7 @@
 // The records of GradingRules: hidden ones, those of reruns, those of groups.
 #include <fmt/format.h>
 
-#include "course/grading/boxed_work.h"
+#include "course/boxes/boxed_work.h"
 #include "course/grading/grading_rules.h"
 #include "data_io/mat_file.h"
 #include "platform/atomic_file.h"

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <future>
 
+#include "course/boxes/boxed_work.h"
+#include "course/checks/check_descriptions.h"
 #include "course/findings/document_findings.h"
 #include "course/findings/findings_report.h"
-#include "course/grading/boxed_work.h"
 #include "course/grading/grading_memory.h"
-#include "course/grading/job_descriptions.h"
 #include "data_io/values/json_values.h"
 #include "documents/words/sentence_catalogue.h"
 #include "numerics/rigs/catalogue.h"

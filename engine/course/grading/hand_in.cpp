@@ -4,8 +4,8 @@
 
 #include <map>
 
-#include "course/grading/folder_copy.h"
-#include "course/grading/zip_file.h"
+#include "course/boxes/zip_file.h"
+#include "course/hand_ins/folder_copy.h"
 #include "course/hand_ins/notebooks.h"
 #include "data_io/dataset_index.h"
 #include "data_io/values/json_values.h"

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "course/grading/submission.h"
+#include "course/hand_ins/submission.h"
 
 namespace dynlab::inline course {
 

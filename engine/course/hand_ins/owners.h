@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "course/grading/roster.h"
-#include "course/grading/submission.h"
+#include "course/hand_ins/roster.h"
+#include "course/hand_ins/submission.h"
 
 namespace dynlab::inline course {
 

@@ -6,7 +6,7 @@
 #include <regex>
 #include <set>
 
-#include "course/grading/folder_copy.h"
+#include "course/hand_ins/folder_copy.h"
 #include "course/hand_ins/notebooks.h"
 #include "course/hand_ins/owners.h"
 #include "course/hand_ins/work_language.h"

@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <string>
 
-#include "course/grading/submission.h"
+#include "course/hand_ins/submission.h"
 
 namespace dynlab::inline course {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "course/findings/finding.h"
+#include "course/hand_ins/finding.h"
 #include "course/names/sought_names.h"
 #include "documents/pdf/pdf_objects.h"
 #include "platform/box.h"

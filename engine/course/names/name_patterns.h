@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "course/grading/roster.h"
+#include "course/hand_ins/roster.h"
 #include "course/names/name_tokens.h"
 
 namespace dynlab::inline course {

@@ -6,9 +6,9 @@
 #include <set>
 #include <sstream>
 
-#include "course/grading/boxed_work.h"
-#include "course/grading/graded_run.h"
-#include "course/grading/zip_file.h"
+#include "course/boxes/boxed_work.h"
+#include "course/boxes/graded_run.h"
+#include "course/boxes/zip_file.h"
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"
 #include "platform/child_process.h"

@@ -11,7 +11,7 @@
 #include "course/grading/feedback.h"
 #include "course/grading/feedback_words.h"
 #include "course/grading/grade.h"
-#include "course/grading/roster.h"
+#include "course/hand_ins/roster.h"
 #include "course/returns/mailing.h"
 #include "data_io/text_table.h"
 #include "data_io/values/json_values.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "course/grading/zip_file.h"
+#include "course/boxes/zip_file.h"
 
 namespace dynlab::inline course {
 

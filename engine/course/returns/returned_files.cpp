@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "course/office/hand_ins.h"
 #include "course/returns/mailing.h"
 #include "course/store/groups.h"
-#include "course/store/hand_ins.h"
 #include "numerics/error.h"
 #include "platform/atomic_file.h"
 #include "platform/hash.h"

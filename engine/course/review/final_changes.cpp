@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "course/review/review_pairs.h"
-#include "course/review/side_by_side.h"
 #include "course/review/version_reading.h"
+#include "course/store/side_by_side.h"
 #include "numerics/error.h"
 
 namespace dynlab::inline course {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "course/review/marked_text.h"
-#include "course/review/side_by_side.h"
+#include "course/store/side_by_side.h"
 #include "numerics/number_text.h"
 
 namespace dynlab::inline course {

@@ -1,7 +1,7 @@
 #pragma once
 #include <filesystem>
 
-#include "course/grading/boxed_document.h"
+#include "course/boxes/boxed_document.h"
 #include "course/review/final_changes.h"
 
 namespace dynlab::inline course {

@@ -5,9 +5,9 @@
 #include <random>
 #include <set>
 
-#include "course/corrections/corrections.h"
 #include "course/review/allocation.h"
 #include "course/review/peer_review.h"
+#include "course/store/exceptions.h"
 #include "numerics/error.h"
 
 namespace dynlab::inline course {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <set>
 
-#include "course/corrections/corrections.h"
 #include "course/review/peer_review.h"
+#include "course/store/exceptions.h"
 #include "numerics/error.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"

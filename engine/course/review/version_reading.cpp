@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "course/grading/boxed_work.h"
-#include "course/grading/job_descriptions.h"
+#include "course/boxes/boxed_work.h"
 #include "course/hand_ins/staging.h"
+#include "course/review/version_description.h"
 #include "documents/text_lines.h"
 #include "documents/work_file.h"
 #include "figures/gnuplot_renderer.h"

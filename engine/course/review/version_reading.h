@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "course/grading/boxed_document.h"
+#include "course/boxes/boxed_document.h"
 #include "course/review/report_text.h"
 #include "course/review/value_changes.h"
 #include "platform/box.h"

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "scripting/runtime/function_entry.h"
-#include "scripting/runtime/lua_tokens.h"
+#include "scripting/source/lua_tokens.h"
 
 namespace dynlab::inline course {
 namespace {

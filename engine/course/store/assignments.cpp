@@ -7,7 +7,7 @@
 #include <random>
 #include <set>
 
-#include "course/corrections/corrections.h"
+#include "course/store/exceptions.h"
 #include "numerics/error.h"
 #include "platform/spelling.h"
 

@@ -13,9 +13,9 @@
 #include <thread>
 #include <utility>
 
-#include "course/review/side_by_side.h"
 #include "course/store/course_key.h"
 #include "course/store/course_schema.h"
+#include "course/store/side_by_side.h"
 #include "course/store/store_seal.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"

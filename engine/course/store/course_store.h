@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "course/store/course_clock.h"
+#include "course/hand_ins/course_clock.h"
 #include "course/store/database.h"
 #include "platform/signature.h"
 

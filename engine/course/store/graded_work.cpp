@@ -9,7 +9,7 @@
 #include <map>
 #include <set>
 
-#include "course/grading/submission.h"
+#include "course/hand_ins/submission.h"
 #include "course/store/groups.h"
 #include "data_io/text_table.h"
 #include "numerics/error.h"

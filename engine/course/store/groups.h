@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "course/grading/roster.h"
+#include "course/hand_ins/roster.h"
 #include "course/store/course_store.h"
 
 namespace dynlab::inline course {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "numerics/fit/fit.h"
-#include "scripting/arguments/arguments.h"
+#include "scripting/conversions/arguments.h"
 
 namespace dynlab::inline scripting {
 

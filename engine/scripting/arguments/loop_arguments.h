@@ -1,6 +1,6 @@
 #pragma once
 #include "numerics/fit/closed_loop/loop_signals.h"
-#include "scripting/arguments/arguments.h"
+#include "scripting/conversions/arguments.h"
 
 namespace dynlab::inline scripting {
 

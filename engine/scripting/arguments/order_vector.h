@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "scripting/arguments/arguments.h"
+#include "scripting/conversions/arguments.h"
 
 namespace dynlab::inline scripting {
 

@@ -4,8 +4,8 @@
 
 #include "numerics/signals/interpolation.h"
 #include "numerics/validation/grey_box/grey_comparison.h"
-#include "scripting/arguments/table_fields.h"
-#include "scripting/arguments/told_sentences.h"
+#include "scripting/conversions/table_fields.h"
+#include "scripting/conversions/told_sentences.h"
 #include "scripting/objects/grey_object.h"
 #include "scripting/objects/simulated_model.h"
 

@@ -5,7 +5,7 @@
 
 #include "numerics/validation/compare.h"
 #include "numerics/validation/prediction.h"
-#include "scripting/arguments/arguments.h"
+#include "scripting/conversions/arguments.h"
 
 namespace dynlab::inline scripting {
 

@@ -3,9 +3,9 @@
 
 #include "numerics/number_text.h"
 #include "numerics/validation/advice.h"
-#include "scripting/arguments/table_fields.h"
-#include "scripting/arguments/told_sentences.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/conversions/table_fields.h"
+#include "scripting/conversions/told_sentences.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/data_object.h"
 

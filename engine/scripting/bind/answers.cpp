@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "scripting/answers/answer_value.h"
-#include "scripting/arguments/arguments.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/conversions/arguments.h"
 #include "scripting/runtime/context.h"
 
 namespace dynlab::inline scripting {

@@ -1,8 +1,8 @@
 #include <array>
 
-#include "scripting/arguments/table_fields.h"
+#include "scripting/conversions/table_fields.h"
 #include "scripting/objects/model.h"
-#include "scripting/objects/text_form.h"
+#include "scripting/runtime/text_form.h"
 
 namespace dynlab::inline scripting {
 namespace {

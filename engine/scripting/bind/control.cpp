@@ -2,9 +2,9 @@
 
 #include "numerics/control/state_feedback.h"
 #include "numerics/rigs/crane_control.h"
-#include "scripting/arguments/table_fields.h"
 #include "scripting/bind/control_bindings.h"
-#include "scripting/objects/boxed.h"
+#include "scripting/conversions/boxed.h"
+#include "scripting/conversions/table_fields.h"
 #include "scripting/objects/model.h"
 
 namespace dynlab::inline scripting {

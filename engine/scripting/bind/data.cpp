@@ -5,8 +5,8 @@
 
 #include "data_io/dataset_index.h"
 #include "figures/plots/id_plot.h"
-#include "scripting/arguments/table_fields.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/conversions/table_fields.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/model.h"

@@ -3,11 +3,11 @@
 
 #include "numerics/number_text.h"
 #include "numerics/signals/preprocess.h"
-#include "scripting/arguments/table_fields.h"
-#include "scripting/arguments/told_sentences.h"
 #include "scripting/bind/preprocess_bindings.h"
+#include "scripting/conversions/table_fields.h"
+#include "scripting/conversions/told_sentences.h"
 #include "scripting/objects/data_object.h"
-#include "scripting/objects/text_form.h"
+#include "scripting/runtime/text_form.h"
 
 namespace dynlab::inline scripting {
 namespace {

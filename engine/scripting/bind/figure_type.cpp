@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "numerics/number_text.h"
-#include "scripting/arguments/table_fields.h"
+#include "scripting/conversions/table_fields.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/panel_options.h"
 

@@ -4,8 +4,8 @@
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/model.h"
-#include "scripting/objects/text_form.h"
 #include "scripting/runtime/help.h"
+#include "scripting/runtime/text_form.h"
 #include "scripting/runtime/value_listener.h"
 
 namespace dynlab::inline scripting {

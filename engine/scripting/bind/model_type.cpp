@@ -4,12 +4,12 @@
 #include <limits>
 #include <span>
 
-#include "scripting/arguments/table_fields.h"
-#include "scripting/arguments/told_sentences.h"
+#include "scripting/conversions/table_fields.h"
+#include "scripting/conversions/told_sentences.h"
 #include "scripting/objects/fit_model.h"
 #include "scripting/objects/present.h"
 #include "scripting/objects/process_structure.h"
-#include "scripting/objects/text_form.h"
+#include "scripting/runtime/text_form.h"
 
 namespace dynlab::inline scripting {
 namespace {

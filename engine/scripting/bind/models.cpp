@@ -3,11 +3,11 @@
 
 #include "numerics/models/convert.h"
 #include "numerics/simulation/stability_margins.h"
-#include "scripting/arguments/told_sentences.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/conversions/numeric_tables.h"
+#include "scripting/conversions/told_sentences.h"
 #include "scripting/objects/grey_object.h"
 #include "scripting/objects/model.h"
-#include "scripting/objects/numeric_tables.h"
 #include "scripting/objects/present.h"
 #include "scripting/objects/process_structure.h"
 #include "scripting/objects/simulated_model.h"

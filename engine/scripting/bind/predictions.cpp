@@ -2,9 +2,9 @@
 
 #include "numerics/validation/prediction.h"
 #include "scripting/arguments/simulation_options.h"
-#include "scripting/arguments/table_fields.h"
-#include "scripting/arguments/told_sentences.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/conversions/table_fields.h"
+#include "scripting/conversions/told_sentences.h"
 #include "scripting/objects/data_object.h"
 
 namespace dynlab::inline scripting {

@@ -8,7 +8,7 @@
 #include "scripting/bind/bindings.h"
 #include "scripting/bind/preprocess_bindings.h"
 #include "scripting/objects/data_object.h"
-#include "scripting/objects/text_form.h"
+#include "scripting/runtime/text_form.h"
 
 namespace dynlab::inline scripting {
 namespace {

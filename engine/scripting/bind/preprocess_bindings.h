@@ -1,5 +1,5 @@
 #pragma once
-#include "scripting/arguments/arguments.h"
+#include "scripting/conversions/arguments.h"
 
 namespace dynlab::inline scripting {
 

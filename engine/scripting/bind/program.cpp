@@ -6,13 +6,13 @@
 
 #include "platform/text_file.h"
 #include "scripting/bind/bindings.h"
-#include "scripting/objects/boxed.h"
-#include "scripting/objects/text_form.h"
-#include "scripting/prompt/prompt_statement.h"
-#include "scripting/prompt/prompt_variables.h"
+#include "scripting/conversions/boxed.h"
 #include "scripting/runtime/errors.h"
 #include "scripting/runtime/output_path.h"
+#include "scripting/runtime/prompt_statement.h"
+#include "scripting/runtime/prompt_variables.h"
 #include "scripting/runtime/shown_expressions.h"
+#include "scripting/runtime/text_form.h"
 
 namespace dynlab::inline scripting {
 namespace {

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "scripting/bind/bindings.h"
-#include "scripting/objects/boxed.h"
+#include "scripting/conversions/boxed.h"
 
 namespace dynlab::inline scripting {
 namespace {

@@ -4,11 +4,11 @@
 #include "numerics/estimators/gradient_descent.h"
 #include "numerics/estimators/linear_regression.h"
 #include "numerics/statistics/student_t.h"
-#include "scripting/arguments/table_fields.h"
-#include "scripting/arguments/told_sentences.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/conversions/table_fields.h"
+#include "scripting/conversions/told_sentences.h"
 #include "scripting/objects/figure_object.h"
-#include "scripting/objects/text_form.h"
+#include "scripting/runtime/text_form.h"
 
 namespace dynlab::inline scripting {
 

@@ -2,13 +2,13 @@
 #include <cctype>
 #include <cmath>
 
-#include "scripting/arguments/arguments.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/conversions/arguments.h"
 #include "scripting/objects/figure_object.h"
-#include "scripting/objects/text_form.h"
 #include "scripting/runtime/report_language.h"
 #include "scripting/runtime/sandbox.h"
 #include "scripting/runtime/slider_values.h"
+#include "scripting/runtime/text_form.h"
 
 namespace dynlab::inline scripting {
 namespace {

@@ -1,8 +1,8 @@
 #include <array>
 
 #include "numerics/rigs/catalogue.h"
-#include "scripting/arguments/table_fields.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/conversions/table_fields.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/model.h"
 

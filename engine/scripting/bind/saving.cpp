@@ -5,7 +5,7 @@
 #include "data_io/json_file.h"
 #include "data_io/mat_file.h"
 #include "scripting/bind/bindings.h"
-#include "scripting/objects/boxed.h"
+#include "scripting/conversions/boxed.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/exchange.h"
 #include "scripting/runtime/output_path.h"

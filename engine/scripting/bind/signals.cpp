@@ -3,9 +3,9 @@
 #include "numerics/signals/excitation.h"
 #include "numerics/signals/prbs.h"
 #include "numerics/signals/random_phase_multisine.h"
-#include "scripting/arguments/table_fields.h"
 #include "scripting/bind/bindings.h"
-#include "scripting/objects/boxed.h"
+#include "scripting/conversions/boxed.h"
+#include "scripting/conversions/table_fields.h"
 
 namespace dynlab::inline scripting {
 namespace {

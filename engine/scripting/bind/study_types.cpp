@@ -2,8 +2,8 @@
 
 #include "figures/plots/monte_carlo_plot.h"
 #include "scripting/arguments/estimation.h"
-#include "scripting/arguments/table_fields.h"
-#include "scripting/arguments/told_sentences.h"
+#include "scripting/conversions/table_fields.h"
+#include "scripting/conversions/told_sentences.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/study_objects.h"
 #include "scripting/objects/study_text.h"

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <functional>
 
-#include "scripting/objects/boxed.h"
-#include "scripting/objects/numeric_operators.h"
-#include "scripting/objects/numeric_types.h"
-#include "scripting/objects/text_form.h"
+#include "scripting/conversions/boxed.h"
+#include "scripting/conversions/numeric_operators.h"
+#include "scripting/conversions/numeric_types.h"
+#include "scripting/runtime/text_form.h"
 
 namespace dynlab::inline scripting {
 namespace {

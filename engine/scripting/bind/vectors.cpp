@@ -6,8 +6,8 @@
 #include "numerics/linalg/polynomial.h"
 #include "numerics/signals/interpolation.h"
 #include "scripting/bind/bindings.h"
-#include "scripting/objects/boxed.h"
-#include "scripting/objects/numeric_tables.h"
+#include "scripting/conversions/boxed.h"
+#include "scripting/conversions/numeric_tables.h"
 
 namespace dynlab::inline scripting {
 namespace {

@@ -5,9 +5,9 @@
 #include <set>
 
 #include "documents/text_lines.h"
-#include "scripting/arguments/option_words.h"
+#include "scripting/conversions/option_words.h"
 #include "scripting/runtime/help.h"
-#include "scripting/runtime/lua_tokens.h"
+#include "scripting/source/lua_tokens.h"
 
 namespace dynlab::inline scripting {
 namespace {

@@ -6,7 +6,7 @@
 #include "scripting/lint/function_forms.h"
 #include "scripting/lint/lint.h"
 #include "scripting/runtime/errors.h"
-#include "scripting/runtime/lua_tokens.h"
+#include "scripting/source/lua_tokens.h"
 
 namespace dynlab::inline scripting {
 namespace {

@@ -11,14 +11,14 @@
 #include "documents/text_lines.h"
 #include "figures/gnuplot_renderer.h"
 #include "scripting/answers/answer_value.h"
-#include "scripting/arguments/option_words.h"
+#include "scripting/conversions/option_words.h"
+#include "scripting/interpreter/runtime.h"
 #include "scripting/lint/function_forms.h"
 #include "scripting/lint/script_walk.h"
 #include "scripting/runtime/errors.h"
-#include "scripting/runtime/lua_reader.h"
-#include "scripting/runtime/lua_tokens.h"
-#include "scripting/runtime/runtime.h"
 #include "scripting/runtime/shown_expressions.h"
+#include "scripting/source/lua_reader.h"
+#include "scripting/source/lua_tokens.h"
 
 namespace dynlab::inline scripting {
 namespace {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <set>
 
-#include "scripting/runtime/lua_tokens.h"
+#include "scripting/source/lua_tokens.h"
 
 namespace dynlab::inline scripting {
 namespace {

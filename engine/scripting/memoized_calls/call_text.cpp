@@ -4,10 +4,10 @@
 #include <utility>
 #include <vector>
 
-#include "scripting/arguments/table_fields.h"
+#include "scripting/conversions/numeric.h"
+#include "scripting/conversions/table_fields.h"
 #include "scripting/memoized_calls/value_archive.h"
 #include "scripting/objects/data_object.h"
-#include "scripting/objects/numeric.h"
 #include "scripting/runtime/report_language.h"
 
 namespace dynlab::inline scripting {

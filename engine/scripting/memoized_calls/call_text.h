@@ -2,7 +2,7 @@
 #include <optional>
 #include <string>
 
-#include "scripting/arguments/arguments.h"
+#include "scripting/conversions/arguments.h"
 
 namespace dynlab::inline scripting {
 

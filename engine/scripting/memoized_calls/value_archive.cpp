@@ -4,12 +4,12 @@
 #include <array>
 
 #include "documents/figure_description.h"
-#include "scripting/arguments/table_fields.h"
+#include "scripting/conversions/numeric.h"
+#include "scripting/conversions/table_fields.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/frequency_object.h"
 #include "scripting/objects/model_description.h"
-#include "scripting/objects/numeric.h"
 
 namespace dynlab::inline scripting {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 #include "data_io/values/cbor_values.h"
-#include "scripting/arguments/arguments.h"
+#include "scripting/conversions/arguments.h"
 #include "scripting/runtime/recorder.h"
 
 namespace dynlab::inline scripting {

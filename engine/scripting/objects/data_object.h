@@ -1,6 +1,6 @@
 #pragma once
 #include "numerics/signals/iddata.h"
-#include "scripting/objects/boxed.h"
+#include "scripting/conversions/boxed.h"
 
 namespace dynlab::inline scripting {
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "scripting/objects/boxed.h"
+#include "scripting/conversions/boxed.h"
 #include "scripting/runtime/recorder.h"
 
 namespace dynlab::inline scripting {

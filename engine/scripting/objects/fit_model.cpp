@@ -1,8 +1,8 @@
 #include "scripting/objects/fit_model.h"
 
-#include "scripting/arguments/option_words.h"
-#include "scripting/arguments/table_fields.h"
-#include "scripting/arguments/told_sentences.h"
+#include "scripting/conversions/option_words.h"
+#include "scripting/conversions/table_fields.h"
+#include "scripting/conversions/told_sentences.h"
 
 namespace dynlab::inline scripting {
 namespace {

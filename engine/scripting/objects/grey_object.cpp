@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "scripting/arguments/option_words.h"
-#include "scripting/objects/text_form.h"
+#include "scripting/conversions/option_words.h"
+#include "scripting/runtime/text_form.h"
 
 namespace dynlab::inline scripting {
 namespace {

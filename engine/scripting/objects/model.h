@@ -12,7 +12,7 @@
 #include "numerics/models/state_space.h"
 #include "numerics/validation/assessment.h"
 #include "numerics/validation/uncertainty.h"
-#include "scripting/objects/boxed.h"
+#include "scripting/conversions/boxed.h"
 
 namespace dynlab::inline scripting {
 

@@ -2,7 +2,7 @@
 #include <initializer_list>
 
 #include "figures/figure.h"
-#include "scripting/arguments/arguments.h"
+#include "scripting/conversions/arguments.h"
 
 namespace dynlab::inline scripting {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scripting/objects/text_form.h"
+#include "scripting/runtime/text_form.h"
 
 namespace dynlab::inline scripting {
 namespace {

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "scripting/arguments/table_fields.h"
+#include "scripting/conversions/table_fields.h"
 #include "scripting/objects/fit_model.h"
 #include "scripting/objects/grey_object.h"
-#include "scripting/objects/text_form.h"
+#include "scripting/runtime/text_form.h"
 
 namespace dynlab::inline scripting {
 namespace {

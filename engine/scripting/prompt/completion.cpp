@@ -6,10 +6,10 @@
 #include <regex>
 
 #include "data_io/dataset_index.h"
-#include "scripting/objects/value_members.h"
+#include "scripting/conversions/value_members.h"
 #include "scripting/runtime/context.h"
 #include "scripting/runtime/help.h"
-#include "scripting/runtime/lua_tokens.h"
+#include "scripting/source/lua_tokens.h"
 
 namespace dynlab::inline scripting {
 namespace {

@@ -3,11 +3,11 @@
 #include <vector>
 
 #include "numerics/error.h"
-#include "scripting/objects/text_form.h"
-#include "scripting/objects/value_members.h"
+#include "scripting/conversions/value_members.h"
 #include "scripting/runtime/context.h"
 #include "scripting/runtime/help.h"
-#include "scripting/runtime/lua_tokens.h"
+#include "scripting/runtime/text_form.h"
+#include "scripting/source/lua_tokens.h"
 
 namespace dynlab::inline scripting {
 namespace {

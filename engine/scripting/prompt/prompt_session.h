@@ -7,9 +7,9 @@
 
 #include "figures/gnuplot_renderer.h"
 #include "platform/written_files.h"
+#include "scripting/interpreter/runtime.h"
 #include "scripting/prompt/completion.h"
-#include "scripting/prompt/prompt_statement.h"
-#include "scripting/runtime/runtime.h"
+#include "scripting/runtime/prompt_statement.h"
 
 namespace dynlab::inline scripting {
 

@@ -4,8 +4,8 @@
 #include <fmt/ranges.h>
 
 #include "platform/utf8.h"
-#include "scripting/objects/text_form.h"
 #include "scripting/runtime/context.h"
+#include "scripting/runtime/text_form.h"
 
 namespace dynlab::inline scripting {
 namespace {

@@ -3,12 +3,15 @@
 #include <lua.hpp>
 #include <map>
 #include <string>
+#include <typeinfo>
 #include <utility>
+#include <vector>
 
 #include "numerics/signals/random.h"
+#include "scripting/runtime/function_entry.h"
 #include "scripting/runtime/memory_account.h"
 #include "scripting/runtime/recorder.h"
-#include "scripting/runtime/runtime.h"
+#include "scripting/runtime/run_options.h"
 
 namespace dynlab::inline scripting {
 

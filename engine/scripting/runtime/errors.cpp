@@ -11,7 +11,7 @@
 
 #include "scripting/runtime/context.h"
 #include "scripting/runtime/matlab_hints.h"
-#include "scripting/runtime/unfinished_code.h"
+#include "scripting/source/unfinished_code.h"
 
 namespace dynlab::inline scripting {
 namespace {

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "platform/spelling.h"
-#include "scripting/prompt/prompt_variables.h"
 #include "scripting/runtime/context.h"
 #include "scripting/runtime/errors.h"
 #include "scripting/runtime/matlab_hints.h"
+#include "scripting/runtime/prompt_variables.h"
 #include "scripting/runtime/sandbox.h"
 
 namespace dynlab::inline scripting {

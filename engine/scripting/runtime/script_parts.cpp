@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "documents/text_lines.h"
-#include "scripting/prompt/prompt_statement.h"
+#include "scripting/runtime/prompt_statement.h"
 
 namespace dynlab::inline scripting {
 namespace {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "scripting/runtime/function_entry.h"
-#include "scripting/runtime/lua_reader.h"
-#include "scripting/runtime/lua_tokens.h"
+#include "scripting/source/lua_reader.h"
+#include "scripting/source/lua_tokens.h"
 
 namespace dynlab::inline scripting {
 namespace {

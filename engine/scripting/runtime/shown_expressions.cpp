@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "scripting/runtime/errors.h"
-#include "scripting/runtime/lua_reader.h"
-#include "scripting/runtime/lua_tokens.h"
 #include "scripting/runtime/shown_calls.h"
+#include "scripting/source/lua_reader.h"
+#include "scripting/source/lua_tokens.h"
 
 namespace dynlab::inline scripting {
 namespace {

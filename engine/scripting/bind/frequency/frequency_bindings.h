@@ -1,5 +1,5 @@
 #pragma once
-#include "scripting/arguments/arguments.h"
+#include "scripting/conversions/arguments.h"
 #include "scripting/runtime/function_entry.h"
 
 namespace dynlab::inline scripting {

@@ -5,8 +5,8 @@
 #include "numerics/estimators/frequency/bla.h"
 #include "numerics/number_text.h"
 #include "numerics/simulation/frequency_response.h"
-#include "scripting/arguments/table_fields.h"
-#include "scripting/arguments/told_sentences.h"
+#include "scripting/conversions/table_fields.h"
+#include "scripting/conversions/told_sentences.h"
 #include "scripting/objects/frequency_object.h"
 #include "scripting/objects/model.h"
 

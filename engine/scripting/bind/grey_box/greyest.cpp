@@ -3,13 +3,13 @@
 #include <array>
 #include <cmath>
 
-#include "scripting/arguments/table_fields.h"
-#include "scripting/arguments/told_sentences.h"
 #include "scripting/bind/grey_box/grey_bindings.h"
+#include "scripting/conversions/named_vector.h"
+#include "scripting/conversions/table_fields.h"
+#include "scripting/conversions/told_sentences.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/fit_model.h"
 #include "scripting/objects/grey_object.h"
-#include "scripting/objects/named_vector.h"
 
 namespace dynlab::inline scripting {
 namespace {

@@ -2,12 +2,12 @@
 #include <array>
 #include <cmath>
 
-#include "scripting/arguments/table_fields.h"
-#include "scripting/arguments/told_sentences.h"
 #include "scripting/bind/grey_box/grey_bindings.h"
 #include "scripting/bind/grey_box/script_equations.h"
+#include "scripting/conversions/table_fields.h"
+#include "scripting/conversions/told_sentences.h"
 #include "scripting/objects/grey_object.h"
-#include "scripting/objects/text_form.h"
+#include "scripting/runtime/text_form.h"
 
 namespace dynlab::inline scripting {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "numerics/criteria/function_library.h"
 #include "numerics/signals/iddata.h"
-#include "scripting/arguments/arguments.h"
+#include "scripting/conversions/arguments.h"
 
 namespace dynlab::inline scripting {
 

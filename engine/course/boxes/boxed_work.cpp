@@ -1,0 +1,49 @@
+#include "course/boxes/boxed_work.h"
+
+#include <fmt/format.h>
+
+namespace dynlab::inline course {
+
+ValueLimits boxed_limits(std::uint64_t bytes) {
+    constexpr std::size_t kMemoryOfAByte = 40;  // an empty text in a list
+    ValueLimits limits;
+    limits.bytes = bytes;
+    limits.memory = kMemoryOfAByte * bytes;
+    limits.depth = 30;
+    limits.only_utf8 = true;
+    return limits;
+}
+
+std::string reason_of_end(const ChildResult& child, std::chrono::milliseconds timeout) {
+    if (child.timed_out) return fmt::format("it took more than {} s", static_cast<double>(timeout.count()) / 1000);
+    if (child.output_exceeded) return "it gave out too much";
+    if (child.exit_code > 128) return fmt::format("it crashed (signal {})", child.exit_code - 128);
+    if (child.exit_code == 0) return "";
+    return fmt::format("it ended with code {}: {}", child.exit_code,
+                       child.error_output.substr(0, child.error_output.find('\n')));
+}
+
+std::filesystem::path program_for(const std::string& work, const std::filesystem::path& dynlab) {
+    const std::filesystem::path small = dynlab.parent_path() / "dynlab-boxed";
+    const bool knows = work == "run" || work == "checks";  // as cli/boxed_program.cpp
+    return knows && std::filesystem::is_regular_file(small) ? small : dynlab;
+}
+
+BoxedResult<std::string> run_boxed_bytes(Box& box, const std::filesystem::path& program, const std::string& work,
+                                         const std::string& job, std::chrono::milliseconds timeout,
+                                         std::uint64_t output_bytes) {
+    const std::filesystem::path inside = box.add_program(program_for(work, program));
+    Box::Limits limits;
+    limits.timeout = timeout;
+    limits.output_bytes = output_bytes;
+    const auto start = std::chrono::steady_clock::now();
+    const ChildResult child = box.run({inside.string(), "boxed", work}, {}, job, limits);
+    BoxedResult<std::string> result;
+    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    result.timed_out = child.timed_out;
+    result.reason = reason_of_end(child, timeout);
+    if (result.reason.empty()) result.output = child.output;
+    return result;
+}
+
+}  // namespace dynlab::inline course

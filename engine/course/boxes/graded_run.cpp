@@ -1,0 +1,93 @@
+#include "course/boxes/graded_run.h"
+
+#include <chrono>
+
+#include "documents/error.h"
+#include "documents/percent_script.h"
+#include "documents/words/sentence_catalogue.h"
+#include "figures/gnuplot_renderer.h"
+#include "platform/cache.h"
+#include "platform/confinement.h"
+#include "scripting/interpreter/runtime.h"
+#include "scripting/memoized_calls/call_cache.h"
+#include "scripting/runtime/report_language.h"
+
+namespace dynlab::inline course {
+namespace {
+
+constexpr std::size_t kPrinted = 4000;         // characters that are kept of the end
+constexpr std::size_t kMostOutput = 4u << 20;  // of printed text
+constexpr int kOpenFiles = 64;
+
+/// The script as the lesson wants it: its own promises of answers do not count.
+PercentScript read_for_grading(const RunJob& job) {
+    PercentScript script = read_percent_script(job.script);
+    script.header.answers = job.answers;
+    return script;
+}
+
+RunOptions options_of(const RunJob& job, const PercentScript& script) {
+    RunOptions options;
+    options.seed = job.seed;
+    options.script_folder = script.file.parent_path();
+    options.out_folder = std::filesystem::temp_directory_path();
+    options.memory_limit_bytes = job.memory_bytes;
+    options.output_limit_bytes = kMostOutput;
+    options.time_limit = std::chrono::milliseconds(job.time_ms);
+    options.graded = true;
+    return options;
+}
+
+std::string end_of_printed(const RunRecord& record, const PercentScript& script) {
+    std::string printed;
+    for (const Cell& cell : script.cells) {
+        const auto found = record.outputs.find(cell.id);
+        if (found == record.outputs.end()) continue;
+        for (const CellOutput& output : found->second) printed += output.printed;
+    }
+    return printed.size() > kPrinted ? printed.substr(printed.size() - kPrinted) : printed;
+}
+
+GradedRun graded_run(RunRecord&& record, const PercentScript& script) {
+    GradedRun run;
+    run.printed = end_of_printed(record, script);
+    for (const auto& [name, figure] : record.figures) run.figures.push_back(name);
+    for (const auto& [name, value] : record.values) run.values.push_back(name);
+    run.answers = std::move(record.answers);
+    if (record.error) run.error = record.error->message;
+    return run;
+}
+
+}  // namespace
+
+GradedRun run_for_grading(const RunJob& job) {
+    ProcessLimits limits;
+    limits.cpu_seconds = static_cast<int>(job.time_ms / 500) + 2;  // threads add up
+    limits.memory_bytes = job.memory_bytes + (2ull << 30);
+    limits.open_files = kOpenFiles;
+    confine_process(limits);
+    if (!job.french_sentences.empty()) read_french_engine_sentences_from(job.french_sentences);
+    try {
+        const PercentScript script = read_for_grading(job);
+        GnuplotRenderer renderer;
+        ReportLanguage language{script.header.language};
+        RunOptions options = options_of(job, script);
+        std::optional<Cache> cache;
+        std::optional<CallCache> calls;
+        if (job.recalls) options.call_cache = &calls.emplace(cache.emplace());
+        Runtime runtime(options, renderer);
+        runtime.set_service(&language);
+        const auto start = std::chrono::steady_clock::now();
+        GradedRun run = graded_run(runtime.run(script), script);
+        run.lesson = script.header.lesson;
+        run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        return run;
+    } catch (const DocumentError& error) {
+        GradedRun unread;
+        unread.began = false;
+        unread.error = error.what();
+        return unread;
+    }
+}
+
+}  // namespace dynlab::inline course

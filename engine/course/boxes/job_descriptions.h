@@ -1,0 +1,26 @@
+#pragma once
+#include "course/boxes/boxed_document.h"
+#include "course/boxes/graded_run.h"
+#include "course/boxes/unpack.h"
+#include "documents/record_description.h"
+
+namespace dynlab::inline course {
+
+/// Jobs for boxes and what comes of them, as data_io/values/described.h stores them; those of checks are described in
+/// checks/check_descriptions.h, that of a report's version in review/version_description.h.
+
+DYNLAB_DESCRIBE(GradedRun, answers, figures, values, printed, error, seconds, lesson, began)
+DYNLAB_DESCRIBE(RunJob, script, french_sentences, seed, answers, time_ms, memory_bytes, recalls)
+DYNLAB_DESCRIBE(Unpacked, left_out, error)
+DYNLAB_DESCRIBE(UnpackJob, archive, to, bytes, files, keep_times)
+
+template <Is<DocumentJob> T, class V>
+void describe(T& object, V& member) {
+    auto& [template_name, metadata, record, latex_format, to] = object;
+    member("template", template_name), member("metadata", metadata), member("record", record);
+    member("latex_format", latex_format), member("to", to);
+}
+
+DYNLAB_DESCRIBE(BoxedOutcome, error)
+
+}  // namespace dynlab::inline course

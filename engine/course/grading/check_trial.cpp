@@ -1,0 +1,179 @@
+#include "course/grading/check_trial.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <future>
+
+#include "course/grading/feedback.h"
+#include "documents/solutions.h"
+#include "platform/atomic_file.h"
+#include "platform/error.h"
+#include "platform/temporary_folder.h"
+#include "platform/terminal/progress.h"
+#include "platform/text_file.h"
+
+namespace dynlab::inline course {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kScaled = 1.5;
+constexpr double kSlow = 0.5;  // s: a check that takes longer is told
+
+bool full(const TriedCheck& check) {
+    return check.check.by_hand || check.share == 1;
+}
+
+/// Lua files whose names begin so, sorted.
+std::vector<fs::path> scripts_in(const fs::path& folder, const std::string& beginning) {
+    std::vector<fs::path> found;
+    if (!fs::is_directory(folder)) return found;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        const std::string name = entry.path().filename().string();
+        if (name.starts_with(beginning) && name.ends_with(".lua")) found.push_back(entry.path());
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
+/// The worked solution's runs with one answer changed; of texts and records one cannot say what is wrong.
+std::vector<std::pair<std::string, CheckedSubmission>> mutants_of(const CheckedSubmission& solution) {
+    std::vector<std::pair<std::string, CheckedSubmission>> mutants;
+    for (const auto& [name, answer] : solution.runs.at("main").answers) {
+        if (answer.kind != "text" && answer.kind != "data")
+            for (const double factor : {kScaled, -1.0}) {
+                if (answer.kind == "truth" && factor < 0) continue;
+                CheckedSubmission mutant = solution;
+                mutant.change = AnswerChange{name, factor};
+                const char* const words = answer.kind == "truth" ? "turned round"
+                                          : factor < 0           ? "of the other sign"
+                                                                 : "1.5 times as large";
+                mutants.emplace_back(fmt::format("{} {}", name, words), std::move(mutant));
+            }
+        CheckedSubmission without = solution;
+        for (auto& [run, made] : without.runs) made.answers.erase(name);
+        mutants.emplace_back(name + " left out", std::move(without));
+    }
+    return mutants;
+}
+
+/// The runs of a script as a student hands it in.
+CheckedSubmission work_of(const GradingRules& rules, const std::string& source) {
+    const TemporaryFolder folder;
+    write_file_atomically(folder.path() / "analysis.lua", source);
+    const fs::path report = rules.setup().lesson.report("en");
+    if (fs::exists(report)) fs::copy_file(report, folder.path() / "report.md");
+    std::string log;
+    return rules.work_in(folder.path(), {}, log);
+}
+
+std::string points_of_script(const TriedScript& script) {
+    double earned = 0, possible = 0;
+    for (const TriedCheck& one : script.checks) {
+        if (one.check.by_hand) continue;
+        earned += one.check.points * one.share.value_or(0);
+        possible += one.check.points;
+    }
+    return fmt::format("{} of {}", points_text(earned), points_text(possible));
+}
+
+/// A line for the script and one for each check that it does not pass wholly.
+std::string lines_of_script(const TriedScript& script) {
+    std::string text = fmt::format("{}: {} points\n", script.name, points_of_script(script));
+    if (!script.trouble.empty()) text += fmt::format("    stopped: {}\n", script.trouble);
+    for (const TriedCheck& one : script.checks) {
+        if (full(one)) continue;
+        const std::string& told = one.for_instructor.empty() ? one.message : one.for_instructor;
+        text += fmt::format("    {:<20} {:>3.0f} %  {}\n", one.check.id, 100 * one.share.value_or(0), told);
+    }
+    return text;
+}
+
+}  // namespace
+
+bool CheckTrial::fails_sometimes(std::size_t check) const {
+    const auto fails = [check](const TriedScript& script) { return !full(script.checks.at(check)); };
+    return std::any_of(scripts.begin(), scripts.end(), fails) || std::any_of(mutants.begin(), mutants.end(), fails);
+}
+
+bool CheckTrial::solution_passes(std::size_t check) const {
+    return full(solution.checks.at(check));
+}
+
+bool CheckTrial::sound() const {
+    return solution.trouble.empty() && std::all_of(solution.checks.begin(), solution.checks.end(), full);
+}
+
+CheckTrial try_checks_of(const GradingSetup& setup, Mutants mutants) {
+    const GradingRules rules(setup);
+    CheckTrial trial;
+    trial.checks = rules.checks();
+    const std::string solution = read_text(setup.lesson.script());
+    std::vector<std::pair<std::string, std::string>> sources = {
+        {"worked solution", solution}, {"starter", without_solutions(solution, setup.lesson.script())}};
+    std::vector<fs::path> files;
+    for (const char* beginning : {"wrong_", "right_"})
+        for (const fs::path& file : scripts_in(setup.lesson.folder, beginning)) files.push_back(file);
+    if (setup.more_checks)
+        for (const fs::path& file : scripts_in(*setup.more_checks / "try", "")) files.push_back(file);
+    for (const fs::path& file : files) sources.emplace_back(file.filename().string(), read_text(file));
+
+    std::vector<CheckedSubmission> submissions;
+    std::vector<std::string> names;
+    ProgressBar bar("running scripts", sources.size());
+    std::vector<std::future<CheckedSubmission>> works;  // the rules know how many may run at once
+    for (const auto& [name, source] : sources) {
+        works.push_back(std::async(std::launch::async, [&rules, &source = source] { return work_of(rules, source); }));
+        names.push_back(name);
+    }
+    for (std::future<CheckedSubmission>& work : works) {
+        submissions.push_back(work.get());
+        bar.advance(submissions.size());
+    }
+    if (mutants == Mutants::kAll)
+        for (auto& [name, mutant] : mutants_of(submissions.front())) {
+            submissions.push_back(std::move(mutant));
+            names.push_back(name);
+        }
+    const std::vector<std::vector<TriedCheck>> verdicts = rules.tried(submissions);
+    for (std::size_t k = 0; k < verdicts.size(); ++k) {
+        TriedScript script{names[k], submissions[k].runs.at("main").error.value_or(""), verdicts[k]};
+        if (k == 0)
+            trial.solution = std::move(script);
+        else
+            (k < sources.size() ? trial.scripts : trial.mutants).push_back(std::move(script));
+    }
+    return trial;
+}
+
+std::string trial_in_words(const CheckTrial& trial) {
+    std::string text = lines_of_script(trial.solution);
+    for (const TriedScript& script : trial.scripts) text += lines_of_script(script);
+    text += fmt::format("\n{} changes of one answer of the worked solution:\n", trial.mutants.size());
+    for (const TriedScript& mutant : trial.mutants) {
+        std::string failed;
+        for (const TriedCheck& one : mutant.checks)
+            if (!full(one)) failed += " " + one.check.id;
+        text += fmt::format("    {:<44}{}\n", mutant.name, failed.empty() ? " unnoticed by all checks" : failed);
+    }
+    std::string remarks;
+    const auto slowest = std::max_element(trial.solution.checks.begin(), trial.solution.checks.end(),
+                                          [](const auto& a, const auto& b) { return a.seconds < b.seconds; });
+    if (slowest != trial.solution.checks.end() && slowest->seconds > kSlow)
+        remarks += fmt::format("{}: takes {:.1f} s of each work's grading\n", slowest->check.id, slowest->seconds);
+    for (std::size_t k = 0; k < trial.checks.size(); ++k) {
+        const CheckDescription& check = trial.checks[k];
+        if (check.by_hand)
+            remarks += fmt::format("{}: marked by hand\n", check.id);
+        else if (!trial.solution_passes(k))
+            remarks += fmt::format("{}: the worked solution fails it, so that nobody is graded by it\n", check.id);
+        else if (!trial.fails_sometimes(k))
+            remarks += fmt::format("{}: nothing that was tried fails it\n", check.id);
+    }
+    return text + (remarks.empty() ? "\nEvery check is passed by the worked solution and failed by something.\n"
+                                   : "\n" + remarks);
+}
+
+}  // namespace dynlab::inline course

@@ -1,0 +1,404 @@
+#include "course/grading/folder_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <csignal>
+#include <optional>
+#include <regex>
+#include <thread>
+
+#include "course/findings/leftover_findings.h"
+#include "course/grading/feedback.h"
+#include "course/grading/grading_rules.h"
+#include "course/hand_ins/folder_copy.h"
+#include "course/hand_ins/notebooks.h"
+#include "data_io/dataset_index.h"
+#include "documents/error.h"
+#include "documents/percent_script.h"
+#include "documents/solutions.h"
+#include "documents/template_file.h"
+#include "documents/text_lines.h"
+#include "platform/atomic_file.h"
+#include "platform/box.h"
+#include "platform/error.h"
+#include "platform/program_lookup.h"
+#include "platform/temporary_folder.h"
+#include "workflow/make_report.h"
+#include "workflow/notebooks/notebook.h"
+#include "workflow/specimen_record.h"
+
+namespace dynlab::inline course {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kMissingProgramCode = 3;  ///< dynlab's exit code when pandoc or the like is not installed
+constexpr std::uint64_t kMostCheckOutput = 16u << 20, kLargestMade = 200u << 20;
+constexpr std::size_t kLongestStart = 200;  ///< of a line, where a question's number is looked for
+constexpr const char *kOwnScript = "analysis.lua", *kOwnNotebook = "analysis.ipynb";
+constexpr char kInBox[] = "/box/submission";
+
+/// One folder's check: a clean copy, what runs in it, and what is found.
+class FolderCheck {
+  public:
+    FolderCheck(const fs::path& folder, const fs::path& program, const FolderLimits& limits)
+        : folder_(folder), program_(program), limits_(limits) {
+        result_.subject = folder.string();
+        fs::create_directory(copy());
+        fs::create_directory(out());
+    }
+
+    CheckResult check(CheckOptions wishes) {
+        if (!has_its_files() || !copied()) return result_;
+        const std::optional<PercentScript> script = readable_script();
+        const bool made = script && makes_report();
+        if (script) {
+            result_.lesson = script->header.lesson;
+            check_blanks(*script);
+            if (made) {
+                const RunRecord run = record_from_json(read_file(record()));
+                check_answers(*script, run);
+                check_places(*script, run);
+            }
+            if (wishes.lesson_checks && !stopped_by_file()) try_lesson_checks(script->header.lesson);
+        }
+        if (!wishes.standard) wishes.standard = own_standard(script);
+        add_members(wishes);
+        const std::optional<fs::path> handed_in = pdf_in_folder();
+        if (made || fs::exists(report()))
+            check_report(report(), wishes);
+        else if (handed_in)
+            check_report(*handed_in, wishes);
+        if (made && handed_in) compare_with(*handed_in);
+        if (of_notebook_) tell_in_cells();
+        sort_findings(result_.findings);
+        return std::move(result_);
+    }
+
+  private:
+    fs::path copy() const { return work_.path() / "folder"; }
+    fs::path out() const { return work_.path() / "made"; }
+    fs::path report() const { return out() / "report.pdf"; }
+    fs::path record() const { return out() / "record.json"; }
+
+    void add(const std::string& id, Severity severity, const std::string& place, const std::string& what,
+             const std::string& remedy) {
+        result_.findings.push_back({id, severity, 0, place, what, remedy});
+    }
+
+    bool has_its_files() {
+        for (const char* needed : {kOwnScript, "report.md"}) {
+            if (fs::is_regular_file(fs::symlink_status(folder_ / needed))) continue;
+            if (needed == kOwnScript && fs::is_regular_file(fs::symlink_status(folder_ / kOwnNotebook))) continue;
+            add("analysis-missing", Severity::kRule, needed, fmt::format("The folder has no file {}.", needed),
+                "Hand in the whole folder that dynlab new made, with analysis.lua and report.md directly in it.");
+        }
+        return result_.findings.empty();
+    }
+
+    bool copied() {
+        const FolderCopy outcome = copy_folder(folder_, copy(), limits_.folder_bytes, limits_.files);
+        for (const std::string& name : outcome.left_out) {
+            add("link-left-out", Severity::kHint, name, "This is a link or not a regular file; it is not handed in.",
+                "Put the file itself there.");
+        }
+        if (!outcome.too_large) return scripts_made();
+        add("folder-too-large", Severity::kRule, "",
+            fmt::format("The folder is too large: at most {} files and {} MB are looked at.", limits_.files,
+                        limits_.folder_bytes >> 20),
+            "Take out what the report does not need.");
+        return false;
+    }
+
+    /// Of a notebook that was handed in instead.
+    bool scripts_made() {
+        try {
+            of_notebook_ = !take_notebooks(copy()).empty();
+            return true;
+        } catch (const SubmissionError& error) {
+            add("analysis-fails", Severity::kRule, kOwnNotebook, error.what(), "Save it again in Jupyter.");
+            return false;
+        }
+    }
+
+    /// The cells of the notebook instead of lines that its author does not see.
+    void tell_in_cells() {
+        const std::string source = read_file(copy() / kOwnScript);
+        for (Finding& finding : result_.findings)
+            for (std::string* text : {&finding.place, &finding.what, &finding.remedy})
+                *text = with_places_in_notebook(*text, kOwnScript, kOwnNotebook, source);
+    }
+
+    std::optional<PercentScript> readable_script() {
+        try {
+            return read_percent_script(copy() / "analysis.lua");
+        } catch (const DocumentError& error) {
+            add_failure(error.what());
+            return std::nullopt;
+        }
+    }
+
+    /// The report and the record of its run, made in a box as grading does: the analysis may be anybody's.
+    ChildResult run_report() const {
+        Box box(isolation_);
+        box.add_document_programs();
+        const fs::path home = box.add(shared_folder() / "data", "/box/home/data").parent_path();
+        box.add(shared_folder() / "report_templates", "/box/home/report_templates");
+        box.set_environment("DYNLAB_HOME", home.string());
+        const fs::path inside = box.add(copy(), kInBox), made = box.add_writable(out(), "/box/made");
+        const fs::path program = box.add_program(program_);
+        Box::Limits most;
+        most.timeout = limits_.time;
+        most.output_bytes = kMostCheckOutput;
+        most.file_bytes = kLargestMade;
+        return box.run({program.string(), "report", inside.string(), "-o", (made / "report.pdf").string(), "--record",
+                        (made / "record.json").string(), "--stay-in-folder"},
+                       made, "", most);
+    }
+
+    /// The message as if the student's own folder had been used, without the lines of the script shown below it.
+    std::string in_folder(std::string message) const {
+        for (const std::string& place : {copy().string() + "/", std::string(kInBox) + "/", std::string("../folder/"),
+                                         std::string("../submission/")})
+            message = replaced(message, place, "");
+        std::string told;
+        for (const std::string& line : lines_of(message))
+            if (!line.starts_with("  ")) told += line + " ";
+        const std::string prefix = "dynlab: ";
+        return trimmed(told.starts_with(prefix) ? told.substr(prefix.size()) : told);
+    }
+
+    void add_failure(const std::string& message) {
+        const std::string told = in_folder(message);
+        if (told.find(kLeadsOutside) != std::string::npos) {
+            const std::string line = told.substr(0, told.find(' '));  // "analysis.lua:3:"
+            const bool located = line.starts_with("analysis.lua:") && line.ends_with(':');
+            add("file-outside", Severity::kRule, located ? line.substr(0, line.size() - 1) : "",
+                "The analysis reads a file that is not handed in, and stops there: " +
+                    (located ? trimmed(told.substr(line.size())) : told) + ".",
+                "Copy the file into the folder and load it by its name there.");
+            return;
+        }
+        add("analysis-fails", Severity::kRule, "", "From a clean copy of the folder no report comes out: " + told,
+            "Mend it and try \"dynlab report FOLDER\"; every file the analysis reads must lie in the folder or in "
+            "data.");
+    }
+
+    bool makes_report() {
+        for (const auto& [name, package] : {std::pair("pandoc", "pandoc"), std::pair("pdflatex", "texlive-latex-base")})
+            if (!find_program(name)) throw MissingProgram(name, package);
+        const ChildResult made = run_report();
+        if (made.exit_code == 0) return true;
+        if (made.exit_code == kMissingProgramCode) throw MissingProgram(in_folder(made.error_output));
+        if (made.timed_out)
+            add_failure(fmt::format("it takes more than {} s.", limits_.time.count()));
+        else if (made.output_exceeded)
+            add_failure("it prints more than 16 MB.");
+        else if (made.exit_code == 128 + SIGXFSZ)
+            add_failure(fmt::format("it writes a file of more than {} MB.", kLargestMade >> 20));
+        else if (made.error_output.empty())
+            add_failure(fmt::format("it ends with code {} and without a message.", made.exit_code));
+        else
+            add_failure(made.error_output);
+        return false;
+    }
+
+    /// What the checks say of a run that stopped there speaks of answers that are given further down.
+    bool stopped_by_file() const {
+        return std::any_of(result_.findings.begin(), result_.findings.end(),
+                           [](const Finding& finding) { return finding.id == "file-outside"; });
+    }
+
+    /// "Your answer:" of the line "-- *Your answer:*".
+    static std::string shown_mark(std::string mark) {
+        std::erase_if(mark, [](char c) { return c == '*' || c == '-'; });
+        return trimmed(mark);
+    }
+
+    /// Lines that a student's own take the place of: a question that has several is one finding.
+    void check_blanks(const PercentScript& script) {
+        struct Blanks {
+            std::string question;     ///< "Question 4"; empty above the first
+            int line;                 ///< of the first
+            std::string code, words;  ///< the marks that stand there
+        };
+        static const std::regex kQuestion("\\*\\*(Question [0-9]{1,4})\\b");
+        std::vector<Blanks> found;
+        std::string question;
+        int number = 0;
+        for (const std::string& line : lines_of(script.source)) {
+            ++number;
+            const std::string begin = line.substr(0, kLongestStart);
+            if (std::smatch asked; std::regex_search(begin, asked, kQuestion)) question = asked[1];
+            const std::string text = trimmed(line);
+            if (text.starts_with("-- #")) question.clear();  // a heading: what follows belongs to none
+            for (const char* language : {"en", "fr"}) {
+                const AnswerMarks marks = answer_marks(language);
+                if (text != marks.code && text != marks.text) continue;
+                if (found.empty() || question.empty() || found.back().question != question)
+                    found.push_back({question, number, "", ""});
+                (text == marks.code ? found.back().code : found.back().words) = shown_mark(text);
+            }
+        }
+        for (const Blanks& blanks : found) {
+            const auto& [asked, line, code, words] = blanks;
+            const std::string& one = code.empty() ? words : code;
+            const bool both = !code.empty() && !words.empty();
+            add("answer-open", Severity::kRule, fmt::format("analysis.lua:{}", line),
+                asked.empty() ? fmt::format("The line \"{}\" is still there.", one)
+                : both ? fmt::format("{} is open: the lines \"{}\" and \"{}\" are still there.", asked, code, words)
+                       : fmt::format("{} is open: the line \"{}\" is still there.", asked, one),
+                "Write your own there and take the line out.");
+        }
+    }
+
+    /// Every answer that the script's header declares is given; of the right kind it is, or the script stops.
+    void check_answers(const PercentScript& script, const RunRecord& run) {
+        for (const ExpectedAnswer& answer : script.header.answers) {
+            if (run.answers.contains(answer.name)) continue;
+            add("answer-missing", Severity::kRule, "analysis.lua",
+                fmt::format("The answer \"{}\" ({}) is not given.", answer.name, answer.kind),
+                fmt::format("Give it: answer(\"{}\", ...).", answer.name));
+        }
+    }
+
+    /// What the analysis reports and no reader would see.
+    void check_places(const PercentScript& script, const RunRecord& run) {
+        for (const std::string& sentence : entries_without_place(script, run)) {
+            const std::size_t remedy = sentence.find("; write ");
+            add("not-shown", Severity::kHint, "report.md", "In analysis.lua " + sentence.substr(0, remedy) + ".",
+                "Write " + sentence.substr(remedy + 8) + " there.");
+        }
+    }
+
+    /// Where the lesson itself is not on this machine: the checks that came with the folder, and the answers that its
+    /// script declares.
+    std::optional<Lesson> lesson_of_folder(const std::string& slug) {
+        if (!fs::is_regular_file(copy() / "checks.lua")) return {};
+        const fs::path folder = work_.path() / "lesson";
+        fs::create_directory(folder);
+        fs::copy_file(copy() / "analysis.lua", folder / "lesson.lua");
+        fs::copy_file(copy() / "checks.lua", folder / "checks.lua");
+        fs::copy_file(copy() / "report.md", folder / "report.en.md");
+        const bool own_data = fs::symlink_status(copy() / "data").type() == fs::file_type::directory;
+        if (own_data) fs::copy(copy() / "data", folder / "data", fs::copy_options::recursive);
+        return Lesson{slug.empty() ? "of the folder" : slug, folder};
+    }
+
+    /// The checks of the lesson that students may read; what falls short is a hint, as marks are given elsewhere.
+    void try_lesson_checks(const std::string& slug) {
+        const std::vector<Lesson> all = lessons();
+        const auto installed = std::find_if(all.begin(), all.end(), [&](const Lesson& l) { return l.slug == slug; });
+        std::optional<Lesson> lesson;
+        if (installed != all.end()) lesson = *installed;
+        if (!lesson || !fs::exists(lesson->folder / "checks.lua")) lesson = lesson_of_folder(slug);
+        if (!lesson) return;
+        GradingSetup setup;
+        setup.lesson = *lesson;
+        setup.isolation = isolation_;
+        setup.timeout = limits_.time;
+        setup.program = program_;
+        setup.jobs = static_cast<int>(std::thread::hardware_concurrency());
+        const GradingRules::GroupSeed own = group_seed_of(copy() / "data");
+        const Grade grade = GradingRules(setup).grade(folder_.filename().string(), copy(), own);
+        result_.checked.push_back(fmt::format("checks of lesson {}: {} of {} points", lesson->slug,
+                                              points_text(grade.earned()), points_text(grade.possible())));
+        for (const CheckGrade& check : grade.checks) {
+            if (check.by_hand || check.earned >= check.points) continue;
+            add("check-failed", Severity::kHint, "",
+                fmt::format("{} of {} points for \"{}\". {}", points_text(check.earned), points_text(check.points),
+                            check.about, check.message),
+                check.hint.empty() ? "See checks.lua of the lesson." : check.hint);
+        }
+    }
+
+    DocumentStandard own_standard(const std::optional<PercentScript>& script) const {
+        DocumentStandard standard;
+        try {
+            if (script) standard = standard_of(script->header.template_name);
+            const TemplateFile own = read_template(copy() / "report.md");
+            const bool demands_nothing = !standard.rules.pages && standard.rules.sections.empty();
+            if (demands_nothing) {
+                standard.rules = document_rules(own);
+                if (standard.rules.pages || !standard.rules.sections.empty()) standard.template_name.clear();
+            }
+            const auto language = own.metadata.find("lang");
+            standard.language = language == own.metadata.end() ? "en" : language->second;
+        } catch (const std::runtime_error&) {
+            // A template or header that cannot be read is a finding of its own: the report was not made.
+        }
+        return standard;
+    }
+
+    /// The authors themselves are looked for, whoever else is.
+    void add_members(CheckOptions& wishes) {
+        SoughtNames names = wishes.names ? *wishes.names : SoughtNames();
+        const std::vector<Student> members = members_of(copy() / "group.toml");
+        for (const Student& member : members) names.add(member, true);
+        if (members.empty() && fs::exists(copy() / "group.toml"))
+            add("members-missing", Severity::kHint, "group.toml",
+                "No members stand there, so your names were not looked for in the report.",
+                "Write them in: members = [\"Ada Lovelace\", \"Rudolf Kalman\"].");
+        wishes.names = std::make_shared<const SoughtNames>(std::move(names));
+    }
+
+    void check_report(const fs::path& file, const CheckOptions& wishes) {
+        const CheckResult found = check_pdf(file, wishes, limits_.pdf);
+        result_.template_name = found.template_name;
+        result_.language = found.language;
+        result_.pages = found.pages;
+        result_.checked.insert(result_.checked.begin(), found.checked.begin(), found.checked.end());
+        result_.checked.insert(result_.checked.begin(),
+                               file == report() ? "run from a clean copy" : file.filename().string());
+        result_.findings.insert(result_.findings.end(), found.findings.begin(), found.findings.end());
+    }
+
+    /// report.pdf, or the only PDF in the folder.
+    std::optional<fs::path> pdf_in_folder() const {
+        std::vector<fs::path> found;
+        for (const auto& entry : fs::directory_iterator(copy())) {
+            if (entry.is_regular_file() && entry.path().extension() == ".pdf") found.push_back(entry.path());
+        }
+        const auto usual = std::find(found.begin(), found.end(), copy() / "report.pdf");
+        if (usual != found.end()) return *usual;
+        return found.size() == 1 ? std::optional(found.front()) : std::nullopt;
+    }
+
+    static std::string make_again(const std::string& name) {
+        return "Make it again: dynlab report FOLDER" + (name == "report.pdf" ? "" : " -o FOLDER/" + name);
+    }
+
+    void compare_with(const fs::path& handed_in) {
+        const std::string name = handed_in.filename().string();
+        if (read_file(handed_in) == read_file(report())) {
+            result_.checked.push_back(name + " is up to date");
+            return;
+        }
+        const auto written = fs::last_write_time(folder_ / name);
+        const bool outdated =
+            written < fs::last_write_time(copy() / kOwnScript) || written < fs::last_write_time(copy() / "report.md");
+        if (outdated) {
+            add("pdf-outdated", Severity::kHint, name,
+                "The PDF is older than the analysis or the text it was made from.", make_again(name));
+        } else {
+            add("pdf-differs", Severity::kHint, name, "The PDF is not what the folder gives now.", make_again(name));
+        }
+    }
+
+    bool of_notebook_ = false;
+    fs::path folder_, program_;
+    FolderLimits limits_;
+    Isolation isolation_ = strongest_isolation();
+    TemporaryFolder work_;
+    CheckResult result_;
+};
+
+}  // namespace
+
+CheckResult check_folder(const fs::path& folder, const fs::path& program, const CheckOptions& wishes,
+                         const FolderLimits& limits) {
+    return FolderCheck(folder, program, limits).check(wishes);
+}
+
+}  // namespace dynlab::inline course

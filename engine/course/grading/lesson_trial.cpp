@@ -1,0 +1,279 @@
+#include "course/grading/lesson_trial.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "course/checks/check_functions.h"
+#include "course/findings/document_findings.h"
+#include "documents/document_rules.h"
+#include "documents/error.h"
+#include "documents/solutions.h"
+#include "documents/text_lines.h"
+#include "numerics/number_text.h"
+#include "platform/error.h"
+#include "platform/temporary_folder.h"
+#include "platform/text_file.h"
+#include "scripting/lint/lint.h"
+#include "scripting/runtime/errors.h"
+#include "workflow/hints.h"
+#include "workflow/make_report.h"
+#include "workflow/student_copy.h"
+
+namespace dynlab::inline course {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kLanguages[] = {"en", "fr"};
+/// The findings of `dynlab check` that tell of pages and of what is missing on them.
+constexpr const char* kFindingsOfPages[] = {"pages",         "section-missing",      "section-empty",
+                                            "slot-unfilled", "reference-unresolved", "text-cut-off"};
+
+/// Collects the faults of one lesson.
+class Faults {
+  public:
+    explicit Faults(const Lesson& lesson) : lesson_(lesson) {}
+
+    void add(const fs::path& file, int line, std::string what) {
+        found_.push_back({file.filename().string(), line, std::move(what)});
+    }
+
+    /// Does something whose exception is a fault of the file that its message names, or of this one.
+    template <class Work>
+    bool attempt(const fs::path& file, const Work& work) {
+        try {
+            work();
+            return true;
+        } catch (const MissingProgram&) {
+            throw;
+        } catch (const std::runtime_error& error) {
+            const LocatedMessage told = take_apart(error.what());
+            const bool here = told.line > 0 && fs::exists(lesson_.folder / fs::path(told.file).filename());
+            add(here ? fs::path(told.file) : file, here ? told.line : 0, here ? told.text : error.what());
+            return false;
+        }
+    }
+
+    LessonFaults found() { return std::move(found_); }
+
+  private:
+    const Lesson& lesson_;
+    LessonFaults found_;
+};
+
+std::vector<fs::path> lua_files_of(const Lesson& lesson) {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(lesson.folder)) {
+        const std::string name = entry.path().filename().string();
+        const bool of_course = name.starts_with("wrong_") || name.starts_with("right_");
+        if (entry.path().extension() == ".lua" && (of_course || name == "lesson.lua" || name == "checks.lua"))
+            files.push_back(entry.path());
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+void look_at_solutions(const Lesson& lesson, Faults& faults) {
+    faults.attempt(lesson.script(), [&] {
+        const PercentScript script = read_percent_script(lesson.script());
+        const std::string starter = without_solutions(script.source, lesson.script(), script.header.language);
+        if (starter == script.source)
+            faults.add(lesson.script(), 0,
+                       "nothing stands between BEGIN SOLUTION and END SOLUTION: students get it all");
+        if (script.header.title.empty()) faults.add(lesson.script(), 0, "the header has no title");
+        if (script.header.lesson != lesson.slug)
+            faults.add(lesson.script(), 0,
+                       fmt::format("the header names the lesson \"{}\", but its folder is \"{}\"", script.header.lesson,
+                                   lesson.slug));
+    });
+}
+
+/// What the lines "-- expects: CHECK: words" of a script name.
+struct Intended {
+    std::string check, words;
+    int line = 0;
+};
+
+std::vector<Intended> intended_failures(const fs::path& file) {
+    static const std::regex kLine("-- expects: (\\w+): (.+)");
+    std::vector<Intended> all;
+    int number = 0;
+    std::smatch found;
+    for (const std::string& line : lines_of(read_text(file))) {
+        ++number;
+        if (line.size() < 1000 && std::regex_match(line, found, kLine))
+            all.push_back({found[1], trimmed(found[2].str()), number});
+    }
+    return all;
+}
+
+bool is_full(const TriedCheck& one) {
+    return one.check.by_hand || one.share == 1;
+}
+
+void look_at_starter(const Lesson& lesson, const TriedScript& starter, Faults& faults) {
+    for (const TriedCheck& one : starter.checks)
+        if (!one.check.by_hand && one.share.value_or(0) > 0)
+            faults.add(lesson.script(), 0,
+                       fmt::format("the untouched starter gets points by the check \"{}\"", one.check.id));
+}
+
+/// Of wrong_*.lua and right_*.lua, which has nothing to expect.
+void look_at_attempt(const fs::path& file, const TriedScript& tried, Faults& faults) {
+    const std::vector<Intended> intended = intended_failures(file);
+    if (!tried.trouble.empty()) faults.add(file, take_apart(tried.trouble).line, "it stops: " + tried.trouble);
+    if (intended.empty() && tried.name.starts_with("wrong_"))
+        faults.add(file, 0, "no line \"-- expects: CHECK: words\" says which check it fails");
+    for (const Intended& one : intended) {
+        const auto check = std::find_if(tried.checks.begin(), tried.checks.end(),
+                                        [&](const TriedCheck& candidate) { return candidate.check.id == one.check; });
+        if (check == tried.checks.end())
+            faults.add(file, one.line, fmt::format("there is no check \"{}\"", one.check));
+        else if (is_full(*check))
+            faults.add(file, one.line, fmt::format("it passes the check \"{}\", which it is to fail", one.check));
+        else if (check->message.find(one.words) == std::string::npos)
+            faults.add(
+                file, one.line,
+                fmt::format("the check \"{}\" says \"{}\", without \"{}\"", one.check, check->message, one.words));
+    }
+    for (const TriedCheck& one : tried.checks) {
+        const bool meant = std::any_of(intended.begin(), intended.end(),
+                                       [&](const Intended& line) { return line.check == one.check.id; });
+        if (!meant && !is_full(one))
+            faults.add(file, 0, fmt::format("it fails the check \"{}\": {}", one.check.id, one.message));
+    }
+}
+
+/// The rules of a lesson's report, where it has one of its own form.
+DocumentStandard standard_of_report(const Lesson& lesson, const std::string& language) {
+    if (!fs::exists(lesson.report(language))) return {};
+    const DocumentStandard named = standard_of(read_percent_script(lesson.script()).header.template_name);
+    return named.rules.pages || !named.rules.sections.empty() ? named : standard_of(lesson.report(language).string());
+}
+
+void look_at_pdf(const fs::path& pdf, const fs::path& source, const DocumentStandard& standard, Faults& faults) {
+    CheckOptions wishes;
+    wishes.standard = standard;
+    for (const Finding& finding : check_pdf(pdf, wishes).findings)
+        if (finding.severity == Severity::kRule && std::find(std::begin(kFindingsOfPages), std::end(kFindingsOfPages),
+                                                             finding.id) != std::end(kFindingsOfPages))
+            faults.add(source, 0, fmt::format("its report, page {}: {}", finding.page, finding.what));
+    for (const PdfPage& page : read_pdf_layout(pdf).pages)
+        for (const PdfWord& word : page.words)
+            if (word.text.find("SOLUTION") != std::string::npos)
+                return faults.add(source, 0, "a mark of a solution is printed in its report");
+}
+
+void look_at_report(const Lesson& lesson, const std::string& language, const std::string& own, const fs::path& folder,
+                    Faults& faults) {
+    const bool has_report = fs::exists(lesson.report(language));
+    if (language != own && !has_report) return;  // tasks alone
+    const fs::path source = has_report ? lesson.report(language) : lesson.script();
+    faults.attempt(source, [&] {
+        const fs::path pdf = folder / (lesson.slug + "." + language + ".pdf");
+        const ReportResult made = make_report(report_of(lesson.folder.string(), pdf, has_report ? language : ""));
+        if (made.error) throw DocumentError(*made.error);
+        for (const std::string& gap : made.gaps) faults.add(source, 0, gap);
+        look_at_pdf(pdf, source, standard_of_report(lesson, language), faults);
+    });
+}
+
+void look_at_copy(const Lesson& lesson, const std::string& language, const fs::path& folder, Faults& faults) {
+    faults.attempt(lesson.script(), [&] {
+        const fs::path copy = folder / ("copy." + language);
+        make_student_copy(lesson, copy, {}, language);
+        ReportRequest request = report_of(copy.string());
+        request.record = folder / "record.json";
+        const ReportResult made = make_report(request);
+        if (made.error)
+            faults.add(lesson.script(), 0, fmt::format("the student's copy ({}) stops: {}", language, *made.error));
+        const auto record = nlohmann::json::parse(read_text(request.record));
+        for (const char* kind : {"values", "answers"})
+            if (record.contains(kind) && !record.at(kind).empty())
+                faults.add(lesson.script(), 0,
+                           fmt::format("the student's copy ({}) gives {} of the solution: {}", language, kind,
+                                       record.at(kind).begin().key()));
+    });
+}
+
+}  // namespace
+
+std::vector<std::string> languages_of(const Lesson& lesson) {
+    std::vector<std::string> languages = {read_percent_script(lesson.script()).header.language};
+    for (const char* language : kLanguages)
+        if (language != languages.front() &&
+            (fs::exists(lesson.tasks(language)) || fs::exists(lesson.report(language))))
+            languages.emplace_back(language);
+    return languages;
+}
+
+LessonFaults faults_of_texts(const Lesson& lesson) {
+    Faults faults(lesson);
+    look_at_solutions(lesson, faults);
+    for (const fs::path& file : lua_files_of(lesson)) {
+        const bool checks = file.filename() == "checks.lua";
+        faults.attempt(file, [&] {
+            const std::string source = text_of_source(file);
+            for (const LintFinding& found :
+                 lint_script(source, file, checks ? names_of_check_functions() : std::vector<std::string>()))
+                if (file != lesson.script() || found.kind != "header") faults.add(file, found.line, found.message);
+        });
+    }
+    if (!fs::exists(lesson.folder / "checks.lua")) faults.add("checks.lua", 0, "there are no checks");
+    for (const char* language : kLanguages) {
+        if (fs::exists(lesson.hints(language)))
+            faults.attempt(lesson.hints(language), [&] { read_hints(lesson.hints(language)); });
+        if (fs::exists(lesson.tasks(language)))
+            faults.attempt(lesson.tasks(language), [&] { lesson_script(lesson, language); });
+        if (fs::exists(lesson.report(language)))
+            faults.attempt(lesson.report(language), [&] { document_rules(read_template(lesson.report(language))); });
+    }
+    return faults.found();
+}
+
+LessonFaults faults_of_checks(const Lesson& lesson, const CheckTrial& trial) {
+    Faults faults(lesson);
+    if (!trial.solution.trouble.empty())
+        faults.add(lesson.script(), take_apart(trial.solution.trouble).line,
+                   "the worked solution stops: " + trial.solution.trouble);
+    for (const TriedCheck& one : trial.solution.checks)
+        if (!is_full(one))
+            faults.add(lesson.script(), 0,
+                       fmt::format("the worked solution does not pass the check \"{}\": {}", one.check.id,
+                                   one.for_instructor.empty() ? one.message : one.for_instructor));
+    bool wrong = false;
+    for (const TriedScript& script : trial.scripts) {
+        wrong = wrong || script.name.starts_with("wrong_");
+        if (script.name.starts_with("wrong_") || script.name.starts_with("right_"))
+            look_at_attempt(lesson.folder / script.name, script, faults);
+        else
+            look_at_starter(lesson, script, faults);
+    }
+    if (!wrong) faults.add("checks.lua", 0, "no wrong_*.lua shows what the checks are to catch");
+    return faults.found();
+}
+
+LessonFaults faults_of_checks(const GradingSetup& setup) {
+    Faults faults(setup.lesson);
+    std::optional<CheckTrial> trial;
+    if (!faults.attempt("checks.lua", [&] { trial = try_checks_of(setup, Mutants::kNone); })) return faults.found();
+    return faults_of_checks(setup.lesson, *trial);
+}
+
+LessonFaults faults_of_documents(const Lesson& lesson) {
+    Faults faults(lesson);
+    const TemporaryFolder folder;
+    faults.attempt(lesson.script(), [&] {
+        const std::vector<std::string> languages = languages_of(lesson);
+        for (const std::string& language : languages) {
+            look_at_report(lesson, language, languages.front(), folder.path(), faults);
+            look_at_copy(lesson, language, folder.path(), faults);
+        }
+    });
+    return faults.found();
+}
+
+}  // namespace dynlab::inline course

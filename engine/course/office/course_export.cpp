@@ -1,0 +1,291 @@
+#include "course/office/course_export.h"
+
+#include <fmt/format.h>
+
+#include <SQLiteCpp/Column.h>
+
+#include <algorithm>
+#include <map>
+#include <variant>
+
+#include "course/names/plain_words.h"
+#include "course/review/oral_marks.h"
+#include "course/review/review_marks.h"
+#include "course/store/course_schema.h"
+#include "course/store/groups.h"
+#include "course/store/newest_versions.h"
+#include "data_io/text_table.h"
+#include "data_io/values/json_values.h"
+#include "platform/atomic_file.h"
+#include "platform/error.h"
+
+namespace dynlab::inline course {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string percent_text(const std::optional<double>& value) {
+    return value ? fmt::format("{:.4g}", *value) : "";
+}
+
+/// When the newest version was received, and how late, or which earlier one was in time.
+std::pair<std::string, std::string> arrival(Course& course, const HandedInParts& parts, const char* part) {
+    const auto found = parts.find(part);
+    if (found == parts.end()) return {"missing", ""};
+    const HandedIn& h = found->second;
+    return {course.clock().show_exactly(h.received_at), h.is_late()  ? duration_text(h.late)
+                                                        : h.late > 0 ? fmt::format("v{} in time", h.in_time)
+                                                                     : ""};
+}
+
+std::map<std::int64_t, std::string> remarks_by_reviewer(Course& course, const Assignment& a, const Marks& marks) {
+    std::map<std::int64_t, std::string> remarks;
+    for (const ReviewPair& pair : review_pairs(course, a))
+        for (const ReviewMark& mark : marks.reviews) {
+            if (mark.pair != pair.id || !mark.outlier) continue;
+            std::string& text = remarks[pair.reviewer];
+            text += fmt::format("{}review of {} far below the others{}", text.empty() ? "" : "; ", pair.author_name,
+                                mark.retaliation ? ", perhaps in return for a bad one" : "");
+        }
+    return remarks;
+}
+
+/// A whole number, a number, a text or null.
+struct StoredCell {
+    std::variant<std::monostate, std::int64_t, double, std::string> value;
+};
+
+/// By the names of the columns.
+using StoredRow = std::map<std::string, StoredCell>;
+
+/// The file of an export.
+struct CourseExport {
+    int format = 1;
+    std::optional<std::int64_t> tables_version;  ///< the first exports did not tell it
+    std::map<std::string, std::vector<StoredRow>> tables;
+};
+
+void write_whole_value(ValueWriter& writer, const StoredCell& cell) {
+    std::visit(
+        [&writer](const auto& value) {
+            if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, std::monostate>)
+                writer.nothing();
+            else
+                write_value(writer, value);
+        },
+        cell.value);
+}
+
+void read_whole_value(ValueReader& reader, StoredCell& cell) {
+    switch (reader.next()) {
+        case ValueReader::Kind::kNothing:
+            cell.value = std::monostate();
+            return reader.nothing();
+        case ValueReader::Kind::kWhole:
+            cell.value = read_fresh<std::int64_t>(reader);
+            return;
+        case ValueReader::Kind::kNumber:
+            cell.value = reader.number();
+            return;
+        default:
+            cell.value = reader.text();
+    }
+}
+
+template <Is<CourseExport> T, class V>
+void describe(T& object, V& member) {
+    auto& [format, tables_version, tables] = object;
+    member("dynlab course", format), member("tables version", tables_version), member("tables", tables);
+}
+
+StoredCell stored_cell(const SQLite::Column& cell) {
+    if (cell.isInteger()) return {cell.getInt64()};
+    if (cell.isFloat()) return {cell.getDouble()};
+    if (cell.isNull()) return {};
+    return {cell.getString()};
+}
+
+const std::string& text_in(const StoredRow& row, const std::string& column) {
+    const auto found = row.find(column);
+    const auto* const text = found == row.end() ? nullptr : std::get_if<std::string>(&found->second.value);
+    if (!text) throw ValueError(fmt::format("a row lacks the text \"{}\"", column));
+    return *text;
+}
+
+std::string column_list(const StoredRow& row) {
+    std::string list;
+    for (const auto& [name, cell] : row) {
+        const bool plain =
+            std::all_of(name.begin(), name.end(), [](char c) { return c == '_' || (c >= 'a' && c <= 'z'); });
+        if (!plain || name.empty()) throw ValueError(fmt::format("there is no column \"{}\"", printable(name)));
+        list += (list.empty() ? "" : ", ") + name;
+    }
+    return list;
+}
+
+void insert_row(Database& db, const std::string& table, const StoredRow& row) {
+    const std::vector<std::string> marks(row.size(), "?");
+    Rows statement =
+        db.query(fmt::format("INSERT INTO {} ({}) VALUES ({})", table, column_list(row), fmt::join(marks, ", ")));
+    int parameter = 0;
+    for (const auto& [name, cell] : row) {
+        ++parameter;
+        if (const auto* const whole = std::get_if<std::int64_t>(&cell.value))
+            statement.give(parameter, *whole);
+        else if (const auto* const number = std::get_if<double>(&cell.value))
+            statement.give(parameter, *number);
+        else if (const auto* const text = std::get_if<std::string>(&cell.value))
+            statement.give(parameter, *text);
+    }
+    statement.next();
+}
+
+/// Makes the imported course in `folder`, a new one.
+void fill_imported(const fs::path& folder, const fs::path& from, std::map<std::string, std::string>& settings,
+                   const std::vector<fs::path>& handed_in, CourseExport& all) {
+    fs::create_directories(folder);
+    if (fs::exists(from / "course.key")) fs::copy_file(from / "course.key", folder / "course.key");
+    Course::create(folder, settings["name"], settings["zone"]);
+    Course course(folder);
+    std::vector<std::string> hashes;
+    for (const fs::path& kept : handed_in) hashes.push_back(course.keep(read_file(kept)));
+    course.settle(hashes);
+    Database& db = course.database();
+    Transaction transaction(db);
+    db.execute("DELETE FROM course; DELETE FROM journal; DELETE FROM seals");  // what create wrote
+    const bool older = all.tables_version.value_or(0) < static_cast<std::int64_t>(course_steps().size());
+    for (const std::string& table : course_tables()) {
+        if (older && !all.tables.contains(table)) continue;  // one that a later version brought
+        for (const StoredRow& row : all.tables[table]) insert_row(db, table, row);
+    }
+    transaction.commit();
+}
+
+/// Throws ValueError for a file that is not an export.
+CourseExport read_export(const fs::path& file) {
+    auto read = from_json<CourseExport>(read_file(file));
+    for (const char* needed : {"course", "files"})
+        if (!read.tables.contains(needed)) throw ValueError(fmt::format("the table \"{}\" is missing", needed));
+    return read;
+}
+
+}  // namespace
+
+std::string marks_csv(Course& course, const Assignment& a) {
+    TextTable table;
+    table.names = {"id",
+                   "name",
+                   "mail",
+                   "moodle",
+                   "canvas",
+                   "group",
+                   "first version",
+                   "late",
+                   "final",
+                   "final late",
+                   "work percent",
+                   "work reason",
+                   "reviews written",
+                   "reviews_late",
+                   "reviews percent",
+                   "reviews reason",
+                   "remarks"};
+    const Marks marks = course_marks(course, a);
+    const auto remarks = remarks_by_reviewer(course, a, marks);
+    const std::vector<ReviewPair> pairs = review_pairs(course, a);
+    auto versions = newest_versions(course, a);
+    OralComments said = oral_comments(course, a);
+    std::map<std::string, Group> by_name;
+    for (const Group& group : groups_of(course)) by_name[group.name] = group;
+    for (const Student& s : students_of(course)) {
+        std::vector<std::string> row = {s.id, s.name, s.mail, s.moodle, s.canvas, s.group};
+        const auto group = by_name.find(s.group);
+        if (group != by_name.end()) {
+            const std::int64_t id = group->second.id;
+            const char* const part = a.is_report() ? "report" : "slides";
+            const auto first = arrival(course, versions[id]["first"], part),
+                       last = arrival(course, versions[id]["final"], part);
+            row.insert(row.end(), {first.first, first.second, a.is_report() ? last.first : "", last.second});
+            int written = 0, late = 0, all = 0;
+            for (const ReviewPair& pair : pairs)
+                if (pair.reviewer == id && !pair.ended) ++all, written += pair.written, late += pair.late;
+            for (const GroupMark& mark : marks.groups)
+                if (mark.group == id)
+                    row.insert(row.end(), {percent_text(mark.work_mark_of(s.id)), mark.work_reason,
+                                           all > 0 ? fmt::format("{} of {}", written, all) : "",
+                                           all > 0 ? fmt::format("{}", late) : "", percent_text(mark.reviews_mark()),
+                                           mark.reviews_reason});
+            std::string remark = group->second.dropped_out ? "dropped out" : "";
+            if (const auto own = remarks.find(id); own != remarks.end())
+                remark += (remark.empty() ? "" : "; ") + own->second;
+            for (const GroupMark& mark : marks.groups)
+                if (mark.group == id)
+                    for (const std::string& cost : mark.costs) remark += (remark.empty() ? "" : "; ") + cost;
+            const auto say = [&](const std::string& comment) {
+                if (!comment.empty()) remark += (remark.empty() ? "" : "; ") + comment;
+            };
+            say(said.groups[id]), say(said.students[s.id]);
+            row.push_back(remark);
+        }
+        row.resize(table.names.size());
+        table.rows.push_back(std::move(row));
+    }
+    return csv_text(table);
+}
+
+std::string course_json(Course& course) {
+    Database& db = course.database();
+    CourseExport all;
+    Rows version = db.query("PRAGMA user_version");
+    version.next();
+    all.tables_version = version.integer(0);
+    for (const std::string& table : course_tables()) {
+        std::vector<StoredRow>& rows = all.tables[table];
+        for (Rows row = db.query("SELECT * FROM " + table + " ORDER BY 1, 2"); row.next();) {
+            StoredRow& stored = rows.emplace_back();
+            for (int c = 0; c < row.getColumnCount(); ++c) stored[row.getColumnName(c)] = stored_cell(row.getColumn(c));
+        }
+    }
+    return json_of(all, 1) + '\n';
+}
+
+void import_course(const fs::path& file, const fs::path& from, const fs::path& folder) {
+    CourseExport all;
+    std::map<std::string, std::string> settings;
+    std::vector<fs::path> handed_in;
+    try {
+        all = read_export(file);
+        for (const StoredRow& row : all.tables["course"]) settings[text_in(row, "key")] = text_in(row, "value");
+        for (const StoredRow& row : all.tables["files"]) {
+            const std::string& hash = text_in(row, "hash");
+            handed_in.push_back(from / "files" / hash.substr(0, 2) / hash);
+        }
+    } catch (const ValueError& error) {
+        throw EnvironmentError(
+            fmt::format("{}: this is not an export of dynlab course ({})", file.string(), error.what()));
+    }
+    for (const char* needed : {"name", "zone"})
+        if (!settings.contains(needed))
+            throw EnvironmentError(fmt::format("{}: the course's {} is missing", file.string(), needed));
+    for (const fs::path& kept : handed_in)
+        if (!fs::exists(kept))
+            throw EnvironmentError(
+                fmt::format("{} has no file {}; nothing was made", from.string(), kept.filename().string()));
+    const fs::path place = fs::absolute(folder).lexically_normal();
+    const fs::path whole = place.has_filename() ? place : place.parent_path();
+    if (fs::exists(whole) && !(fs::is_directory(whole) && fs::is_empty(whole)))
+        throw EnvironmentError(
+            fmt::format("{} exists already and is not an empty folder; name a new one", folder.string()));
+    const fs::path growing = whole.string() + ".unfinished";
+    fs::remove_all(growing);  // of an import that was interrupted
+    try {
+        fill_imported(growing, from, settings, handed_in, all);
+    } catch (const EnvironmentError& error) {
+        fs::remove_all(growing);
+        throw EnvironmentError(fmt::format("{}: {}; nothing was made", file.string(), error.what()));
+    }
+    if (fs::exists(whole)) fs::remove(whole);
+    fs::rename(growing, whole);
+}
+
+}  // namespace dynlab::inline course

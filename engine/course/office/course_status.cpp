@@ -1,0 +1,308 @@
+#include "course/office/course_status.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "course/review/review_pairs.h"
+#include "course/store/aligned_table.h"
+#include "course/store/exceptions.h"
+#include "course/store/groups.h"
+#include "course/store/newest_versions.h"
+#include "numerics/number_text.h"
+
+namespace dynlab::inline course {
+namespace {
+
+std::string when(const CourseClock& clock, Instant due, Instant now) {
+    const std::string distance = duration_text(std::abs(due - now));
+    return fmt::format("{} ({})", clock.show(due), due >= now ? "in " + distance : distance + " ago");
+}
+
+/// "v2", "v1 late 2 h 5 min", "v2 (v1 in time)", "v1, 3 rules broken", "v1 damaged", "-".
+std::string cell_of(const HandedInParts& parts, const std::string& main) {
+    const auto found = parts.find(main);
+    if (found == parts.end()) return parts.empty() ? "-" : fmt::format("only the {}", parts.begin()->first);
+    const HandedIn& h = found->second;
+    std::string cell = fmt::format("v{}", h.version);
+    if (h.late > 0 && h.in_time > 0)
+        cell += fmt::format(" (v{} in time)", h.in_time);
+    else if (h.late > 0)
+        cell += " late " + duration_text(h.late);
+    if (!h.trouble.empty())
+        cell += " " + h.trouble;
+    else if (h.rules_broken > 0)
+        cell += ", " + counted(h.rules_broken, "rule") + " broken";
+    return cell;
+}
+
+/// By group: others who handed in the very same bytes.
+std::map<std::int64_t, std::string> groups_with_the_same_file(Course& course, const Assignment& assignment) {
+    std::map<std::int64_t, std::string> twins;
+    for (Rows rows = course.database().query(
+             "SELECT DISTINCT v.group_id, g.name FROM versions v JOIN versions w ON w.hash = v.hash AND w.assignment = "
+             "v.assignment AND w.group_id <> v.group_id JOIN groups g ON g.id = w.group_id WHERE v.assignment = ? AND "
+             "v.stage <> 'review' AND w.stage <> 'review' AND EXISTS (SELECT 1 FROM standing s WHERE s.id = v.id) AND "
+             "EXISTS (SELECT 1 FROM standing s WHERE s.id = "
+             "w.id) ORDER BY 1, 2",
+             assignment.id);
+         rows.next();) {
+        std::string& names = twins[rows.integer(0)];
+        names += (names.empty() ? "" : " and ") + rows.text(1);
+    }
+    return twins;
+}
+
+class Status {
+  public:
+    Status(Course& course, const Assignment& assignment, Instant now)
+        : course_(course),
+          assignment_(assignment),
+          now_(now),
+          main_(assignment.is_report() ? "report" : "slides"),
+          versions_(newest_versions(course, assignment)),
+          pairs_(review_pairs(course, assignment)),
+          twins_(groups_with_the_same_file(course, assignment)) {}
+
+    std::string text() {
+        for (const Group& group : groups_of(course_)) add(group);
+        std::string text = heading() + '\n' + aligned_table(header(), rows_) + '\n' + sums();
+        const std::string next = next_step();
+        return text + (next.empty() ? "" : "Next: " + next + '\n');
+    }
+
+  private:
+    std::vector<std::string> header() const {
+        if (!assignment_.is_report()) return {"group", "members", "slides", "script", "to do"};
+        return {"group", "members", "first version", "reviews written", "reviews received", "final version", "to do"};
+    }
+
+    std::string heading() const {
+        const auto& clock = course_.clock();
+        std::string text = fmt::format(
+            "{}: {}{}, {}\n", assignment_.name, assignment_.kind,
+            assignment_.lesson.empty() ? "" : " of lesson " + assignment_.lesson,
+            assignment_.grace > 0 ? duration_text(assignment_.grace) + " of grace" : std::string("no grace"));
+        const auto line = [&](const char* what, Instant due) {
+            text += fmt::format("  {:<14} {}\n", what, when(clock, due, now_));
+        };
+        line(assignment_.is_report() ? "first version" : "slides, script", assignment_.first_due);
+        if (assignment_.review_due) line("reviews", *assignment_.review_due);
+        if (assignment_.final_due) line("final version", *assignment_.final_due);
+        for (Rows rows = course_.database().query(
+                 "SELECT g.name, e.stage, e.due_at FROM extensions e JOIN groups g ON g.id = e.group_id WHERE "
+                 "e.assignment = ? AND e.due_at IS NOT NULL AND e.id = (SELECT max(n.id) FROM extensions n WHERE "
+                 "n.assignment = e.assignment AND n.group_id = e.group_id AND n.stage = e.stage) ORDER BY 1, 2",
+                 assignment_.id);
+             rows.next();)
+            text += fmt::format("  extended       {}, {}: {}\n", rows.text(0),
+                                rows.text(1) == "first"    ? "first version"
+                                : rows.text(1) == "review" ? "reviews"
+                                                           : "final version",
+                                when(clock, rows.integer(2), now_));
+        return text + fmt::format("  times in {}\n", clock.zone());
+    }
+
+    void add(const Group& group) {
+        const auto& stages = versions_[group.id];
+        const auto parts = [&](const char* stage) {
+            const auto found = stages.find(stage);
+            return found == stages.end() ? HandedInParts() : found->second;
+        };
+        const HandedInParts first = parts("first"), last = parts("final");
+        if (group.dropped_out && first.empty() && last.empty()) return;
+        ++groups_;
+        const std::string members = fmt::format("{}", group.members.size());
+        if (!assignment_.is_report()) {
+            const std::string script =
+                first.contains("pack") ? cell_of(first, "pack") + " (pack)" : cell_of(first, "script");
+            rows_.push_back({group.name, members, first.contains("slides") ? cell_of(first, "slides") : "-",
+                             first.contains("script") || first.contains("pack") ? script : "-",
+                             to_do(group, first, last)});
+            count(group, first, last);
+            return;
+        }
+        int to_write = 0, written = 0, late = 0, to_get = 0, got = 0;
+        for (const ReviewPair& pair : pairs_) {
+            if (pair.ended) continue;
+            if (pair.reviewer == group.id) ++to_write, written += pair.written, late += pair.late;
+            if (pair.author == group.id) ++to_get, got += pair.written;
+        }
+        const auto share = [](int part, int whole) {
+            return whole == 0 ? std::string("-") : fmt::format("{} of {}", part, whole);
+        };
+        open_reviews_ += group.dropped_out ? 0 : to_write - written;
+        rows_.push_back({group.name, members, cell_of(first, main_),
+                         share(written, to_write) + (late > 0 ? fmt::format(", {} late", late) : ""),
+                         share(got, to_get), cell_of(last, main_), to_do(group, first, last)});
+        count(group, first, last);
+    }
+
+    void count(const Group& group, const HandedInParts& first, const HandedInParts& last) {
+        if (group.dropped_out) return;
+        const auto found = first.find(main_);
+        if (found == first.end()) {
+            ++missing_;
+        } else {
+            ++present_;
+            if (found->second.is_late()) ++late_;
+            if (!found->second.trouble.empty()) ++unreadable_;
+            unassigned_ += !in_allocation(group.id);
+        }
+        finals_ += last.contains(main_);
+    }
+
+    /// Of those that are not taken back.
+    template <class Condition>
+    bool any_pair(const Condition& fits) const {
+        return std::any_of(pairs_.begin(), pairs_.end(), [&](const ReviewPair& p) { return !p.ended && fits(p); });
+    }
+    bool in_allocation(std::int64_t group) const {
+        return any_pair([group](const ReviewPair& p) { return p.reviewer == group || p.author == group; });
+    }
+
+    /// What the instructor may want to do about this group.
+    std::string to_do(const Group& group, const HandedInParts& first, const HandedInParts& last) const {
+        if (group.dropped_out) return "dropped out";
+        std::vector<std::string> things;
+        const auto due_over = [&](const char* stage) {
+            const bool given = assignment_.is_report() || std::string_view(stage) == "first";
+            return given && now_ > due_for(course_, assignment_, group.id, stage) + assignment_.grace;
+        };
+        const auto found = first.find(main_);
+        const auto only_pack = [&](const HandedInParts& parts, const char* of) {
+            if (parts.contains("pack") && !parts.contains(main_))
+                things.push_back(fmt::format("no PDF in the pack{}: ask for one", of));
+        };
+        if (found == first.end()) {
+            only_pack(first, "");
+            if (things.empty() && due_over("first"))
+                things.push_back(assignment_.is_report() ? "ask for the first version, or roster drop"
+                                                         : "ask for the slides, or roster drop");
+            return join(things);
+        }
+        if (!assignment_.is_report()) {
+            if (!first.contains("script") && !first.contains("pack") && due_over("first"))
+                things.push_back("ask for the script");
+        }
+        const auto readable = [&](const HandedInParts& parts, const char* what) {
+            const auto there = parts.find(main_);
+            if (there != parts.end() && !there->second.trouble.empty())
+                things.push_back(fmt::format("ask for a readable {} ({})", what, there->second.trouble));
+        };
+        readable(first, assignment_.is_report() ? "first version" : "file");
+        readable(last, "final version");
+        const auto id = group.id;
+        if (const auto twin = twins_.find(id); twin != twins_.end())
+            things.push_back(fmt::format("handed in the same file as {}", twin->second));
+        if (is_held(course_, assignment_, id, {})) things.push_back("its report is held back");
+        if (any_pair([id](const ReviewPair& p) { return p.author == id && p.newer_report; }) &&
+            !is_held(course_, assignment_, id, {}))
+            things.push_back("a newer version than was sent: peer send");
+        if (any_pair([&](const ReviewPair& p) {
+                return p.reviewer == id && p.newer_review && !is_held(course_, assignment_, id, p.id);
+            }))
+            things.push_back("a newer review than was released: release");
+        if (any_pair([&](const ReviewPair& p) { return p.reviewer == id && is_held(course_, assignment_, id, p.id); }))
+            things.push_back("a review by it is held back");
+        if (any_pair([](const ReviewPair& p) { return p.sent; }) &&
+            any_pair([id](const ReviewPair& p) { return p.author == id && !p.sent && !p.written; }) &&
+            !is_held(course_, assignment_, id, {}))
+            things.push_back("its copy was not sent: peer send tells why");
+        if (any_pair([](const ReviewPair& p) { return p.released; }) && any_pair([&](const ReviewPair& p) {
+                return p.reviewer == id && p.written && !p.released && !is_held(course_, assignment_, id, p.id);
+            }))
+            things.push_back("a review by it was not released: release tells why");
+        if (!pairs_.empty() && !in_allocation(group.id)) things.push_back("came after the allocation: peer assign");
+        int open = 0;
+        for (const ReviewPair& pair : pairs_) {
+            if (pair.reviewer != group.id || pair.ended || pair.written) continue;
+            if (pair.only_pack)
+                things.push_back(
+                    fmt::format("no PDF in the pack with its review of {}: ask for one", pair.report_pseudonym()));
+            else
+                ++open;
+        }
+        if (open > 0 && due_over("review")) things.push_back("remind of " + counted(open, "review"));
+        only_pack(last, " of the final version");
+        if (last.empty() && due_over("final")) things.push_back("ask for the final version");
+        return join(things);
+    }
+
+    static std::string join(const std::vector<std::string>& things) {
+        return fmt::format("{}", fmt::join(things, "; "));
+    }
+
+    std::string sums() const {
+        std::string text = fmt::format("{}: {} handed in", counted(groups_, "group"), present_);
+        if (late_ > 0) text += fmt::format(", {} late", late_);
+        if (unreadable_ > 0) text += fmt::format(", {} unreadable", unreadable_);
+        if (missing_ > 0) text += fmt::format(", {} missing", missing_);
+        if (assignment_.is_report() && !pairs_.empty())
+            text +=
+                fmt::format("; {} to come; {}", counted(open_reviews_, "review"), counted(finals_, "final version"));
+        text += ".\n";
+        return text;
+    }
+
+    std::string next_step() const {
+        const auto command = [&](const char* words) {
+            return fmt::format("dynlab course {} {}", words, assignment_.name);
+        };
+        if (present_ == 0) return fmt::format("dynlab course receive FILE... --assignment {}", assignment_.name);
+        if (!assignment_.is_report()) return command("oral sheet");
+        if (now_ <= assignment_.first_due + assignment_.grace) return {};
+        if (pairs_.empty() || unassigned_ > 0) return command("peer assign");
+        if (any_pair([this](const ReviewPair& p) {
+                return ((!p.sent && !p.written) || p.newer_report) && !is_held(course_, assignment_, p.author, {});
+            }))
+            return command("peer send");
+        if (any_pair([this](const ReviewPair& p) {
+                return ((p.written && !p.released) || p.newer_review) &&
+                       !is_held(course_, assignment_, p.reviewer, p.id);
+            }) &&
+            now_ > *assignment_.review_due + assignment_.grace)
+            return command("release");
+        const bool released = any_pair([](const ReviewPair& p) { return p.released; });
+        if (!released)
+            return fmt::format("wait for reviews, dynlab course review receive FILE... --assignment {}",
+                               assignment_.name);
+        if (now_ > *assignment_.final_due)
+            return (finals_ > 0 ? command("final changes --assignment") + ", then " : "") + command("export");
+        return command("scores") + " FILE.csv, then " + command("marks");
+    }
+
+    Course& course_;
+    const Assignment& assignment_;
+    Instant now_;
+    std::string main_;
+    std::map<std::int64_t, std::map<std::string, HandedInParts>> versions_;
+    std::vector<ReviewPair> pairs_;
+    std::map<std::int64_t, std::string> twins_;
+    std::vector<std::vector<std::string>> rows_;
+    int groups_ = 0, present_ = 0, late_ = 0, unreadable_ = 0, missing_ = 0, unassigned_ = 0, open_reviews_ = 0,
+        finals_ = 0;
+};
+
+}  // namespace
+
+std::string assignment_status(Course& course, const Assignment& assignment, Instant now) {
+    return Status(course, assignment, now).text();
+}
+
+std::string course_summary(Course& course, Instant now) {
+    int active = 0, dropped_out = 0;
+    for (const Group& group : groups_of(course)) ++(group.dropped_out ? dropped_out : active);
+    std::string text = fmt::format("{}: {}{}\n", course.name(), counted(active, "group"),
+                                   dropped_out > 0 ? fmt::format(", {} dropped out", dropped_out) : "");
+    std::vector<std::vector<std::string>> rows;
+    for (const Assignment& a : assignments_of(course)) {
+        const auto shown = [&](std::optional<Instant> due) { return due ? when(course.clock(), *due, now) : "-"; };
+        rows.push_back({a.name, a.kind, shown(a.first_due), shown(a.review_due), shown(a.final_due)});
+    }
+    if (rows.empty()) return text + "No assignments yet: dynlab course assignment add NAME --first TIME ...\n";
+    return text + aligned_table({"assignment", "kind", "first version", "reviews", "final version"}, rows);
+}
+
+}  // namespace dynlab::inline course

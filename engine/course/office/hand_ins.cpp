@@ -1,0 +1,435 @@
+#include "course/office/hand_ins.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <deque>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "course/office/packed_document.h"
+#include "course/review/pack_scores.h"
+#include "course/review/review_marks.h"
+#include "course/review/review_pairs.h"
+#include "course/store/exceptions.h"
+#include "course/store/file_kind.h"
+#include "course/store/inspection.h"
+#include "course/store/receipts.h"
+#include "course/store/senders.h"
+#include "course/store/side_by_side.h"
+#include "documents/pdf/pdf_layout.h"
+#include "numerics/error.h"
+#include "platform/atomic_file.h"
+#include "platform/error.h"
+#include "platform/files/atomic_files.h"
+#include "platform/hash.h"
+
+namespace dynlab::inline course {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t kMostBytes = 200u << 20;
+
+/// Under which name a file is kept: report, slides, script, review or pack.
+std::string part_of(const Assignment& assignment, const std::string& stage, const std::string& kind) {
+    if (kind != "pdf" && kind != "text") return kind;
+    if (stage == "review") return "review";
+    return assignment.is_report() ? "report" : "slides";
+}
+
+/// A file on its way into the store.
+struct Candidate {
+    const IncomingFile* file = nullptr;
+    Group group;
+    std::string part, hash;
+    std::int64_t bytes = 0;
+    Instant at = 0;      ///< when it was handed in
+    bool timed = false;  ///< as `time_of` tells
+    std::optional<ReviewPair> pair;
+    bool from_pack = false, made = false;  ///< a PDF that was taken out of the group's pack; made of it
+    bool unreadable = false;               ///< no PDF, but the document all the same: kept, and told
+    std::string missing;                   ///< of a pack without the PDF that is wanted
+    Inspection inspection;
+    std::map<std::string, double> scores;  ///< of a review's pack, by criterion
+};
+
+/// Makes its folder.
+fs::path place_of(const Course& course, std::int64_t version, const Receipt& receipt) {
+    const fs::path folder = course.folder() / "receipts" / receipt.assignment;
+    fs::create_directories(folder);
+    return folder / fmt::format("{:05}-{}-{}-{}{}.txt", version, receipt.group, receipt.stage, receipt.part,
+                                receipt.correction > 0 ? fmt::format("-corrected-{}", receipt.correction) : "");
+}
+
+void write_receipts(Course& course, const std::vector<Received>& received) {
+    std::vector<NewFile> files;
+    std::set<fs::path> places;  // of a file that came twice there is one version
+    for (const Received& one : received) {
+        const Receipt receipt = receipt_of(course, one.id);
+        const fs::path file = place_of(course, one.id, receipt);
+        if (!fs::exists(file) && places.insert(file).second)
+            files.push_back({file, signed_receipt(receipt, course.signing_key())});
+    }
+    write_files_atomically(files);
+}
+
+class HandInReceiver {
+  public:
+    HandInReceiver(Course& course, const ReceiveRequest& request)
+        : course_(course), request_(request), senders_(course), incoming_(way()) {
+        outcome_.assignment = assignment_named(course, request.assignment);
+        due_for(course, outcome_.assignment, 0, request.stage);  // a presentation has no reviews
+        if (request.of.size() > 1 && request.of.size() != request.files.size())
+            throw InvalidArgument(fmt::format("{} files and {} times --of: say --of once for each file, in their order",
+                                              request.files.size(), request.of.size()));
+        if (!request.from.empty()) from_ = group_named(course, request.from);
+        if (request.stage != "final") pairs_ = review_pairs(course, outcome_.assignment);
+    }
+
+    ReceiveOutcome run() {
+        for (const fs::path& file : request_.files) incoming_.add(file);
+        outcome_.refused = incoming_.left_out();
+        for (const IncomingFile* file : wanted_files()) attempt(*file, [&] { identify(*file); });
+        refuse_doubles();
+        open_packs();
+        keep_all();
+        write();
+        outcome_.receipts = course_.folder() / "receipts" / outcome_.assignment.name;
+        if (!outcome_.received.empty()) course_.publish_key();
+        write_receipts(course_, outcome_.received);
+        return std::move(outcome_);
+    }
+
+  private:
+    IncomingFiles::Way way() {
+        return {request_.level, request_.program, !request_.from.empty(),
+                [this](const Submission& submission) { return senders_.knows(submission); }};
+    }
+
+    template <class Work>
+    void attempt(const IncomingFile& file, const Work& work) {
+        try {
+            work();
+        } catch (const std::runtime_error& error) {
+            if (!incoming_.batch()) throw EnvironmentError(fmt::format("{}: {}", file.source, error.what()));
+            outcome_.refused.push_back(fmt::format("{}: {}", file.source, error.what()));
+        }
+    }
+
+    /// Text and scripts that lie in a sender's folder beside a PDF or a pack need no remark.
+    std::vector<const IncomingFile*> wanted_files() const {
+        std::set<std::string> fruitful;
+        const auto counts = [&](const IncomingFile& file) {
+            try {
+                const std::string kind = kind_of_file_at(file.name, file.file);
+                return is_wanted(kind) && kind != "text";
+            } catch (const EnvironmentError&) {
+                return true;  // what cannot be read is complained of by its name when its turn comes
+            }
+        };
+        for (const IncomingFile& file : incoming_.files())
+            if (!file.folder.empty() && counts(file)) fruitful.insert(file.folder);
+        std::vector<const IncomingFile*> wanted;
+        for (const IncomingFile& file : incoming_.files())
+            if (!fruitful.contains(file.folder) || counts(file)) wanted.push_back(&file);
+        return wanted;
+    }
+
+    bool is_wanted(const std::string& kind) const {
+        return !kind.empty() && !(kind == "script" && outcome_.assignment.is_report());
+    }
+
+    void identify(const IncomingFile& file) {
+        Candidate candidate;
+        candidate.file = &file;
+        const std::optional<Group> group = from_ ? from_ : senders_.find(file.sender);
+        if (!group) throw EnvironmentError(senders_.complaint(file.sender));
+        candidate.group = *group;
+        const std::optional<Instant> time = request_.time_of ? request_.time_of(file) : std::nullopt;
+        candidate.at = time.value_or(request_.at), candidate.timed = time.has_value();
+        candidate.bytes = static_cast<std::int64_t>(fs::file_size(file.file));
+        if (candidate.bytes == 0) throw EnvironmentError("the file is empty");
+        if (static_cast<std::uintmax_t>(candidate.bytes) > kMostBytes)
+            throw EnvironmentError(fmt::format("the file has more than {} MB", kMostBytes >> 20));
+        const std::string kind = kind_of_file_at(file.name, file.file);
+        if (!is_wanted(kind))
+            throw EnvironmentError(
+                outcome_.assignment.is_report()
+                    ? "this is neither a PDF nor a pack (.zip, .tar.gz); ask for one"
+                    : "this is not a PDF, no script (.lua) and no pack (.zip, .tar.gz); ask for one");
+        candidate.part = part_of(outcome_.assignment, request_.stage, kind);
+        candidate.unreadable = kind == "text";
+        if (request_.stage == "first" && !request_.take_as_first) refuse_after_reviews(candidate);
+        if (request_.stage == "review") candidate.pair = reviewed_pair(pairs_, *group, report_of(file));
+        candidates_.push_back(std::move(candidate));
+    }
+
+    /// By what is told, which report a review is of.
+    const std::string& report_of(const IncomingFile& file) const {
+        if (request_.of.empty()) return file.name;
+        return request_.of.size() == 1 ? request_.of.front() : request_.of[file.given];
+    }
+
+    /// A report that is handed in once it was reviewed is the final version, unless the file is known.
+    void refuse_after_reviews(const Candidate& candidate) const {
+        bool sent = false, released = false;
+        for (const ReviewPair& pair : pairs_) {
+            if (pair.author != candidate.group.id) continue;
+            sent = sent || pair.sent;
+            released = released || pair.released;
+        }
+        const Assignment& a = outcome_.assignment;
+        const bool over = a.review_due && candidate.at > *a.review_due + a.grace;
+        if (!released && !(sent && over)) return;
+        if (is_known(candidate, sha256_of(read_file(candidate.file->file)))) return;
+        throw EnvironmentError(fmt::format(
+            "the reviews of {} are {}: did you mean dynlab course final receive? --first takes it as a first "
+            "version all the same",
+            candidate.group.name, released ? "released" : "due"));
+    }
+
+    bool is_known(const Candidate& c, const std::string& hash) const {
+        return course_.database()
+            .query(
+                "SELECT 1 FROM versions WHERE assignment = ? AND group_id = ? AND stage = ? AND part = ? AND hash = ?",
+                outcome_.assignment.id, c.group.id, request_.stage, c.part, hash)
+            .next();
+    }
+
+    /// For what a candidate is; of two only one can hold.
+    static std::string slot_of(const Candidate& c, const std::string& part) {
+        return fmt::format("{}/{}/{}", c.group.id, part, c.pair ? c.pair->id : 0);
+    }
+
+    /// Two files of a group for the same thing: nobody can say which holds, unless they are the same, as platforms give
+    /// a team's file once for each member.
+    void refuse_doubles() {
+        drop_unreadable_doubles();
+        std::map<std::string, std::vector<const Candidate*>> by_slot;
+        for (const Candidate& c : candidates_) by_slot[slot_of(c, c.part)].push_back(&c);
+        std::set<std::string> ambiguous;
+        for (const auto& [slot, all] : by_slot) {
+            if (all.size() == 1) continue;
+            const std::string content = sha256_of_file(all.front()->file->file);
+            for (const Candidate* c : all)
+                if (sha256_of_file(c->file->file) != content) ambiguous.insert(slot);
+        }
+        std::vector<Candidate> single;
+        std::set<std::string> taken;
+        for (Candidate& c : candidates_) {
+            const std::string slot = slot_of(c, c.part);
+            if (!ambiguous.contains(slot)) {
+                if (taken.insert(slot).second) single.push_back(std::move(c));
+                continue;
+            }
+            outcome_.refused.push_back(
+                fmt::format("{}: {} gave several files that could be the {}; receive the one that holds alone",
+                            c.file->source, c.group.name, c.part));
+        }
+        candidates_ = std::move(single);
+    }
+
+    /// A text that came beside the PDF that was made of it, or beside the pack.
+    void drop_unreadable_doubles() {
+        std::set<std::string> readable;
+        for (const Candidate& c : candidates_)
+            if (!c.unreadable) readable.insert(slot_of(c, c.part == "pack" ? document_part() : c.part));
+        std::erase_if(candidates_,
+                      [&](const Candidate& c) { return c.unreadable && readable.contains(slot_of(c, c.part)); });
+    }
+
+    std::string document_part() const { return part_of(outcome_.assignment, request_.stage, "pdf"); }
+
+    /// A pack's PDF counts as if it had come beside it, unless one did.
+    void open_packs() {
+        const std::string part = document_part();
+        std::set<std::string> present;
+        for (const Candidate& c : candidates_) present.insert(slot_of(c, c.part));
+        std::vector<std::size_t> packs;
+        for (std::size_t i = 0; i < candidates_.size(); ++i)
+            if (candidates_[i].part == "pack" && !present.contains(slot_of(candidates_[i], part))) packs.push_back(i);
+        std::vector<OpenedPack> found(packs.size());
+        side_by_side(packs.size(), [&](std::size_t i) {
+            Candidate& pack = candidates_[packs[i]];
+            try {
+                found[i] = open_pack(pack.file->file, part, opened_.path() / std::to_string(i), request_.level,
+                                     request_.program);
+                pack.missing = found[i].missing;
+                if (request_.stage == "review") pack.scores = scores_in_pack(opened_.path() / std::to_string(i));
+            } catch (const SubmissionError&) {
+                pack.inspection.trouble = "damaged";
+            }
+        });
+        for (std::size_t i = 0; i < packs.size(); ++i)
+            if (found[i].document) add_packed(candidates_[packs[i]], *found[i].document, part);
+    }
+
+    void add_packed(const Candidate& pack, const PackedDocument& document, const std::string& part) {
+        const IncomingFile& whole = *pack.file;
+        packed_.push_back({document.file, whole.name + "/" + document.name, whole.source + "/" + document.name,
+                           whole.sender, whole.folder});
+        Candidate candidate;
+        candidate.file = &packed_.back(), candidate.group = pack.group, candidate.pair = pack.pair;
+        candidate.at = pack.at, candidate.timed = pack.timed;
+        candidate.part = part, candidate.from_pack = true, candidate.made = document.made;
+        candidates_.push_back(std::move(candidate));
+    }
+
+    void keep_all() {
+        std::optional<Inspector> inspector;
+        if (request_.checks) inspector.emplace(request_.stage == "review" ? everybody() : nullptr);
+        if (inspector && candidates_.size() > 1) prepare_to_read_pdfs();
+        std::vector<fs::path> files;
+        for (const Candidate& candidate : candidates_) files.push_back(candidate.file->file);
+        const auto look = [&](std::size_t i, const KeptFile& kept) {
+            candidates_[i].hash = kept.hash, candidates_[i].bytes = kept.bytes;
+            inspect(candidates_[i], inspector);
+        };
+        course_.keep_files(files, look, request_.progress);
+    }
+
+    std::shared_ptr<const SoughtNames> everybody() const {
+        return std::make_shared<const SoughtNames>(Roster(students_of(course_)));
+    }
+
+    void inspect(Candidate& candidate, const std::optional<Inspector>& inspector) const {
+        if (candidate.unreadable && !inspector)
+            candidate.inspection = Inspector(nullptr).inspect(course_.file(candidate.hash), candidate.part);
+        else if (inspector && inspector->looks_at(candidate.part))
+            candidate.inspection = inspector->inspect(course_.file(candidate.hash), candidate.part);
+    }
+
+    void write() {
+        std::stable_sort(candidates_.begin(), candidates_.end(),  // a pack stays before what it held
+                         [](const Candidate& a, const Candidate& b) { return a.group.name < b.group.name; });
+        Transaction transaction(course_.database());
+        int fresh = 0;
+        std::set<std::string> known_packs;
+        for (const Candidate& candidate : candidates_) {
+            // An earlier pack does not bring back what a newer PDF has replaced.
+            if (candidate.from_pack && known_packs.contains(slot_of(candidate, "pack")) &&
+                has_any(candidate, candidate.part))
+                continue;
+            outcome_.received.push_back(take(candidate));
+            if (!outcome_.received.back().known)
+                ++fresh;
+            else if (candidate.part == "pack")
+                known_packs.insert(slot_of(candidate, "pack"));
+        }
+        if (fresh > 0)
+            course_.note(fmt::format("{}: {} received, {}", outcome_.assignment.name, fresh, request_.stage),
+                         request_.at);
+        transaction.commit();
+    }
+
+    bool has_any(const Candidate& c, const std::string& part) const {
+        return course_.database()
+            .query(
+                "SELECT 1 FROM versions WHERE assignment = ? AND group_id = ? AND stage = ? AND ifnull(pair, 0) = ? "
+                "AND part = ?",
+                outcome_.assignment.id, c.group.id, request_.stage, c.pair ? c.pair->id : 0, part)
+            .next();
+    }
+
+    /// Whose these very bytes are, too, which is worth a look: another group's, or a review.
+    std::string same_as(const Candidate& c) const {
+        if (c.pair) return "";
+        Rows rows = course_.database().query(
+            "SELECT g.name, v.stage = 'review' FROM versions v JOIN groups g ON g.id = v.group_id WHERE v.assignment = "
+            "? AND v.hash = ? AND (v.group_id <> ? OR v.stage = 'review') AND EXISTS (SELECT 1 FROM standing s WHERE "
+            "s.id = v.id) ORDER BY 2 DESC LIMIT 1",
+            outcome_.assignment.id, c.hash, c.group.id);
+        if (!rows.next()) return "";
+        return rows.integer(1) != 0 ? "a review by " + rows.text(0) : rows.text(0) + "'s";
+    }
+
+    /// An earlier version of the same content: where another came between, it may be the one that is meant.
+    std::string earlier_with_the_same(const Candidate& c) const {
+        Rows rows = course_.database().query(
+            "SELECT number, received_at FROM versions WHERE assignment = ? AND group_id = ? AND stage = ? AND "
+            "ifnull(pair, 0) = ? AND part = ? AND hash = ? ORDER BY number LIMIT 1",
+            outcome_.assignment.id, c.group.id, request_.stage, c.pair ? c.pair->id : 0, c.part, c.hash);
+        return rows.next() ? fmt::format("v{} of {}", rows.integer(0), course_.clock().show(rows.integer(1))) : "";
+    }
+
+    Received take(const Candidate& c) {
+        Database& db = course_.database();
+        std::optional<std::int64_t> pair;
+        if (c.pair) pair = c.pair->id;
+        Received received;
+        received.group = c.group.name, received.part = c.part;
+        received.rules_broken = c.inspection.rules_broken, received.trouble = c.inspection.trouble;
+        received.names = c.inspection.names;
+        received.from_pack = c.from_pack, received.made = c.made;
+        if (!has_any(c, document_part())) received.missing = c.missing;
+        if (c.pair) received.about = c.pair->report_pseudonym();
+        Rows before = db.query(
+            "SELECT v.id, v.number, v.hash, s.late, s.id IS NULL FROM versions v LEFT JOIN standing s ON s.id = v.id "
+            "WHERE v.assignment = ? AND v.group_id = ? AND v.stage = ? AND ifnull(v.pair, 0) = ? AND v.part = ? ORDER "
+            "BY v.number DESC LIMIT 1",
+            outcome_.assignment.id, c.group.id, request_.stage, pair.value_or(0), c.part);
+        const bool any = before.next();
+        if (any && before.text(2) == c.hash) {
+            received.known = true, received.id = before.integer(0), received.version = before.integer(1);
+            received.late = before.integer(3), received.withdrawn = before.integer(4) != 0;
+            Rows arrived = db.query("SELECT received_at FROM arrived WHERE id = ?", received.id);
+            if (c.timed && arrived.next() && arrived.integer(0) != c.at)
+                received.other_time = course_.clock().show(c.at);
+            return received;
+        }
+        received.version = any ? before.integer(1) + 1 : 1;
+        const Assignment& a = outcome_.assignment;
+        const Instant due = due_for(course_, a, c.group.id, request_.stage);
+        received.late = c.at > due + a.grace ? c.at - due : 0;
+        course_.record_file(c.hash, c.bytes, request_.at);
+        received.twin = same_as(c);
+        received.earlier = earlier_with_the_same(c);
+        received.marked_late = c.file->sender.late && received.late == 0;
+        const Receipt receipt{course_.name(), a.name,           c.group.name, request_.stage, c.part, c.file->name,
+                              c.hash,         received.version, c.bytes,      received.late,  c.at,   due};
+        db.run(
+            "INSERT INTO versions (assignment, group_id, stage, pair, part, number, hash, name, received_at, due_at, "
+            "late, findings, signature) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+            a.id, c.group.id, request_.stage, pair, c.part, received.version, c.hash, c.file->name, c.at, due,
+            received.late, c.inspection.json, version_signature(course_, receipt));
+        received.id = db.getLastInsertRowid();
+        // What its receipt tells is when this version came; what counts is when its content did.
+        if (Rows standing = db.query("SELECT late FROM standing WHERE id = ?", received.id); standing.next())
+            received.late = standing.integer(0);
+        for (std::size_t i = 0; i < a.criteria.size(); ++i) {
+            const auto points = c.scores.find(a.criteria[i].name);
+            if (points == c.scores.end() || points->second > a.criteria[i].most) continue;
+            add_review_score(course_, *pair, static_cast<std::int64_t>(i), points->second, c.at);
+            ++received.scores;
+        }
+        return received;
+    }
+
+    Course& course_;
+    const ReceiveRequest& request_;
+    Senders senders_;
+    IncomingFiles incoming_;
+    std::optional<Group> from_;
+    std::vector<ReviewPair> pairs_;
+    std::vector<Candidate> candidates_;
+    TemporaryFolder opened_;           ///< what packs held
+    std::deque<IncomingFile> packed_;  ///< candidates point to them
+    ReceiveOutcome outcome_;
+};
+
+}  // namespace
+
+fs::path write_receipt(Course& course, std::int64_t version, std::optional<std::int64_t> correction) {
+    const Receipt receipt = receipt_of(course, version, correction);
+    const fs::path file = place_of(course, version, receipt);
+    if (!fs::exists(file)) write_file_atomically(file, signed_receipt(receipt, course.signing_key()));
+    return file;
+}
+
+ReceiveOutcome receive(Course& course, const ReceiveRequest& request) {
+    return HandInReceiver(course, request).run();
+}
+
+}  // namespace dynlab::inline course

@@ -1,0 +1,31 @@
+#include "course/office/stored_findings.h"
+
+#include <algorithm>
+
+#include "course/findings/findings_report.h"
+#include "course/review/review_pairs.h"
+
+namespace dynlab::inline course {
+
+std::vector<StoredFindings> stored_findings(Course& course, const Assignment& assignment, const Group& group,
+                                            const std::string& stage, std::optional<std::int64_t> number) {
+    const std::vector<ReviewPair> pairs = review_pairs(course, assignment);
+    Rows rows = course.database().query(
+        "SELECT part, ifnull(pair, 0), number, received_at, findings FROM standing v WHERE assignment = ? AND "
+        "group_id = ? AND stage = ? AND number = ifnull(?, (SELECT max(number) FROM standing w WHERE "
+        "w.assignment = v.assignment AND w.group_id = v.group_id AND w.stage = v.stage AND w.part = v.part AND "
+        "ifnull(w.pair, 0) = ifnull(v.pair, 0))) ORDER BY part, pair",
+        assignment.id, group.id, stage, number);
+    std::vector<StoredFindings> found;
+    while (rows.next()) {
+        StoredFindings& one = found.emplace_back();
+        one.part = rows.text(0), one.version = rows.integer(2), one.received_at = rows.integer(3);
+        const auto pair =
+            std::find_if(pairs.begin(), pairs.end(), [&](const ReviewPair& p) { return p.id == rows.integer(1); });
+        if (pair != pairs.end()) one.about = pair->report_pseudonym();
+        if (!rows.text(4).empty()) one.result = findings_from_json(rows.text(4));
+    }
+    return found;
+}
+
+}  // namespace dynlab::inline course

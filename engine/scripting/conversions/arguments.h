@@ -1,0 +1,103 @@
+#pragma once
+#include <fmt/format.h>
+
+#include <functional>
+#include <initializer_list>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "numerics/error.h"
+#include "scripting/conversions/numeric.h"
+#include "scripting/runtime/context.h"
+
+namespace dynlab::inline scripting {
+
+/// One call from a script: checked reading of its arguments, writing of its results. Reading throws InvalidArgument
+/// that names the argument, what was wanted and what was given; `guarded` turns it into a Lua error with file and line.
+class Call {
+  public:
+    explicit Call(lua_State* state) : state_(state), arguments_(lua_gettop(state)) {}
+
+    lua_State* state() const { return state_; }
+    RuntimeContext& context() const { return context_of(state_); }
+    int count() const { return arguments_; }
+    bool given(int index) const { return index <= arguments_ && !lua_isnoneornil(state_, index); }
+    const char* function_name() const;  ///< the Lua name of the running function
+    int type(int index) const { return index <= arguments_ ? lua_type(state_, index) : LUA_TNONE; }
+    void at_most(int arguments) const;  ///< throws when the script gave more
+
+    double number(int index, const char* what) const;
+    double number_or(int index, const char* what, double fallback) const;
+    Index integer(int index, const char* what) const;
+    Index size(int index, const char* what) const;  ///< a whole number from 0 on
+    std::string text(int index, const char* what) const;
+
+    /// A vector of the script, or a table of numbers, which is made into one in its place.
+    VectorMap vector(int index, const char* what) const;
+    /// A matrix, a vector (one column) or a table of tables (rows).
+    MatrixMap matrix(int index, const char* what) const;
+    bool holds_vector(int index) const;  ///< vector userdata or plain table of numbers
+
+    std::function<bool()> cancel() const;       ///< for long work of the core: true after Ctrl-C or the time limit
+    void print(const std::string& text) const;  ///< into the record, and live
+    /// Whole lines; between two blocks of several comes an empty one.
+    void print_lines(const std::string& text) const;
+
+    int give(double value) const;
+    int give_integer(Index value) const;
+    int give(bool value) const;
+    int give(const std::string& value) const;
+    int give_vector(const VectorView& v) const;
+    int give_matrix(const MatrixView& m) const;
+
+  private:
+    lua_State* state_;
+    int arguments_;
+};
+
+[[noreturn]] void wrong_argument(lua_State* L, int index, const char* what, const char* wanted);
+/// What stands at a stack index, in words: "a text", "nil", "a vector of 5 values".
+std::string given_text(lua_State* L, int index);
+
+/// A table {name = value} whose names are all known; an unknown one throws InvalidArgument with the nearest known name.
+class Options {
+  public:
+    /// An absent table stands for all defaults. `index` may be any stack index.
+    Options(const Call& call, int index, std::initializer_list<const char*> known);
+
+    bool has(const char* name) const;
+    double number(const char* name, double fallback) const;
+    std::optional<double> optional_number(const char* name) const;
+    Index size(const char* name, Index fallback) const;
+    bool flag(const char* name, bool fallback) const;
+    std::string text(const char* name, const std::string& fallback) const;
+    std::vector<std::string> texts(const char* name) const;  ///< a text or a list of texts; empty when absent
+    VectorMap vector(const char* name) const;                ///< throws when absent
+    std::map<std::string, double> numbers_by_name(const char* name) const;   ///< {a1 = 2}; empty when absent
+    std::optional<std::pair<double, double>> range(const char* name) const;  ///< {low, high}
+    /// Place of the text among `choices`; throws for any other text, naming them.
+    std::size_t choice(const char* name, std::initializer_list<const char*> choices, std::size_t fallback) const;
+    const Call& call() const { return call_; }
+    /// Pushes the option's value (nil when absent) and returns its stack index.
+    int push(const char* name) const;
+
+  private:
+    void check_names(std::initializer_list<const char*> known) const;
+    std::string label(const char* name) const { return fmt::format("option '{}'", name); }
+    Call call_;
+    int index_;
+};
+
+using Binding = int (*)(Call&);
+int run_guarded(lua_State* L, Binding body);
+
+/// The only way a binding is called: C++ exceptions of the core become Lua errors "file:line: function: sentence".
+/// Lua's own exceptions pass through untouched, so that destructors run.
+template <Binding kBody>
+int guarded(lua_State* L) {
+    return run_guarded(L, kBody);
+}
+
+}  // namespace dynlab::inline scripting

@@ -1,0 +1,103 @@
+#pragma once
+#include <concepts>
+#include <new>
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+#include "platform/hash.h"
+#include "scripting/conversions/arguments.h"
+#include "scripting/conversions/object_type.h"
+
+namespace dynlab::inline scripting {
+
+/// Each boxed C++ class says which object type it is and how many bytes it holds outside Lua:
+///   template <> struct Boxed<IdData> { static const ObjectType type; static std::size_t outside_bytes(const IdData&);
+///   };
+/// A class of large objects that nobody changes once they are pushed may also say `static Digest digest(const T&)`, of
+/// all its content: its objects are then handed out as constant, and the digest of each is computed once.
+template <class T>
+struct Boxed;
+
+template <class T>
+concept KeepsDigest = requires(const T& object) {
+    { Boxed<T>::digest(object) } -> std::same_as<Digest>;
+};
+template <class T>
+using Access = std::conditional_t<KeepsDigest<T>, const T, T>;
+
+/// A C++ object inside a userdata, with the bytes it was charged for.
+template <class T>
+struct BoxedObject {
+    T object;
+    std::size_t outside_bytes;
+    std::optional<Digest> digest = {};  ///< once somebody asked
+};
+
+template <class T>
+int destroy_box(lua_State* L) {
+    auto* box = static_cast<BoxedObject<T>*>(lua_touserdata(L, 1));
+    context_of(L).memory.remove_outside(box->outside_bytes);
+    box->~BoxedObject<T>();
+    return 0;
+}
+
+template <class T>
+void push_box_metatable(lua_State* L) {
+    push_metatable(L, Boxed<T>::type);
+    lua_pushliteral(L, "__gc");
+    if (lua_rawget(L, -2) == LUA_TNIL) {
+        lua_pushliteral(L, "__gc");
+        lua_pushcfunction(L, destroy_box<T>);
+        lua_rawset(L, -4);
+    }
+    lua_pop(L, 1);
+}
+
+void charge_outside_bytes(lua_State* L, std::size_t bytes, const char* what);
+
+/// Pushes `object`; its outside bytes count against the memory limit and drive the collector.
+template <class T>
+Access<T>& push_object(lua_State* L, T object) {
+    const std::size_t bytes = Boxed<T>::outside_bytes(object);
+    charge_outside_bytes(L, bytes, Boxed<T>::type.name);
+    void* memory = lua_newuserdatauv(L, sizeof(BoxedObject<T>), 0);
+    auto* box = new (memory) BoxedObject<T>{std::move(object), bytes};
+    context_of(L).memory.add_outside(bytes);
+    push_box_metatable<T>(L);
+    lua_setmetatable(L, -2);
+    return box->object;
+}
+
+/// The object at a stack index, nullptr when something else is there.
+template <class T>
+Access<T>* to_object(lua_State* L, int index) {
+    if (!is_object(L, index, Boxed<T>::type)) return nullptr;
+    return &static_cast<BoxedObject<T>*>(lua_touserdata(L, index))->object;
+}
+
+/// The digest of the object at a stack index, which is of this class.
+template <KeepsDigest T>
+Digest digest_of_object(lua_State* L, int index) {
+    auto* box = static_cast<BoxedObject<T>*>(lua_touserdata(L, index));
+    if (!box->digest) box->digest = Boxed<T>::digest(box->object);
+    return *box->digest;
+}
+
+/// The object of argument `index`; throws InvalidArgument naming argument and wanted kind.
+template <class T>
+Access<T>& object_argument(const Call& call, int index, const char* what) {
+    Access<T>* object = index <= call.count() ? to_object<T>(call.state(), index) : nullptr;
+    if (object == nullptr) wrong_argument(call.state(), index, what, Boxed<T>::type.name);
+    return *object;
+}
+
+/// The object whose field or operator is asked for; unlike object_argument() it takes any that there may be.
+template <class T>
+const T& object_itself(const Call& call) {
+    const T* object = to_object<T>(call.state(), 1);
+    if (object == nullptr) wrong_argument(call.state(), 1, Boxed<T>::type.name, Boxed<T>::type.name);
+    return *object;
+}
+
+}  // namespace dynlab::inline scripting

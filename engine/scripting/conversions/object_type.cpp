@@ -1,0 +1,155 @@
+#include "scripting/conversions/object_type.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "platform/spelling.h"
+#include "scripting/runtime/context.h"
+#include "scripting/runtime/errors.h"
+#include "scripting/runtime/matlab_hints.h"
+#include "scripting/runtime/sandbox.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+char type_key;  // its address is the key of the type in its metatable
+
+void push_members(lua_State* L, std::span<const Member> members) {
+    lua_createtable(L, 0, static_cast<int>(members.size()));
+    for (const Member& member : members) {
+        lua_pushlightuserdata(L, const_cast<char*>(member.name));
+        lua_pushcclosure(L, member.function, 1);
+        lua_setfield(L, -2, member.name);
+    }
+}
+
+bool is_library_function(lua_State* L, const std::string& name) {
+    push_library(L);
+    lua_pushstring(L, name.c_str());
+    const bool found = lua_rawget(L, -2) == LUA_TFUNCTION;
+    lua_pop(L, 2);
+    return found;
+}
+
+std::string unknown_member_message(lua_State* L, const ObjectType& type, const std::string& key) {
+    std::vector<std::string> names;
+    for (const Member& member : type.fields) names.emplace_back(member.name);
+    for (const Member& member : type.methods) names.emplace_back(member.name);
+    const auto near = nearest_word(key, names);
+    std::string message = fmt::format("{} has no field or method '{}'", article(type.name), key);
+    const std::string singular = key.ends_with('s') ? key.substr(0, key.size() - 1) : key;
+    const auto as_function = [&](const std::string& name) {
+        return fmt::format("; write it as a function, {}(...)", name);
+    };
+    if (is_library_function(L, key)) return message + as_function(key);
+    if (const char* hint = foreign_member_hint(type.name, key)) return message + "; " + hint;
+    if (near) return message + fmt::format("; did you mean '{}'?", *near);
+    if (is_library_function(L, singular)) return message + as_function(singular);
+    if (const char* hint = matlab_name_hint(key)) return message + "; " + hint;
+    return names.empty() ? message : message + fmt::format("; it has {}", fmt::join(names, ", "));
+}
+
+/// __index; upvalues: methods, fields, the type.
+int read_member(lua_State* L) {
+    const auto& type = *static_cast<const ObjectType*>(lua_touserdata(L, lua_upvalueindex(3)));
+    if (lua_type(L, 2) != LUA_TSTRING && type.element != nullptr) return type.element(L);
+    lua_pushvalue(L, 2);
+    if (lua_rawget(L, lua_upvalueindex(1)) != LUA_TNIL) return 1;
+    lua_pushvalue(L, 2);
+    if (lua_rawget(L, lua_upvalueindex(2)) != LUA_TNIL) {
+        lua_pushvalue(L, 1);
+        lua_call(L, 1, 1);
+        return 1;
+    }
+    lua_settop(L, 2);
+    if (luaL_getmetafield(L, 1, "__named") !=
+        LUA_TNIL) {  // names that only the object knows; raises for others, or nil
+        lua_pushvalue(L, 1);
+        lua_pushvalue(L, 2);
+        lua_call(L, 2, 1);
+        if (!lua_isnil(L, -1)) return 1;
+        lua_settop(L, 2);
+    }
+    if (lua_type(L, 2) != LUA_TSTRING)
+        raise_error(L, fmt::format("a {0} has no elements; help(\"{0}\") tells what it has{1}", type.name,
+                                   std::string_view(type.name) == "figure"
+                                       ? ", and bode_values(G, w), freqresp(G, w) and lsim(G, u, t) give numbers"
+                                       : ""));
+    raise_error(L, unknown_member_message(L, type, lua_tostring(L, 2)));
+}
+
+int refuse_writing(lua_State* L) {
+    const auto& type = *static_cast<const ObjectType*>(lua_touserdata(L, lua_upvalueindex(1)));
+    raise_error(L, fmt::format("{} cannot be changed; make a new one", article(type.name)));
+}
+
+/// __concat: Lua would say "concatenate a userdata value".
+int refuse_joining(lua_State* L) {
+    const auto& type = *static_cast<const ObjectType*>(lua_touserdata(L, lua_upvalueindex(1)));
+    raise_error(L, fmt::format(".. joins texts; make a text of the {} first: tostring(x)", type.name));
+}
+
+void set_with_type(lua_State* L, const char* name, lua_CFunction function, const ObjectType& type) {
+    lua_pushlightuserdata(L, const_cast<ObjectType*>(&type));
+    lua_pushcclosure(L, function, 1);
+    lua_setfield(L, -2, name);
+}
+
+void make_metatable(lua_State* L, const ObjectType& type) {
+    lua_createtable(L, 0, static_cast<int>(type.operators.size()) + 5);
+    lua_pushstring(L, type.name);
+    lua_setfield(L, -2, "__name");
+    lua_pushstring(L, type.name);
+    lua_setfield(L, -2, "__metatable");
+    set_with_type(L, "__newindex", refuse_writing, type);
+    set_with_type(L, "__concat", refuse_joining, type);
+    for (const Member& member : type.operators) {
+        lua_pushlightuserdata(L, const_cast<char*>(member.name));
+        lua_pushcclosure(L, member.function, 1);
+        lua_setfield(L, -2, member.name);
+    }
+    lua_pushlightuserdata(L, const_cast<ObjectType*>(&type));
+    lua_rawsetp(L, -2, &type_key);
+    push_members(L, type.methods);
+    push_members(L, type.fields);
+    lua_pushlightuserdata(L, const_cast<ObjectType*>(&type));
+    lua_pushcclosure(L, read_member, 3);
+    lua_setfield(L, -2, "__index");
+}
+
+}  // namespace
+
+void push_metatable(lua_State* L, const ObjectType& type) {
+    if (lua_rawgetp(L, LUA_REGISTRYINDEX, &type) != LUA_TNIL) return;
+    lua_pop(L, 1);
+    make_metatable(L, type);
+    lua_pushvalue(L, -1);
+    lua_rawsetp(L, LUA_REGISTRYINDEX, &type);
+}
+
+bool is_object(lua_State* L, int index, const ObjectType& type) {
+    if (lua_type(L, index) != LUA_TUSERDATA || !lua_getmetatable(L, index)) return false;
+    lua_rawgetp(L, LUA_REGISTRYINDEX, &type);
+    const bool same = lua_rawequal(L, -1, -2) != 0;
+    lua_pop(L, 2);
+    return same;
+}
+
+const ObjectType* object_type(lua_State* L, int index) {
+    if (lua_type(L, index) != LUA_TUSERDATA || !lua_getmetatable(L, index)) return nullptr;
+    lua_rawgetp(L, -1, &type_key);
+    const auto* type = static_cast<const ObjectType*>(lua_touserdata(L, -1));
+    lua_pop(L, 2);
+    return type;
+}
+
+std::string object_name(lua_State* L, int index) {
+    if (lua_type(L, index) != LUA_TUSERDATA || luaL_getmetafield(L, index, "__name") != LUA_TSTRING) return {};
+    std::string name = lua_tostring(L, -1);
+    lua_pop(L, 1);
+    return name;
+}
+
+}  // namespace dynlab::inline scripting

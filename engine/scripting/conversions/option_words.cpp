@@ -1,0 +1,91 @@
+#include "scripting/conversions/option_words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <utility>
+
+#include "platform/spelling.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+using OptionWord = std::pair<std::string_view, std::string_view>;
+constexpr std::array kOptionWords = {
+    OptionWord{"initial_state", "InitialState"},
+    OptionWord{"offset", "Offset"},
+    OptionWord{"least_delay", "TdMin"},
+    OptionWord{"largest_delay", "TdMax"},
+    OptionWord{"delay_count", "NumTd"},
+    OptionWord{"delay", "IODelay"},
+    OptionWord{"max_iterations", "MaxIter"},
+    OptionWord{"tolerance", "Tol"},
+    OptionWord{"stable", "Stable"},
+    OptionWord{"fixed", "Fixed"},
+    OptionWord{"output_weights", "OutputWeights"},
+    OptionWord{"integration", "Integration"},
+    OptionWord{"bins", "Bins"},
+    OptionWord{"breakpoints", "Breakpoints"},
+    OptionWord{"block_rows", "BlockRows"},
+    OptionWord{"weighting", "Weighting"},
+    OptionWord{"transient", "transient"},
+    OptionWord{"noise_variance", "NoiseVariance"},
+    OptionWord{"history_points", "HistoryPoints"},
+    OptionWord{"degree", "degree"},
+    OptionWord{"terms", "terms"},
+    OptionWord{"threshold", "threshold"},
+    OptionWord{"weak", "weak"},
+    OptionWord{"window", "window"},
+    OptionWord{"width", "width"},
+    OptionWord{"rank", "rank"},
+    OptionWord{"delays", "delays"},
+    OptionWord{"runs", "runs"},
+    OptionWord{"kind", "kind"},
+    OptionWord{"confidence", "confidence"},
+    OptionWord{"points", "points"},
+    OptionWord{"range", "range"},
+    OptionWord{"relative_tolerance", "RelTol"},
+    OptionWord{"starts", "starts"},
+    OptionWord{"outputs", "outputs"},
+};
+
+}  // namespace
+
+std::string in_lua_words(std::string_view message) {
+    std::string text;
+    while (!message.empty()) {
+        const std::size_t begin = message.find('`'), end = message.find('`', begin + 1);
+        if (begin == std::string_view::npos || end == std::string_view::npos) break;
+        const std::string_view name = message.substr(begin + 1, end - begin - 1);
+        const auto word = std::find_if(kOptionWords.begin(), kOptionWords.end(),
+                                       [&](const OptionWord& option) { return option.first == name; });
+        const bool known = word != kOptionWords.end();
+        text += message.substr(0, known ? begin : end);  // a closing backtick may open the next name
+        if (known) text += word->second;
+        message.remove_prefix(known ? end + 1 : end);
+    }
+    return text += message;
+}
+
+std::string with_other_case(std::string name) {
+    if (name.empty()) return name;
+    const auto first = static_cast<unsigned char>(name[0]);
+    name[0] = static_cast<char>(std::isupper(first) ? std::tolower(first) : std::toupper(first));
+    return name;
+}
+
+std::string unknown_option_sentence(const std::string& name, const std::vector<std::string>& known) {
+    const auto near = nearest_word(name, known);
+    return near ? fmt::format("option '{}' is unknown; did you mean '{}'?", name, *near)
+                : fmt::format("option '{}' is unknown; the options are {}", name, fmt::join(known, ", "));
+}
+
+std::vector<std::string> translated_options() {
+    std::vector<std::string> names;
+    for (const OptionWord& word : kOptionWords) names.emplace_back(word.first);
+    return names;
+}
+
+}  // namespace dynlab::inline scripting

@@ -1,0 +1,70 @@
+#pragma once
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <typeinfo>
+
+#include "documents/percent_script.h"
+#include "documents/run_record.h"
+#include "scripting/runtime/function_entry.h"
+#include "scripting/runtime/prompt_statement.h"
+#include "scripting/runtime/run_options.h"
+#include "scripting/runtime/script_parts.h"
+
+namespace dynlab::inline scripting {
+
+struct RuntimeContext;
+
+/// One Lua state with dynlab's functions. Scripts get safe libraries only: no files, processes, chunk loading or debug
+/// library; text chunks only; memory counted and limited. Globals stay from one run to the next, as a prompt needs.
+class Runtime {
+  public:
+    /// `renderer` draws what scripts save; it is shared with whoever draws the record's figures afterwards.
+    Runtime(RunOptions options, GnuplotRenderer& renderer);
+    ~Runtime();
+    Runtime(const Runtime&) = delete;
+    Runtime& operator=(const Runtime&) = delete;
+
+    /// Adds functions of a later layer; their C++ side finds its own state by `service`. Call before the first run.
+    void add_functions(FunctionEntries entries);
+    template <class T>
+    void set_service(T* service) {
+        set_service_pointer(typeid(T).hash_code(), service);
+    }
+
+    /// Runs the whole script as one chunk, so that its locals span cells; output, figures and times go to the cell at
+    /// the line the main chunk has reached. An error of the script is in the record, with file and line. Throws
+    /// Interrupted after Ctrl-C (while an InterruptScope lives), once the Lua state is unwound.
+    RunRecord run(const PercentScript& script);
+    /// The same for plain Lua text as a single cell "cell-1"; `name` stands for the file in messages.
+    RunRecord run_code(const std::string& code, const std::string& name);
+    /// The same in parts, for a document that follows its script: begin, then every part of `script` in turn, which is
+    /// a chunk of its own with the variables that a prompt's statements share. Parts that have run stay as they are
+    /// when the next one is taken from a later text of the script. Gives what has been recorded so far, all told.
+    void begin_parts(const PercentScript& script);
+    RunRecord run_part(const PercentScript& script, const ScriptPart& part);
+    /// A statement of the prompt as a single cell: its values are printed (unless it is silent; a figure is shown
+    /// instead), and what it declares local at its outermost level stays visible to later statements.
+    RunRecord run_statement(const PromptStatement& statement, const std::string& name);
+
+    std::size_t peak_memory_bytes() const;
+    std::size_t memory_bytes() const;  ///< in use now, after a full collection
+    lua_State* state();                ///< for layers that hand values over (answers, prompt)
+
+  private:
+    void set_service_pointer(std::size_t key, void* service);
+    void prepare(const PercentScript& script);
+    void begin_recording(const PercentScript& script);
+    void run_with_variables(const PromptStatement& statement);
+    void throw_if_stopped();
+    RunRecord run_recorded(const PercentScript& script, const std::function<void()>& work);
+    void run_source(const std::string& source, const PromptStatement* statement);
+    void record_error(int status, const std::string& source);
+    std::unique_ptr<RuntimeContext> context_;
+};
+
+}  // namespace dynlab::inline scripting
