@@ -17,7 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr char kSourceFile[] = "SOURCE.md";
 constexpr char kCourseFileKey[] = "Course file:";
 constexpr char kPackageKey[] = "Package:";
 

@@ -23,6 +23,9 @@ namespace dynlab::inline data_io {
 LoadedData load_data(const std::string& name_or_path, const std::filesystem::path& script_folder, bool graded = false,
                      const ImportOptions& options = {});
 
+/// Tells of a data set in its folder: origin, signals, units.
+inline constexpr char kSourceFile[] = "SOURCE.md";
+
 /// How a refusal to read files of others begins, behind their name.
 inline constexpr char kLeadsOutside[] = "leads outside the folder";
 

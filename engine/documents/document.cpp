@@ -13,6 +13,7 @@
 #include "documents/latex_remains.h"
 #include "documents/pandoc.h"
 #include "documents/pictures.h"
+#include "documents/stopwatch.h"
 #include "documents/template_file.h"
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"
@@ -24,22 +25,6 @@ namespace dynlab::inline documents {
 namespace {
 
 namespace fs = std::filesystem;
-using Timings = std::vector<std::pair<std::string, double>>;
-
-class Stopwatch {
-  public:
-    explicit Stopwatch(Timings* timings) : timings_(timings) {}
-    void note(const std::string& step) {
-        const auto now = std::chrono::steady_clock::now();
-        if (timings_) timings_->emplace_back(step, std::chrono::duration<double>(now - start_).count());
-        start_ = now;
-    }
-
-  private:
-    Timings* timings_;
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
 /// The place in the source that LaTeX's complaint is about: formulas and words reach LaTeX as they were written, so
 /// the longest end of the text before the error that occurs in the source shows the line.
 SourceLine origin_of_refusal(const LatexRefusal& refusal, const MarkdownText& markdown, const fs::path& file) {

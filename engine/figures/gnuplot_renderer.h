@@ -17,7 +17,7 @@ FigureFormat figure_format(
 /// One gnuplot process that draws any number of figures in the house style. Starts with the first figure that must be
 /// drawn: with a `cache`, which must outlive it, figures drawn before are taken from there. All
 /// data go through the pipe; all text is quoted so that none of it can become gnuplot code or a shell
-/// command. Files appear whole (temporary name, then rename) once finish() or the next finish() returns.
+/// command. Files appear whole (temporary name, then rename) once finish() returns.
 class GnuplotRenderer {
   public:
     explicit GnuplotRenderer(const Cache* cache = nullptr);

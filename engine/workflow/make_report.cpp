@@ -7,6 +7,7 @@
 
 #include "documents/error.h"
 #include "documents/solutions.h"
+#include "documents/stopwatch.h"
 #include "documents/template_file.h"
 #include "documents/text_lines.h"
 #include "documents/unplaced_entries.h"
@@ -29,20 +30,6 @@ namespace dynlab::inline workflow {
 namespace {
 
 namespace fs = std::filesystem;
-
-class Stopwatch {
-  public:
-    explicit Stopwatch(std::vector<std::pair<std::string, double>>& timings) : timings_(timings) {}
-    void lap(const std::string& step) {
-        const auto now = std::chrono::steady_clock::now();
-        timings_.emplace_back(step, std::chrono::duration<double>(now - start_).count());
-        start_ = now;
-    }
-
-  private:
-    std::vector<std::pair<std::string, double>>& timings_;
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 fs::path template_named(const std::string& name) {
     return shared_folder() / "report_templates" / (name + ".md");
@@ -249,13 +236,13 @@ ReportResult make_report(const ReportRequest& request) {
         if (request.step) request.step(step);
     };
     ReportResult result;
-    Stopwatch watch(result.timings);
+    Stopwatch watch(&result.timings);
     const DocumentFormat format = document_format(request.output);
     const Cache cache;
     const ReportCache reports(request, cache);
     const bool anew = request.print || !request.record.empty();
     result.up_to_date = !anew && reports.unchanged();
-    watch.lap("look for changes");
+    watch.note("look for changes");
     if (result.up_to_date) return result;
 
     const RunCache runs(request, figure_format_for(format), cache);
@@ -269,7 +256,7 @@ ReportResult make_report(const ReportRequest& request) {
     RunRecord record;
     if (recalled) {
         record = *std::move(known);
-        watch.lap("recall the run");
+        watch.note("recall the run");
     } else {
         begin("running the script");
         if (format == DocumentFormat::kPdf) latex_format.emplace(latex_layout(template_of(request)));
@@ -288,7 +275,7 @@ ReportResult make_report(const ReportRequest& request) {
         if (record.error && request.print) throw DocumentError(*result.error);
         draw_figures(record, renderer, workplace.path(), figure_format_for(format), request.script.header.language);
         if (!request.record.empty()) write_file_atomically(request.record, to_json(record));
-        watch.lap(kRunStep);
+        watch.note(kRunStep);
     }
 
     begin("making the document");

@@ -4,6 +4,7 @@
 
 #include <charconv>
 
+#include "data_io/dataset_index.h"
 #include "data_io/mat_file.h"
 #include "documents/text_lines.h"
 #include "numerics/error.h"
@@ -18,7 +19,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kStoredDigits = 7;
-constexpr char kSourceFile[] = "SOURCE.md";
 constexpr std::string_view kSpecimenKey = "Specimen:";
 constexpr char kOwnRecord[] = R"(
 **Your group's own record.** It was made as is said above, but on another specimen of the apparatus, whose parameters

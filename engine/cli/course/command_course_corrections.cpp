@@ -4,7 +4,7 @@
 
 #include "cli/course/course_commands.h"
 #include "course/corrections/corrections.h"
-#include "course/office/hand_ins.h"
+#include "course/office/receive.h"
 #include "course/review/review_marks.h"
 #include "course/store/receipts.h"
 #include "numerics/error.h"

@@ -5,7 +5,7 @@
 
 #include "cli/course/course_commands.h"
 #include "course/corrections/arrival_times.h"
-#include "course/office/hand_ins.h"
+#include "course/office/receive.h"
 #include "course/store/aligned_table.h"
 #include "course/store/graded_work.h"
 #include "course/store/receipts.h"

@@ -70,7 +70,7 @@ bool on_secret_record(const Call& call) {
     const CheckSession& session = session_of(call);
     if (!session.current) return false;
     const std::string& rerun = session.current->rerun;
-    return session.took_hidden || (!rerun.empty() && rerun != "seed");
+    return session.took_hidden || (!rerun.empty() && rerun != kOtherSeedRun);
 }
 
 int near(Call& call) {
@@ -176,7 +176,7 @@ int differs(Call& call) {
 int has(Call& call, const std::vector<std::string> GradedRun::*names, const char* words) {
     call.at_most(1);
     const std::string name = call.text(1, "name");
-    const std::vector<std::string>& there = session_of(call).runs.at("main").*names;
+    const std::vector<std::string>& there = session_of(call).runs.at(kMainRun).*names;
     if (std::find(there.begin(), there.end(), name) != there.end()) return give_judgement(call, 1, "");
     return give_judgement(call, 0, fmt::format("There is no {} \"{}\" in the report.", words, name));
 }
@@ -257,7 +257,7 @@ void multiply_on_top(lua_State* L, double factor) {
 std::string answer_trouble(const std::string& name, const std::string& run,
                            const std::map<std::string, RecordedAnswer>& answers) {
     const auto given = answers.find(name);
-    if (run != "main" && given != answers.end())
+    if (run != kMainRun && given != answers.end())
         return fmt::format("The answer \"{}\" was not handed in as it was asked for.", name);
     if (given != answers.end()) {
         std::string why = parsed_json(given->second.json).value("why", "");
@@ -266,7 +266,7 @@ std::string answer_trouble(const std::string& name, const std::string& run,
     }
     std::vector<std::string> unknown;
     for (const auto& [other, answer] : answers)
-        if (run == "main" && answer.kind == kRefusedAnswer) unknown.push_back(other);
+        if (run == kMainRun && answer.kind == kRefusedAnswer) unknown.push_back(other);
     const auto near = nearest_word(name, unknown);
     return fmt::format("The answer \"{}\" was not handed in{}.", name,
                        near ? fmt::format("; \"{}\" was, which the lesson does not ask for", *near) : "");
@@ -347,8 +347,8 @@ int verdict(Call& call) {
     session.took_hidden = false;
     session.answer_trouble.clear();
     const int answers = lua_gettop(L) + 1;
-    push_answers(call, "main");
-    push_answers(call, check.rerun.empty() ? "main" : check.rerun);
+    push_answers(call, kMainRun);
+    push_answers(call, check.rerun.empty() ? kMainRun : check.rerun);
     lua_rawgeti(L, LUA_REGISTRYINDEX, check.test);
     lua_pushvalue(L, answers);
     lua_pushvalue(L, answers + 1);

@@ -25,7 +25,7 @@ struct AnswerChange {
 
 /// What is known of a submission when the checks are tried on it.
 struct CheckedSubmission {
-    std::map<std::string, GradedRun> runs;  ///< "main", and one for each rerun
+    std::map<std::string, GradedRun> runs;  ///< kMainRun, and one for each rerun
     Findings findings;                      ///< of `dynlab check`
     std::string source;                     ///< its script
     std::optional<AnswerChange> change;

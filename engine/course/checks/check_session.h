@@ -16,7 +16,7 @@ namespace dynlab::inline course {
 struct CheckDescription {
     std::string id, about, hint;
     double points = 1;
-    std::string rerun;      ///< a data set's name, "seed", or empty
+    std::string rerun;      ///< a data set's name, kOtherSeedRun, or empty
     bool document = false;  ///< it asks for findings of the document
     bool by_hand = false;   ///< the instructor marks it
     std::string rubric;     ///< what is marked by hand, for the instructor
@@ -41,6 +41,9 @@ struct DeclaredRig {
     int record = 0, truth = 0;  ///< truth: 0 where the file does not tell
 };
 
+inline constexpr char kMainRun[] = "main";       ///< the run that is handed in
+inline constexpr char kOtherSeedRun[] = "seed";  ///< the rerun with other random numbers, which changes no record
+
 /// Specimens of the apparatus by data set.
 using Specimens = std::map<std::string, std::uint32_t>;
 inline constexpr char kHiddenRecords[] = "hidden";  ///< stands for a run where specimens are named
@@ -50,7 +53,7 @@ inline constexpr char kRunOfAnswers[] = "run";      ///< field of a metatable: f
 struct CheckSession {
     std::vector<DeclaredCheck> checks;
     std::map<std::string, DeclaredRig> rigs;     ///< by data set
-    std::map<std::string, GradedRun> runs;       ///< "main", and one for each rerun
+    std::map<std::string, GradedRun> runs;       ///< kMainRun, and one for each rerun
     std::string source;                          ///< the student's script
     Findings findings;                           ///< of the document
     std::map<std::string, Specimens> specimens;  ///< whose records each run read, "hidden" those of hidden(); the data

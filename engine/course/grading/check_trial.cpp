@@ -41,7 +41,7 @@ std::vector<fs::path> scripts_in(const fs::path& folder, const std::string& begi
 /// The worked solution's runs with one answer changed; of texts and records one cannot say what is wrong.
 std::vector<std::pair<std::string, CheckedSubmission>> mutants_of(const CheckedSubmission& solution) {
     std::vector<std::pair<std::string, CheckedSubmission>> mutants;
-    for (const auto& [name, answer] : solution.runs.at("main").answers) {
+    for (const auto& [name, answer] : solution.runs.at(kMainRun).answers) {
         if (answer.kind != "text" && answer.kind != "data")
             for (const double factor : {kScaled, -1.0}) {
                 if (answer.kind == "truth" && factor < 0) continue;
@@ -139,7 +139,7 @@ CheckTrial try_checks_of(const GradingSetup& setup, Mutants mutants) {
         }
     const std::vector<std::vector<TriedCheck>> verdicts = rules.tried(submissions);
     for (std::size_t k = 0; k < verdicts.size(); ++k) {
-        TriedScript script{names[k], submissions[k].runs.at("main").error.value_or(""), verdicts[k]};
+        TriedScript script{names[k], submissions[k].runs.at(kMainRun).error.value_or(""), verdicts[k]};
         if (k == 0)
             trial.solution = std::move(script);
         else

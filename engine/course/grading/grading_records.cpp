@@ -15,11 +15,7 @@ namespace dynlab::inline course {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-constexpr char kSameRecords[] = "seed";  // the rerun that changes no record
-
-}  // namespace
+namespace {}  // namespace
 
 std::uint32_t GradingRules::drawn(const std::string& what) const {
     const std::string hash = sha256_of(setup_.secret + "\n" + setup_.lesson.slug + "\n" + what);
@@ -32,7 +28,7 @@ void GradingRules::make_records() {
     fs::create_directories(records_.path() / kHiddenRecords);
     for (const Rig& rig : rig_catalogue()) make_record(rig.name, kHiddenRecords, records_.path() / kHiddenRecords);
     for (const std::string& rerun : reruns_) {
-        if (rerun == kSameRecords) continue;
+        if (rerun == kOtherSeedRun) continue;
         const fs::path data = records_.path() / rerun / "data";
         fs::create_directories(data.parent_path());
         fs::copy(official_data(), data, fs::copy_options::recursive);

@@ -26,8 +26,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr char kSeedOnly[] = "seed";
-constexpr char kMain[] = "main";
 constexpr char kDocumentFails[] = "document-fails";               // a finding
 constexpr auto kCheckTime = std::chrono::milliseconds(10000);     // of one check
 constexpr auto kSingleTime = std::chrono::milliseconds(60000);    // of all, where each needs a box of its own
@@ -135,14 +133,14 @@ void GradingRules::read_checks() {
                 check.id, setup_.lesson.slug));
         if (rerun.empty()) continue;
         const bool declared = std::find(declared_rigs_.begin(), declared_rigs_.end(), rerun) != declared_rigs_.end();
-        if (rerun != kSeedOnly && !find_rig(rerun) && !declared && !own_record("rerun", rerun))
+        if (rerun != kOtherSeedRun && !find_rig(rerun) && !declared && !own_record("rerun", rerun))
             refuse_rerun(check.id, rerun);
         reruns_.insert(rerun);
     }
 }
 
 fs::path GradingRules::add_home(Box& box, const std::string& run, const GroupSeed& group_seed) const {
-    const bool own = run != kMain && run != kSeedOnly;
+    const bool own = run != kMainRun && run != kOtherSeedRun;
     const fs::path data = own ? records_.path() / run / "data" : data_of(group_seed);
     return box.add(data, "/box/home/data").parent_path();
 }
@@ -155,7 +153,7 @@ GradedRun GradingRules::run(const std::string& name, const fs::path& folder, con
     RunJob job;
     job.script = box.add(folder, "/box/submission") / "analysis.lua";
     job.french_sentences = box.add(file_of_french_engine_sentences(), "/box/words/engine_sentences.fr.txt");
-    job.seed = name == kSeedOnly ? drawn("seed") : seed_;
+    job.seed = name == kOtherSeedRun ? drawn("seed") : seed_;
     job.answers = answers_;
     job.memory_bytes = kScriptMemory;
     job.time_ms = (setup_.timeout - kMargin).count();
@@ -176,7 +174,7 @@ GradedRun GradingRules::run(const std::string& name, const fs::path& folder, con
 /// The run on the official data and the reruns, by name: side by side as far as cores are free.
 std::map<std::string, GradedRun> GradingRules::runs(const fs::path& folder, const GroupSeed& group_seed,
                                                     std::string& log) const {
-    std::vector<std::string> names = {kMain};
+    std::vector<std::string> names = {kMainRun};
     names.insert(names.end(), reruns_.begin(), reruns_.end());
     std::vector<std::string> logs(names.size());
     std::vector<std::future<GradedRun>> results;
@@ -217,7 +215,7 @@ Findings GradingRules::findings(const fs::path& folder, const GroupSeed& group_s
 BoxedResult<CheckResults> GradingRules::listed(std::vector<WantedRecord> records) const {
     const TakenCore core(*free_cores_);
     Box box(setup_.isolation);
-    box.set_environment("DYNLAB_HOME", add_home(box, kMain, {}).string());
+    box.set_environment("DYNLAB_HOME", add_home(box, kMainRun, {}).string());
     ChecksJob job;
     job.files = files_;
     job.time_ms = kCheckTime.count();
@@ -230,7 +228,7 @@ std::map<std::string, Specimens> GradingRules::specimens_of(const GroupSeed& gro
     if (!group_seed) return all;
     const std::lock_guard lock(*making_);
     for (const std::string& name : simulated())
-        for (const char* run : {kMain, kSeedOnly}) all[run][name] = *group_seed;
+        for (const char* run : {kMainRun, kOtherSeedRun}) all[run][name] = *group_seed;
     return all;
 }
 
@@ -367,7 +365,7 @@ std::vector<Grade> GradingRules::judged(std::vector<Work> works) const {
 Grade GradingRules::grade_of(Work&& work, const std::vector<Tried>& found) const {
     Grade grade = ungraded(work.name);
     grade.log = std::move(work.log);
-    const GradedRun& main = work.runs.runs.at(kMain);
+    const GradedRun& main = work.runs.runs.at(kMainRun);
     if (!main.lesson.empty() && !lesson_.empty() && main.lesson != lesson_)
         return unreadable(work.name, fmt::format("This is the script of lesson {}, not of {}.", main.lesson, lesson_));
     grade.began = main.began;

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "course/office/hand_ins.h"
+#include "course/office/receive.h"
 #include "course/returns/mailing.h"
 #include "course/store/groups.h"
 #include "numerics/error.h"

@@ -23,11 +23,18 @@ class DenominatorGroup {
     void set_weight(Index output, double weight);                   ///< of an output's squares; 1 unless set
     const std::vector<Index>& outputs() const { return outputs_; }  ///< the model's outputs it bears on
 
+    // The equations of this group's theta, summed over its records; which filters and instruments,
+    // filters/transfer_filters.h says. E: n + 1 coefficients, monic, descending powers of s.
+
+    /// Least squares of signals filtered by gain/E (LSSVF): instruments z = phi.
     NormalEquations svf(const VectorView& E, double gain = 1) const;
+    /// The same with instruments from the noise-free output of the model `theta` (IVSVF).
     NormalEquations auxiliary(const VectorView& E, const VectorView& theta, double gain = 1) const;
+    /// Those of SRIVC: signals filtered by 1/A of `theta`, instruments the sensitivities of the model's output;
+    /// `with_gram` also the sums of z z'.
     NormalEquations refined(const VectorView& theta, bool with_gram = false) const;
     Matrix sensitivity_gram(const VectorView& theta) const;  ///< weighted sum z z' of the refined instruments
-    Vector denominator(const VectorView& theta) const;       ///< theta of the group
+    Vector denominator(const VectorView& theta) const;       ///< A: n + 1 coefficients, monic; theta of the group
     /// theta with unstable poles mirrored (real part to its negative); tells whether there were any.
     Vector with_stable_poles(const VectorView& theta, bool* any = nullptr) const;
 

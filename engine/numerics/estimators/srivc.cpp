@@ -31,17 +31,13 @@ void set_covariance(Fit& estimate, const IdData& data, const FitOptions& options
     }
 }
 
-bool outputs_share_a_denominator(const TransferStructure& structure) {
-    return structure.poles.size() < static_cast<std::size_t>(structure.outputs);
-}
-
 /// The passes; where outputs share a denominator, more of them with each output weighted by its noise.
 SrivcSolution solve(const IdData& data, const TransferStructure& structure, const FitOptions& options) {
     SrivcExtras extras;
     extras.with_gram = structure.outputs == 1 && options.tolerance <= kGramTolerance;
     const Vector start = start_from_rest(data, structure, options, CutoffTrials::kValleys);
     SrivcSolution solution = iterate_srivc(data, structure, start, options, extras);
-    for (int i = 0; outputs_share_a_denominator(structure) && i < kReweightings; ++i) {
+    for (int i = 0; structure.outputs_share_denominator() && i < kReweightings; ++i) {
         extras.weights.resize(structure.outputs);
         for (Index output = 0; output < structure.outputs; ++output)
             extras.weights[output] = 1 / simulation_squares(data, structure, solution.theta, output);

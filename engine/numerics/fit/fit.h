@@ -49,7 +49,7 @@ struct FitOptions {
     /// where it is clearly better; false gives whatever has the smallest loss.
     std::optional<bool> stable;
     std::map<std::string, double> fixed;  ///< searches: parameters that are not estimated, by name, in seconds
-    Vector output_weights;                ///< of each output's errors; by their standard deviations when empty
+    Vector output_weights;                ///< of each output's errors; one over their standard deviations when empty
     bool precision = true;                ///< a search ends with the covariance
     std::function<bool()> cancel;         ///< asked before every iteration, by several threads at once
 
@@ -80,9 +80,9 @@ struct ParameterHistory {
     Matrix theta, std;  ///< M x d; NaN where the samples so far do not determine them
 };
 
-/// The result of every estimator with parameters. e are the errors that its model takes as white: of the simulation
-/// (srivc, coe, procsrivc, hammerstein, oe, sriv), of the prediction (rivc, armax, bj), of the equation (arx, iv4,
-/// lssvf, ivsvf).
+/// The result of every estimator of transfer functions and difference equations. e are the errors that its model takes
+/// as white: of the simulation (srivc, coe, procsrivc, hammerstein, oe, sriv), of the prediction (rivc, armax, bj), of
+/// the equation (arx, iv4, lssvf, ivsvf).
 struct Fit {
     TransferStructure structure;                     ///< of continuous-time models
     std::vector<TransferFunction> models;            ///< continuous-time: of the channels, row by row

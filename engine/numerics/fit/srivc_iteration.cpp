@@ -38,9 +38,7 @@ class Groups {
                 groups_.back().set_weight(output, extras.weights[output]);
         }
         for (Index output = 0; output < structure.outputs; ++output)
-            for (Index input = 1; input < structure.inputs; ++input)
-                shared_outputs_ = shared_outputs_ || structure.channel(output, input).denominator !=
-                                                         structure.channel(output, 0).denominator;
+            shared_outputs_ = shared_outputs_ || !structure.inputs_share_denominator(output);
     }
 
     /// One pass over all groups, before poles are mirrored.
@@ -175,12 +173,6 @@ std::vector<CutoffStart> valleys_over_the_cutoff(const std::vector<CutoffStart>&
     return valleys;
 }
 
-bool shares_denominators(const TransferStructure& structure, Index output) {
-    for (Index input = 1; input < structure.inputs; ++input)
-        if (structure.channel(output, input).denominator != structure.channel(output, 0).denominator) return false;
-    return true;
-}
-
 }  // namespace
 
 IdData beginning_of(const IdData& data, Index most_samples) {
@@ -262,7 +254,7 @@ SrivcSolution iterate_srivc(const IdData& data, const TransferStructure& structu
         if (!settled && change > kContractionLimit * last_change) {
             const double loss = simulation_loss(data, structure, solution);
             next_loss = simulation_loss(data, structure, next);
-            for (int i = 0; i<kMostHalvings&& * next_loss> loss; ++i) {
+            for (int i = 0; (i < kMostHalvings) && (*next_loss > loss); ++i) {
                 next = groups.with_stable_poles(0.5 * (next + solution.theta), solution.mirrored);
                 next_loss = simulation_loss(data, structure, next);
             }
@@ -295,13 +287,13 @@ Vector lssvf_start(const IdData& data, const TransferStructure& structure, doubl
     for (std::size_t g = 0; g < structure.poles.size(); ++g) {
         const DenominatorGroup group(data, structure, static_cast<Index>(g), hold_y);
         const bool whole = std::all_of(group.outputs().begin(), group.outputs().end(),
-                                       [&](Index output) { return shares_denominators(structure, output); });
+                                       [&](Index output) { return structure.inputs_share_denominator(output); });
         if (!whole) continue;
         const Vector own = solve_equations(group.svf(filter_denominator(lambda, group.order())));
         theta.segment(group.place(), group.parameter_count()) = own.allFinite() ? group.with_stable_poles(own) : own;
     }
     for (Index output = 0; output < structure.outputs; ++output)
-        if (!shares_denominators(structure, output)) start_channels(data, structure, output, lambda, hold_y, theta);
+        if (!structure.inputs_share_denominator(output)) start_channels(data, structure, output, lambda, hold_y, theta);
     return theta;
 }
 

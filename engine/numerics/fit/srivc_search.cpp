@@ -20,7 +20,7 @@ constexpr int kComparedPasses = 4;
 constexpr Index kFewestToCompare = 4;  // parameters: smaller models were not seen to end in bad minima
 constexpr double kComparedTolerance = 1e-3, kNoGain = 1e-3;
 constexpr double kPoorFit = 20;    // per cent: where little is explained, the passes easily miss the best
-constexpr double kFineFit = 99.9;  // per cent: nothing is missing that were worth a search
+constexpr double kFineFit = 99.9;  // per cent: nothing is missing that would be worth a search
 
 /// The best of the passes from these starts, from the structure's own without any; nothing where none is found.
 NestedSolution solution_by_passes(const IdData& data, const TransferStructure& structure, std::vector<Vector> starts,

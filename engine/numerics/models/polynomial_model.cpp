@@ -137,8 +137,4 @@ TransferFunction PolynomialModel::transfer_function(std::size_t input) const {
     return in_powers_of_z(b.tail(b.size() - late), den, Ts, static_cast<double>(late) * Ts);
 }
 
-TransferFunction PolynomialModel::noise_model() const {
-    return in_powers_of_z(C, multiply(A, D), Ts);
-}
-
 }  // namespace dynlab::inline numerics

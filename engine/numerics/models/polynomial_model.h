@@ -47,7 +47,6 @@ struct PolynomialModel {
     /// B_i/(A F_i). All delay beyond one sample becomes the delay of the transfer function, so that d2c, which knows
     /// that a held input is seen one sample late, gives a continuous-time model without needless delay.
     TransferFunction transfer_function(std::size_t input = 0) const;
-    TransferFunction noise_model() const;  ///< C/(A D)
 };
 
 }  // namespace dynlab::inline numerics

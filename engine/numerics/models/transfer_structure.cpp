@@ -55,6 +55,16 @@ TransferStructure TransferStructure::grid(Index outputs, Index inputs, Denominat
     return structure;
 }
 
+bool TransferStructure::inputs_share_denominator(Index output) const {
+    for (Index input = 1; input < inputs; ++input)
+        if (channel(output, input).denominator != channel(output, 0).denominator) return false;
+    return true;
+}
+
+bool TransferStructure::outputs_share_denominator() const {
+    return poles.size() < static_cast<std::size_t>(outputs);
+}
+
 const TransferChannel& TransferStructure::channel(Index output, Index input) const {
     return channels[static_cast<std::size_t>(output * inputs + input)];
 }

@@ -34,6 +34,8 @@ struct TransferStructure {
 
     const TransferChannel& channel(Index output, Index input) const;
     bool single_channel() const { return channels.size() == 1; }
+    bool inputs_share_denominator(Index output) const;  ///< all inputs of this output have one A
+    bool outputs_share_denominator() const;             ///< there are fewer denominators than outputs
 
     Index parameter_count() const;
     std::vector<std::string> parameter_names() const;  ///< a1, b0, Td; with _u1, _y1 or _y1u1 where there are several

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "numerics/error.h"
-#include "numerics/rigs/sensor.h"
+#include "numerics/rigs/rig_record.h"
 
 namespace dynlab::inline numerics {
 namespace {

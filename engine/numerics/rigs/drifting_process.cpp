@@ -4,6 +4,7 @@
 
 #include "numerics/error.h"
 #include "numerics/rigs/seeded_prbs.h"
+#include "numerics/rigs/sensor.h"
 #include "numerics/simulation/ode_solver.h"
 
 namespace dynlab::inline numerics {

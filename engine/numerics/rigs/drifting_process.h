@@ -1,7 +1,8 @@
 #pragma once
 #include <cstdint>
 
-#include "numerics/rigs/sensor.h"
+#include "numerics/rigs/rig_record.h"
+#include "numerics/signals/random.h"
 
 namespace dynlab::inline numerics {
 

@@ -4,7 +4,8 @@
 #include <vector>
 
 #include "numerics/models/transfer_function.h"
-#include "numerics/rigs/sensor.h"
+#include "numerics/rigs/rig_record.h"
+#include "numerics/signals/random.h"
 
 namespace dynlab::inline numerics {
 

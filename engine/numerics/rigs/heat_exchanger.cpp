@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "numerics/error.h"
+#include "numerics/rigs/rig_record.h"
+#include "numerics/rigs/sensor.h"
 
 namespace dynlab::inline numerics {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <cstdint>
 
-#include "numerics/rigs/sensor.h"
+#include "numerics/rigs/rig_record.h"
 
 namespace dynlab::inline numerics {
 

@@ -2,7 +2,7 @@
 #include <cstdint>
 
 #include "numerics/models/transfer_function.h"
-#include "numerics/rigs/sensor.h"
+#include "numerics/rigs/rig_record.h"
 
 namespace dynlab::inline numerics {
 

@@ -1,27 +1,13 @@
 #pragma once
-#include <string>
-
 #include "numerics/linalg/types.h"
 #include "numerics/signals/random.h"
 
 namespace dynlab::inline numerics {
-
-/// What a rig's experiment leaves: instants (s), inputs and measured outputs, N values each.
-struct RigRecord {
-    Vector t, u, y;
-};
 
 /// A rig's sensor: white normal noise of standard deviation `noise_std`, then rounding to whole multiples of
 /// `resolution` (none when 0).
 Vector measure(const Vector& truth, double noise_std, double resolution, RandomStream& random);
 /// The same with the noise's numbers, of standard deviation one, drawn before.
 Vector measure(const Vector& truth, double noise_std, double resolution, const Vector& normals);
-
-/// Instants 0, Ts, ... that cover `duration` (s), both ends included when it is a multiple of Ts.
-Vector sampling_instants(double duration, double Ts);
-
-/// Throws InvalidArgument "RIG: NAME must be positive (not negative), and is VALUE".
-void require_positive(const char* rig, const char* name, double value);
-void require_not_negative(const char* rig, const char* name, double value);
 
 }  // namespace dynlab::inline numerics

@@ -15,9 +15,10 @@
 namespace dynlab::inline numerics {
 
 /// Other specimens of the course's apparatus, as a laboratory with several of them has: what a student estimates is
-/// multiplied by factors drawn uniformly, independently, from 1 - d to 1 + d with d between 0.08 and 0.25 as the source
-/// says. Specimen 0 is the one that the headers describe; equal numbers give equal parameters on every machine.
-CraneParameters crane_specimen(std::uint32_t number);                       ///< cable, friction, trolley, motor
+/// multiplied by factors drawn uniformly from 1 - d to 1 + d with d between 0.08 and 0.25 as the source says, one for
+/// each part of the apparatus, which may bear on several parameters. Specimen 0 is the one that the headers describe;
+/// equal numbers give equal parameters on every machine.
+CraneParameters crane_specimen(std::uint32_t number);                       ///< cable, load, friction, trolley, motor
 DriftingProcessParameters drifting_process_specimen(std::uint32_t number);  ///< gain, time constant, growth of scale
 DriveParameters drive_specimen(std::uint32_t number);                       ///< motor constant, inertia, inductance
 HeatExchangerParameters heat_exchanger_specimen(std::uint32_t number);      ///< water, flow, power

@@ -4,6 +4,8 @@
 #include <numbers>
 
 #include "numerics/error.h"
+#include "numerics/rigs/rig_record.h"
+#include "numerics/rigs/sensor.h"
 
 namespace dynlab::inline numerics {
 

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "numerics/error.h"
+#include "numerics/rigs/sensor.h"
 #include "numerics/simulation/ode_solver.h"
 
 namespace dynlab::inline numerics {

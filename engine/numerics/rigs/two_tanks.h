@@ -2,7 +2,7 @@
 #include <array>
 #include <cstdint>
 
-#include "numerics/rigs/sensor.h"
+#include "numerics/rigs/rig_record.h"
 
 namespace dynlab::inline numerics {
 
@@ -32,12 +32,12 @@ struct TwoTanksParameters {
 /// what the pump takes. The pump has run at `start_voltage` for long before.
 struct TwoTanksExperiments {
     int samples = 1024;
-    int lines = 59;             ///< the highest is lines/(samples Ts)
-    double mean_voltage = 2.6;  ///< V
-    double voltage_std = 1.2;   ///< V, before it is limited
-    double greatest_voltage = 5;
-    double start_voltage = 2;  ///< V
-    double Ts = 4;             ///< s; the voltage is held between samples
+    int lines = 59;               ///< the highest is lines/(samples Ts)
+    double mean_voltage = 2.6;    ///< V
+    double voltage_std = 1.2;     ///< V, before it is limited
+    double greatest_voltage = 5;  ///< V
+    double start_voltage = 2;     ///< V
+    double Ts = 4;                ///< s; the voltage is held between samples
 
     /// Throws InvalidArgument naming the first value that is not physical.
     void validate() const;

@@ -14,7 +14,7 @@ struct Experiment {
     Matrix y;               ///< N x ny outputs
     Matrix u;               ///< N x nu inputs (nu = 0 for a time series)
     Vector t;               ///< sampling instants in time_unit when sampled irregularly, else empty
-    double start_time = 0;  ///< time of the first sample
+    double start_time = 0;  ///< time of the first sample, in time_unit
     std::string name;
     Matrix r = Matrix();  ///< N x nr references of the loop under which the record was taken; empty without
 };
@@ -23,11 +23,11 @@ struct Experiment {
 /// time.
 struct IdData {
     std::vector<Experiment> experiments;
-    double Ts = 1;  ///< sampling time in seconds; 0 when sampled irregularly
+    double Ts = 1;  ///< sampling time in time_unit; 0 when sampled irregularly
     Hold hold = Hold::kZoh;
     std::vector<std::string> input_names, output_names;  ///< u1.. and y1.. unless given
     std::vector<std::string> input_units, output_units;  ///< empty strings when unknown
-    std::string time_unit = "s";
+    std::string time_unit = "s";                         ///< of all times here; models found from the data count in it
 
     /// One experiment, regular sampling. `y` and `u` are N x channels. Throws InvalidArgument for rows that
     /// differ, no samples, a NaN or infinite sample (naming channel and position), Ts <= 0.
@@ -42,21 +42,24 @@ struct IdData {
     Index input_count() const { return experiments.empty() ? 0 : experiments.front().u.cols(); }
     Index reference_count() const { return experiments.empty() ? 0 : experiments.front().r.cols(); }
     bool regular() const { return Ts > 0; }
-    Vector time(std::size_t experiment = 0) const;  ///< N sampling instants of one experiment
-    double duration(std::size_t experiment) const;  ///< from its first sample to its last
+    Vector time(std::size_t experiment = 0) const;  ///< N sampling instants of one experiment, in time_unit
+    double duration(std::size_t experiment) const;  ///< from its first sample to its last, in time_unit
     /// Ts, or the mean interval between neighbouring samples of all experiments; 1 where none has a second sample.
     double mean_step() const;
 
-    IdData range(Index first,
-                 Index last) const;  ///< samples first..last (1-based, inclusive), one experiment
+    /// Samples first..last (1-based, inclusive). Throws InvalidArgument for several experiments or samples outside.
+    IdData range(Index first, Index last) const;
     /// The same, one experiment, taken in a closed loop with the reference `r` (N x nr). Throws InvalidArgument for
     /// another number of samples, or one that is not finite.
     IdData with_reference(Matrix r) const;
-    IdData select(const std::vector<Index>& outputs,
-                  const std::vector<Index>& inputs) const;   ///< channels, 1-based; references stay
-    std::pair<IdData, IdData> split(double fraction) const;  ///< the first part holds round(fraction N) samples
-    IdData shifted(Index samples) const;  ///< input delayed by so many samples (the data's ends are cut)
-    static IdData merge(const std::vector<IdData>& parts);  ///< several experiments in one object
+    /// Channels, 1-based; references stay. Throws InvalidArgument for no output and for channels that are not there.
+    IdData select(const std::vector<Index>& outputs, const std::vector<Index>& inputs) const;
+    /// One experiment in two; the first part holds round(fraction N) samples. Throws InvalidArgument for an empty part.
+    std::pair<IdData, IdData> split(double fraction) const;
+    /// Input delayed by so many samples (the data's ends are cut). Throws InvalidArgument for irregular sampling.
+    IdData shifted(Index samples) const;
+    /// Several experiments in one object. Throws InvalidArgument for other channels, sampling or units of time.
+    static IdData merge(const std::vector<IdData>& parts);
 };
 
 }  // namespace dynlab::inline numerics

@@ -12,7 +12,7 @@ namespace dynlab::inline scripting {
 /// The options InitialState and Offset of functions that simulate a model on a record.
 CompareOptions compare_options(const Options& options, const char* initial_state = "auto");
 
-/// The transfer functions of a model argument, one per input.
+/// The transfer functions of a model argument, one a channel: all inputs of the first output, then of the second.
 std::vector<TransferFunction> channels_argument(const Call& call, int index, const char* what);
 
 /// A model argument simulated on data, as the options InitialState and Offset say; of a free run that is lost it

@@ -39,9 +39,8 @@ class Recorder {
     RunRecord finish();
 
     void print(const std::string& text);
-    void note_block() {
-        block_end_ = {timed_cell_, printed_bytes_};
-    }                                              ///< several lines that belong together were printed
+    /// Several lines that belong together were printed.
+    void note_block() { block_end_ = {timed_cell_, printed_bytes_}; }
     bool ends_in_block();                          ///< they are the last that the cell has printed
     void add_figure(const FigurePointer& figure);  ///< just made
     /// Captures a figure again that was made or used earlier; one that the cell captures already is left as it is.

@@ -56,8 +56,6 @@ TEST(polynomial_model, transfer_functions_follow_the_difference_equation) {  // 
     const TransferFunction G = model.transfer_function();
     EXPECT_DOUBLE_EQ(G.delay(), 0.5);
     EXPECT_LT((lsim(G, u, 0.5) - y).cwiseAbs().maxCoeff(), 1e-15);
-    EXPECT_EQ(model.noise_model().den(), (Vector{{1, -1.2, 0.5}}));
-    EXPECT_EQ(model.noise_model().num(), (Vector{{1, 0, 0}}));
 }
 
 TEST(polynomial_model, one_sample_of_delay_is_the_hold) {  // oracle: c2d

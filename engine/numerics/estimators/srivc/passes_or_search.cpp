@@ -9,8 +9,7 @@ bool srivc_passes_suffice(const TransferStructure& structure, const FitOptions& 
         return false;
     if (!options.fixed.empty() || options.output_weights.size() > 0) return false;
     for (Index output = 0; output < structure.outputs; ++output)
-        for (Index input = 1; input < structure.inputs; ++input)
-            if (structure.channel(output, input).denominator != structure.channel(output, 0).denominator) return false;
+        if (!structure.inputs_share_denominator(output)) return false;
     return true;
 }
 

@@ -1,4 +1,4 @@
-#include "course/office/hand_ins.h"
+#include "course/office/receive.h"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
-#include "numerics/fit/instrument_iteration.h"
+#include "numerics/fit/sriv_iteration.h"
 #include "support/difference_equation.h"
 
-namespace test_instrument_iteration {
+namespace test_sriv_iteration {
 
 using namespace dynlab;
 using namespace dynlab::test;
@@ -18,7 +18,7 @@ std::vector<SampledExperiment> record(Index N, double noise) {
     return {{Matrix(u), y}};
 }
 
-TEST(instrument_iteration, an_exact_record_gives_its_system) {  // oracle: the system that made the record
+TEST(sriv_iteration, an_exact_record_gives_its_system) {  // oracle: the system that made the record
     const auto experiments = record(400, 0);
     const DiscreteOutput model(kOrders, {InitialState::kZero, false}, experiments);
     const Vector y = model.target();
@@ -31,7 +31,7 @@ TEST(instrument_iteration, an_exact_record_gives_its_system) {  // oracle: the s
 }
 
 // Oracle: the equations that hold at the end, Psi' (y - output) = 0, with Psi from central differences.
-TEST(instrument_iteration, errors_are_orthogonal_to_the_instruments_at_its_end) {
+TEST(sriv_iteration, errors_are_orthogonal_to_the_instruments_at_its_end) {
     const auto experiments = record(600, 0.3);
     const DiscreteOutput model(kOrders, {InitialState::kZero, false}, experiments);
     const Vector y = model.target();
@@ -51,7 +51,7 @@ TEST(instrument_iteration, errors_are_orthogonal_to_the_instruments_at_its_end) 
     }
 }
 
-TEST(instrument_iteration, ends_when_it_is_told_to) {  // oracle: the call itself
+TEST(sriv_iteration, ends_when_it_is_told_to) {  // oracle: the call itself
     const auto experiments = record(200, 0.1);
     const DiscreteOutput model(kOrders, {InitialState::kZero, false}, experiments);
     const InstrumentSolution found =
@@ -59,4 +59,4 @@ TEST(instrument_iteration, ends_when_it_is_told_to) {  // oracle: the call itsel
     EXPECT_EQ(found.termination, Termination::kCancelled);
 }
 
-}  // namespace test_instrument_iteration
+}  // namespace test_sriv_iteration
