@@ -40,7 +40,8 @@ Pipe::Pipe() {
 bool become_group_leader(pid_t parent) {
     ::setpgid(0, 0);
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    for (const int number : {SIGINT, SIGPIPE, SIGTERM, SIGQUIT, SIGHUP, SIGCHLD}) ::signal(number, SIG_DFL);
+    // Python, for one, has its programs ignore SIGPIPE and SIGXFSZ.
+    for (const int number : {SIGINT, SIGPIPE, SIGTERM, SIGQUIT, SIGHUP, SIGCHLD, SIGXFSZ}) ::signal(number, SIG_DFL);
     sigset_t none;
     sigemptyset(&none);
     ::sigprocmask(SIG_SETMASK, &none, nullptr);

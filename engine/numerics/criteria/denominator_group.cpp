@@ -144,12 +144,18 @@ Vector DenominatorGroup::with_stable_poles(const VectorView& theta, bool* any) c
     return result;
 }
 
+Vector response_from_rest(const IdData& data, const Experiment& experiment, const VectorView& B, const VectorView& A,
+                          double delay, Index input) {
+    const Sampling sampling{data.Ts, SampleView(experiment.t.data(), experiment.t.size())};
+    return transfer_filters().response(B, A, delay, experiment.u.col(input), sampling, data.hold);
+}
+
 double simulation_squares(const IdData& data, const TransferStructure& structure, const VectorView& theta,
                           Index output) {
     Vector squares(static_cast<Index>(data.experiments.size()));
     const auto simulate = [&](std::size_t e) {
         const Experiment& experiment = data.experiments[e];
-        RegressionRecord record = regression_record(data, experiment, output, Hold::kFoh);
+        RegressionRecord record = regression_record(data, experiment, output, Hold::kFoh);  // y is not filtered
         std::vector<Vector> A, B;
         for (Index input = 0; input < structure.inputs; ++input) {
             record.u.push_back(sample_view(experiment.u.col(input)));

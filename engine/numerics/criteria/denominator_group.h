@@ -59,6 +59,10 @@ class DenominatorGroup {
     std::vector<Vector> targets_;
 };
 
+/// Output of B/A exp(-delay s) from rest for one input (counted from 0) of an experiment, N values.
+Vector response_from_rest(const IdData& data, const Experiment& experiment, const VectorView& B, const VectorView& A,
+                          double delay, Index input);
+
 /// Squares of one output's simulation error over all experiments, simulated from rest: what the passes aim at.
 double simulation_squares(const IdData& data, const TransferStructure& structure, const VectorView& theta,
                           Index output);

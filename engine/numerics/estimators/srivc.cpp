@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "numerics/fit/diagnosis.h"
+#include "numerics/fit/first_estimate.h"
+#include "numerics/fit/simulation_error.h"
 #include "numerics/fit/srivc_iteration.h"
 #include "numerics/number_text.h"
 

@@ -7,6 +7,8 @@
 
 #include "numerics/criteria/transfer_output.h"
 #include "numerics/fit/diagnosis.h"
+#include "numerics/fit/first_estimate.h"
+#include "numerics/fit/simulation_error.h"
 #include "numerics/fit/srivc_iteration.h"
 #include "numerics/fit/transfer_refinement.h"
 #include "numerics/signals/correlation.h"

@@ -10,7 +10,7 @@
 #include "numerics/error.h"
 #include "numerics/fit/diagnosis.h"
 #include "numerics/fit/discrete_fit.h"
-#include "numerics/fit/srivc_iteration.h"
+#include "numerics/fit/first_estimate.h"
 #include "numerics/fit/transfer_refinement.h"
 #include "numerics/fit/transfer_search.h"
 #include "numerics/linalg/decompositions.h"

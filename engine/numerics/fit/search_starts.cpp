@@ -6,7 +6,7 @@
 #include "numerics/criteria/transfer_output.h"
 #include "numerics/fit/delay_scan.h"
 #include "numerics/fit/diagnosis.h"
-#include "numerics/fit/srivc_iteration.h"
+#include "numerics/fit/first_estimate.h"
 #include "numerics/linalg/least_squares.h"
 #include "numerics/linalg/polynomial.h"
 

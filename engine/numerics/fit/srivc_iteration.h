@@ -7,9 +7,6 @@
 
 namespace dynlab::inline numerics {
 
-/// The part of a record that start values are looked for on: its beginning, so that it starts from rest as the whole.
-IdData beginning_of(const IdData& data, Index most_samples);
-
 struct SrivcSolution {
     Vector theta;
     Termination termination = Termination::kIterationLimit;
@@ -39,36 +36,4 @@ SrivcSolution iterate_srivc(const IdData& data, const TransferStructure& structu
 
 /// The loss of a solution, which is not simulated again where it is known.
 double simulation_loss(const IdData& data, const TransferStructure& structure, const SrivcSolution& solution);
-/// Mean square of the simulation error from rest over all outputs; infinite for a model that explodes.
-double simulation_loss(const IdData& data, const TransferStructure& structure, const VectorView& theta);
-
-/// Fills fit, loss, noise variances and offsets (none) from structure and theta, for a simulation from rest. lssvf and
-/// ivsvf leave it to whoever wants to know: it takes as long as they do. The fit of a model whose simulation grows
-/// beyond all bounds is -infinity, and a warning says so.
-void measure_simulation(Fit& fit, const IdData& data);
-
-/// lssvf's theta with poles mirrored, for any structure: where an output's channels have denominators of their own, a
-/// common one of their joint order is fitted first and each channel then to its share of that model's output. NaN when
-/// the equations cannot be solved.
-Vector lssvf_start(const IdData& data, const TransferStructure& structure, double lambda, Hold hold_y);
-
-/// Which cut-off frequencies are followed: all, or those whose first estimate has a smaller loss than its neighbours'
-/// and no more than three times the smallest loss found, which nearly always lead to the same in a third of the time:
-/// enough for SRIVC's passes, behind which a search follows where they fail.
-enum class CutoffTrials { kValleys, kAll };
-
-/// A start that needs no guess: lssvf_start for cut-off frequencies over the band that the record can show, followed
-/// by a few passes of iterate_srivc; the theta of smallest loss. Throws InvalidArgument when none is finite.
-Vector best_cutoff_start(const IdData& data, const TransferStructure& structure, const FitOptions& options,
-                         CutoffTrials trials = CutoffTrials::kAll);
-
-/// theta where a search begins: options.lambda's first estimate or the best of several cut-off frequencies.
-Vector first_estimate(const IdData& data, const TransferStructure& structure, const FitOptions& options,
-                      CutoffTrials trials = CutoffTrials::kAll);
-
-/// A start from rest for fixed delays: the first estimate at options.lambda or at the best of several cut-off
-/// frequencies, on the beginning of a long record.
-Vector start_from_rest(const IdData& data, const TransferStructure& structure, const FitOptions& options,
-                       CutoffTrials trials = CutoffTrials::kAll);
-
 }  // namespace dynlab::inline numerics

@@ -5,8 +5,8 @@
 #include <mutex>
 
 #include "numerics/error.h"
+#include "numerics/fit/first_estimate.h"
 #include "numerics/fit/operating_points.h"
-#include "numerics/fit/srivc_iteration.h"
 #include "numerics/number_text.h"
 #include "numerics/validation/delay_profile.h"
 

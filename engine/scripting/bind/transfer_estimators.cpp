@@ -6,7 +6,7 @@
 #include "numerics/estimators/srivc.h"
 #include "numerics/fit/integrated_input.h"
 #include "numerics/fit/missed_options.h"
-#include "numerics/fit/srivc_iteration.h"
+#include "numerics/fit/simulation_error.h"
 #include "scripting/arguments/transfer_arguments.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/bind/frequency/frequency_bindings.h"

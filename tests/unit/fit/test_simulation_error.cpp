@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "numerics/fit/srivc_iteration.h"
+#include "numerics/criteria/denominator_group.h"
+#include "numerics/fit/simulation_error.h"
 #include "support/transfer_cases.h"
 
 namespace test_simulation_error {
@@ -48,6 +49,12 @@ TEST(simulation_error, that_overflows_is_no_fit_and_told) {  // oracle: exp(2 * 
     EXPECT_EQ(fit.loss, kInfinity);
     EXPECT_EQ(fit.message, "Found. " + fit.warnings.back());
     EXPECT_NE(fit.message.find("grows beyond all bounds"), std::string::npos);
+}
+
+TEST(simulation_error, of_a_model_that_explodes_is_infinite) {  // oracle: exp(40 s per second) beyond all numbers
+    const Index N = 600;
+    const IdData data(Matrix(RandomStream(4).normal(N)), Matrix(RandomStream(3).normal(N)), 0.05);
+    EXPECT_EQ(simulation_loss(data, TransferStructure::single(2, 1, 0.12), Vector{{-40, 5, 1, 3}}), kInfinity);
 }
 
 }  // namespace test_simulation_error

@@ -9,7 +9,7 @@
 #include "numerics/error.h"
 #include "numerics/fit/delay_scan.h"
 #include "numerics/fit/diagnosis.h"
-#include "numerics/fit/srivc_iteration.h"
+#include "numerics/fit/first_estimate.h"
 #include "numerics/fit/transfer_search.h"
 #include "numerics/signals/random.h"
 #include "support/search_corpus.h"

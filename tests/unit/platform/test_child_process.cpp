@@ -168,6 +168,16 @@ TEST(child_process, death_by_a_signal_is_128_plus_its_number) {
     EXPECT_EQ(run_child(shell("kill -SEGV $$"), "dash").exit_code, 128 + SIGSEGV);
 }
 
+TEST(child_process, signals_that_we_ignore_are_not_ignored_by_children) {  // oracle: what the shell itself dies of
+    for (const auto& [name, number] : {std::pair("PIPE", SIGPIPE), std::pair("XFSZ", SIGXFSZ)}) {
+        const auto before = std::signal(number, SIG_IGN);
+        const ChildResult result = run_child(shell(std::string("kill -") + name + " $$; echo still here"), "dash");
+        std::signal(number, before);
+        EXPECT_EQ(result.exit_code, 128 + number) << name;
+        EXPECT_EQ(result.output, "");
+    }
+}
+
 TEST(child_process, missing_program_names_the_package) {
     ChildOptions options;
     options.command = {"pandoc-of-another-world", "--version"};

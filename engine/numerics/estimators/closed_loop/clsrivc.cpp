@@ -8,7 +8,8 @@
 #include "numerics/fit/closed_loop/loop_equations.h"
 #include "numerics/fit/closed_loop/loop_search.h"
 #include "numerics/fit/diagnosis.h"
-#include "numerics/fit/srivc_iteration.h"
+#include "numerics/fit/first_estimate.h"
+#include "numerics/fit/simulation_error.h"
 #include "numerics/number_text.h"
 #include "numerics/statistics/robust_covariance.h"
 

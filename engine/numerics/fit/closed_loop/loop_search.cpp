@@ -5,7 +5,7 @@
 #include "numerics/criteria/denominator_group.h"
 #include "numerics/error.h"
 #include "numerics/fit/diagnosis.h"
-#include "numerics/fit/srivc_iteration.h"
+#include "numerics/fit/simulation_error.h"
 #include "numerics/linalg/decompositions.h"
 #include "numerics/number_text.h"
 #include "numerics/statistics/robust_covariance.h"

@@ -8,7 +8,7 @@
 #include "numerics/filters/evolving_filter.h"
 #include "numerics/fit/diagnosis.h"
 #include "numerics/fit/recursive/instrument_array.h"
-#include "numerics/fit/srivc_iteration.h"
+
 #include "numerics/linalg/matrix_exponential.h"
 #include "numerics/linalg/polynomial.h"
 #include "numerics/models/sampled_system.h"

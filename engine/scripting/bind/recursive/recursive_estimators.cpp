@@ -4,7 +4,7 @@
 #include "numerics/estimators/recursive/rivsvf.h"
 #include "numerics/estimators/recursive/rlssvf.h"
 #include "numerics/estimators/recursive/rsrivc.h"
-#include "numerics/fit/srivc_iteration.h"
+#include "numerics/fit/simulation_error.h"
 #include "scripting/arguments/transfer_arguments.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/memoized_calls/memoized_call.h"

@@ -1,0 +1,35 @@
+#pragma once
+#include "numerics/fit/fit.h"
+
+namespace dynlab::inline numerics {
+
+// Where iterations and searches of continuous-time transfer functions begin when nobody names a start.
+
+/// The part of a record that start values are looked for on: its beginning, so that it starts from rest as the whole.
+IdData beginning_of(const IdData& data, Index most_samples);
+
+/// lssvf's theta with poles mirrored, for any structure: where an output's channels have denominators of their own, a
+/// common one of their joint order is fitted first and each channel then to its share of that model's output. NaN when
+/// the equations cannot be solved.
+Vector lssvf_start(const IdData& data, const TransferStructure& structure, double lambda, Hold hold_y);
+
+/// Which cut-off frequencies are followed: all, or those whose first estimate has a smaller loss than its neighbours'
+/// and no more than three times the smallest loss found, which nearly always lead to the same in a third of the time:
+/// enough for SRIVC's passes, behind which a search follows where they fail.
+enum class CutoffTrials { kValleys, kAll };
+
+/// A start that needs no guess: lssvf_start for cut-off frequencies over the band that the record can show, followed
+/// by a few passes of iterate_srivc; the theta of smallest loss. Throws InvalidArgument when none is finite.
+Vector best_cutoff_start(const IdData& data, const TransferStructure& structure, const FitOptions& options,
+                         CutoffTrials trials = CutoffTrials::kAll);
+
+/// theta where a search begins: options.lambda's first estimate or the best of several cut-off frequencies.
+Vector first_estimate(const IdData& data, const TransferStructure& structure, const FitOptions& options,
+                      CutoffTrials trials = CutoffTrials::kAll);
+
+/// A start from rest for fixed delays: the first estimate at options.lambda or at the best of several cut-off
+/// frequencies, on the beginning of a long record.
+Vector start_from_rest(const IdData& data, const TransferStructure& structure, const FitOptions& options,
+                       CutoffTrials trials = CutoffTrials::kAll);
+
+}  // namespace dynlab::inline numerics
