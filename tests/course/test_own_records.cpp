@@ -51,7 +51,8 @@ void expect_full_marks(const GroupsOfLesson& groups) {
         const auto group = static_cast<std::uint32_t>(seed);
         std::string log;
         CheckedSubmission work = (works.empty() ? rules : own_only).work_in(bench.path("in"), group, log);
-        if (!works.empty()) work.runs.insert(works.front().runs.runs.begin(), works.front().runs.runs.end());
+        if (!works.empty())
+            work.runs.insert(works.front().submission.runs.begin(), works.front().submission.runs.end());
         works.push_back({fmt::format("seed {}", seed), std::move(work), group, log});
     }
     for (const Grade& grade : rules.judged(works)) {

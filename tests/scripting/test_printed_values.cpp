@@ -69,4 +69,12 @@ TEST(printed_values, a_missing_sampling_time_is_told_once) {
               "");
 }
 
+// Models print s, whatever their data count time in.
+TEST(printed_values, another_unit_of_time_is_told_once) {
+    const std::string said =
+        printed("local v = vector{1, 2, 3} iddata(v, v, 1, {TimeUnit = 'min'}) iddata(v, v, 1, {TimeUnit = 'min'})");
+    EXPECT_THAT(said, ContainsRegex("^iddata: these data count time in min, and so do models .* read min\n$"));
+    EXPECT_EQ(printed("local v = vector{1, 2, 3} iddata(v, v, 1, {TimeUnit = 's'})"), "");
+}
+
 }  // namespace test_printed_values

@@ -249,7 +249,7 @@ BoxedResult<CheckResults> GradingRules::checked(const std::vector<Work>& works, 
         if (fresh)
             home->second =
                 box.add(data_of(work.group_seed), fmt::format("/box/home-{}/data", homes.size())).parent_path();
-        job.submissions.push_back({work.runs, home->second, specimens_of(work.group_seed)});
+        job.submissions.push_back({work.submission, home->second, specimens_of(work.group_seed)});
     }
     box.set_environment("DYNLAB_HOME", job.submissions.front().home.string());
     return run_boxed(box, setup_.program, job, most * static_cast<int>(works.size()) + kStartTime);
@@ -365,7 +365,7 @@ std::vector<Grade> GradingRules::judged(std::vector<Work> works) const {
 Grade GradingRules::grade_of(Work&& work, const std::vector<Tried>& found) const {
     Grade grade = ungraded(work.name);
     grade.log = std::move(work.log);
-    const GradedRun& main = work.runs.runs.at(kMainRun);
+    const GradedRun& main = work.submission.runs.at(kMainRun);
     if (!main.lesson.empty() && !lesson_.empty() && main.lesson != lesson_)
         return unreadable(work.name, fmt::format("This is the script of lesson {}, not of {}.", main.lesson, lesson_));
     grade.began = main.began;

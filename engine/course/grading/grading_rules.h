@@ -53,7 +53,7 @@ class GradingRules {
     /// Of a submission, to be judged.
     struct Work {
         std::string name;
-        CheckedSubmission runs;
+        CheckedSubmission submission;
         GroupSeed group_seed;
         std::string log;
     };

@@ -169,6 +169,15 @@ void tell_sampling_time(const Call& call) {
     call.print("iddata: no sampling time was given, so one sample a second is taken; write iddata(y, u, Ts)\n");
 }
 
+/// Once in a run: models do not know the unit of their data's time.
+void tell_time_unit(const Call& call, const std::string& unit) {
+    if (unit == "s" || std::exchange(call.context().told_time_unit, true)) return;
+    call.print(
+        fmt::format("iddata: these data count time in {0}, and so do models made from them: where their texts "
+                    "and axes say s, read {0}\n",
+                    unit));
+}
+
 /// One column for each reference.
 Matrix reference_of(const Options& options) {
     lua_State* L = options.call().state();
@@ -199,6 +208,7 @@ int make_iddata(Call& call) {
     set_units(options, "OutputUnit", 1, data.output_units, y.cols());
     check_names(data);
     data.time_unit = options.text("TimeUnit", data.time_unit);
+    tell_time_unit(call, data.time_unit);
     data.experiments.front().start_time = options.number("Tstart", data.experiments.front().start_time);
     if (options.has("Reference")) data = data.with_reference(reference_of(options));
     return give_data(call, std::move(data));

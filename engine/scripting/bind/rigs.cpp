@@ -38,7 +38,7 @@ const Rig& rig_of(const Call& call) {
     if (const Rig* rig = find_rig(name)) return *rig;
     std::vector<std::string> names;
     for (const Rig& rig : rig_catalogue()) names.push_back(rig.name);
-    throw InvalidArgument(fmt::format("there is no experiment '{}'; there are {}", name, fmt::join(names, ", ")));
+    throw InvalidArgument(fmt::format("there is no rig '{}'; there are {}", name, fmt::join(names, ", ")));
 }
 
 std::uint32_t seed_number(const Options& options, const char* name, Index fallback) {

@@ -42,6 +42,7 @@ struct RuntimeContext {
     bool main_chunk_known = false;
     bool running = false;
     bool told_sampling_time = false;      ///< that iddata took 1 s
+    bool told_time_unit = false;          ///< that models say s where data count in another unit
     StopReason stop = StopReason::kNone;  ///< once set, every protected call passes the stop on
     std::optional<std::chrono::steady_clock::time_point> deadline;
     std::string* printed_by_call = nullptr;  ///< also gets what is printed, while a call is watched
