@@ -94,11 +94,14 @@ std::string Browser::evaluate(const std::string& script) {
 }
 
 bool Browser::comes(const std::string& expression, double seconds) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+    const auto begin = std::chrono::steady_clock::now();
+    std::chrono::duration<double> waited{0};
     do {
         if (evaluate("return Boolean(" + expression + ")") == "true") return true;
-        std::this_thread::sleep_for(10ms);
-    } while (std::chrono::steady_clock::now() < end);
+        // Each question takes a processor for some milliseconds: what is long in coming is asked for less often.
+        std::this_thread::sleep_for(waited < 500ms ? 10ms : 50ms);
+        waited = std::chrono::steady_clock::now() - begin;
+    } while (waited.count() < seconds);
     return false;
 }
 
