@@ -12,11 +12,7 @@ namespace test_attacks {
 using ::testing::AnyOf;
 using ::testing::HasSubstr;
 
-#ifdef __SANITIZE_ADDRESS__
-constexpr int kTimeout = 3;
-#else
-constexpr int kTimeout = 2;
-#endif
+constexpr int kLongEnough = 20;  // s: only attacks without an end need a clock
 
 void write_odd_submissions(const Workbench& work) {
     const std::string right = kAttackSolution;
@@ -107,7 +103,7 @@ TEST(attacks, none_leaves_its_box_stops_the_batch_or_changes_a_mark) {
     GradingBench bench(kAttackAnswers, kAttackChecks, kAttackSolution);
     bench.hand_in("honest", kAttackSolution);
     write_odd_submissions(bench.bench());
-    ASSERT_EQ(grade_attacks(bench, kAttacks, 24, kTimeout), 1);  // some cannot be read
+    ASSERT_EQ(grade_attacks(bench, kAttacks, 24, kLongEnough), 1);  // some cannot be read
     for (const char* name :
          {"honest", "it's \"quoted\"", "=1+1 🎉", "-rf", "new\nline", "in a folder", "a_pipe", "upwards", "absolute",
           "through_link", "devices", "good", "Zoe Zip_5_assignsubmission_file_"})
