@@ -13,11 +13,11 @@
 #include "documents/latex_remains.h"
 #include "documents/pandoc.h"
 #include "documents/pictures.h"
-#include "documents/stopwatch.h"
 #include "documents/template_file.h"
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"
 #include "platform/program_lookup.h"
+#include "platform/stopwatch.h"
 #include "platform/temporary_folder.h"
 #include "platform/text/regex_limit.h"
 

@@ -7,7 +7,6 @@
 
 #include "documents/error.h"
 #include "documents/solutions.h"
-#include "documents/stopwatch.h"
 #include "documents/template_file.h"
 #include "documents/text_lines.h"
 #include "documents/unplaced_entries.h"
@@ -15,6 +14,7 @@
 #include "platform/error.h"
 #include "platform/interrupt.h"
 #include "platform/program_lookup.h"
+#include "platform/stopwatch.h"
 #include "platform/temporary_folder.h"
 #include "platform/text_file.h"
 #include "scripting/memoized_calls/call_cache.h"

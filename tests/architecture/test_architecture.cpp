@@ -122,6 +122,29 @@ TEST(architecture, rooms_include_only_rooms_of_their_layer_named_before_them) {
     EXPECT_THAT(offences, IsEmpty());
 }
 
+// Oracle: the files themselves. A file is named by its path or by the end of it.
+TEST(architecture, files_that_guides_and_comments_name_are_there) {
+    std::set<std::string> ends;
+    for (const char* folder : {"engine", "lessons", "tests", "report_templates", "scripts", ".github"}) {
+        for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder)) {
+            if (!entry.is_regular_file()) continue;
+            const std::string place = place_of(entry.path());
+            for (std::size_t at = 0; at < place.size(); at = std::min(place.find('/', at), place.size()) + 1)
+                ends.insert(place.substr(at));
+        }
+    }
+    std::vector<std::string> missing;
+    const auto look = [&](const fs::path& file, const std::string& pattern) {
+        for (const std::string& name : matches(text_of(file), pattern))
+            if (!ends.contains(name)) missing.push_back(place_of(file) + " names " + name);
+    };
+    for (const char* guide : {"README.md", "engine/README.md", ".github/CONTRIBUTING.md"})
+        look(kRoot / guide, "`([a-z_0-9./]+[.](?:h|cpp|js|cmake))`");
+    for (const fs::path& file : sources_below(kRoot / "engine"))
+        look(file, "//[^\n]*?[ (`]([a-z_0-9]+(?:/[a-z_0-9]+)*[.](?:h|cpp))\\b");
+    EXPECT_THAT(missing, IsEmpty());
+}
+
 TEST(architecture, every_source_is_in_the_namespace_of_its_layer) {
     std::vector<std::string> offences;
     for (const auto& [layer, layers] : allowed_layers()) {

@@ -5,9 +5,9 @@
 
 #include "numerics/error.h"
 #include "numerics/estimators/iv4.h"
-#include "numerics/fit/discrete_fit.h"
+#include "numerics/fit/discrete/discrete_fit.h"
+#include "numerics/fit/discrete/prediction_fit.h"
 #include "numerics/fit/equation_error.h"
-#include "numerics/fit/prediction_fit.h"
 #include "numerics/linalg/polynomial.h"
 
 namespace dynlab::inline numerics {

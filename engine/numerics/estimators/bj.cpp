@@ -1,9 +1,9 @@
 #include "numerics/estimators/bj.h"
 
 #include "numerics/error.h"
-#include "numerics/fit/discrete_fit.h"
+#include "numerics/fit/discrete/discrete_fit.h"
+#include "numerics/fit/discrete/prediction_fit.h"
 #include "numerics/fit/operating_points.h"
-#include "numerics/fit/prediction_fit.h"
 
 namespace dynlab::inline numerics {
 

@@ -5,9 +5,9 @@
 
 #include "numerics/criteria/discrete_output.h"
 #include "numerics/error.h"
-#include "numerics/fit/arma_noise.h"
+#include "numerics/fit/discrete/arma_noise.h"
+#include "numerics/fit/discrete/prediction_fit.h"
 #include "numerics/fit/equation_error.h"
-#include "numerics/fit/prediction_fit.h"
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/polynomial.h"
 

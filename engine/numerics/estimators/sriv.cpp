@@ -1,6 +1,6 @@
 #include "numerics/estimators/sriv.h"
 
-#include "numerics/fit/discrete_fit.h"
+#include "numerics/fit/discrete/discrete_fit.h"
 
 namespace dynlab::inline numerics {
 

@@ -6,7 +6,7 @@ namespace dynlab::inline numerics {
 
 /// y(k) = sum_i B_i(q)/F_i(q) u_i(k) + e(k) by the simplified refined instrumental-variable method in discrete time:
 /// signals are prefiltered by 1/F of the model so far, the instruments come from the output simulated with it, and the
-/// equations Psi' (F y_f - B u_f) = 0 are solved until the parameters settle (fit/sriv_iteration.h; several
+/// equations Psi' (F y_f - B u_f) = 0 are solved until the parameters settle (fit/discrete/sriv_iteration.h; several
 /// inputs have denominators of their own and are solved for together). Unstable poles are mirrored into the unit circle
 /// in every pass. No start is needed: least squares with several prefilters are tried.
 /// The instruments are the exact sensitivities of the simulated output, so that a fixed point is a stationary point of

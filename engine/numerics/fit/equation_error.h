@@ -2,7 +2,7 @@
 #include <string>
 
 #include "numerics/criteria/arx_equations.h"
-#include "numerics/fit/polynomial_fit.h"
+#include "numerics/fit/discrete/polynomial_fit.h"
 
 namespace dynlab::inline numerics {
 

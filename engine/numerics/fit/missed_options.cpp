@@ -9,7 +9,7 @@
 #include "numerics/criteria/transfer_output.h"
 #include "numerics/error.h"
 #include "numerics/fit/diagnosis.h"
-#include "numerics/fit/discrete_fit.h"
+#include "numerics/fit/discrete/discrete_fit.h"
 #include "numerics/fit/first_estimate.h"
 #include "numerics/fit/transfer_refinement.h"
 #include "numerics/fit/transfer_search.h"

@@ -6,8 +6,8 @@
 
 #include "numerics/error.h"
 #include "numerics/fit/diagnosis.h"
+#include "numerics/fit/discrete/sampled_starts.h"
 #include "numerics/fit/first_estimate.h"
-#include "numerics/fit/sampled_starts.h"
 #include "numerics/fit/search_starts.h"
 #include "numerics/fit/simulation_error.h"
 #include "numerics/fit/srivc_iteration.h"

@@ -5,10 +5,10 @@
 #include <limits>
 
 #include "numerics/error.h"
-#include "numerics/fit/arma_noise.h"
-#include "numerics/fit/discrete_fit.h"
+#include "numerics/fit/discrete/arma_noise.h"
+#include "numerics/fit/discrete/discrete_fit.h"
+#include "numerics/fit/discrete/prediction_model.h"
 #include "numerics/fit/operating_points.h"
-#include "numerics/fit/prediction_model.h"
 #include "numerics/linalg/polynomial.h"
 #include "numerics/number_text.h"
 

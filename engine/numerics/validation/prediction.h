@@ -63,8 +63,9 @@ struct Predictions {
 /// Start conditions and offset:
 /// * H = 1: the prediction is the simulation of compare_all() with the same options;
 /// * H = C/D: what compare_all() simulates is taken from y, e = D/C of the rest from its nd-th sample on, whose past is
-///   known (fit/arma_noise.h);
-/// * a difference equation: e is that of fit/prediction_model.h, initial values and offset are those that predict best,
+///   known (fit/discrete/arma_noise.h);
+/// * a difference equation: e is that of fit/discrete/prediction_model.h, initial values and offset are those that
+/// predict best,
 ///   and "auto" chooses among the start conditions by BIC of e over the samples all of them predict. With A the
 ///   recorded outputs are the start: "auto" means "estimate" and no offset, as arx and armax have it.
 /// Throws InvalidArgument for steps below one, data that do not fit the model or its sampling time (s), C or D

@@ -6,7 +6,7 @@
 
 #include "numerics/estimators/arx.h"
 #include "numerics/estimators/iv4.h"
-#include "numerics/fit/arma_noise.h"
+#include "numerics/fit/discrete/arma_noise.h"
 #include "support/difference_equation.h"
 #include "support/thrown_message.h"
 

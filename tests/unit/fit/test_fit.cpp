@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "numerics/fit/discrete/polynomial_fit.h"
 #include "numerics/fit/fit.h"
-#include "numerics/fit/polynomial_fit.h"
 #include "numerics/models/polynomial_model.h"
 #include "support/thrown_message.h"
 #include "support/transfer_cases.h"

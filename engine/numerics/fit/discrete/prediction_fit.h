@@ -2,8 +2,8 @@
 #include <string>
 #include <vector>
 
-#include "numerics/fit/polynomial_fit.h"
-#include "numerics/fit/prediction_model.h"
+#include "numerics/fit/discrete/polynomial_fit.h"
+#include "numerics/fit/discrete/prediction_model.h"
 
 namespace dynlab::inline numerics {
 

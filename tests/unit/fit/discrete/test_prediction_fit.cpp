@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "numerics/fit/discrete_fit.h"
-#include "numerics/fit/prediction_fit.h"
+#include "numerics/fit/discrete/discrete_fit.h"
+#include "numerics/fit/discrete/prediction_fit.h"
 #include "support/difference_equation.h"
 #include "support/thrown_message.h"
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "numerics/fit/polynomial_fit.h"
-#include "numerics/fit/sriv_iteration.h"
+#include "numerics/fit/discrete/polynomial_fit.h"
+#include "numerics/fit/discrete/sriv_iteration.h"
 #include "numerics/signals/iddata.h"
 
 namespace dynlab::inline numerics {

@@ -1,4 +1,4 @@
-#include "numerics/fit/sampled_starts.h"
+#include "numerics/fit/discrete/sampled_starts.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "numerics/fit/prediction_model.h"
+#include "numerics/fit/discrete/prediction_model.h"
 #include "support/difference_equation.h"
 
 namespace test_prediction_model {

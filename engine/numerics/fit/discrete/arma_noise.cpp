@@ -1,4 +1,4 @@
-#include "numerics/fit/arma_noise.h"
+#include "numerics/fit/discrete/arma_noise.h"
 
 #include <algorithm>
 #include <cmath>

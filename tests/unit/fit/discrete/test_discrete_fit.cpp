@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "numerics/fit/discrete_fit.h"
+#include "numerics/fit/discrete/discrete_fit.h"
 #include "numerics/fit/operating_points.h"
 #include "support/difference_equation.h"
 #include "support/thrown_message.h"

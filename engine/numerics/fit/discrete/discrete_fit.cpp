@@ -1,4 +1,4 @@
-#include "numerics/fit/discrete_fit.h"
+#include "numerics/fit/discrete/discrete_fit.h"
 
 #include <limits>
 #include <numeric>

@@ -3,7 +3,7 @@
 
 #include "numerics/estimators/oe.h"
 #include "numerics/estimators/sriv.h"
-#include "numerics/fit/polynomial_fit.h"
+#include "numerics/fit/discrete/polynomial_fit.h"
 #include "support/thrown_message.h"
 #include "support/transfer_cases.h"
 

@@ -1,4 +1,4 @@
-#include "numerics/fit/prediction_model.h"
+#include "numerics/fit/discrete/prediction_model.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "numerics/fit/polynomial_fit.h"
+#include "numerics/fit/discrete/polynomial_fit.h"
 
 #include <algorithm>
 

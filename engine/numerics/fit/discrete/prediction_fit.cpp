@@ -1,4 +1,4 @@
-#include "numerics/fit/prediction_fit.h"
+#include "numerics/fit/discrete/prediction_fit.h"
 
 #include "numerics/error.h"
 #include "numerics/fit/output_error.h"

@@ -1,4 +1,4 @@
-#include "numerics/fit/sampled_starts.h"
+#include "numerics/fit/discrete/sampled_starts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,10 +7,10 @@
 #include "numerics/criteria/transfer_output.h"
 #include "numerics/fit/delay_scan.h"
 #include "numerics/fit/diagnosis.h"
-#include "numerics/fit/discrete_fit.h"
+#include "numerics/fit/discrete/discrete_fit.h"
+#include "numerics/fit/discrete/sriv_iteration.h"
 #include "numerics/fit/first_estimate.h"
 #include "numerics/fit/search_starts.h"
-#include "numerics/fit/sriv_iteration.h"
 #include "numerics/fit/transfer_refinement.h"
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/polynomial.h"

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-namespace dynlab::inline documents {
+namespace dynlab::inline platform {
 
 using Timings = std::vector<std::pair<std::string, double>>;  ///< seconds of each step
 
@@ -23,4 +23,4 @@ class Stopwatch {
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-}  // namespace dynlab::inline documents
+}  // namespace dynlab::inline platform

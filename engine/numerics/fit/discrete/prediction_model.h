@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "numerics/criteria/discrete_output.h"
-#include "numerics/fit/arma_noise.h"
+#include "numerics/fit/discrete/arma_noise.h"
 
 namespace dynlab::inline numerics {
 

@@ -24,9 +24,9 @@ bool errors_are_coloured(const IdData& data, const Fit& fit);
 
 /// theta of the structure (one input, one output, regular sampling), with its delay where it is free, best first, at
 /// most three: the poles those of difference equations z^-l B(z)/F(z) that were fitted to the output error
-/// (fit/sriv_iteration.h), numerator, initial values and offset by least squares, for a free delay at four points
-/// of each of the sampling intervals that a difference equation with room for several delays has chosen. Nothing where
-/// no difference equation has an error clearly smaller than `found`, a fit of this structure.
+/// (fit/discrete/sriv_iteration.h), numerator, initial values and offset by least squares, for a free delay at four
+/// points of each of the sampling intervals that a difference equation with room for several delays has chosen. Nothing
+/// where no difference equation has an error clearly smaller than `found`, a fit of this structure.
 std::vector<Vector> sampled_starts(const IdData& data, const TransferStructure& structure, const Fit& found,
                                    const FitOptions& options);
 

@@ -1,4 +1,4 @@
-#include "numerics/fit/sriv_iteration.h"
+#include "numerics/fit/discrete/sriv_iteration.h"
 
 #include <array>
 #include <cmath>

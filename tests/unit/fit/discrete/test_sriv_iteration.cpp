@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "numerics/fit/sriv_iteration.h"
+#include "numerics/fit/discrete/sriv_iteration.h"
 #include "support/difference_equation.h"
 
 namespace test_sriv_iteration {
