@@ -77,7 +77,8 @@ TEST(rlssvf, follows_a_parameter_that_jumps) {  // oracle: the truth on either s
     const IdData data = jumping_record();
     RecursiveOptions options = recursive(3);
     options.forgetting = 0.97;
-    const ParameterHistory& history = *rlssvf(data, TransferStructure::single(1, 0), options).history;
+    const Fit G = rlssvf(data, TransferStructure::single(1, 0), options);
+    const ParameterHistory& history = *G.history;
     const Index N = history.t.size();
     EXPECT_NEAR(history.theta(N / 2 - 20, 1), 2, 0.05);
     EXPECT_NEAR(history.theta(N - 1, 1), 4, 0.05);
