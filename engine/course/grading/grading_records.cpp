@@ -15,8 +15,6 @@ namespace dynlab::inline course {
 
 namespace fs = std::filesystem;
 
-namespace {}  // namespace
-
 std::uint32_t GradingRules::drawn(const std::string& what) const {
     const std::string hash = sha256_of(setup_.secret + "\n" + setup_.lesson.slug + "\n" + what);
     return static_cast<std::uint32_t>(std::stoul(hash.substr(0, 8), nullptr, 16)) | 1u;
