@@ -1,6 +1,10 @@
 #pragma once
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <string>
+#include <vector>
+
+#include "scripting/prompt/prompt_session.h"
 
 namespace dynlab::inline cli {
 
@@ -10,45 +14,63 @@ enum ExitCode { kDone = 0, kFailed = 1, kUsage = 2, kMissingProgram = 3, kInterr
 /// What a command does once its words are parsed; returns the exit code.
 using Action = std::function<int()>;
 
-/// Each adds its command with options and help text to `app` and sets `action` when it is the one called.
-void add_run(CLI::App& app, Action& action);
+/// Opens a page in the browser for figures and gives what shows them there. Programs without pages never return from
+/// it: they hand over to the one that has them.
+using FigureView = std::function<FigureListener()>;
+
+/// What a program can do, in the order of its help: each adds its command with options and help text to the first and
+/// sets the second when it is the one called.
+using Commands = std::vector<std::function<void(CLI::App&, Action&)>>;
+
+/// The commands of a folder beside this file, whose libraries all programs with them load as they start.
+Commands everyday_commands(const FigureView& view);
+Commands course_commands();
+Commands page_commands();
+
+// everyday/
+void add_run(CLI::App& app, Action& action, const FigureView& view);
 void add_look(CLI::App& app, Action& action);
 void add_identify(CLI::App& app, Action& action);
+void add_study(CLI::App& app, Action& action);
 void add_report(CLI::App& app, Action& action);
-void add_hint(CLI::App& app, Action& action);
 void add_sheet(CLI::App& app, Action& action);
+void add_hint(CLI::App& app, Action& action);
 void add_weave(CLI::App& app, Action& action);
-void add_preview(CLI::App& app, Action& action);
-void add_app(CLI::App& app, Action& action);
 void add_new(CLI::App& app, Action& action);
-void add_check(CLI::App& app, Action& action);
-void add_demo(CLI::App& app, Action& action);
 void add_lessons(CLI::App& app, Action& action);
-void add_lint(CLI::App& app, Action& action);
+void add_demo(CLI::App& app, Action& action);
 void add_help(CLI::App& app, Action& action);
 void add_manual(CLI::App& app, Action& action);
 void add_notebook(CLI::App& app, Action& action);
-void add_kernel(CLI::App& app, Action& action);
-void add_doctor(CLI::App& app, Action& action);
+void add_lint(CLI::App& app, Action& action);
+void add_lsp(CLI::App& app, Action& action);
+void add_boxed(CLI::App& app, Action& action);
+
+// course/
+void add_check(CLI::App& app, Action& action);
 void add_pack(CLI::App& app, Action& action);
 void add_bundle(CLI::App& app, Action& action);
+void add_verify(CLI::App& app, Action& action);
 void add_checks(CLI::App& app, Action& action);
 void add_grade(CLI::App& app, Action& action);
 void add_gradescope(CLI::App& app, Action& action);
 void add_hand_back(CLI::App& app, Action& action);
 void add_similar(CLI::App& app, Action& action);
-void add_lsp(CLI::App& app, Action& action);
-void add_test_lesson(CLI::App& app, Action& action);
-void add_verify(CLI::App& app, Action& action);
 void add_course(CLI::App& app, Action& action);
-void add_study(CLI::App& app, Action& action);
+void add_test_lesson(CLI::App& app, Action& action);
 void add_work(CLI::App& app, Action& action);
-void add_boxed(CLI::App& app, Action& action);
+void add_boxed_version(CLI::App& app, Action& action);  ///< of that program alone
+
+// pages/
+void add_preview(CLI::App& app, Action& action);
+void add_app(CLI::App& app, Action& action);
+void add_kernel(CLI::App& app, Action& action);
+void add_doctor(CLI::App& app, Action& action);
 void add_complete(CLI::App& app, Action& action);
 void add_man_pages(CLI::App& app, Action& action);
 
 /// What `dynlab` without a command does: the prompt on a terminal, statements from a pipe or file otherwise.
 /// After running a script, unless `script` is empty, whose variables stay.
-int open_prompt(const std::string& script, bool view);
+int open_prompt(const std::string& script, const FigureListener& see);
 
 }  // namespace dynlab::inline cli

@@ -86,7 +86,10 @@ fs::path Box::add_writable(const fs::path& outside, const std::string& inside) {
 fs::path Box::add_program(const fs::path& program) {
     // It looks for its own libraries in ../lib/dynlab.
     if (const auto libraries = library_folder_of(program)) add(*libraries, "/box/lib/dynlab");
-    return add(program, "/box/bin/dynlab");
+    if (const fs::path other = program.parent_path() / kCourseProgram;
+        program.filename() == kProgram && fs::exists(other))
+        add(other, std::string("/box/bin/") + kCourseProgram);
+    return add(program, std::string("/box/bin/") + kProgram);
 }
 
 void Box::add_document_programs() {

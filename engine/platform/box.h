@@ -34,7 +34,8 @@ class Box {
     /// The same for a folder that the work may write into.
     std::filesystem::path add_writable(const std::filesystem::path& outside, const std::string& inside);
     void set_environment(const std::string& name, const std::string& value) { environment_.emplace_back(name, value); }
-    /// A program of dynlab's with the libraries of its own that it may have; returns its place.
+    /// A program of dynlab's with the libraries of its own that it may have, `dynlab` with dynlab-course, too, whose
+    /// commands it has there; returns its place.
     std::filesystem::path add_program(const std::filesystem::path& program);
     /// The TeX, font and alternatives settings of this machine, for pandoc, LaTeX and gnuplot.
     void add_document_programs();

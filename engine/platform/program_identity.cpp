@@ -4,6 +4,8 @@
 
 #include <string_view>
 
+#include "platform/program_lookup.h"
+
 namespace dynlab::inline platform {
 
 namespace fs = std::filesystem;
@@ -23,7 +25,7 @@ namespace {
 int add_library(dl_phdr_info* library, std::size_t, void* stamps) {
     const std::string_view path = library->dlpi_name;
     if (path.substr(path.rfind('/') + 1) == "libdynlab_numerics.so")
-        *static_cast<std::string*>(stamps) += "\n" + file_stamp(path);
+        *static_cast<std::string*>(stamps) += file_stamp(path);
     return 0;
 }
 
@@ -31,9 +33,10 @@ int add_library(dl_phdr_info* library, std::size_t, void* stamps) {
 
 const std::string& program_identity() {
     static const std::string stamps = [] {
-        std::string program = file_stamp("/proc/self/exe");
-        ::dl_iterate_phdr(add_library, &program);
-        return program;
+        std::string programs;
+        for (const fs::path& program : programs_beside(running_program())) programs += file_stamp(program) + "\n";
+        ::dl_iterate_phdr(add_library, &programs);
+        return programs;
     }();
     return stamps;
 }

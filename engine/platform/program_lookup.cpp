@@ -59,7 +59,17 @@ fs::path shared_folder_of(const fs::path& program) {
 }
 
 fs::path running_program() {
-    return fs::read_symlink("/proc/self/exe");
+    const fs::path file = fs::read_symlink("/proc/self/exe");
+    for (const char* other : {kCourseProgram, kPagesProgram, kBoxedProgram})
+        if (file.filename() == other) return file.parent_path() / kProgram;
+    return file;
+}
+
+std::vector<fs::path> programs_beside(const fs::path& dynlab) {
+    std::vector<fs::path> files = {dynlab};
+    for (const char* other : {kCourseProgram, kPagesProgram, kBoxedProgram})
+        if (fs::is_regular_file(dynlab.parent_path() / other)) files.push_back(dynlab.parent_path() / other);
+    return files;
 }
 
 namespace {

@@ -8,8 +8,18 @@ namespace dynlab::inline platform {
 
 std::optional<std::filesystem::path> find_program(const std::string& name);  ///< in PATH, or a path as it is
 
-/// The file of the program that runs.
+/// The programs that together are dynlab, in one folder. People start the first, which goes on as another for the
+/// commands that only this one has; the last works in boxes.
+inline constexpr const char* kProgram = "dynlab";
+inline constexpr const char* kCourseProgram = "dynlab-course";
+inline constexpr const char* kPagesProgram = "dynlab-pages";
+inline constexpr const char* kBoxedProgram = "dynlab-boxed";
+
+/// The file of the program that runs; that of dynlab where one of the others does.
 std::filesystem::path running_program();
+
+/// Those of dynlab's programs that are there, in the order above, `dynlab` being the file of the first.
+std::vector<std::filesystem::path> programs_beside(const std::filesystem::path& dynlab);
 
 /// The folder of a program's own libraries, <prefix>/lib/dynlab beside it; those of portable builds have one.
 std::optional<std::filesystem::path> library_folder_of(const std::filesystem::path& program);

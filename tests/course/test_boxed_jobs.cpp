@@ -8,6 +8,7 @@
 #include "course/boxes/boxed_work.h"
 #include "course/checks/check_descriptions.h"
 #include "course/review/version_description.h"
+#include "platform/program_lookup.h"
 #include "support/program.h"
 
 namespace dynlab {
@@ -120,11 +121,12 @@ GradedRun run_by(const std::filesystem::path& program, const std::string& script
     return result.output.value_or(ended);
 }
 
-// oracle: dynlab itself, which knows every job
+// oracle: dynlab itself, which knows runs and checks, too
 TEST(boxed_jobs, runs_and_checks_have_a_program_that_starts_quickly) {
-    const std::filesystem::path dynlab = DYNLAB_PROGRAM, small = dynlab.parent_path() / "dynlab-boxed";
+    const std::filesystem::path dynlab = DYNLAB_PROGRAM, small = dynlab.parent_path() / kBoxedProgram;
     for (const char* work : {"run", "checks"}) EXPECT_EQ(program_for(work, dynlab), small);
-    for (const char* work : {"unpack", "document", "version"}) EXPECT_EQ(program_for(work, dynlab), dynlab);
+    for (const char* work : {"unpack", "document"}) EXPECT_EQ(program_for(work, dynlab), dynlab);
+    EXPECT_EQ(program_for("version", dynlab), dynlab.parent_path() / kCourseProgram);
     const test::Workbench alone;
     std::filesystem::create_symlink(dynlab, alone.path("dynlab"));
     ASSERT_EQ(program_for("run", alone.path("dynlab")), alone.path("dynlab"));

@@ -42,8 +42,8 @@ class course_faults : public ::testing::Test {
     }
     ChildResult try_all(const std::string& command, const std::string& fault, const std::string& between,
                         const std::string& after) {
-        return bench_.bench().shell("FAULTS=" DYNLAB_FAULTS " DYNLAB=$DYNLAB bash try_all \"$(cat " + command + ")\" " +
-                                    fault + " '" + between + "' '" + after + "'");
+        return bench_.bench().shell("FAULTS=" DYNLAB_FAULTS " DYNLAB=$DYNLAB-course bash try_all \"$(cat " + command +
+                                    ")\" " + fault + " '" + between + "' '" + after + "'");
     }
     void receive_all() {
         CourseBench::expect_done(bench_.course({"receive", "in", "--no-checks", "--at", "2026-03-01 10:00"}));

@@ -49,6 +49,15 @@ std::string figures(int drawn, int recalled) {
     return " " + std::to_string(drawn) + "  figures drawn, " + std::to_string(recalled) + " recalled\n";
 }
 
+TEST_F(caches, what_one_of_dynlabs_programs_computed_the_others_recall) {
+    bench_.write("a.lua", kHeader + kStudy);
+    const auto weave_by = [&](const std::string& program) {
+        return bench_.shell(program + " weave a.lua -o a.html --timings").output;
+    };
+    EXPECT_THAT(weave_by("$DYNLAB"), HasSubstr("run the script"));
+    EXPECT_THAT(weave_by("$DYNLAB-pages"), HasSubstr("a.html (up to date)"));
+}
+
 // Of a portable build, the loader takes the library for this processor; another one is another program. Any library
 // under its name stands for that here.
 TEST_F(caches, another_variant_of_the_programs_library_recalls_nothing) {

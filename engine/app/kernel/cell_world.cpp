@@ -8,13 +8,13 @@
 #include <nlohmann/json.hpp>
 
 #include "app/kernel/cell_messages.h"
-#include "course/store/aligned_table.h"
 #include "data_io/values/cbor_values.h"
 #include "documents/script_header.h"
 #include "documents/text_lines.h"
 #include "platform/error.h"
 #include "platform/interrupt.h"
 #include "platform/memory.h"
+#include "platform/terminal/aligned_table.h"
 #include "platform/terminal/progress.h"
 #include "platform/written_files.h"
 #include "scripting/interpreter/runtime.h"

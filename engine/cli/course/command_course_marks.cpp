@@ -6,11 +6,11 @@
 #include "cli/course/course_commands.h"
 #include "course/office/course_export.h"
 #include "course/review/oral_marks.h"
-#include "course/store/aligned_table.h"
 #include "course/store/graded_work.h"
 #include "course/store/groups.h"
 #include "platform/atomic_file.h"
 #include "platform/temporary_folder.h"
+#include "platform/terminal/aligned_table.h"
 #include "platform/terminal/terminal_text.h"
 
 namespace dynlab::inline cli {

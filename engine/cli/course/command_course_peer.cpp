@@ -6,9 +6,9 @@
 #include "course/names/anonymous_copy.h"
 #include "course/returns/returned_files.h"
 #include "course/review/peer_review.h"
-#include "course/store/aligned_table.h"
 #include "numerics/number_text.h"
 #include "platform/program_lookup.h"
+#include "platform/terminal/aligned_table.h"
 #include "platform/terminal/terminal_text.h"
 
 namespace dynlab::inline cli {

@@ -6,7 +6,6 @@
 #include "cli/course/course_commands.h"
 #include "course/corrections/arrival_times.h"
 #include "course/office/receive.h"
-#include "course/store/aligned_table.h"
 #include "course/store/graded_work.h"
 #include "course/store/receipts.h"
 #include "course/store/store_check.h"
@@ -14,6 +13,7 @@
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/program_lookup.h"
+#include "platform/terminal/aligned_table.h"
 #include "platform/terminal/terminal_text.h"
 
 namespace dynlab::inline cli {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "platform/program_lookup.h"
+
 namespace dynlab::inline course {
 
 ValueLimits boxed_limits(std::uint64_t bytes) {
@@ -24,9 +26,9 @@ std::string reason_of_end(const ChildResult& child, std::chrono::milliseconds ti
 }
 
 std::filesystem::path program_for(const std::string& work, const std::filesystem::path& dynlab) {
-    const std::filesystem::path small = dynlab.parent_path() / "dynlab-boxed";
-    const bool knows = work == "run" || work == "checks";  // as cli/boxed_program.cpp
-    return knows && std::filesystem::is_regular_file(small) ? small : dynlab;
+    if (work == "unpack" || work == "document") return dynlab;
+    const std::filesystem::path other = dynlab.parent_path() / (work == "version" ? kCourseProgram : kBoxedProgram);
+    return std::filesystem::is_regular_file(other) ? other : dynlab;
 }
 
 BoxedResult<std::string> run_boxed_bytes(Box& box, const std::filesystem::path& program, const std::string& work,

@@ -24,8 +24,8 @@ struct BoxedResult {
 /// has.
 std::string reason_of_end(const ChildResult& child, std::chrono::milliseconds timeout);
 
-/// What does such work: dynlab-boxed, which starts in a fifth of the time and knows runs and checks only, where it lies
-/// beside `dynlab`; else this itself.
+/// What does such work: `dynlab`, or where they lie beside it dynlab-boxed, which knows runs and checks only and starts
+/// most quickly, or dynlab-course, which makes versions.
 std::filesystem::path program_for(const std::string& work, const std::filesystem::path& dynlab);
 
 /// The bytes of it, as the box wrote them.

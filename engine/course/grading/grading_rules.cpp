@@ -196,7 +196,7 @@ Findings GradingRules::findings(const fs::path& folder, const GroupSeed& group_s
     const fs::path home = box.add(data_of(group_seed), "/box/home/data").parent_path();
     box.add(shared_folder() / "report_templates", "/box/home/report_templates");
     box.set_environment("DYNLAB_HOME", home.string());
-    const fs::path inside = box.add(folder, "/box/submission"), program = box.add(setup_.program, "/box/dynlab");
+    const fs::path inside = box.add(folder, "/box/submission"), program = box.add_program(setup_.program);
     const bool file = standard_.ends_with(".md");
     const std::string standard = file ? box.add(standard_, "/box/standard/report.md").string() : standard_;
     Box::Limits limits;

@@ -6,11 +6,11 @@
 #include <map>
 
 #include "course/review/review_pairs.h"
-#include "course/store/aligned_table.h"
 #include "course/store/exceptions.h"
 #include "course/store/groups.h"
 #include "course/store/newest_versions.h"
 #include "numerics/number_text.h"
+#include "platform/terminal/aligned_table.h"
 
 namespace dynlab::inline course {
 namespace {

@@ -38,7 +38,7 @@ for library in libraries/*; do
   [ -e "$libraries/$name" ] || install -m 644 "$library" "$libraries/$name"
 done
 [ -n "${PREFIX:-}" ] || ldconfig
-if ! "$prefix/bin/dynlab" --version; then
+if ! "$prefix/bin/dynlab" --version || ! "$prefix/bin/dynlab" grade --help > /dev/null; then
   echo "dynlab does not run in this image: choose a newer one (its C library must be as new as the machine's that made the zip)" >&2
   exit 1
 fi
@@ -121,10 +121,11 @@ std::uintmax_t write_autograder(const AutograderRequest& request, const fs::path
         fmt::format(kRun, fmt::arg("slug", request.lesson.slug), fmt::arg("timeout", request.timeout_seconds),
                     fmt::arg("checks", request.more_checks ? " --checks \"$source/checks\"" : ""));
     contents["secret"] = request.secret;
-    contents["program/dynlab"] = read_file(request.program);
-    const fs::path small = program_for(RunJob::kWork, request.program);  // its libraries are some of dynlab's
-    if (small != request.program) contents["program/" + small.filename().string()] = read_file(small);
-    add_libraries(request.program, contents);
+    for (const fs::path& program : programs_beside(request.program)) {
+        if (program.filename() == kPagesProgram) continue;  // nobody looks at pages there
+        contents["program/" + program.filename().string()] = read_file(program);
+        add_libraries(program, contents);
+    }
     if (const auto own = library_folder_of(request.program)) add_folder(*own, "own", contents);
     for (const char* name : {"data", "report_templates"})
         add_folder(shared_folder() / name, std::string("share/") + name, contents);

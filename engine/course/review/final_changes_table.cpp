@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "course/review/final_changes.h"
-#include "course/store/aligned_table.h"
 #include "numerics/number_text.h"
+#include "platform/terminal/aligned_table.h"
 
 namespace dynlab::inline course {
 namespace {

@@ -13,8 +13,7 @@ std::string shared_identity() {
     DigestStream identity;
     identity.add_part(processor_level());
     const fs::path program = running_program();
-    identity.add_file(program);
-    if (const fs::path boxed = program.parent_path() / "dynlab-boxed"; fs::exists(boxed)) identity.add_file(boxed);
+    for (const fs::path& file : programs_beside(program)) identity.add_file(file);
     if (const auto libraries = library_folder_of(program)) identity.add_part(digest_of_folder(*libraries).hex());
     for (const char* folder : {"lessons", "data", "report_templates"})
         if (const fs::path shared = shared_folder() / folder; fs::exists(shared))

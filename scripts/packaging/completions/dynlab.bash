@@ -1,4 +1,4 @@
-# NextWords for bash: dynlab itself knows what may stand next (see engine/cli/shell/next_words.h).
+# NextWords for bash: dynlab itself knows what may stand next (see engine/cli/pages/next_words.h).
 _dynlab() {
   local word about cur=${COMP_WORDS[COMP_CWORD]}
   COMPREPLY=()

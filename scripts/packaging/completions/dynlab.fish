@@ -1,4 +1,4 @@
-# NextWords for fish: dynlab itself knows what may stand next (see engine/cli/shell/next_words.h).
+# NextWords for fish: dynlab itself knows what may stand next (see engine/cli/pages/next_words.h).
 function __dynlab_offered
     set -l words (commandline -opc) (commandline -ct)
     for line in (dynlab complete -- $words[2..-1] 2>/dev/null)

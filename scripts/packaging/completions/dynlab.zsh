@@ -1,5 +1,5 @@
 #compdef dynlab
-# NextWords for zsh: dynlab itself knows what may stand next (see engine/cli/shell/next_words.h).
+# NextWords for zsh: dynlab itself knows what may stand next (see engine/cli/pages/next_words.h).
 local -a offered
 local word about files
 while IFS=$'\t' read -r word about; do

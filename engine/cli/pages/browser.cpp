@@ -1,4 +1,4 @@
-#include "cli/browser.h"
+#include "cli/pages/browser.h"
 
 #include <cstdlib>
 

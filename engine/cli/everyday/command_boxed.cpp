@@ -3,7 +3,6 @@
 #include "cli/boxed_job.h"
 #include "cli/commands.h"
 #include "course/checks/check_descriptions.h"
-#include "course/review/version_description.h"
 
 namespace dynlab::inline cli {
 namespace {
@@ -17,8 +16,6 @@ int boxed(const std::string& name) {
         do_boxed_job(unpack_archive);
     else if (name == DocumentJob::kWork)
         do_boxed_job(make_boxed_document);
-    else if (name == VersionJob::kWork)
-        do_boxed_job(make_version);
     else
         return kUsage;
     return kDone;
@@ -29,7 +26,7 @@ int boxed(const std::string& name) {
 void add_boxed(CLI::App& app, Action& action) {
     CLI::App* command = app.add_subcommand("boxed", "What grade does inside a box; not for people")->group("");
     const auto name = std::make_shared<std::string>();
-    command->add_option("work", *name, "run, checks, unpack, document or version")->required();
+    command->add_option("work", *name, "run, checks, unpack or document")->required();
     command->callback([&action, name] { action = [name] { return boxed(*name); }; });
 }
 

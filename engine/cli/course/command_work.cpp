@@ -7,8 +7,8 @@
 
 #include "cli/commands.h"
 #include "course/grading/shared_grading.h"
-#include "course/store/aligned_table.h"
 #include "platform/error.h"
+#include "platform/terminal/aligned_table.h"
 #include "platform/terminal/terminal_text.h"
 #include "workflow/shares/shared_study.h"
 #include "workflow/shares/worker.h"

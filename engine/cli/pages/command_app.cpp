@@ -1,8 +1,8 @@
 #include <iostream>
 
 #include "app/workbench/workbench_page.h"
-#include "cli/browser.h"
 #include "cli/commands.h"
+#include "cli/pages/browser.h"
 #include "platform/error.h"
 
 namespace dynlab::inline cli {

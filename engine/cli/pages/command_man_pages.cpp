@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "cli/commands.h"
-#include "cli/shell/manual_page.h"
+#include "cli/pages/manual_page.h"
 #include "platform/atomic_file.h"
 
 namespace dynlab::inline cli {

@@ -1,4 +1,4 @@
-#include "cli/shell/manual_page.h"
+#include "cli/pages/manual_page.h"
 
 #include <fmt/format.h>
 

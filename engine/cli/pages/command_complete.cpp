@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "cli/commands.h"
-#include "cli/shell/next_words.h"
+#include "cli/pages/next_words.h"
 #include "data_io/dataset_index.h"
 #include "scripting/runtime/help.h"
 #include "workflow/demonstration.h"

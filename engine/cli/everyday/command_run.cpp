@@ -9,11 +9,11 @@
 #include "cli/options/seed_option.h"
 #include "cli/options/share_options.h"
 #include "cli/options/slider_option.h"
-#include "course/store/aligned_table.h"
 #include "figures/french_texts.h"
 #include "figures/gnuplot_script.h"
 #include "platform/atomic_file.h"
 #include "platform/terminal/activity_line.h"
+#include "platform/terminal/aligned_table.h"
 #include "platform/terminal/terminal_text.h"
 #include "platform/written_files.h"
 #include "scripting/memoized_calls/call_cache.h"
@@ -163,7 +163,7 @@ int run(const RunArguments& words) {
 
 }  // namespace
 
-void add_run(CLI::App& app, Action& action) {
+void add_run(CLI::App& app, Action& action, const FigureView& view) {
     auto words = std::make_shared<RunArguments>();
     CLI::App* command = app.add_subcommand("run", "Run a Lua script, or code given on the command line");
     auto* file = command->add_option("FILE", words->file, "The script or notebook, or a folder with an analysis.lua");
@@ -190,12 +190,13 @@ void add_run(CLI::App& app, Action& action) {
         "are\n"
         "printed, and what the report's text has no place for is told.\n"
         "Example:  dynlab run -e 's = tf(\"s\") step(2/(s^2 + s + 1))'");
-    command->callback([words, command, &action] {
+    command->callback([words, view, &action] {
         if (words->file.empty() && words->code.empty()) {
             throw CLI::RequiredError("a script FILE or -e CODE");
         }
-        action = [words] {
-            return words->interactive || words->view ? open_prompt(words->file, words->view) : run(*words);
+        action = [words, view] {
+            if (words->view) return open_prompt(words->file, view());
+            return words->interactive ? open_prompt(words->file, nullptr) : run(*words);
         };
     });
 }

@@ -1,21 +1,25 @@
+#include "cli/program.h"
+
+#include <fmt/format.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <iostream>
 
-#include "cli/commands.h"
 #include "cli/usage_error.h"
 #include "platform/error.h"
 #include "platform/interrupt.h"
 #include "platform/memory.h"
+#include "platform/program_lookup.h"
 #include "platform/terminal/terminal_text.h"
 
+namespace dynlab::inline cli {
 namespace {
 
-using namespace dynlab;
-
-constexpr const char* kAbout = "dynlab runs a laboratory course on data-driven learning of dynamical systems.";
 constexpr const char* kFooter =
     "First steps:\n"
     "  dynlab                         the prompt: type Lua, see the result (or: dynlab < statements.lua)\n"
@@ -59,37 +63,45 @@ int run_action(const Action& action) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-    keep_freed_memory();
-    CLI::App app{kAbout, "dynlab"};
-    app.set_version_flag("--version", "dynlab " DYNLAB_VERSION);
-    app.set_help_flag("-h,--help", "Show this text");
-    app.require_subcommand(0, 1);
-    bool view = false;
-    app.add_flag("--view", view, "Show the prompt's figures in the browser as they are made");
-    app.add_option_function<std::string>(
-           "--course",
-           [](const std::string& folder) { ::setenv("DYNLAB_COURSE", std::filesystem::absolute(folder).c_str(), 1); },
-           "A folder with lessons, data and templates of your own (before the command; or DYNLAB_COURSE)")
+Program::Program(const Commands& commands, FigureView view) : view_(std::move(view)) {
+    app_.set_version_flag("--version", "dynlab " DYNLAB_VERSION);
+    app_.set_help_flag("-h,--help", "Show this text");
+    app_.require_subcommand(0, 1);
+    app_.add_flag("--view", shows_figures_, "Show the prompt's figures in the browser as they are made");
+    app_.add_option_function<std::string>(
+            "--course",
+            [](const std::string& folder) { ::setenv("DYNLAB_COURSE", std::filesystem::absolute(folder).c_str(), 1); },
+            "A folder with lessons, data and templates of your own (before the command; or DYNLAB_COURSE)")
         ->type_name("DIR");
-    app.failure_message(usage_message);
+    app_.failure_message(usage_message);
+    for (const auto& add : commands) add(app_, action_);
+    app_.footer(kFooter);  // commands made before have no part in it, nor in the next
+    app_.set_help_flag("-h,--help", "Show this text, or a command's: dynlab run --help");
+}
 
-    Action action;
-    for (const auto add :
-         {add_run,        add_look,      add_identify,    add_report,   add_sheet,     add_hint,     add_weave,
-          add_preview,    add_app,       add_new,         add_check,    add_lessons,   add_demo,     add_help,
-          add_manual,     add_doctor,    add_pack,        add_verify,   add_bundle,    add_checks,   add_grade,
-          add_gradescope, add_hand_back, add_similar,     add_course,   add_boxed,     add_notebook, add_kernel,
-          add_lint,       add_lsp,       add_test_lesson, add_complete, add_man_pages, add_work,     add_study})
-        add(app, action);
-    app.footer(kFooter);  // commands made before have no part in it, nor in the next
-    app.set_help_flag("-h,--help", "Show this text, or a command's: dynlab run --help");
+bool Program::has_command(const std::string& name) const {
+    return app_.get_subcommand_no_throw(name) != nullptr;
+}
+
+int Program::run(int count, char** words) {
+    keep_freed_memory();
     try {
-        app.parse(argc, argv);
+        app_.parse(count, words);
     } catch (const CLI::ParseError& error) {
         const bool asked_for_text = error.get_exit_code() == 0;
-        app.exit(error);
+        app_.exit(error);
         return asked_for_text ? kDone : kUsage;
     }
-    return run_action(action ? action : [view] { return open_prompt("", view); });
+    if (!action_) action_ = [this] { return open_prompt("", shows_figures_ ? view_() : nullptr); };
+    return run_action(action_);
 }
+
+void go_on_as(const std::string& program, char** words) {
+    const std::filesystem::path file = running_program().parent_path() / program;
+    ::execv(file.c_str(), words);
+    std::cerr << fmt::format("dynlab: {}, a part of dynlab, cannot be started ({}): install dynlab again\n",
+                             terminal_text(file.string()), std::strerror(errno));
+    std::exit(kMissingProgram);
+}
+
+}  // namespace dynlab::inline cli

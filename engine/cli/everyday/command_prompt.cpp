@@ -1,11 +1,8 @@
 #include <unistd.h>
 
 #include <iostream>
-#include <optional>
 #include <sstream>
 
-#include "app/live/figure_viewer.h"
-#include "cli/browser.h"
 #include "cli/commands.h"
 #include "scripting/prompt/console.h"
 
@@ -20,15 +17,7 @@ constexpr const char* kGreeting =
 
 }  // namespace
 
-int open_prompt(const std::string& script, bool view) {
-    std::optional<FigureViewer> viewer;
-    FigureListener see;
-    if (view) {
-        viewer.emplace();
-        std::cerr << "figures: " << viewer->address() << std::endl;
-        open_browser(viewer->address());
-        see = [&viewer](const std::string& name, const Figure& figure) { viewer->show(name, figure); };
-    }
+int open_prompt(const std::string& script, const FigureListener& see) {
     std::string quoted;
     for (const char c : script) quoted += (c == '"' || c == '\\' ? "\\" : "") + std::string(1, c);
     const std::string first = script.empty() ? "" : "run(\"" + quoted + "\")";

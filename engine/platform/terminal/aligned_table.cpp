@@ -1,10 +1,10 @@
-#include "course/store/aligned_table.h"
+#include "platform/terminal/aligned_table.h"
 
 #include <algorithm>
 
 #include "platform/utf8.h"
 
-namespace dynlab::inline course {
+namespace dynlab::inline platform {
 namespace {
 
 std::string shown(std::string cell) {
@@ -38,4 +38,4 @@ std::string aligned_table(const std::vector<std::string>& header, const std::vec
     return text;
 }
 
-}  // namespace dynlab::inline course
+}  // namespace dynlab::inline platform

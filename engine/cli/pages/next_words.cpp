@@ -1,4 +1,4 @@
-#include "cli/shell/next_words.h"
+#include "cli/pages/next_words.h"
 
 #include <cctype>
 #include <set>

@@ -1,0 +1,18 @@
+#include "cli/boxed_job.h"
+#include "cli/commands.h"
+#include "course/review/version_description.h"
+
+namespace dynlab::inline cli {
+
+void add_boxed_version(CLI::App& app, Action& action) {
+    CLI::App* command = app.add_subcommand("boxed", "What final changes does inside a box; not for people")->group("");
+    command->add_option("work", "version")->required()->check(CLI::IsMember({VersionJob::kWork}));
+    command->callback([&action] {
+        action = [] {
+            do_boxed_job(make_version);
+            return int(kDone);
+        };
+    });
+}
+
+}  // namespace dynlab::inline cli
