@@ -80,7 +80,7 @@ Program::Program(const Commands& commands, FigureView view) : view_(std::move(vi
 }
 
 bool Program::has_command(const std::string& name) const {
-    return app_.get_subcommand_no_throw(name) != nullptr;
+    return !app_.get_subcommands([&](const CLI::App* command) { return command->get_name() == name; }).empty();
 }
 
 int Program::run(int count, char** words) {

@@ -81,6 +81,14 @@ double character_width(char32_t c) {
     return c < 0x2000 ? 0.56 : 0.7;
 }
 
+/// One line, cut with an ellipsis to fit `length` cm.
+std::string cut_text(const std::string& text, double length, double size) {
+    if (text_width(text, size) <= length) return text;
+    std::u32string kept = decode(text);
+    while (kept.size() > 1 && text_width(utf8_of(kept + U'…'), size) > length) kept.pop_back();
+    return utf8_of(kept + U'…');
+}
+
 /// Smaller type for lines of which the widest is `widest` long; what is still longer than `length` is cut.
 FittedText made_smaller(FittedText text, double widest, double length) {
     constexpr double kSmallest = 0.7;
@@ -130,13 +138,6 @@ double text_width(std::string_view utf8, double size) {
         for (const char32_t c : piece.text)
             em += character_width(c) * (piece.level == Level::kLine ? 1.0 : kScriptSize);
     return em * size / style::kPointsPerCm;
-}
-
-std::string cut_text(const std::string& text, double length, double size) {
-    if (text_width(text, size) <= length) return text;
-    std::u32string kept = decode(text);
-    while (kept.size() > 1 && text_width(utf8_of(kept + U'…'), size) > length) kept.pop_back();
-    return utf8_of(kept + U'…');
 }
 
 FittedText fit_line(const std::string& text, double length, double size) {

@@ -34,8 +34,6 @@ struct FittedText {
 FittedText fit_text(const std::string& text, double length, double size);
 /// One line, likewise.
 FittedText fit_line(const std::string& text, double length, double size);
-/// One line, cut with an ellipsis to fit `length` cm.
-std::string cut_text(const std::string& text, double length, double size);
 
 /// The text as a gnuplot string: single quotes, inside which gnuplot substitutes nothing, with apostrophes printed as
 /// LaTeX prints them and every character escaped that enhanced text mode would read as markup.

@@ -165,11 +165,12 @@ std::string phrases() {
     return latex;
 }
 
-}  // namespace
-
+/// From \begin{document} on: every function with its summary, area by area, then the phrases of the page "matlab".
 std::string cheat_sheet_latex() {
     return kSheetBegin + functions_by_area() + phrases() + "\\end{document}\n";
 }
+
+}  // namespace
 
 void make_cheat_sheet(const std::filesystem::path& output) {
     if (output.extension() != ".pdf")

@@ -28,6 +28,9 @@ are others, and with other noise: `rig("{name}", {{specimen = {seed}, seed = {se
 {key} {seed}
 )";
 
+/// The record as load() gives it from a MAT file: experiments as structs of vectors.
+VariableTable variables_of_record(const RigValues& record);
+
 /// What each kind of value is in a data file.
 struct AsVariable {
     Variable operator()(double value) const { return {value}; }
@@ -38,13 +41,13 @@ struct AsVariable {
     }
 };
 
-}  // namespace
-
 VariableTable variables_of_record(const RigValues& record) {
     VariableTable variables;
     for (const RigValue& value : record) variables[value.name] = std::visit(AsVariable(), value.value);
     return variables;
 }
+
+}  // namespace
 
 void write_specimen_record(const std::string& data_set, const RigChoice& choice, const fs::path& folder) {
     const Rig* rig = find_rig(data_set);

@@ -10,9 +10,6 @@
 
 namespace dynlab::inline workflow {
 
-/// The record as load() gives it from a MAT file: experiments as structs of vectors.
-VariableTable variables_of_record(const RigValues& record);
-
 /// Writes NAME.mat into `folder`: the record of the data set's rig, rounded to seven significant digits as the stored
 /// ones are. Throws InvalidArgument for a data set that no rig makes, EnvironmentError where the file cannot be
 /// written.

@@ -199,8 +199,7 @@ void look_at_copy(const Lesson& lesson, const std::string& language, const fs::p
     });
 }
 
-}  // namespace
-
+/// The languages a lesson has: its script's, then those of its tasks and reports.
 std::vector<std::string> languages_of(const Lesson& lesson) {
     std::vector<std::string> languages = {read_percent_script(lesson.script()).header.language};
     for (const char* language : kLanguages)
@@ -209,6 +208,8 @@ std::vector<std::string> languages_of(const Lesson& lesson) {
             languages.emplace_back(language);
     return languages;
 }
+
+}  // namespace
 
 LessonFaults faults_of_texts(const Lesson& lesson) {
     Faults faults(lesson);

@@ -31,7 +31,4 @@ LessonFaults faults_of_checks(const Lesson& lesson, const CheckTrial& trial);  /
 /// value, and has a report.
 LessonFaults faults_of_documents(const Lesson& lesson);
 
-/// The languages a lesson has: its script's, then those of its tasks and reports.
-std::vector<std::string> languages_of(const Lesson& lesson);
-
 }  // namespace dynlab::inline course

@@ -119,6 +119,24 @@ std::string excerpt_of(const std::string& text, const NameHit& hit) {
     return printable(excerpt, 80);
 }
 
+/// The text of a page as a reader meets it, lines apart; turned text and code too.
+std::string page_text(const PdfPage& page) {
+    std::string text;
+    const PdfWord* last = nullptr;
+    for (const PdfWord& word : page.words) {
+        if (last) {
+            const double height = std::max(last->bottom - last->top, 1.0);
+            const bool new_line = !word.rotated && std::abs(word.bottom - last->bottom) > 0.7 * height;
+            const bool apart = last->space_after || word.rotated ||
+                               std::abs(word.left - last->right) > kNameGap * std::max(word.size, 1.0);
+            text += new_line ? "\n" : apart ? " " : "";
+        }
+        text += word.text;
+        last = &word;
+    }
+    return text;
+}
+
 /// One file's search: its pages, its objects, its earlier versions and the PDFs in it.
 class NameSearch {
   public:
@@ -283,23 +301,6 @@ class NameSearch {
 };
 
 }  // namespace
-
-std::string page_text(const PdfPage& page) {
-    std::string text;
-    const PdfWord* last = nullptr;
-    for (const PdfWord& word : page.words) {
-        if (last) {
-            const double height = std::max(last->bottom - last->top, 1.0);
-            const bool new_line = !word.rotated && std::abs(word.bottom - last->bottom) > 0.7 * height;
-            const bool apart = last->space_after || word.rotated ||
-                               std::abs(word.left - last->right) > kNameGap * std::max(word.size, 1.0);
-            text += new_line ? "\n" : apart ? " " : "";
-        }
-        text += word.text;
-        last = &word;
-    }
-    return text;
-}
 
 Findings name_findings(const fs::path& file, const PdfLayout& layout, const SoughtNames& sought,
                        const NameSearchLimits& limits) {

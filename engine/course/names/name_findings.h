@@ -23,7 +23,4 @@ struct NameSearchLimits {
 Findings name_findings(const std::filesystem::path& file, const PdfLayout& layout, const SoughtNames& sought,
                        const NameSearchLimits& limits);
 
-/// The text of a page as a reader meets it, lines apart; turned text and code too.
-std::string page_text(const PdfPage& page);
-
 }  // namespace dynlab::inline course

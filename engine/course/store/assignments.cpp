@@ -41,6 +41,18 @@ void refuse_bad_deadlines(const Assignment& a, const CourseClock& clock) {
     if (a.reviews < 1) throw InvalidArgument("each group must write at least one review: --reviews 1");
 }
 
+constexpr std::pair<const char*, double Costs::*> kCosts[] = {{"late-day", &Costs::late_day},
+                                                              {"missing-final", &Costs::missing_final},
+                                                              {"late-review", &Costs::late_review},
+                                                              {"missing-review", &Costs::missing_review}};
+
+std::string costs_text(const Costs& costs) {
+    std::vector<std::string> items;
+    for (const auto& [name, cost] : kCosts)
+        if (costs.*cost > 0) items.push_back(fmt::format("{}:{}", name, costs.*cost));
+    return fmt::format("{}", fmt::join(items, ","));
+}
+
 bool same(const Assignment& a, const Assignment& b) {
     const auto words = [](const Assignment& x) {
         std::string all =
@@ -90,11 +102,6 @@ std::optional<double> number_in(const std::string& text) {
     if (error != std::errc() || stop != text.data() + text.size()) return {};
     return value;
 }
-
-constexpr std::pair<const char*, double Costs::*> kCosts[] = {{"late-day", &Costs::late_day},
-                                                              {"missing-final", &Costs::missing_final},
-                                                              {"late-review", &Costs::late_review},
-                                                              {"missing-review", &Costs::missing_review}};
 
 }  // namespace
 
@@ -264,13 +271,6 @@ Costs costs_of(const std::string& text) {
         costs.*(known->second) = *value;
     }
     return costs;
-}
-
-std::string costs_text(const Costs& costs) {
-    std::vector<std::string> items;
-    for (const auto& [name, cost] : kCosts)
-        if (costs.*cost > 0) items.push_back(fmt::format("{}:{}", name, costs.*cost));
-    return fmt::format("{}", fmt::join(items, ","));
 }
 
 }  // namespace dynlab::inline course

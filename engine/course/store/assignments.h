@@ -64,6 +64,5 @@ std::vector<Criterion> usual_criteria(const std::string& kind);
 
 /// "late-day:10,missing-review:25"; empty for none. Throws InvalidArgument.
 Costs costs_of(const std::string& text);
-std::string costs_text(const Costs& costs);
 
 }  // namespace dynlab::inline course

@@ -26,8 +26,6 @@ std::string start_of(const std::string& name, const fs::path& file) {
     return start;
 }
 
-}  // namespace
-
 std::string kind_of_file(const std::string& name, std::string_view content) {
     const auto begins = [&](std::string_view magic) { return content.substr(0, magic.size()) == magic; };
     if (content.substr(0, 1024).find("%PDF-") != std::string_view::npos) return "pdf";
@@ -41,6 +39,8 @@ std::string kind_of_file(const std::string& name, std::string_view content) {
     static const std::set<std::string> written = {".docx", ".doc", ".odt", ".rtf", ".pages", ".pptx", ".ppt", ".odp"};
     return written.contains(ending_of(name)) ? "text" : "";
 }
+
+}  // namespace
 
 std::string kind_of_file_at(const std::string& name, const fs::path& file) {
     return kind_of_file(name, start_of(name, file));

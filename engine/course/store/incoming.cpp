@@ -29,8 +29,7 @@ std::vector<fs::path> entries_of_one_person(const fs::path& folder) {
     return entries;
 }
 
-}  // namespace
-
+/// The sender that a name shows: an LMS's pattern, or the name without its ending.
 Submission sender_of(const std::string& name) {
     Submission sender;
     sender.name = archive_stem(name).value_or(fs::path(name).stem().string());
@@ -38,6 +37,8 @@ Submission sender_of(const std::string& name) {
     read_lms_name(sender);
     return sender;
 }
+
+}  // namespace
 
 void IncomingFiles::add(const fs::path& given) {
     const std::string source = given.string();

@@ -54,7 +54,4 @@ class IncomingFiles {
     std::vector<std::string> left_out_;
 };
 
-/// The sender that a name shows: an LMS's pattern, or the name without its ending.
-Submission sender_of(const std::string& name);
-
 }  // namespace dynlab::inline course

@@ -16,13 +16,6 @@ struct SearchWindow {
     Index step = 1;   ///< so many samples of the record from one of its samples to the next
 };
 
-/// A regular record with one input and one output: the whole of it up to 5000 samples, of a longer one the first
-/// stretch of 2500 whose input moves at least half as much as in the median stretch. Of a record sampled more than 40
-/// times faster than a first model of two poles answers only every `step`th sample is taken, if nothing is lost by it:
-/// when a held input changes at these samples only, or when straight lines between them follow the input to within 1e-3
-/// of its standard deviation (the window then has hold foh).
-SearchWindow search_window(const IdData& data);
-
 /// A record, the linear model that explains it best, and what the model leaves.
 struct FittedRecord {
     IdData data;  ///< one experiment, one input, one output, regular sampling; findings take off y what is no response

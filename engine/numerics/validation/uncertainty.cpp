@@ -101,6 +101,17 @@ ModeUncertainty mode_uncertainty(const PoleDescription& mode, const std::vector<
             std_along(1 / (x * x), 0)};
 }
 
+/// The transfer functions dG/da_1..dG/da_n, dG/db_0..dG/db_m, each with G's delay: -s^(n-i) B/A^2 and s^(m-j)/A.
+std::vector<TransferFunction> coefficient_derivatives(const TransferFunction& G) {
+    const Index n = G.pole_count(), m = G.zero_count();
+    const Vector square = multiply(G.den(), G.den());
+    std::vector<TransferFunction> derivatives;
+    for (Index i = 1; i <= n; ++i)
+        derivatives.emplace_back(multiply(monomial(-1, n - i), G.num()), square, G.Ts(), G.delay());
+    for (Index j = 0; j <= m; ++j) derivatives.emplace_back(monomial(1, m - j), G.den(), G.Ts(), G.delay());
+    return derivatives;
+}
+
 }  // namespace
 
 UncertainModel::UncertainModel(TransferFunction model, Matrix parameter_covariance)
@@ -118,16 +129,6 @@ UncertainModel::UncertainModel(const ProcessModel& process, const MatrixView& pa
     const Matrix J = coefficients_by_parameter(process);
     covariance = J * parameter_covariance * J.transpose();
     check_model(G, covariance);
-}
-
-std::vector<TransferFunction> coefficient_derivatives(const TransferFunction& G) {
-    const Index n = G.pole_count(), m = G.zero_count();
-    const Vector square = multiply(G.den(), G.den());
-    std::vector<TransferFunction> derivatives;
-    for (Index i = 1; i <= n; ++i)
-        derivatives.emplace_back(multiply(monomial(-1, n - i), G.num()), square, G.Ts(), G.delay());
-    for (Index j = 0; j <= m; ++j) derivatives.emplace_back(monomial(1, m - j), G.den(), G.Ts(), G.delay());
-    return derivatives;
 }
 
 Vector step_response_std(const UncertainModel& model, const VectorView& t) {

@@ -60,7 +60,4 @@ struct ModelUncertainty {
 };
 ModelUncertainty describe_uncertainty(const UncertainModel& model);
 
-/// The transfer functions dG/da_1..dG/da_n, dG/db_0..dG/db_m, each with G's delay: -s^(n-i) B/A^2 and s^(m-j)/A.
-std::vector<TransferFunction> coefficient_derivatives(const TransferFunction& G);
-
 }  // namespace dynlab::inline numerics

@@ -11,6 +11,22 @@
 namespace dynlab::inline scripting {
 namespace {
 
+std::string size_text(double bytes) {
+    return bytes >= 1e9 ? fmt::format("{:.3g} GB", bytes / 1e9) : fmt::format("{:.3g} MB", bytes / 1e6);
+}
+
+/// Throws InvalidArgument, naming size and limit, when `bytes` cannot be had.
+void need_memory(lua_State* L, double bytes, const char* what) {
+    MemoryAccount& memory = context_of(L).memory;
+    const double limit = static_cast<double>(memory.limit());
+    if (bytes <= limit && memory.fits(static_cast<std::size_t>(bytes))) return;
+    if (bytes <= limit) lua_gc(L, LUA_GCCOLLECT);
+    if (bytes > limit || !memory.fits(static_cast<std::size_t>(bytes)))
+        throw InvalidArgument(fmt::format("{} needs {}, but the script may use {} in all and holds {} already", what,
+                                          size_text(bytes), size_text(limit),
+                                          size_text(static_cast<double>(memory.used()))));
+}
+
 template <class Block>
 Block& push_block(lua_State* L, double bytes, const std::string& what, const ObjectType& type, int user_values = 0) {
     need_memory(L, bytes + sizeof(Block), what.c_str());
@@ -19,10 +35,6 @@ Block& push_block(lua_State* L, double bytes, const std::string& what, const Obj
     push_metatable(L, type);
     lua_setmetatable(L, -2);
     return *block;
-}
-
-std::string size_text(double bytes) {
-    return bytes >= 1e9 ? fmt::format("{:.3g} GB", bytes / 1e9) : fmt::format("{:.3g} MB", bytes / 1e6);
 }
 
 template <class Block>
@@ -35,17 +47,6 @@ double bytes_of(Index rows, Index columns) {
 }
 
 }  // namespace
-
-void need_memory(lua_State* L, double bytes, const char* what) {
-    MemoryAccount& memory = context_of(L).memory;
-    const double limit = static_cast<double>(memory.limit());
-    if (bytes <= limit && memory.fits(static_cast<std::size_t>(bytes))) return;
-    if (bytes <= limit) lua_gc(L, LUA_GCCOLLECT);
-    if (bytes > limit || !memory.fits(static_cast<std::size_t>(bytes)))
-        throw InvalidArgument(fmt::format("{} needs {}, but the script may use {} in all and holds {} already", what,
-                                          size_text(bytes), size_text(limit),
-                                          size_text(static_cast<double>(memory.used()))));
-}
 
 void charge_outside_bytes(lua_State* L, std::size_t bytes, const char* what) {
     need_memory(L, static_cast<double>(bytes), what);

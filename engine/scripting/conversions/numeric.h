@@ -39,7 +39,4 @@ NumericBlock* to_vector(lua_State* L, int index);
 NumericBlock* to_matrix(lua_State* L, int index);
 MaskBlock* to_mask(lua_State* L, int index);
 
-/// Throws InvalidArgument, naming size and limit, when `bytes` cannot be had.
-void need_memory(lua_State* L, double bytes, const char* what);
-
 }  // namespace dynlab::inline scripting

@@ -97,6 +97,22 @@ std::optional<int> optional_index(const Options& options, const char* name) {
     return static_cast<int>(options.size(name, 0));
 }
 
+/// A curve from its table; x defaults to 1, 2, 3, ...
+Curve read_curve(const Call& call, int index) {
+    const Options options(call, index, kCurveOptions);
+    Curve curve;
+    curve.y = options.vector("y");
+    curve.x = options.has("x") ? Vector(options.vector("x"))
+                               : Vector::LinSpaced(curve.y.size(), 1, static_cast<double>(curve.y.size()));
+    if (options.has("y_upper")) {
+        curve.y_upper = options.vector("y_upper");
+        curve.style = CurveStyle::kBand;
+    }
+    curve.label = with_marked_indices(options.text("label", ""));
+    read_curve_look(options, curve);
+    return curve;
+}
+
 }  // namespace
 
 CurveStyle parse_curve_style(const std::string& name) {
@@ -134,21 +150,6 @@ void read_curve_look(const Options& options, Curve& curve) {
     curve.dash = optional_index(options, "dash");
     curve.marker = optional_index(options, "marker");
     curve.line_width = options.number("line_width", curve.line_width);
-}
-
-Curve read_curve(const Call& call, int index) {
-    const Options options(call, index, kCurveOptions);
-    Curve curve;
-    curve.y = options.vector("y");
-    curve.x = options.has("x") ? Vector(options.vector("x"))
-                               : Vector::LinSpaced(curve.y.size(), 1, static_cast<double>(curve.y.size()));
-    if (options.has("y_upper")) {
-        curve.y_upper = options.vector("y_upper");
-        curve.style = CurveStyle::kBand;
-    }
-    curve.label = with_marked_indices(options.text("label", ""));
-    read_curve_look(options, curve);
-    return curve;
 }
 
 void read_panel_options(const Call& call, const Options& options, Panel& panel) {

@@ -15,8 +15,6 @@ inline constexpr std::initializer_list<const char*> kPanelOptions = {
 
 /// Sets of `panel` what the options name.
 void read_panel_options(const Call& call, const Options& options, Panel& panel);
-/// A curve from its table; x defaults to 1, 2, 3, ...
-Curve read_curve(const Call& call, int index);
 /// Places in the palette by number or name: one for all curves, or one each; empty when the option is not given.
 std::vector<int> colours_of(const Options& options);
 /// Sets style, colour, dash, width and marker of `curve`.

@@ -198,6 +198,13 @@ LocatedMessage missing_end(const LocatedMessage& placed, const std::string& sour
     return {placed.file, block->line, fmt::format("the '{}' of line {} has no 'end'", block->word, block->line)};
 }
 
+/// Plain words for what Lua says at run time, location kept ("attempt to index a nil value (local 'x')" and its like).
+std::string plain_runtime_message(const std::string& message) {
+    LocatedMessage placed = take_apart(message);
+    placed.text = plain_sentence(placed.text);
+    return placed.joined();
+}
+
 }  // namespace
 
 std::string article(const std::string& noun) {
@@ -229,12 +236,6 @@ LocatedMessage take_apart(const std::string& message) {
         if (message.find_first_of("'\"") < colon) break;
     }
     return {"", 0, message};
-}
-
-std::string plain_runtime_message(const std::string& message) {
-    LocatedMessage placed = take_apart(message);
-    placed.text = plain_sentence(placed.text);
-    return placed.joined();
 }
 
 std::string plain_syntax_message(const std::string& message, const std::string& source) {

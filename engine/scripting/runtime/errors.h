@@ -38,9 +38,6 @@ struct LocatedMessage {
 };
 LocatedMessage take_apart(const std::string& message);
 
-/// Plain words for what Lua says at run time, location kept ("attempt to index a nil value (local 'x')" and its like).
-std::string plain_runtime_message(const std::string& message);
-
 /// Plain words for a syntax error of `source`, with a hint when the line looks like MATLAB.
 std::string plain_syntax_message(const std::string& message, const std::string& source);
 

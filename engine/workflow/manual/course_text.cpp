@@ -49,6 +49,25 @@ std::string with_own_names_in_line(const std::string& line, const std::string& p
     return std::regex_replace(own, value, "`" + prefix + "$1`{.value}");
 }
 
+/// Markdown that can stand beside that of others: labels of figures, tables, equations and sections, references to them
+/// and names of slots begin with `prefix`; headings are one level lower; the place of the literature is left out.
+MarkdownText with_own_names(const MarkdownText& markdown, const std::string& prefix) {
+    MarkdownText own;
+    own.origin = markdown.origin;
+    FencedCode code;
+    bool literature = false;
+    for (const std::string& line : lines_of(markdown.text)) {
+        const bool in_code = code.holds(line);
+        if (!in_code && trimmed(line) == "::: references") literature = true;
+        const bool heading = !in_code && line.starts_with('#') && line.find_first_not_of('#') < line.size() &&
+                             line[line.find_first_not_of('#')] == ' ';
+        if (!literature) own.text += (heading ? "#" : "") + (in_code ? line : with_own_names_in_line(line, prefix));
+        own.text += '\n';
+        if (literature && trimmed(line) == ":::") literature = false;
+    }
+    return own;
+}
+
 std::string text_with_own_names(const std::string& text, const std::string& prefix) {
     MarkdownText markdown;
     markdown.append(text, "", 1);
@@ -83,23 +102,6 @@ std::string new_entries(const std::string& bibtex, std::set<std::string>& keys) 
 }
 
 }  // namespace
-
-MarkdownText with_own_names(const MarkdownText& markdown, const std::string& prefix) {
-    MarkdownText own;
-    own.origin = markdown.origin;
-    FencedCode code;
-    bool literature = false;
-    for (const std::string& line : lines_of(markdown.text)) {
-        const bool in_code = code.holds(line);
-        if (!in_code && trimmed(line) == "::: references") literature = true;
-        const bool heading = !in_code && line.starts_with('#') && line.find_first_not_of('#') < line.size() &&
-                             line[line.find_first_not_of('#')] == ' ';
-        if (!literature) own.text += (heading ? "#" : "") + (in_code ? line : with_own_names_in_line(line, prefix));
-        own.text += '\n';
-        if (literature && trimmed(line) == ":::") literature = false;
-    }
-    return own;
-}
 
 CourseText course_text(const fs::path& folder, const Cache& cache) {
     CourseText course;

@@ -22,8 +22,4 @@ struct CourseText {
 /// cannot be run.
 CourseText course_text(const std::filesystem::path& folder, const Cache& cache);
 
-/// Markdown that can stand beside that of others: labels of figures, tables, equations and sections, references to them
-/// and names of slots begin with `prefix`; headings are one level lower; the place of the literature is left out.
-MarkdownText with_own_names(const MarkdownText& markdown, const std::string& prefix);
-
 }  // namespace dynlab::inline workflow

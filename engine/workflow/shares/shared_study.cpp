@@ -99,11 +99,13 @@ class StudyOnWorker : public SharedPieces {
     std::size_t calls_ = 0;
 };
 
-}  // namespace
-
+/// Pieces in one part: so few that there are parts for many workers, so many that handing them over is little. It
+/// depends on their number alone, so that one that is started again finds its parts.
 std::size_t pieces_of_a_part(std::size_t pieces) {
     return std::clamp<std::size_t>((pieces + kParts - 1) / kParts, 1, kMostOfAPart);
 }
+
+}  // namespace
 
 SharedStudy::SharedStudy(const Request& request) : lock_(request.key.parent_path() / ".lock") {
     if (!lock_.held())

@@ -43,8 +43,4 @@ class SharedStudy : public SharedPieces {
 /// What a worker does with such a job.
 ShareWork study_share();
 
-/// Pieces in one part: so few that there are parts for many workers, so many that handing them over is little. It
-/// depends on their number alone, so that one that is started again finds its parts.
-std::size_t pieces_of_a_part(std::size_t pieces);
-
 }  // namespace dynlab::inline workflow

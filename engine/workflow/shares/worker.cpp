@@ -258,15 +258,7 @@ class WorkerProcess {
     bool ending_ = false;
 };
 
-}  // namespace
-
-std::string name_of_node() {
-    if (const char* const slurm = std::getenv("SLURMD_NODENAME"); slurm && *slurm) return slurm;
-    std::array<char, 256> name{};
-    ::gethostname(name.data(), name.size() - 1);
-    return name.data();
-}
-
+/// Why jobs cannot be done on this machine now ("... has 3 MB left, and 512 are needed"), or nothing.
 std::optional<std::string> trouble_of_machine() {
     const fs::path folder = parent_of_temporary_folders();
     struct statvfs room {};
@@ -280,6 +272,15 @@ std::optional<std::string> trouble_of_machine() {
     if (::access(folder.c_str(), W_OK) != 0)
         return fmt::format("{} cannot be written to: {}", folder.string(), system_reason(errno));
     return {};
+}
+
+}  // namespace
+
+std::string name_of_node() {
+    if (const char* const slurm = std::getenv("SLURMD_NODENAME"); slurm && *slurm) return slurm;
+    std::array<char, 256> name{};
+    ::gethostname(name.data(), name.size() - 1);
+    return name.data();
 }
 
 WorkingHand::WorkingHand(const Spool& spool, std::string worker, std::string node, const std::string& seed,

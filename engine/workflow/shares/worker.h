@@ -58,9 +58,6 @@ struct WorkerOptions {
 /// No thread may run when it is called.
 std::optional<std::string> work_for(const Spool& spool, const WorkerOptions& options);
 
-/// Why jobs cannot be done on this machine now ("... has 3 MB left, and 512 are needed"), or nothing.
-std::optional<std::string> trouble_of_machine();
-
 /// What the machine is called: Slurm's name of the node, else the host's.
 std::string name_of_node();
 

@@ -63,11 +63,11 @@ class LocalProcesses : public WorkerEngine {
     int ends_ = 0;
 };
 
-}  // namespace
-
 std::unique_ptr<WorkerEngine> local_processes(int count, WorkerCommand command) {
     return std::make_unique<LocalProcesses>(count, std::move(command));
 }
+
+}  // namespace
 
 std::vector<std::string> worker_words(const std::filesystem::path& spool) {
     std::vector<std::string> words = {"/usr/bin/env"};

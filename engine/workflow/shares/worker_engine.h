@@ -44,7 +44,6 @@ std::string shell_words(const std::vector<std::string>& words);
 /// "processes:4", "parallel:2/alpha,beta", "slurm:partition=short,tasks=8": throws EnvironmentError for other words.
 std::unique_ptr<WorkerEngine> engine_of(const std::string& words, const Spool& spool, WorkerCommand command);
 
-std::unique_ptr<WorkerEngine> local_processes(int count, WorkerCommand command);
 std::unique_ptr<WorkerEngine> hosts_by_parallel(const std::string& hosts, WorkerCommand command);
 std::unique_ptr<WorkerEngine> slurm_tasks(const std::string& options, const Spool& spool, WorkerCommand command);
 
