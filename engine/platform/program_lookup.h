@@ -8,8 +8,8 @@ namespace dynlab::inline platform {
 
 std::optional<std::filesystem::path> find_program(const std::string& name);  ///< in PATH, or a path as it is
 
-/// The programs that together are dynlab, in one folder. People start the first, which goes on as another for the
-/// commands that only this one has; the last works in boxes.
+/// The programs that together are dynlab, in one folder. People start the first; for a command that it lacks it goes on
+/// as the second or the third, which has all commands. The last works in boxes.
 inline constexpr const char* kProgram = "dynlab";
 inline constexpr const char* kCourseProgram = "dynlab-course";
 inline constexpr const char* kPagesProgram = "dynlab-pages";
