@@ -19,7 +19,7 @@ void run_events(Steps steps, const IrregularEvents& events, Vector start, Matrix
     const Index size = steps.states(), entries = steps.entries();
     std::vector<Eight> maps(static_cast<std::size_t>((kStretch + 1) * entries));
     Eight* const whole = maps.data() + kStretch * entries;  // the maps of whole stretches
-    typename Steps::States x(kSideBySide, size), begin(kSideBySide, size);
+    typename Steps::States x = Steps::States::Zero(kSideBySide, size), begin = x;
     std::vector<typename Steps::States> reached(kStretch, x);
     const auto eight = [&](const Vector& values, Index first) __attribute__((always_inline)) {
         return values.size() > 0 ? Eight(Eight::Map(values.data() + first)) : Eight(Eight::Zero());
