@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "numerics/error.h"
-#include "numerics/fit/fit.h"
 
 namespace dynlab::inline numerics {
 
@@ -29,11 +28,6 @@ double variation_about_mean(const VectorView& y) {
     if ((y.array() == y[0]).all())
         throw InvalidArgument("The measured output never changes, so a fit relative to its variation has no meaning");
     return square_about_mean(y);
-}
-
-double fit_percent(const VectorView& y, const VectorView& y_sim) {
-    require_pair(y, y_sim);
-    return fit_percent_of_sums((y - y_sim).squaredNorm(), variation_about_mean(y));
 }
 
 double r_squared_simulation(const VectorView& y, const VectorView& y_sim) {

@@ -12,9 +12,6 @@ namespace dynlab::inline numerics {
 /// |y - mean(y)|^2, what the measures below relate errors to. Throws for a constant y.
 double variation_about_mean(const VectorView& y);
 
-/// 100 (1 - |y - y_sim|/|y - mean(y)|) in percent; 100 is perfect, 0 no better than the mean. Throws for a constant y.
-double fit_percent(const VectorView& y, const VectorView& y_sim);
-
 /// R_T^2 = 1 - var(y - y_sim)/var(y): blind to a constant error. Throws for a constant y.
 double r_squared_simulation(const VectorView& y, const VectorView& y_sim);
 

@@ -24,12 +24,10 @@ namespace {
 constexpr int kMostCandidates = 2000;
 constexpr double kRoundingShare = 1e-20;  // of the output's mean square: smaller errors are rounding
 
-/// Measured and simulated output of all experiments, each counted from the mean of its measured output.
-LevelledOutputs outputs_of(const IdData& data, const Fit& estimate, Offset asked) {
+Comparison comparison_of(const IdData& data, const Fit& estimate, Offset asked) {
     const Offset chosen = estimate.start.offset ? Offset::kEstimate : Offset::kNone;
-    return levelled_outputs(data,
-                            compare_all(data, estimate.models,
-                                        {estimate.start.state, asked == Offset::kRemove ? Offset::kRemove : chosen}));
+    return compare_all(data, estimate.models,
+                       {estimate.start.state, asked == Offset::kRemove ? Offset::kRemove : chosen});
 }
 
 std::vector<std::string> undetermined_parameters(const Fit& estimate) {
@@ -94,7 +92,8 @@ double validation_fit_with_integrator(const IdData& data, Fit estimate) {
 void measure(OrderCandidate& candidate, const IdData& data, const OrderSelectionOptions& options) {
     const Fit& estimate = candidate.estimate;
     const Offset offset = options.estimation.offset;
-    const LevelledOutputs outputs = outputs_of(data, estimate, offset);
+    const Comparison comparison = comparison_of(data, estimate, offset);
+    const LevelledOutputs outputs = levelled_outputs(data, comparison);
     const Index N = data.sample_count(), d = estimate.theta.size();
     const auto samples = static_cast<double>(N), count = static_cast<double>(d);
     const double mean_square = (outputs.measured - outputs.simulated).squaredNorm() / samples;
@@ -107,7 +106,7 @@ void measure(OrderCandidate& candidate, const IdData& data, const OrderSelection
     candidate.fpe = criteria.fpe;
     candidate.log_condition = std::log10(estimate.condition_number);
     candidate.iterations = static_cast<int>(estimate.trace.size());
-    candidate.fit_percent = fit_percent(outputs.measured, outputs.simulated);
+    candidate.fit_percent = comparison.fit_percent[0];
     const double rounding = kRoundingShare * outputs.measured.squaredNorm() / samples;
     candidate.evidence = samples * std::log(std::max(mean_square, rounding)) + count * std::log(samples);
     candidate.undetermined = undetermined_parameters(estimate);

@@ -146,7 +146,7 @@ int measure_fit(Call& call) {
     const double mean_square = lost ? kInfinity : (y - simulated).squaredNorm() / static_cast<double>(y.size());
     const InformationCriteria criteria = information_criteria(mean_square, y.size(), model.parameters);
     lua_createtable(call.state(), 0, 10);
-    set_field(call, "fit_percent", lost ? -kInfinity : fit_percent(y, simulated));
+    set_field(call, "fit_percent", comparison.fit_percent[0]);
     set_field(call, "r_squared_simulation", lost ? -kInfinity : r_squared_simulation(y, simulated));
     set_field(call, "rmse", std::sqrt(mean_square));
     set_field(call, "fpe", criteria.fpe);

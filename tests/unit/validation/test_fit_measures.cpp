@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "numerics/error.h"
+#include "numerics/fit/fit.h"
 #include "numerics/validation/fit_measures.h"
 
 namespace test_fit_measures {
@@ -12,9 +13,10 @@ using namespace dynlab;
 const Vector kY{{1.0, 2.0, 3.0, 6.0}}, kSim{{1.5, 2.0, 2.5, 5.0}};
 
 TEST(fit_measures, fit_percent_by_hand) {  // oracle: analytic; |e|^2 = 1.5, |y - mean|^2 = 14
-    EXPECT_NEAR(fit_percent(kY, kSim), 100 * (1 - std::sqrt(1.5 / 14)), 1e-12);
-    EXPECT_EQ(fit_percent(kY, kY), 100);
-    EXPECT_NEAR(fit_percent(kY, Vector::Constant(4, 3)), 0, 1e-12);
+    EXPECT_NEAR(variation_about_mean(kY), 14, 1e-14);
+    EXPECT_NEAR(fit_percent_of_sums((kY - kSim).squaredNorm(), 14), 100 * (1 - std::sqrt(1.5 / 14)), 1e-12);
+    EXPECT_EQ(fit_percent_of_sums(0, 14), 100);
+    EXPECT_EQ(fit_percent_of_sums(14, 14), 0);
 }
 
 TEST(fit_measures, r_squared_ignores_a_constant_error) {  // oracle: definition
@@ -46,9 +48,9 @@ TEST(fit_measures, information_criteria_by_hand) {  // oracle: definition (Ljung
 }
 
 TEST(fit_measures, refuses_what_has_no_meaning) {
-    EXPECT_THROW(fit_percent(kY, Vector::Ones(3)), InvalidArgument);
-    EXPECT_THROW(fit_percent(Vector::Ones(4), kSim), InvalidArgument);
-    EXPECT_THROW(fit_percent(Vector::Ones(1), Vector::Ones(1)), InvalidArgument);
+    EXPECT_THROW(variation_about_mean(Vector::Ones(4)), InvalidArgument);
+    EXPECT_THROW(variation_about_mean(Vector::Ones(1)), InvalidArgument);
+    EXPECT_THROW(r_squared_simulation(kY, Vector::Ones(3)), InvalidArgument);
     EXPECT_THROW(r_squared_simulation(Vector::Ones(4), kSim), InvalidArgument);
     EXPECT_THROW(yic(kY, kSim, Vector::Ones(2), Matrix::Identity(3, 3)), InvalidArgument);
     EXPECT_THROW(yic(kY, kSim, Vector::Zero(2), Matrix::Identity(2, 2)), InvalidArgument);

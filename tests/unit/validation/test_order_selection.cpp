@@ -197,7 +197,8 @@ TEST(order_selection, measures_are_those_of_their_definitions) {  // oracle: fit
     const Vector simulated = lsim(candidate.estimate.models.front(), data.experiments[0].u.col(0), data.Ts);
     const auto criteria = information_criteria((y - simulated).squaredNorm() / 1016, 1016, 3);
     EXPECT_NEAR(candidate.r_squared, r_squared_simulation(y, simulated), 1e-12);
-    EXPECT_NEAR(candidate.fit_percent, fit_percent(y, simulated), 1e-10);
+    EXPECT_NEAR(candidate.fit_percent, 100 * (1 - (y - simulated).norm() / (y.array() - y.mean()).matrix().norm()),
+                1e-10);
     EXPECT_NEAR(candidate.bic, criteria.bic, 1e-12);
     EXPECT_NEAR(candidate.fpe, criteria.fpe, 1e-12);
     EXPECT_NEAR(candidate.yic, yic(y, simulated, candidate.estimate.theta, candidate.estimate.covariance).value, 1e-10);
