@@ -1,6 +1,11 @@
 #include "documents/latex_format.h"
 
+#include <boost/iostreams/copy.hpp>
+#include <boost/iostreams/filter/gzip.hpp>
+#include <boost/iostreams/filtering_stream.hpp>
+#include <fstream>
 #include <regex>
+#include <sstream>
 
 #include "documents/text_lines.h"
 #include "documents/work_file.h"
@@ -50,10 +55,26 @@ ChildProcess begin_format(const LatexLayout& layout, const fs::path& folder) {
     return ChildProcess(child, "texlive-latex-base");
 }
 
+/// TeX packs what it dumps, and to unpack it is more than half of its start. It reads plain bytes as well, so that one
+/// unpacking serves all documents; a format that cannot be unpacked here serves as it is.
+void unpack_format(const fs::path& format) {
+    try {
+        std::ifstream packed(format, std::ios::binary);
+        boost::iostreams::filtering_istream bytes;
+        bytes.push(boost::iostreams::gzip_decompressor());
+        bytes.push(packed);
+        std::ostringstream plain;
+        boost::iostreams::copy(bytes, plain);
+        write_file_atomically(format, plain.str());
+    } catch (const std::ios_base::failure&) {  // not packed
+    } catch (const EnvironmentError&) {        // no room
+    }
+}
+
 void finish_format(ChildProcess& tex, const fs::path& folder) {
     const ChildResult run = tex.wait();
     const fs::path format = folder / (std::string(kLatexFormatName) + ".fmt");
-    if (run.exit_code == 0 && fs::exists(format)) return;
+    if (run.exit_code == 0 && fs::exists(format)) return unpack_format(format);
     check_missing_packages(run.output);
     std::smatch error;
     const bool found = std::regex_search(run.output, error, std::regex("(^|\n)! ([^\n]*)"));
@@ -78,7 +99,7 @@ void check_missing_packages(const std::string& log) {
 }
 
 CachedLatexFormat::CachedLatexFormat(const LatexLayout& layout) {
-    EntryName name("latex-formats", tex_version());
+    EntryName name("latex-formats", tex_version() + "\nunpacked");
     for (const auto& [file, text] : preamble_files(layout)) name.add(text);
     name_ = name.text();
     folder_ = cache_.find(name_);
