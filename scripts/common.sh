@@ -18,12 +18,13 @@ duration() {
 
 # tell_progress WHAT: reads numbers from 0 to 100, one a line, and says every ten seconds how far WHAT is.
 tell_progress() {
-  local what=$1 start=$SECONDS next=$((SECONDS + 10)) percent=0 line status
+  local what=$1 start=$SECONDS next=$((SECONDS + 10)) percent=0 line begun="" status
   while true; do
     status=0
     read -r -t 2 line || status=$?
-    if [ "$status" = 0 ]; then percent=${line%%.*}
+    if [ "$status" = 0 ]; then line=$begun$line percent=${line%%.*} begun=""
     elif [ "$status" -le 128 ]; then return
+    else begun=$begun$line  # the two seconds ended within a line
     fi
     [ "$SECONDS" -lt "$next" ] && continue
     next=$((SECONDS + 10))
