@@ -37,7 +37,8 @@ TEST_P(grey_figures, neighbouring_curves_are_told_apart) {
 }
 
 INSTANTIATE_TEST_SUITE_P(all, grey_figures,
-                         testing::Values("01", "02", "03_workflow", "03_crane", "04", "05", "06", "07"));
+                         testing::Values("01", "02", "03_workflow", "03_crane", "04", "05", "06", "07"),
+                         [](const auto& lesson) { return std::string(lesson.param); });
 
 }  // namespace test_grey_figures
 }  // namespace dynlab::test

@@ -272,9 +272,11 @@ TEST(lesson_03_crane, finds_the_crane_and_says_what_the_model_is_worth) {
 }
 
 class lesson_03_crane_report : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(languages, lesson_03_crane_report, testing::Values("en", "fr"));
+INSTANTIATE_TEST_SUITE_P(languages, lesson_03_crane_report, testing::Values("en", "fr"),
+                         [](const auto& language) { return std::string(language.param); });
 class lesson_05_slides : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(languages, lesson_05_slides, testing::Values("en", "fr"));
+INSTANTIATE_TEST_SUITE_P(languages, lesson_05_slides, testing::Values("en", "fr"),
+                         [](const auto& language) { return std::string(language.param); });
 
 TemplateFile report_of(const std::string& lesson, const std::string& language) {
     return read_template(DYNLAB_SOURCE_DIR "/lessons/" + lesson + "/report." + language + ".md");
