@@ -408,7 +408,7 @@ TEST(architecture, top_level_is_the_fixed_one) {
 TEST(architecture, warnings_that_depend_on_the_processor_stop_no_build) {
     const auto compiles = [](const std::string& source) {
         const std::string command =
-            "echo '" + source + "' | " DYNLAB_COMPILER " -O2 -x c++ -c -o /dev/null - 2>&1; echo $?";
+            "echo '" + source + "' | LC_ALL=C " DYNLAB_COMPILER " -O2 -x c++ -c -o /dev/null - 2>&1; echo $?";
         return output_of(command);
     };
     const std::string no_value = "int f(int n) { int x; if (n > 3) x = n; return x; }";
