@@ -91,6 +91,22 @@ TEST(script_cells, report_values_tables_and_texts) {
     EXPECT_EQ(record.texts.at("note").markdown, "*good*");
 }
 
+TEST(script_cells, report_values_are_written_as_numbers_are) {  // oracle: by hand
+    const RunRecord record = run_script(
+        "report.value('many', 123456)\nreport.value('half', 0.5)\nreport.value('none', 0/0, '%.2f')\n"
+        "report.value('all', 1/0, '%.1f')\nreport.value('zero', -0.001, '%.2f')\nreport.value('less', -0.01, '%.2f')\n"
+        "report.value('whole', 7, '%03d')\n");
+    ASSERT_FALSE(record.error) << record.error->message;
+    const auto text = [&](const char* name) { return record.values.at(name).text; };
+    EXPECT_EQ(text("many"), "123456");
+    EXPECT_EQ(text("half"), "0.5");
+    EXPECT_EQ(text("none"), "NaN");
+    EXPECT_EQ(text("all"), "Inf");
+    EXPECT_EQ(text("zero"), "0.00");
+    EXPECT_EQ(text("less"), "-0.01");
+    EXPECT_EQ(text("whole"), "007");
+}
+
 TEST(script_cells, handles_tell_where_the_numbers_of_sliders_put_them) {
     const RunRecord record = run_script(
         "-- %% id=a\nlocal T = slider('T', 2, 1, 4, {log = true})\nlocal K = slider('K', 3, 0, 10)\n"

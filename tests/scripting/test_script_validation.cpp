@@ -65,6 +65,23 @@ TEST(script_validation, resid_takes_discrete_models_and_experiments) {
               "true\n");
 }
 
+// Oracle: the definition, by hand: every experiment counts from its own means.
+TEST(script_validation, measures_blind_to_constants_are_so_in_each_experiment) {
+    EXPECT_EQ(
+        printed(kRecord + "local G = idproc('P2', {Kp = 2, Tp1 = 1, Tp2 = 0.3})\n"
+                          "local a = iddata(x + 0.1*randn(#u) + 3, u, 0.05)\n"
+                          "local b = iddata(x + 0.1*randn(#u) - 5, u, 0.05)\n"
+                          "local how = {InitialState = 'zero', Offset = 'none'}\n"
+                          "local errors, swings = 0, 0\n"
+                          "for _, d in ipairs{a, b} do\n"
+                          "    local e = d.y - x\n"
+                          "    errors, swings = errors + norm(e - mean(e))^2, swings + norm(d.y - mean(d.y))^2\n"
+                          "end\n"
+                          "local m = fit_measures(merge(a, b), G, how)\n"
+                          "print(math.abs(m.r_squared_simulation - (1 - errors/swings)) < 1e-9, m.fit_percent < 0)"),
+        "true\ttrue\n");
+}
+
 TEST(script_validation, present_shows_robust_errors_for_coloured_noise_only) {
     EXPECT_THAT(printed(kRecord + "present(procsrivc(coloured, 'P2'))"),
                 testing::AllOf(HasSubstr("(robust ± "), HasSubstr("not white")));

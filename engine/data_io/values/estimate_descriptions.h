@@ -34,11 +34,12 @@ DYNLAB_DESCRIBE(FitIteration, theta, loss, change)
 template <Is<Fit> T, class V>
 void describe(T& object, V& member) {
     auto& [structure, models, process, orders, polynomial, characteristic, noise, history, names, theta, std,
-           covariance, noise_covariance, noise_variance, fit_percent, prediction_fit_percent, loss, condition_number,
-           at_bound, start, initial_values, offsets, removed, output, delay_grid, delay_loss, termination, trace,
-           warnings, message] = object;
+           covariance, noise_covariance, noise_variance, output_weights, fit_percent, prediction_fit_percent, loss,
+           condition_number, at_bound, start, initial_values, offsets, removed, output, delay_grid, delay_loss,
+           termination, trace, warnings, message] = object;
     member("structure", structure), member("theta", theta), member("std", std), member("names", names);
     member("models", models), member("covariance", covariance), member("noise_variance", noise_variance);
+    member("output_weights", output_weights);
     member("fit_percent", fit_percent), member("loss", loss), member("condition_number", condition_number);
     member("start", start), member("initial_values", initial_values), member("offsets", offsets);
     member("delay_grid", delay_grid), member("delay_loss", delay_loss), member("termination", termination);

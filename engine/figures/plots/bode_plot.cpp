@@ -28,6 +28,11 @@ ComplexVector shown_response(const NamedModel& model, const Vector& w) {
     return response_between_samples(model.G, w, model.beside.Ts, model.beside.inter_sample);
 }
 
+Vector shown_phase(const NamedModel& model, const Vector& w) {
+    if (!is_held(model)) return phase_degrees(model.G, w);
+    return phase_degrees_unwrapped(shown_response(model, w), w, model.G.delay());
+}
+
 std::string shown_name(const NamedModel& model) {
     if (!is_held(model) || model.name.empty()) return model.name;
     return model.name + (model.beside.inter_sample == InterSample::kZoh ? ", input held" : ", input on lines");
@@ -85,7 +90,7 @@ Vector phase_beside(const FrequencyData& data, const std::vector<NamedModel>& mo
     constexpr double kTurn = 360;
     Vector phase = phase_degrees_unwrapped(data.response);
     if (models.empty()) return phase;
-    const Vector near = phase_degrees_unwrapped(shown_response(models.front(), data.w));
+    const Vector near = shown_phase(models.front(), data.w);
     for (Index k = 0; k < phase.size(); ++k) phase[k] -= kTurn * std::round((phase[k] - near[k]) / kTurn);
     return phase;
 }
@@ -144,11 +149,10 @@ Figure bode_plot(const std::vector<NamedModel>& given, const Vector& w, const st
     for (const NamedModel& model : models) {
         Curve curve;
         curve.x = below_nyquist(model, grid);
-        const ComplexVector response = shown_response(model, curve.x);
         curve.label = shown_name(model);
-        curve.y = magnitude_db(response);
+        curve.y = magnitude_db(shown_response(model, curve.x));
         magnitude.curves.push_back(curve);
-        curve.y = phase_degrees_unwrapped(response);
+        curve.y = shown_phase(model, curve.x);
         phase.curves.push_back(std::move(curve));
         if (model.G.continuous()) continue;
         const ReferenceLine end{false, std::numbers::pi / model.G.Ts(), "", 2};

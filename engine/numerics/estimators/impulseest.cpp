@@ -132,7 +132,7 @@ RegressedResponse impulseest(const IdData& data, const ImpulseestOptions& option
     options.smooth ? fit_smoothly(sums, options.kernel, estimate) : fit_plainly(record, n, sums.count, estimate);
     estimate.message = "Impulse response over " + std::to_string(n) + " lags by " +
                        (options.smooth ? "regularised" : "plain") + " least squares.";
-    read_dead_time(estimate, data.Ts, normal_half_width(options.confidence));
+    read_dead_time(estimate, data.Ts, data.hold, normal_half_width(options.confidence));
     const Index tail = std::max<Index>(n / 10, 1);
     if (estimate.response.tail(tail).cwiseAbs().maxCoeff() > 0.1 * estimate.response.cwiseAbs().maxCoeff())
         estimate.warnings.push_back(

@@ -98,6 +98,7 @@ struct Fit {
     Matrix covariance;               ///< noise_variance (Psi'Psi)^-1, Psi the regressors, instruments or sensitivities
     Matrix noise_covariance;         ///< rivc: of [c_1..c_nc d_1..d_nd]
     Vector noise_variance;           ///< per output, of e: sum of squares/(N - d), d the values that bear on the output
+    Vector output_weights;           ///< those asked for that outputs were fitted together with; empty otherwise
     Vector fit_percent;              ///< per output: simulation, over all experiments
     double prediction_fit_percent = 0;  ///< difference equations: one step ahead
     double loss = 0;                    ///< mean square of e over all outputs; for rivc of the simulation error

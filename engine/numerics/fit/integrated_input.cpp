@@ -29,6 +29,16 @@ IdData summed_inputs(const IdData& data) {
     return summed;
 }
 
+FitOptions options_with_integrator(FitOptions options) {
+    if (options.offset == Offset::kRemove)
+        throw InvalidArgument(
+            "`offset` \"remove\" does not go with `integration`, because an integrator rests at no operating point: "
+            "\"estimate\" adds a constant to its output");
+    if (options.initial_state == InitialState::kEstimate) options.offset = Offset::kEstimate;
+    if (options.initial_state == InitialState::kAuto && options.offset == Offset::kNone) options.offset = Offset::kAuto;
+    return options;
+}
+
 void append_integrator(Fit& fit) {
     const TransferFunction integrator(Vector::Ones(1), Vector::Unit(2, 0));
     for (TransferFunction& G : fit.models) G = G * integrator;

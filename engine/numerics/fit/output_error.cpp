@@ -11,6 +11,7 @@
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/least_squares.h"
 #include "numerics/linalg/side_by_side.h"
+#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
@@ -192,6 +193,22 @@ SensitivityPrecision sensitivity_precision(const OutputErrorModel& model, const 
     if (!sensitivities.allFinite()) return {};
     const LeastSquares fit = solve_least_squares(sensitivities(Eigen::all, free), Vector::Zero(output.size()));
     return {fit.inverse_gram, fit.condition_number};
+}
+
+Matrix covariance_of_unequal_rows(const Matrix& covariance, double variance, const Matrix& J, const Vector& variances) {
+    if (!(variance > 0) || !J.allFinite()) return covariance;
+    const Matrix inverse_gram = covariance / variance;
+    return inverse_gram * (J.transpose() * variances.asDiagonal() * J) * inverse_gram;
+}
+
+void check_output_weights(const Vector& weights, Index outputs) {
+    if (weights.size() == 0) return;
+    if (weights.size() != outputs)
+        throw InvalidArgument("`output_weights` holds a positive number for each of the " + counted(outputs, "output") +
+                              ", but has " + std::to_string(weights.size()));
+    for (const double weight : weights)
+        if (!(weight > 0) || !std::isfinite(weight))
+            throw InvalidArgument("`output_weights` must be positive, and one of them is " + number_text(weight));
 }
 
 namespace {

@@ -34,6 +34,14 @@ struct SensitivityPrecision {
 SensitivityPrecision sensitivity_precision(const OutputErrorModel& model, const Vector& theta, const Matrix& gram,
                                            const std::vector<Index>& free);
 
+/// Of a minimum whose rows have errors of different variances, where `covariance` = variance (J'J)^-1 was found as if
+/// they were alike: (J'J)^-1 (sum_r v_r j_r j_r') (J'J)^-1, j_r the rows of the sensitivities J and v_r the variances
+/// of their errors. As it was where J is not finite.
+Matrix covariance_of_unequal_rows(const Matrix& covariance, double variance, const Matrix& J, const Vector& variances);
+
+/// Throws InvalidArgument unless weights that are given are positive and as many as the outputs.
+void check_output_weights(const Vector& weights, Index outputs);
+
 /// A criterion and a search for its minimum under every start condition that comes into question.
 struct FitProblem {
     std::string method;                                       ///< begins messages

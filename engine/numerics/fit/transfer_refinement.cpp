@@ -121,6 +121,19 @@ Vector counted_variations(TransferOutput model) {
 
 namespace {
 
+/// With weights that were asked for: they say nothing of the errors' variances.
+void set_covariance_under_weights(Fit& fit, const TransferOutput& model, double pooled_variance) {
+    Vector output;
+    Matrix sensitivities;
+    model.simulate(fit.theta, output, &sensitivities);
+    Vector variances(output.size());
+    for (std::size_t e = 0; e < model.experiment_count(); ++e)
+        for (Index o = 0; o < fit.noise_variance.size(); ++o)
+            variances.segment(model.row(e, o), model.rows(e))
+                .setConstant(std::pow(model.weights()[o], 2) * fit.noise_variance[o]);
+    fit.covariance = covariance_of_unequal_rows(fit.covariance, pooled_variance, sensitivities, variances);
+}
+
 /// Of the model at the end of a search, in its own parameters.
 void fill_errors(Fit& fit, const TransferOutput& model) {
     const Vector squares = squared_errors(model, model.output_at(fit.theta));
@@ -146,7 +159,12 @@ Fit refine_jointly(const IdData& data, const TransferStructure& structure, const
     model.fix(options.fixed);
     if (condition.state == InitialState::kEstimate) model.leave_out(unheard);
     Fit fit = search(model, structure, data, first_point(model, structure, theta_start), options);
+    const double pooled_variance = fit.noise_variance[0];
     fill_errors(fit, model);
+    if (structure.outputs > 1 && options.output_weights.size() > 0) {
+        fit.output_weights = options.output_weights;
+        if (options.precision) set_covariance_under_weights(fit, model, pooled_variance);
+    }
     keep_parameters(fit, model, condition, model.seconds());
     fit.structure = structure;
     return fit;
@@ -307,11 +325,13 @@ Fit refine_each_output(const IdData& data, const TransferStructure& structure, c
                        const Vector& theta_start, const FitOptions& options, double unheard) {
     std::vector<OutputProblem> problems;
     std::vector<Fit> estimates;
+    FitOptions alone = options;
+    alone.output_weights.resize(0);  // decide nothing between outputs that share nothing
     for (Index output = 0; output < structure.outputs; ++output) {
         problems.push_back(output_problem(data, structure, output));
         const OutputProblem& problem = problems.back();
         estimates.push_back(
-            refine_jointly(problem.data, problem.structure, condition, theta_start(problem.places), options, unheard));
+            refine_jointly(problem.data, problem.structure, condition, theta_start(problem.places), alone, unheard));
     }
     return join_outputs(structure, problems, estimates);
 }

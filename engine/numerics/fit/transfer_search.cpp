@@ -165,10 +165,7 @@ Vector start_at_delays(const IdData& data, const TransferStructure& structure, c
 void check_search(const TransferStructure& structure, const FitOptions& options) {
     for (const auto& [name, value] : options.fixed)
         if (name.starts_with("Td")) throw InvalidArgument("`fixed`: a delay is fixed with `delay`, and not as " + name);
-    const Index weights = options.output_weights.size();
-    if (weights > 0 && (weights != structure.outputs || !(options.output_weights.minCoeff() > 0)))
-        throw InvalidArgument("`output_weights` holds a positive number for each of the " +
-                              std::to_string(structure.outputs) + " outputs, but has " + std::to_string(weights));
+    check_output_weights(options.output_weights, structure.outputs);
 }
 
 /// For the first estimates: counted from the operating point; where the inputs never change, from the first output.

@@ -15,7 +15,7 @@ constexpr Index kSamplesPerLag = 3;
 
 }  // namespace
 
-void read_dead_time(ImpulseEstimate& estimate, double Ts, double half_width) {
+void read_dead_time(ImpulseEstimate& estimate, double Ts, Hold hold, double half_width) {
     const Vector& g = estimate.response;
     const auto beyond = [&](Index i) { return std::abs(g[i]) > half_width * estimate.null_std[i]; };
     for (Index i = 0; i + 1 < g.size() && !estimate.first; ++i)
@@ -24,7 +24,7 @@ void read_dead_time(ImpulseEstimate& estimate, double Ts, double half_width) {
         estimate.message += " No part of it stands out of the noise: the input does not visibly move the output.";
         return;
     }
-    const Index first = *estimate.first, dead = std::max<Index>(first - 1, 0);
+    const Index first = *estimate.first, dead = std::max<Index>(first - (hold == Hold::kZoh ? 1 : 0), 0);
     estimate.message += " It first stands out of the noise at lag " + std::to_string(first) + " (" +
                         number_text(static_cast<double>(first) * Ts) + " s); ";
     estimate.message += dead == 0 ? "no dead time is visible."

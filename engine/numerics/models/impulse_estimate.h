@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "numerics/linalg/types.h"
+#include "numerics/signals/iddata.h"
 
 namespace dynlab::inline numerics {
 
@@ -23,8 +24,8 @@ struct ImpulseEstimate {
 
 /// Finds the first lag that together with the next lies beyond `half_width` of its null_std on the same side, and
 /// completes the message by what it says of the dead time: a held input needs one lag to act, so the dead time is about
-/// first - 1 samples.
-void read_dead_time(ImpulseEstimate& estimate, double Ts, double half_width);
+/// first - 1 samples; one that runs on straight lines begins to change a lag earlier, so it is about first samples.
+void read_dead_time(ImpulseEstimate& estimate, double Ts, Hold hold, double half_width);
 
 /// `lags` when positive, else the smaller of 70 and a fifth of the shortest record. Throws InvalidArgument, beginning
 /// with `caller`, when three times as many samples as lags are not there.

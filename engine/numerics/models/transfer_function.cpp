@@ -123,11 +123,12 @@ TransferFunction operator*(const TransferFunction& a, const TransferFunction& b)
 }
 
 TransferFunction operator/(const TransferFunction& a, const TransferFunction& b) {
-    if (b.delay() > 0)
-        throw InvalidArgument("division by a transfer function with a delay of " + number_text(b.delay()) +
+    if (b.delay() > a.delay())
+        throw InvalidArgument("division of a transfer function with a delay of " + number_text(a.delay()) +
+                              " s by one with a delay of " + number_text(b.delay()) +
                               " s: the quotient would have to know the future");
     if (b.num().isZero(0)) throw InvalidArgument("division by a transfer function that is zero");
-    return a * TransferFunction(b.den(), b.num(), b.Ts());
+    return a.with_delay(a.delay() - b.delay()) * TransferFunction(b.den(), b.num(), b.Ts());
 }
 
 TransferFunction pow(const TransferFunction& base, int exponent) {

@@ -43,7 +43,7 @@ TransferFunction operator+(const TransferFunction& a, const TransferFunction& b)
 TransferFunction operator-(const TransferFunction& a, const TransferFunction& b);
 TransferFunction operator*(const TransferFunction& a, const TransferFunction& b);
 TransferFunction operator/(const TransferFunction& a,
-                           const TransferFunction& b);  ///< throws when b is delayed
+                           const TransferFunction& b);  ///< throws when b is delayed more than a
 TransferFunction pow(const TransferFunction& base, int exponent);
 /// forward/(1 + forward backward), sign = +1 for positive feedback. Both without delay.
 TransferFunction feedback(const TransferFunction& forward, const TransferFunction& backward, int sign = -1);

@@ -33,6 +33,19 @@ std::vector<std::string> numbered_names(const std::string& stem, Index count) {
     return names;
 }
 
+const char* hold_text(Hold hold) {
+    return hold == Hold::kZoh ? "held (zoh)" : "a straight line (foh)";
+}
+
+/// Of the channels of a part of a merger, where both are known.
+void check_same_units(const std::vector<std::string>& first, const std::vector<std::string>& units,
+                      const std::string& kind, std::size_t part) {
+    for (std::size_t i = 0; i < std::min(first.size(), units.size()); ++i)
+        if (!first[i].empty() && !units[i].empty() && first[i] != units[i])
+            throw InvalidArgument("merge: part " + std::to_string(part) + " has its " + kind + " " +
+                                  std::to_string(i + 1) + " in " + units[i] + " but the first in " + first[i]);
+}
+
 const Experiment& only_experiment(const IdData& data, const std::string& caller) {
     if (data.experiments.size() != 1)
         throw InvalidArgument(caller + ": the data must hold one experiment, but they hold " +
@@ -211,6 +224,11 @@ IdData IdData::merge(const std::vector<IdData>& parts) {
         if (part.time_unit != merged.time_unit)
             throw InvalidArgument("merge: part " + std::to_string(i + 1) + " counts time in " + part.time_unit +
                                   " but the first in " + merged.time_unit);
+        if (part.hold != merged.hold)
+            throw InvalidArgument("merge: between the samples the input of part " + std::to_string(i + 1) + " is " +
+                                  hold_text(part.hold) + ", but that of the first is " + hold_text(merged.hold));
+        check_same_units(merged.input_units, part.input_units, "input", i + 1);
+        check_same_units(merged.output_units, part.output_units, "output", i + 1);
         merged.experiments.insert(merged.experiments.end(), part.experiments.begin(), part.experiments.end());
     }
     return merged;

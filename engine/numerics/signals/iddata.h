@@ -58,7 +58,8 @@ struct IdData {
     std::pair<IdData, IdData> split(double fraction) const;
     /// Input delayed by so many samples (the data's ends are cut). Throws InvalidArgument for irregular sampling.
     IdData shifted(Index samples) const;
-    /// Several experiments in one object. Throws InvalidArgument for other channels, sampling or units of time.
+    /// Several experiments in one object. Throws InvalidArgument for other channels, sampling, hold, or units of time
+    /// or (where both are known) of a channel.
     static IdData merge(const std::vector<IdData>& parts);
 };
 

@@ -179,12 +179,13 @@ void finish(Assessment& assessment, const Matrix& Psi, const Vector& errors, con
     assessment.std = assessment.covariance.diagonal().cwiseSqrt();
 }
 
-// One output's rows, weighted as the fit of several outputs weights them: with one over the size of its errors.
-void weigh(Eigen::Ref<Matrix> Psi, Eigen::Ref<Vector> errors) {
+// One output's rows, weighted as the fit weighted them: as was asked for, or with one over the size of the errors.
+void weigh(Eigen::Ref<Matrix> Psi, Eigen::Ref<Vector> errors, const Fit& fit, Index output) {
     const double size = errors.norm();
-    if (size == 0) return;
-    Psi /= size;
-    errors /= size;
+    if (fit.output_weights.size() == 0 && size == 0) return;
+    const double weight = fit.output_weights.size() > 0 ? fit.output_weights[output] : 1 / size;
+    Psi *= weight;
+    errors *= weight;
 }
 
 // `by_parameter` (columns of Psi x q) leads from the channels' coefficients to the parameters of the estimate.
@@ -214,7 +215,7 @@ Assessment assess_channels(const IdData& data, const std::vector<ChannelPlaces>&
             linear_unknowns += part.linear_unknowns;
             own_errors.push_back(part.errors);
         }
-        weigh(Psi.middleRows(i * N, N), errors.segment(i * N, N));
+        weigh(Psi.middleRows(i * N, N), errors.segment(i * N, N), fit, i);
         assessment.whiteness.push_back(whiteness_test(own_errors, options));
         assessment.white = assessment.white && assessment.whiteness.back().white;
     }

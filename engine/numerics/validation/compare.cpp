@@ -328,12 +328,14 @@ CompareResult compare(const IdData& data, const TransferFunction& G, const Compa
 }
 
 LevelledOutputs levelled_outputs(const IdData& data, const Comparison& comparison) {
-    LevelledOutputs all{Vector(data.sample_count()), Vector(data.sample_count())};
+    LevelledOutputs all{Vector(data.sample_count()), Vector(data.sample_count()), Vector(data.sample_count())};
     Index first = 0;
     for (std::size_t k = 0; k < data.experiments.size(); ++k) {
         const auto y = data.experiments[k].y.col(0);
         all.measured.segment(first, y.size()) = y.array() - y.mean();
-        all.simulated.segment(first, y.size()) = comparison.results[k].front().output.array() - y.mean();
+        const Vector& output = comparison.results[k].front().output;
+        all.simulated.segment(first, y.size()) = output.array() - y.mean();
+        all.swing.segment(first, y.size()) = output.array() - output.mean();
         first += y.size();
     }
     return all;

@@ -49,9 +49,9 @@ Comparison compare_all(const IdData& data, const std::vector<TransferFunction>& 
 Comparison compare_all(const IdData& data, const FreeRunModel& model);
 
 /// The first output of all experiments one after the other, N values, each counted from the mean of its experiment's
-/// measured output.
+/// measured output; `swing`: simulated, counted from its own mean, as measures count that are blind to constant errors.
 struct LevelledOutputs {
-    Vector measured, simulated;
+    Vector measured, simulated, swing;
 };
 LevelledOutputs levelled_outputs(const IdData& data, const Comparison& comparison);
 

@@ -99,8 +99,8 @@ void measure(OrderCandidate& candidate, const IdData& data, const OrderSelection
     const double mean_square = (outputs.measured - outputs.simulated).squaredNorm() / samples;
     const InformationCriteria criteria = information_criteria(mean_square, N, d);
     candidate.delay = estimate.models.front().delay();
-    candidate.r_squared = r_squared_simulation(outputs.measured, outputs.simulated);
-    candidate.yic = yic(outputs.measured, outputs.simulated, estimate.theta, estimate.covariance).value;
+    candidate.r_squared = r_squared_simulation(outputs.measured, outputs.swing);
+    candidate.yic = yic(outputs.measured, outputs.swing, estimate.theta, estimate.covariance).value;
     candidate.aic = criteria.aic;
     candidate.bic = criteria.bic;
     candidate.fpe = criteria.fpe;

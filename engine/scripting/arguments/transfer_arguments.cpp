@@ -163,6 +163,7 @@ void read_fit_options(const Options& options, FitOptions& wanted) {
     if (options.has("OutputWeights")) wanted.output_weights = options.vector("OutputWeights");
     wanted.cancel = options.call().cancel();
     wanted.validate();
+    if (options.flag("Integration", false)) wanted = options_with_integrator(std::move(wanted));
 }
 
 }  // namespace dynlab::inline scripting

@@ -192,10 +192,8 @@ int frequency_values(Call& call) {
     call.at_most(2);
     const Model model = model_argument(call, 1, "G");
     const Vector w = call.given(2) ? Vector(call.vector(2, "w")) : natural_frequency_grid(model.G);
-    const ComplexVector response = frequency_response(model.G, w);
-    const Vector magnitude = response.cwiseAbs();
-    const int given =
-        call.give_vector(magnitude) + call.give_vector(phase_degrees_unwrapped(response)) + call.give_vector(w);
+    const Vector magnitude = frequency_response(model.G, w).cwiseAbs();
+    const int given = call.give_vector(magnitude) + call.give_vector(phase_degrees(model.G, w)) + call.give_vector(w);
     const auto uncertain = uncertain_model(model);
     if (!uncertain) return given;
     const auto [decibels, degrees] = frequency_response_std(*uncertain, w);

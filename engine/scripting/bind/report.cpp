@@ -27,6 +27,12 @@ std::string new_name(const Call& call, const Taken& taken) {
     return name;
 }
 
+/// A number without a format: integers as they are.
+std::string cell_text(lua_State* L, int index) {
+    const bool fraction = lua_type(L, index) == LUA_TNUMBER && lua_isinteger(L, index) == 0;
+    return fraction ? number_text(lua_tonumber(L, index)) : value_text(L, index);
+}
+
 /// string.format(format, value at `index`)
 std::string formatted(const Call& call, const std::string& format, int index) {
     lua_State* L = call.state();
@@ -39,6 +45,16 @@ std::string formatted(const Call& call, const std::string& format, int index) {
     return lua_tostring(L, -1);
 }
 
+/// A number that a format made look like less than zero, or like none, as displays show it.
+std::string formatted_number(const Call& call, const std::string& format, int index) {
+    const double number = lua_tonumber(call.state(), index);
+    const bool integer = lua_isinteger(call.state(), index) != 0;
+    if (!integer && !std::isfinite(number)) return number_text(number);
+    const std::string text = formatted(call, format, index);
+    const bool zero = text.starts_with('-') && text.find_first_not_of("-0.") == std::string::npos;
+    return zero ? text.substr(1) : text;
+}
+
 int report_value(Call& call) {
     call.at_most(3);
     auto& values = call.context().recorder.record().values;
@@ -46,7 +62,7 @@ int report_value(Call& call) {
     RecordedValue value;
     if (call.type(2) == LUA_TNUMBER) {
         value.number = call.number(2, "value");
-        value.text = call.given(3) ? formatted(call, call.text(3, "format"), 2) : number_text(*value.number);
+        value.text = call.given(3) ? formatted_number(call, call.text(3, "format"), 2) : cell_text(call.state(), 2);
     } else if (call.type(2) == LUA_TSTRING) {
         value.text = call.given(3) ? formatted(call, call.text(3, "format"), 2) : call.text(2, "value");
     } else {
@@ -62,9 +78,7 @@ std::vector<std::string> read_cells(const Call& call, int row, lua_Integer numbe
         throw InvalidArgument(
             fmt::format("row {} must be a table of cells, but {} was given", number, given_text(L, row)));
     std::vector<std::string> cells;
-    for (lua_Integer i = 1; lua_rawgeti(L, row, i) != LUA_TNIL; lua_pop(L, 1), ++i)
-        cells.push_back(lua_type(L, -1) == LUA_TNUMBER && !lua_isinteger(L, -1) ? number_text(lua_tonumber(L, -1))
-                                                                                : value_text(L, -1));
+    for (lua_Integer i = 1; lua_rawgeti(L, row, i) != LUA_TNIL; lua_pop(L, 1), ++i) cells.push_back(cell_text(L, -1));
     lua_pop(L, 1);
     return cells;
 }

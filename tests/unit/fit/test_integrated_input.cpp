@@ -54,6 +54,38 @@ TEST(integrated_input, running_sums_do_the_same_in_discrete_time) {  // oracle: 
     EXPECT_LT((estimate.polynomial->B[0] - truth.B[0]).cwiseAbs().maxCoeff(), 1e-8);
 }
 
+/// What is left of a record when its first `lost` samples are: the motor then stands somewhere, and turns.
+IdData later_part(Index lost) {
+    const Vector u = random_levels(600, 5, 1).array() + 0.02, noise = RandomStream(2).normal(600);
+    const Vector y = lsim(kPosition.with_delay(0), u, 0.1) + 0.01 * noise;
+    return IdData(Matrix(y.tail(600 - lost)), Matrix(u.tail(600 - lost)), 0.1);
+}
+
+TEST(integrated_input, what_the_integrator_held_before_the_record_is_estimated) {  // oracle: the simulated system
+    const IdData data = later_part(100);
+    for (const InitialState state : {InitialState::kEstimate, InitialState::kAuto}) {
+        FitOptions options;
+        options.initial_state = state;
+        options = options_with_integrator(options);
+        const Fit estimate = srivc(integrated_inputs(data), TransferStructure::single(1, 0), options);
+        EXPECT_LT(std::abs(estimate.theta[0] - 2), 5 * estimate.std[0]) << estimate.message;
+        EXPECT_LT(std::abs(estimate.theta[1] - 3), 5 * estimate.std[1]);
+        EXPECT_GT(estimate.fit_percent[0], 95);
+        const Fit sampled = oe(summed_inputs(data), PolynomialOrders::output_error({2}, {1}, {1}), options);
+        EXPECT_NEAR(sampled.theta[2], -std::exp(-0.2), 0.01) << sampled.message;
+        EXPECT_GT(sampled.fit_percent[0], 95);
+    }
+}
+
+TEST(integrated_input, has_no_operating_point) {  // oracle: definition
+    FitOptions options;
+    options.offset = Offset::kRemove;
+    EXPECT_THAT(thrown_message([&] { options_with_integrator(options); }),
+                testing::HasSubstr("`offset` \"remove\" does not go with `integration`"));
+    options.offset = Offset::kNone;
+    EXPECT_EQ(options_with_integrator(options).offset, Offset::kNone);  // from rest nothing is unknown
+}
+
 TEST(integrated_input, needs_a_held_input) {  // oracle: definition
     IdData data(Matrix::Random(10, 1), Matrix::Random(10, 1), 1);
     data.hold = Hold::kFoh;

@@ -146,6 +146,53 @@ TEST(transfer_search, weights_of_outputs_decide_what_a_common_denominator_follow
     EXPECT_THROW(search_transfer("test", data, structure, options), InvalidArgument);
 }
 
+/// Two outputs of one denominator, the second with eight times the noise.
+IdData unequal_outputs(Denominators denominators, TransferStructure& structure) {
+    const Vector u = prbs(7, 4), a = values({1, 1.2, 4});
+    Matrix y(u.size(), 2), inputs = u;
+    y.col(0) = lsim(TransferFunction(values({3}), a), u, 0.1) + 0.05 * RandomStream(3).normal(u.size());
+    y.col(1) = lsim(TransferFunction(values({5}), a), u, 0.1) + 0.4 * RandomStream(4).normal(u.size());
+    structure = TransferStructure::grid(2, 1, denominators, {2}, {0}, {0});
+    return IdData(y, inputs, 0.1);
+}
+
+TEST(transfer_search, weights_decide_nothing_between_outputs_that_share_nothing) {  // oracle: the fit without weights
+    TransferStructure structure;
+    const IdData data = unequal_outputs(Denominators::kPerOutput, structure);
+    const Fit plain = search_transfer("test", data, structure, {});
+    FitOptions options;
+    options.output_weights = values({1, 1});
+    const Fit weighted = search_transfer("test", data, structure, options);
+    EXPECT_EQ(weighted.theta, plain.theta);
+    EXPECT_EQ(weighted.covariance, plain.covariance);
+}
+
+// Oracle: G^-1 (sum_o v_o J_o'J_o) G^-1, G = sum_o J_o'J_o, with sensitivities by differences of the simulation.
+TEST(transfer_search, the_covariance_under_given_weights_is_that_of_each_output_s_noise) {
+    TransferStructure structure;
+    const IdData data = unequal_outputs(Denominators::kCommon, structure);
+    FitOptions options;
+    options.output_weights = values({1, 1});
+    const Fit fit = search_transfer("test", data, structure, options);
+    const Vector u = data.experiments[0].u.col(0);
+    const auto simulated = [&](const Vector& theta, Index output) {
+        return lsim(TransferFunction(theta.segment(2 + output, 1), values({1, theta[0], theta[1]})), u, 0.1);
+    };
+    Matrix gram = Matrix::Zero(4, 4), middle = gram;
+    for (Index output = 0; output < 2; ++output) {
+        Matrix J(u.size(), 4);
+        for (Index i = 0; i < 4; ++i) {
+            const Vector step = 1e-5 * Vector::Unit(4, i);
+            J.col(i) = (simulated(fit.theta + step, output) - simulated(fit.theta - step, output)) / 2e-5;
+        }
+        gram += J.transpose() * J;
+        middle += fit.noise_variance[output] * J.transpose() * J;
+        EXPECT_NEAR(std::sqrt(fit.noise_variance[output]) / (output == 0 ? 0.05 : 0.4), 1, 0.1);
+    }
+    const Matrix wanted = gram.inverse() * middle * gram.inverse();
+    for (Index i = 0; i < 4; ++i) EXPECT_NEAR(fit.std[i] / std::sqrt(wanted(i, i)), 1, 1e-3) << i;
+}
+
 // Oracle: the optimum that the search without a start finds; a start elsewhere leads to the valley beside it.
 TEST(transfer_search, begins_at_a_start_or_a_delay_that_is_given) {
     const IdData data = delayed_record();

@@ -18,15 +18,18 @@ ImpulseEstimate estimate_of(const Vector& response) {
 
 TEST(impulse_estimate, the_first_response_is_followed_by_another_of_its_sign) {   // oracle: the definition
     ImpulseEstimate late = estimate_of(Vector{{0.1, 9.0, -0.2, 5.0, 6.0, 2.0}});  // a lone peak at lag 1
-    read_dead_time(late, 0.1, 3);
+    read_dead_time(late, 0.1, Hold::kZoh, 3);
     EXPECT_EQ(late.first, 3);
     EXPECT_THAT(late.message, HasSubstr("the dead time is about 0.2 s (2 samples)"));
+    ImpulseEstimate on_lines = estimate_of(late.response);  // half of a triangle has passed at its lag
+    read_dead_time(on_lines, 0.1, Hold::kFoh, 3);
+    EXPECT_THAT(on_lines.message, HasSubstr("the dead time is about 0.3 s (3 samples)"));
     ImpulseEstimate changing = estimate_of(Vector{{5.0, -5.0, -6.0, 0.0}});
-    read_dead_time(changing, 0.1, 3);
+    read_dead_time(changing, 0.1, Hold::kZoh, 3);
     EXPECT_EQ(changing.first, 1);
     EXPECT_THAT(changing.message, HasSubstr("no dead time is visible"));
     ImpulseEstimate none = estimate_of(Vector{{1.0, -2.0, 2.0, 1.0}});
-    read_dead_time(none, 0.1, 3);
+    read_dead_time(none, 0.1, Hold::kZoh, 3);
     EXPECT_FALSE(none.first);
     EXPECT_THAT(none.message, HasSubstr("No part of it stands out"));
 }

@@ -34,6 +34,8 @@ TEST(transfer_function, algebra_agrees_with_arithmetic_of_values) {  // oracle: 
     EXPECT_TRUE(close(kSecondOrder - H, g - h));
     EXPECT_TRUE(close(kSecondOrder * H, g * h));
     EXPECT_TRUE(close(kSecondOrder / H, g / h));
+    EXPECT_TRUE(close(kSecondOrder.with_delay(0.4) / H.with_delay(0.1), g / h * std::exp(-0.3 * p)));
+    EXPECT_EQ((kSecondOrder.with_delay(0.4) / H.with_delay(0.4)).delay(), 0);
     EXPECT_TRUE(close(pow(s, 3), p * p * p));
     EXPECT_TRUE(close(pow(H, -2), 1.0 / (h * h)));
     EXPECT_TRUE(close(feedback(kSecondOrder, H), g / (1.0 + g * h)));

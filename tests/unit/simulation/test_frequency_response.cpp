@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace dynlab {
 namespace test_frequency_response {
@@ -20,6 +21,41 @@ TEST(frequency_response, phase_of_a_delay_is_not_folded) {  // oracle: analytic,
     const Vector w = Vector::LinSpaced(200, 0.1, 30);
     const Vector phase = phase_degrees_unwrapped(frequency_response(TransferFunction().with_delay(1.5), w));
     EXPECT_TRUE(phase.isApprox(-1.5 * 180 / std::numbers::pi * w, 1e-12));
+}
+
+TEST(frequency_response, phase_does_not_depend_on_the_frequencies_asked_for) {  // oracle: analytic
+    const auto phase = [](const TransferFunction& G, double w) { return phase_degrees(G, Vector::Constant(1, w))[0]; };
+    const auto degrees = [](double radians) { return radians * 180 / std::numbers::pi; };
+    const TransferFunction lag(Vector::Ones(1), Eigen::Vector2d(1, 1));
+    for (const double w : {0.1, 1.0, 10.0, 100.0})
+        EXPECT_NEAR(phase(lag.with_delay(1), w), -degrees(std::atan(w) + w), 1e-9);
+    EXPECT_NEAR(phase(TransferFunction(Vector::Ones(1), Vector::Unit(4, 0)), 2), -270, 1e-9);  // 1/s^3
+    EXPECT_NEAR(phase(TransferFunction(Vector{{-1.0, 1.0}}, Vector{{1.0, 1.0}}), 3), -2 * degrees(std::atan(3)), 1e-9);
+    EXPECT_NEAR(phase(TransferFunction(Vector{{-2.0}}, Vector{{1.0, 1.0}}), 1), 135, 1e-9);  // a negative gain
+    EXPECT_NEAR(phase(TransferFunction(Vector{{1.0}}, Vector{{1.0, -1.0}}), 1), 180 + degrees(std::atan(1)), 1e-9);
+    EXPECT_NEAR(phase(TransferFunction(Vector::Ones(1), Vector{{1.0, 0.0, 4.0}}), 1), 0, 1e-9);  // undamped
+    EXPECT_NEAR(phase(TransferFunction(Vector::Ones(1), Vector{{1.0, 0.0, 4.0}}), 3), -180, 1e-9);
+    const TransferFunction sum(Vector{{1.0, 0.0}}, Vector{{1.0, -1.0}}, 0.1);  // z/(z - 1)
+    EXPECT_NEAR(phase(sum, 5), -90 + degrees(0.25), 1e-9);
+    const TransferFunction shifts(Vector::Ones(1), Vector::Unit(8, 0), 0.1, 0.5);  // z^-12
+    EXPECT_NEAR(phase(shifts, 25), -12 * degrees(2.5), 1e-9);
+}
+
+// Oracle: the second route, from one of very many frequencies to the next.
+TEST(frequency_response, phase_is_that_of_a_fine_grid) {
+    const std::vector<TransferFunction> models = {
+        TransferFunction(Vector{{-4.0, 0.5}}, Vector{{1.0, 1.0, 4.0}}, 0, 8),
+        TransferFunction(Vector{{1.0, -0.2, 9.0}}, Vector{{1.0, 0.1, 4.0, 0.0}}),
+        TransferFunction(Vector{{1.0, 0.3, 2.0, 0.1, 0.5}}, Vector{{1.0, 2.0, 1.0, 5.0, 1.0, 0.2}}, 0, 0.7),
+        TransferFunction(Vector{{1.0, -2.5, 1.7}}, Vector{{1.0, -1.5, 0.9, 0.0, 0.0}}, 0.5, 2),
+        TransferFunction(Vector{{0.3, 0.9}}, Vector{{1.0, 0.2, -0.95, -0.19}}, 0.5)};
+    for (const TransferFunction& G : models) {
+        const double last = G.continuous() ? 40 : std::numbers::pi / G.Ts() * 0.999;
+        const Vector fine = Vector::LinSpaced(100'000, 1e-3, last);
+        const Vector wanted = phase_degrees_unwrapped(frequency_response(G, fine)), found = phase_degrees(G, fine);
+        const double turns = std::round((found[0] - wanted[0]) / 360);
+        EXPECT_LT((found.array() - wanted.array() - 360 * turns).abs().maxCoeff(), 1e-6) << G.delay();
+    }
 }
 
 TEST(frequency_response, discrete_delay_turns_on_the_unit_circle) {  // oracle: analytic, z^-2 at w

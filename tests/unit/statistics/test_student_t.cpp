@@ -58,6 +58,7 @@ TEST(student_t, many_degrees_are_normal) {  // oracle: Cornish-Fisher expansion 
 TEST(student_t, refuses_what_has_no_answer) {
     EXPECT_THROW(student_t_quantile(0, 5), InvalidArgument);
     EXPECT_THROW(student_t_quantile(1, 5), InvalidArgument);
+    EXPECT_THROW(student_t_quantile(0.3, 0.001), InvalidArgument);  // beyond the range of Boost
     EXPECT_THROW(student_t_quantile(0.9, 0), InvalidArgument);
     EXPECT_THROW(student_t_quantile(0.9, std::nan("")), InvalidArgument);
     EXPECT_THROW(student_t_quantile(std::nan(""), 5), InvalidArgument);

@@ -120,6 +120,13 @@ Vector squares_of_outputs(const GreyOutput& criterion, const Vector& theta, cons
     return squares;
 }
 
+/// Of each output's errors: its share of the values that were searched.
+double residual_degrees(const Fit& end, const IdData& data) {
+    const double held = static_cast<double>(std::count(end.at_bound.begin(), end.at_bound.end(), true));
+    const double searched = static_cast<double>(end.theta.size()) - held;
+    return static_cast<double>(data.sample_count()) - searched / static_cast<double>(data.output_count());
+}
+
 Fit minimise(const GreyOutput& criterion, const Vector& start, const FitOptions& search) {
     if (criterion.parameter_count() > 0) return minimise_output_error(criterion, criterion.measured(), start, search);
     Fit fit;  // everything is fixed
@@ -228,6 +235,23 @@ void look_at_sensitivities(GreyFit& result, const GreyOutput& criterion, const F
         if (found.parameters[k]) result.fit.covariance(active[k], active[k]) = kInfinity;
 }
 
+/// With weights that were asked for: they say nothing of the errors' variances.
+void set_weights_asked_for(Fit& fit, const GreyOutput& criterion, const IdData& data, const Vector& weights) {
+    if (weights.size() < 2) return;
+    fit.output_weights = weights;
+    if (fit.theta.size() == 0) return;
+    Vector output, squares = squares_of_outputs(criterion, fit.theta, data);
+    Matrix J;
+    criterion.simulate(fit.theta, output, &J);
+    Vector variances(output.size());
+    Index first = 0;
+    for (const Experiment& experiment : data.experiments)
+        for (Index o = 0; o < weights.size(); ++o, first += experiment.y.rows())
+            variances.segment(first, experiment.y.rows())
+                .setConstant(std::pow(weights[o], 2) * squares[o] / residual_degrees(fit, data));
+    fit.covariance = covariance_of_unequal_rows(fit.covariance, fit.noise_variance[0], J, variances);
+}
+
 void warn_of_bounds(Fit& fit, const GreyModel& model, const std::vector<Index>& free, const Fit& end) {
     for (std::size_t q = 0; q < free.size(); ++q) {
         if (!end.at_bound[q]) continue;
@@ -271,8 +295,6 @@ void set_parameters(GreyFit& result, const GreyOutput& criterion, const Fit& end
 void set_measures(GreyFit& result, const GreyOutput& criterion, const Fit& end, const IdData& data) {
     Fit& fit = result.fit;
     const double N = static_cast<double>(data.sample_count()), ny = static_cast<double>(data.output_count());
-    const double held = static_cast<double>(std::count(end.at_bound.begin(), end.at_bound.end(), true));
-    const double degrees = N - (static_cast<double>(end.theta.size()) - held) / ny;
     Vector squares = Vector::Zero(data.output_count());
     std::vector<double> rough;
     for (GreyTrajectory& run : criterion.trajectories(end.theta, false)) {
@@ -284,7 +306,7 @@ void set_measures(GreyFit& result, const GreyOutput& criterion, const Fit& end, 
         for (const double t : run.rough_times)
             if (t > begin) rough.push_back(t);
     }
-    fit.noise_variance = squares / degrees;
+    fit.noise_variance = squares / residual_degrees(end, data);
     fit.loss = squares.sum() / (N * ny);
     fit.fit_percent = squares.binaryExpr(output_variations(data), &fit_percent_of_sums);
     const double reach =
@@ -330,9 +352,6 @@ void GreyOptions::validate() const {
         throw InvalidArgument("`relative_tolerance` must lie between 1e-13 and 0.01, and is " +
                               number_text(relative_tolerance));
     if (starts < 1) throw InvalidArgument("`starts` must be at least 1, and is " + std::to_string(starts));
-    for (const double weight : output_weights)
-        if (!(weight > 0) || !std::isfinite(weight))
-            throw InvalidArgument("`output_weights` must be positive, and one of them is " + number_text(weight));
 }
 
 GreyFit greyest(const IdData& data, const GreyModel& model, const GreyOptions& options) {
@@ -346,16 +365,14 @@ GreyFit greyest(const IdData& data, const GreyModel& model, const GreyOptions& o
     Problem problem{data, result.model, options, std::nullopt};
     if (options.initial_state == GreyStart::kZero)
         problem.initial = Matrix::Zero(model.order(), static_cast<Index>(data.experiments.size()));
-    if (options.output_weights.size() != 0 && options.output_weights.size() != data.output_count())
-        throw InvalidArgument("`output_weights` must hold one value for each of the " +
-                              counted(data.output_count(), "output") + ", and holds " +
-                              std::to_string(options.output_weights.size()));
+    check_output_weights(options.output_weights, data.output_count());
     const Vector weights = options.output_weights.size() > 0 ? options.output_weights : weights_of_spread(data);
     const Beginning from = best_start(problem, weights);
     SearchEnd end = search(problem, from, weights);
     const GreyOutput criterion = problem.criterion(from.parameters, end.weights);
     if (end.fit.at_bound.empty()) end.fit.at_bound.resize(static_cast<std::size_t>(end.fit.theta.size()));
     result.fit = end.fit;
+    set_weights_asked_for(result.fit, criterion, data, options.output_weights);
     warn_of_search(result.fit, problem.search_options());
     look_at_sensitivities(result, criterion, end.fit);
     const bool ambiguous = result.fit.covariance.size() > 0 && !result.fit.covariance.diagonal().allFinite();
