@@ -44,18 +44,22 @@ TEST(gradebook_memory, marks_of_two_kinds_never_stand_side_by_side) {
         "which hand-in counts (best then, newest now)");
     EXPECT_EQ(work.read("out/gradebook.csv"), whole);
     EXPECT_THAT(bench.grade(all).output, HasSubstr("0 graded now, 2 unchanged"));
-    // Deadlines that moved hold for all or are refused.
+    // Deadlines that moved are wanted, or refused.
     work.write("deadlines.csv", "submission,deadline\n*,2001-03-01 18:00\n");
-    std::vector<std::string> one = all;
+    std::vector<std::string> one = all, again = all;
     one.insert(one.end(), {"--only", "a"});
+    again.push_back("--again");
     expect_refused(bench.grade(one), "the deadlines (deadlines.csv has changed)");
-    ASSERT_EQ(bench.grade(all).exit_code, 0);
+    expect_refused(bench.grade(all), "the deadlines (deadlines.csv has changed)");
+    work.write("moved.csv", "submission,deadline\n*,2001-02-01 18:00\n");
+    expect_refused(bench.grade({"--checks", "own", "--secret", "secret.txt", "--deadlines", "moved.csv"}),
+                   "the deadlines (deadlines.csv then, moved.csv now)");
+    EXPECT_EQ(work.read("out/gradebook.csv"), whole);
+    ASSERT_EQ(bench.grade(again).exit_code, 0);
     EXPECT_THAT(work.read("out/gradebook.csv"), AllOf(HasSubstr(",a,graded,0,5,5,"), HasSubstr(",b,graded,0,5,5,")));
     // Other checks, wanted: all marks anew from the runs of before.
     work.write("own/more.lua", "check{id = 'own', points = 4, test = function(a) return a.x > 50 end}\n");
     expect_refused(bench.grade(all), "your own checks (own has changed)");
-    std::vector<std::string> again = all;
-    again.push_back("--again");
     work.write("own/more.lua", "check{id = 'own', points = 4, test = function(a) return a.x > 0 end}\n");
     EXPECT_THAT(bench.grade(again).output, HasSubstr("2 graded now, 0 unchanged"));
     EXPECT_THAT(work.read("out/gradebook.csv"), HasSubstr(",b,graded,0,6,6,"));

@@ -83,7 +83,7 @@ std::vector<std::string> differences_of(const GradingMemory& then, const Grading
     compare("the secret", then.secret, now.secret, true);
     compare("the roster", then.roster, now.roster, false);
     compare("the list of owners", then.owners, now.owners, false);
-    compare("the deadlines", then.deadlines, now.deadlines, false);
+    compare("the deadlines", then.deadlines, now.deadlines, true);
     if (then.keep != now.keep)
         clauses.push_back(fmt::format("which hand-in counts ({} then, {} now)", then.keep, now.keep));
     if (then.timezone != now.timezone)

@@ -31,8 +31,9 @@ std::optional<GradingMemory> read_grading_memory(const std::filesystem::path& ou
 void write_grading_memory(const std::filesystem::path& out, const GradingMemory& memory);
 
 /// What differs so that marks of both kinds would stand side by side, a clause each: "the checks (own1 then, none
-/// now)". A roster, deadlines or a list of owners that is new or has changed does not count when all of the class is
-/// graded, as the gradebook is then made anew from all of it; one that is missing now does.
+/// now)". A roster or a list of owners, which say whose work it is, may be given or mended when all of the class is
+/// graded, as the gradebook is then made anew from all of it; one that is missing now counts. Deadlines take points:
+/// other ones always count.
 std::vector<std::string> differences_of(const GradingMemory& then, const GradingMemory& now, bool all_of_the_class);
 
 /// What a script did when it was run, kept apart from what the checks say of it: with other checks it need not run
