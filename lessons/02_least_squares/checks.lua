@@ -91,7 +91,12 @@ check { id = "paris", points = 2, about = "The forecast for 2024 and its interva
                       near((a.paris[3] + a.paris[2])/2, paris.value, {abs = 0.005, half = 0.01}))
     end,
     mistakes = {
-        {when = function(a) return a.paris[2] > a.paris[3] end,
+        -- The forecast lies between the ends, so that it is the middle one of three numbers that stand in another order.
+        {when = function(a)
+             local ascending = sort(a.paris)
+             local others = math.abs(ascending[2] - paris.value) < 0.01 and a.paris[1] ~= ascending[2]
+             return others or a.paris[2] > a.paris[3]
+         end,
          say = "The order is forecast, lower end, upper end."},
         {when = function(a) return (a.paris[3] - a.paris[2])/2 < 0.7*half_width end,
          say = "The interval is too narrow: it must allow for one new race, not only for the uncertainty of the line."},

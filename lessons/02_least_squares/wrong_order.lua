@@ -1,9 +1,10 @@
 -- expects: line: The order is slope, time at the mean year
+-- expects: paris: The order is forecast, lower end, upper end
 -- expects: continuous: The order is a, b
 -- expects: discrete: The order is a1, b1
 -- expects: noisy: exact samples
 -- expects: follows_samples: On a record that you have not seen
--- The columns of Phi stand in another order, and the exact samples are taken twice.
+-- The columns of Phi and the three numbers of the forecast stand in another order, and the exact samples are taken twice.
 local games, four = load("winning_times"), load("step_response")
 local last = #games.year - 1
 local when, took = games.year:range(1, last), games.time:range(1, last)
@@ -14,7 +15,7 @@ local line = polyfit_report(when, took, 1)
 local there = forecast(line, 2024)
 answer("line", theta)
 answer("rmse", sqrt(mean(e^2)))
-answer("paris", vector{there.value, there.low, there.high})
+answer("paris", vector{there.low, there.value, there.high})
 report.figure("residuals", plot(when, e), "Residuals")
 report.figure("forecast", regression_plot(when, took, line), "Line")
 
