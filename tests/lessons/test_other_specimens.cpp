@@ -1,0 +1,78 @@
+// Lesson 1 on the records that groups have for themselves. Oracles: the parameters of each specimen, and what the
+// lesson's own text says of its figures and tables.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <regex>
+
+#include "figures/gnuplot_renderer.h"
+#include "numerics/rigs/specimen.h"
+#include "platform/temporary_folder.h"
+#include "scripting/interpreter/runtime.h"
+#include "support/lesson_list.h"
+
+namespace dynlab::test {
+namespace test_other_specimens {
+
+constexpr const char* kLesson = "01_process_models";
+
+/// The lesson on records of another exchanger and another suspension. Its two hundred repetitions are of the
+/// exchanger that all have: two of them do.
+PercentScript on_specimen(int number) {
+    static const std::regex loaded(R"re(\bload\("(heat_exchanger|suspension)"\))re"), repeated("\nlocal runs = 200\n");
+    const std::filesystem::path file = lesson_folder(kLesson) / "lesson.lua";
+    const std::string seed = std::to_string(number);
+    std::string script = read_file(file);
+    EXPECT_TRUE(std::regex_search(script, loaded) && std::regex_search(script, repeated));
+    script = std::regex_replace(script, loaded, "rig(\"$1\", {specimen = " + seed + ", seed = " + seed + "})");
+    return parse_percent_script(std::regex_replace(script, repeated, "\nlocal runs = 2\n"), file);
+}
+
+/// The numbers of a table's row behind its name, without their errors.
+std::vector<double> numbers_of(const RunRecord& run, const std::string& table, std::size_t row) {
+    std::vector<double> numbers;
+    const std::vector<std::string>& cells = run.tables.at(table).rows.at(row);
+    for (std::size_t i = 1; i < cells.size(); ++i) numbers.push_back(std::stod(cells[i]));
+    return numbers;
+}
+
+/// But for noise below a level of zero, where a paper begins.
+void expect_on_paper(const RunRecord& run, const std::string& name, double noise) {
+    const Panel& paper = run.figures.at(name).figure.panels.at(0);
+    ASSERT_TRUE(paper.y_range) << name;
+    const auto& samples = paper.curves.at(0).y;
+    const auto [least, most] = std::minmax_element(samples.begin(), samples.end());
+    EXPECT_GE(*least, paper.y_range->first - noise) << name;
+    EXPECT_LE(*most, paper.y_range->second) << name;
+}
+
+TEST(other_specimens, carry_lesson_1_to_its_end_and_keep_its_words_true) {
+    const TemporaryFolder out;
+    GnuplotRenderer renderer;
+    for (int number = 1; number <= 60; ++number) {
+        SCOPED_TRACE("specimen " + std::to_string(number));
+        RunOptions options;
+        options.script_folder = lesson_folder(kLesson);
+        options.out_folder = out.path();
+        Runtime runtime(options, renderer);
+        const RunRecord run = runtime.run(on_specimen(number));
+        ASSERT_FALSE(run.error) << run.error->message;
+        EXPECT_EQ(run.answers.size(), 6u);
+        const auto exchanger = heat_exchanger_truth(heat_exchanger_specimen(static_cast<std::uint32_t>(number)));
+        const auto found = numbers_of(run, "exchanger", 1);
+        EXPECT_NEAR(found[0], exchanger.gain, 0.02 * exchanger.gain);
+        EXPECT_NEAR(found[1], exchanger.time_constant, 0.03 * exchanger.time_constant);
+        const auto balance = numbers_of(run, "half_flow", 1), read = numbers_of(run, "half_flow", 2),
+                   estimated = numbers_of(run, "half_flow", 3);
+        EXPECT_LT(read[0], balance[0]) << "its gain and its time constant are too small";
+        EXPECT_LT(read[1], 0.95 * balance[1]);
+        EXPECT_NEAR(estimated[0], balance[0], 0.02 * balance[0]);
+        EXPECT_NEAR(estimated[1], balance[1], 0.03 * balance[1]);
+        expect_on_paper(run, "exchanger_paper", 0);
+        expect_on_paper(run, "suspension_paper", 0.25);
+    }
+}
+
+}  // namespace test_other_specimens
+}  // namespace dynlab::test
