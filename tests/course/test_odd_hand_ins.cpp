@@ -107,6 +107,28 @@ TEST(odd_hand_ins, another_time_of_a_known_file_is_told) {
     EXPECT_THAT(receive({"--times", "times.csv"}), ContainsRegex("group-01 .*in time +known already, nothing changed"));
 }
 
+TEST(odd_hand_ins, reports_are_held_against_what_their_lesson_asks_for) {
+    CourseBench bench(1, 1);
+    const auto add = [&](const std::string& name, const std::string& lesson) {
+        return bench.course({"assignment", "add", name, "--lesson", lesson, "--first", "2026-03-01 12:00", "--review",
+                             "2026-03-08 12:00", "--final", "2026-03-15 12:00", "--reviews", "1"});
+    };
+    told(add("lines", "02"));
+    told(add("labs", "03_crane"));
+    EXPECT_THAT(told(add("none", "22"), 1),
+                AllOf(HasSubstr("there is no lesson or folder '22'; the lessons are "), HasSubstr("02_least_squares")));
+    EXPECT_THAT(told(bench.course({"assignment", "change", "lines", "--lesson", "22", "--reason", "a slip"}), 1),
+                HasSubstr("there is no lesson or folder '22'"));
+    told(bench.hand_in("group-01.pdf", small_pdf("The winning times"), kInTime, {"--assignment", "lines"}));
+    EXPECT_THAT(told(bench.course({"findings", "group-01", "--assignment", "lines"})),
+                AllOf(HasSubstr("checked as lesson"), Not(HasSubstr("section"))));
+    for (const char* name : {"labs", "crane"}) {  // one of a lesson that asks for it, one without a lesson
+        told(bench.hand_in("group-01.pdf", small_pdf("The winning times"), kInTime, {"--assignment", name}));
+        EXPECT_THAT(told(bench.course({"findings", "group-01", "--assignment", name}), 1),
+                    HasSubstr("checked as lab_report"));
+    }
+}
+
 TEST(odd_hand_ins, the_findings_of_a_report_tell_that_its_copy_did_not_go_out) {
     CourseBench bench(2, 1);
     told(bench.hand_in("group-01.pdf", small_pdf("A report by Student 1 of this course"), kInTime));

@@ -10,6 +10,7 @@
 #include "course/store/groups.h"
 #include "numerics/error.h"
 #include "platform/terminal/terminal_text.h"
+#include "workflow/lesson_catalogue.h"
 
 namespace dynlab::inline cli {
 namespace {
@@ -106,7 +107,10 @@ struct AssignmentArguments {
 
 /// Sets what was given.
 void apply(const AssignmentArguments& words, const CourseClock& clock, Assignment& a) {
-    if (!words.lesson.empty()) a.lesson = words.lesson;
+    if (!words.lesson.empty()) {
+        find_lesson(words.lesson);  // there is one, and one only
+        a.lesson = words.lesson;
+    }
     if (!words.first.empty()) a.first_due = clock.parse(words.first, "--first");
     if (!words.review.empty()) a.review_due = clock.parse(words.review, "--review");
     if (!words.final.empty()) a.final_due = clock.parse(words.final, "--final");

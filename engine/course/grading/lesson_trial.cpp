@@ -8,6 +8,7 @@
 
 #include "course/checks/check_functions.h"
 #include "course/findings/document_findings.h"
+#include "course/findings/lesson_standard.h"
 #include "documents/document_rules.h"
 #include "documents/error.h"
 #include "documents/solutions.h"
@@ -150,8 +151,7 @@ void look_at_attempt(const fs::path& file, const TriedScript& tried, Faults& fau
 /// The rules of a lesson's report, where it has one of its own form.
 DocumentStandard standard_of_report(const Lesson& lesson, const std::string& language) {
     if (!fs::exists(lesson.report(language))) return {};
-    const DocumentStandard named = standard_of(read_percent_script(lesson.script()).header.template_name);
-    return named.rules.pages || !named.rules.sections.empty() ? named : standard_of(lesson.report(language).string());
+    return standard_of_lesson(lesson, language);
 }
 
 void look_at_pdf(const fs::path& pdf, const fs::path& source, const DocumentStandard& standard, Faults& faults) {

@@ -279,7 +279,8 @@ class HandInReceiver {
 
     void keep_all() {
         std::optional<Inspector> inspector;
-        if (request_.checks) inspector.emplace(request_.stage == "review" ? everybody() : nullptr);
+        if (request_.checks)
+            inspector.emplace(request_.stage == "review" ? everybody() : nullptr, outcome_.assignment.lesson);
         if (inspector && candidates_.size() > 1) prepare_to_read_pdfs();
         std::vector<fs::path> files;
         for (const Candidate& candidate : candidates_) files.push_back(candidate.file->file);
@@ -296,7 +297,8 @@ class HandInReceiver {
 
     void inspect(Candidate& candidate, const std::optional<Inspector>& inspector) const {
         if (candidate.unreadable && !inspector)
-            candidate.inspection = Inspector(nullptr).inspect(course_.file(candidate.hash), candidate.part);
+            candidate.inspection =
+                Inspector(nullptr, outcome_.assignment.lesson).inspect(course_.file(candidate.hash), candidate.part);
         else if (inspector && inspector->looks_at(candidate.part))
             candidate.inspection = inspector->inspect(course_.file(candidate.hash), candidate.part);
     }

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "course/findings/findings_report.h"
+#include "course/findings/lesson_standard.h"
 
 namespace dynlab::inline course {
 namespace {
@@ -20,13 +21,22 @@ Inspection summary_of(const CheckResult& result, const std::string& json) {
     return inspection;
 }
 
+DocumentStandard standard_of_reports(const std::string& lesson) {
+    try {
+        if (!lesson.empty()) return standard_of_lesson(find_lesson(lesson));
+    } catch (const std::runtime_error&) {
+        // A course may be older than the lessons that are installed, and its hand-ins are received all the same.
+    }
+    return standard_of("lab_report");
+}
+
 }  // namespace
 
-Inspector::Inspector(std::shared_ptr<const SoughtNames> names) {
+Inspector::Inspector(std::shared_ptr<const SoughtNames> names, const std::string& lesson) {
     const auto hold_against = [this](const char* part, const char* template_name) {
         wishes_[part].standard = standard_of(template_name);
     };
-    hold_against("report", "lab_report");
+    wishes_["report"].standard = standard_of_reports(lesson);
     hold_against("slides", "slides");
     hold_against("review", "peer_review");
     wishes_["review"].names = std::move(names);
