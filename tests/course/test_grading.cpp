@@ -7,6 +7,7 @@
 namespace dynlab::test {
 namespace test_grading {
 using ::testing::Contains;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Key;
@@ -124,6 +125,22 @@ TEST(grading, goes_on_where_it_was_and_keeps_manual_marks) {
     const ChildResult unknown = bench.grade({"--only", "c"});
     EXPECT_EQ(unknown.exit_code, 1);
     EXPECT_THAT(unknown.error_output, HasSubstr("there is no submission \"c\""));
+}
+
+// oracle: the runs that do not end
+TEST(grading, tells_what_stopped_the_worked_solution_before_what_is_missing) {
+    const std::string endless = "while true do end\nanswer('x', 42)\n";
+    GradingBench bench(kAnswers, "check{id = 'x', test = function(a) return a.x == 42 end}\n", endless);
+    bench.hand_in("a", kSolution);
+    EXPECT_THAT(bench.grade({"--timeout", "2"}).error_output,
+                ContainsRegex("the check \"x\", which is left ungraded: its run stopped: .*; The answer \"x\""));
+    GradingBench other(kAnswers, "check{id = 'x', rerun = 'suspension', test = function(a, b) return b.x == 42 end}\n",
+                       "local y = load('suspension').y\n"
+                       "if math.abs(mean(y:range(300, #y)) - 10) > 0.05 then while true do end end\n"
+                       "answer('x', 42)\n");
+    other.hand_in("a", kSolution);
+    EXPECT_THAT(other.grade({"--timeout", "2"}).error_output,
+                ContainsRegex("which is left ungraded: its run on suspension stopped: .*; "));
 }
 
 // oracle: the rule that a broken check costs nobody points

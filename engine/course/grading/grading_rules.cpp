@@ -42,6 +42,15 @@ std::string shortened_trouble(const std::string& trouble) {
     return trouble.size() > kLongestTrouble ? trouble.substr(0, kLongestTrouble) + " ..." : trouble;
 }
 
+/// What stopped a run that a check rests on, as the answers are missing for that reason; empty where none was stopped.
+std::string stop_told(const std::map<std::string, GradedRun>& runs, const std::string& rerun) {
+    for (const std::string& name : {std::string(kMainRun), rerun})
+        if (const auto run = runs.find(name); run != runs.end() && run->second.error)
+            return fmt::format("its run{} stopped: {}; ", name == kMainRun ? "" : " on " + name,
+                               shortened_trouble(*run->second.error));
+    return "";
+}
+
 /// The lesson's template where it demands something, else its report.
 std::string standard_for(const Lesson& lesson, const PercentScript& script) {
     const DocumentStandard named = standard_of(script.header.template_name);
@@ -406,16 +415,18 @@ std::vector<std::string> GradingRules::try_solution(const fs::path& memory, bool
         if (!memory.empty() && went_well(kept->work)) write_kept_runs(memory, *kept);
     }
     std::vector<std::string> complaints;
+    const std::map<std::string, GradedRun> runs = kept->work.runs;
     const Grade solution = judged({{"solution", std::move(kept->work), {}, log}}).front();
     if (!solution.trouble.empty())
         complaints.push_back("the worked solution did not run to its end: " + solution.trouble);
-    for (const CheckGrade& check : solution.checks) {
+    for (std::size_t k = 0; k < solution.checks.size(); ++k) {
+        const CheckGrade& check = solution.checks[k];
         if (check.by_hand || (check.graded && check.earned == check.points)) continue;
         broken_.insert(check.id);
         const std::string& told = check.for_instructor.empty() ? check.message : check.for_instructor;
         complaints.push_back(
-            fmt::format("the worked solution does not pass the check \"{}\", which is left ungraded: {}", check.id,
-                        told.empty() ? "it returned false" : told));
+            fmt::format("the worked solution does not pass the check \"{}\", which is left ungraded: {}{}", check.id,
+                        stop_told(runs, checks_.at(k).rerun), told.empty() ? "it returned false" : told));
     }
     return complaints;
 }
