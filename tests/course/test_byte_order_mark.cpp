@@ -32,6 +32,26 @@ TEST(byte_order_mark, costs_no_points) {
     EXPECT_EQ(GradingBench::trouble(bench.result("slip")).find("239"), std::string::npos);
 }
 
+// oracle: iconv, and the points of the same script in UTF-8
+TEST(byte_order_mark, of_utf_16_costs_no_points_either) {
+    const std::string solution = "-- Température\nanswer('x', 42)\n";
+    GradingBench bench("--   x: number\n", "check{id = 'x', test = function(a) return a.x == 42 end}\n", solution);
+    const Workbench& work = bench.bench();
+    work.write("script.lua", solution);
+    for (const char* order : {"LE", "BE"}) {  // PowerShell's > writes the first
+        const std::string folder = std::string("in/") + order;
+        const std::string made = "mkdir -p " + folder +
+                                 " && printf '\\357\\273\\277' | cat - script.lua | iconv -f UTF-8 -t UTF-16" + order +
+                                 " > " + folder + "/analysis.lua";
+        ASSERT_EQ(work.shell(made).exit_code, 0);
+    }
+    work.write("in/half/analysis.lua", std::string("\xFF\xFE\x00\x00\x01\x00", 6));
+    bench.grade();
+    for (const char* order : {"LE", "BE"}) EXPECT_EQ(GradingBench::score(bench.result(order)), 1) << order;
+    EXPECT_FALSE(bench.result("half").contains("score"));
+    EXPECT_THAT(GradingBench::trouble(bench.result("half")), HasSubstr("analysis.lua is no text"));
+}
+
 /// A student's folder, each of its texts with `start` before it.
 void write_student_folder(const Workbench& bench, const std::string& folder, const std::string& start) {
     bench.write(folder + "/analysis.lua", start +

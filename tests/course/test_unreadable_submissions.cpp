@@ -15,6 +15,29 @@ constexpr const char* kWrong = "answer('x', 1)\n";
 constexpr const char* kChecks =
     "check{id = 'x', points = 2, test = function(a) return near(a.x, 42, {rel = 0.01}) end}\n";
 
+// oracle: what each of them holds instead of a file that may be taken
+TEST(unreadable_submissions, that_are_left_out_whole_are_told_why) {
+    GradingBench bench(kAnswers, kChecks, kSolution);
+    const Workbench& work = bench.bench();
+    work.write("make.py",
+               "import zipfile\n"
+               "with zipfile.ZipFile('in/absolute.zip', 'w') as z: z.writestr('/tmp/analysis.lua', '')\n"
+               "with zipfile.ZipFile('in/bytes.zip', 'w') as z: z.writestr('\u00e9.lua', '')\n"
+               "data = open('in/bytes.zip', 'rb').read().replace(b'\\xc3\\xa9', b'\\x82\\x82')\n"
+               "open('in/bytes.zip', 'wb').write(data)\n");
+    ASSERT_EQ(work.shell("mkdir -p in/pipe in/link && python3 make.py && mkfifo in/pipe/analysis.lua && "
+                         "ln -s /etc/passwd in/link/analysis.lua")
+                  .exit_code,
+              0);
+    EXPECT_EQ(bench.grade().exit_code, 1);
+    for (const auto& [name, told] :
+         {std::pair("absolute", "Left out: \"/tmp/analysis.lua\" leads outside of the archive."),
+          std::pair("bytes", "Left out: the name of a file in it cannot be read."),
+          std::pair("pipe", "Left out: \"analysis.lua\" is a link or not a regular file."),
+          std::pair("link", "Left out: \"analysis.lua\" is a link or not a regular file.")})
+        EXPECT_THAT(GradingBench::trouble(bench.result(name)), AllOf(HasSubstr(told), Not(HasSubstr("empty")))) << name;
+}
+
 // oracle: what was handed in, and that no mark is not the mark 0
 TEST(unreadable_submissions, have_no_marks_and_are_told_by_name) {
     GradingBench bench(kAnswers, kChecks, kSolution);

@@ -10,6 +10,9 @@
 #include "course/hand_ins/notebooks.h"
 #include "course/hand_ins/owners.h"
 #include "course/hand_ins/work_language.h"
+#include "data_io/tables/text_decoding.h"
+#include "platform/atomic_file.h"
+#include "platform/error.h"
 #include "platform/text/foreign_text.h"
 #include "platform/text/small_letters.h"
 
@@ -88,6 +91,22 @@ std::optional<FoundScript> newest_of(const std::vector<FoundScript>& found) {
     return newest_by([&](auto i, auto k) { return found[i].written > found[k].written + kSameTime; });
 }
 
+/// PowerShell's > writes UTF-16. Nothing but a byte order mark at its start tells of it.
+void make_utf8(const fs::path& script) {
+    constexpr std::uintmax_t kMostText = 4u << 20;
+    if (fs::file_size(script) > kMostText) return;
+    const std::string bytes = read_file(script), mark = bytes.substr(0, 2);
+    if (mark != "\xFF\xFE" && mark != "\xFE\xFF") return;
+    const fs::file_time_type written = fs::last_write_time(script);
+    std::vector<std::string> notes;
+    try {
+        write_file_atomically(script, decoded_text(bytes, notes));
+    } catch (const EnvironmentError&) {
+        throw SubmissionError("Its analysis.lua is no text: save it in UTF-8 and hand it in again.");
+    }
+    fs::last_write_time(script, written);
+}
+
 std::string listed_places(const std::vector<FoundScript>& found) {
     std::vector<std::string> shown;
     for (const FoundScript& script : found) shown.push_back(fmt::format("\"{}\"", script.shown));
@@ -121,6 +140,7 @@ class Stager {
 
   private:
     StagedWork staged(const FoundScript& script, const std::string& remark) const {
+        make_utf8(script.folder / kScript);
         return {script.folder, remark, "", of_notebooks_.contains(script.folder)};
     }
 
@@ -130,7 +150,7 @@ class Stager {
 
     void fill_root() {
         if (submission_.archive) {
-            unpack_submission(submission_.path, root_, level_, program_, limits_);
+            note_left_out(unpack_submission(submission_.path, root_, level_, program_, limits_), "");
             return;
         }
         fs::create_directories(root_);
@@ -138,7 +158,15 @@ class Stager {
             for (const LooseFile& file : submission_.loose) copy_loose(file);
             return;
         }
-        if (copy_folder(submission_.path, root_, limits_.bytes, limits_.files).too_large) too_large();
+        const FolderCopy copy = copy_folder(submission_.path, root_, limits_.bytes, limits_.files);
+        if (copy.too_large) too_large();
+        for (const std::string& name : copy.left_out)
+            note_left_out({fmt::format("\"{}\" is a link or not a regular file", utf8_of_name(name))}, "");
+    }
+
+    void note_left_out(const std::vector<std::string>& clauses, const std::string& archive) {
+        for (const std::string& clause : clauses)
+            left_out_.push_back(archive.empty() ? clause : fmt::format("in \"{}\", {}", archive, clause));
     }
 
     [[noreturn]] void too_large() const {
@@ -174,7 +202,7 @@ class Stager {
             const fs::path to = to_ / fmt::format("archive-{}", opened_);
             const std::string name = shown + (shown.empty() ? "" : "/") + shown_place(file, folder);
             try {
-                unpack_submission(file, to, level_, program_, limits_);
+                note_left_out(unpack_submission(file, to, level_, program_, limits_), name);
                 take_notebooks_in(to);
             } catch (const SubmissionError& error) {
                 damage_ = fmt::format(" \"{}\": {}", name, error.what());
@@ -200,12 +228,21 @@ class Stager {
             }
         std::sort(near.begin(), near.end());
         std::sort(others.begin(), others.end());
-        if (near.empty() && others.empty()) return "It is empty: there is no analysis.lua in it.";
+        const std::string rest = told_left_out() + damage_;
+        if (near.empty() && others.empty())
+            return left_out_.empty() ? "It is empty: there is no analysis.lua in it."
+                                     : "Nothing in it can be read, so that there is no analysis.lua in it." + rest;
         if (!near.empty())
             return fmt::format("There is no analysis.lua in it, but {}: hand it in under the name analysis.{}.{}",
-                               fmt::join(shortened_list(near), ", "), notebook ? "ipynb" : "lua", damage_);
+                               fmt::join(shortened_list(near), ", "), notebook ? "ipynb" : "lua", rest);
         return fmt::format("There is no analysis.lua in it, only {}{}; hand in the folder that dynlab new made.{}",
-                           fmt::join(shortened_list(others), ", "), closed_kinds(others), damage_);
+                           fmt::join(shortened_list(others), ", "), closed_kinds(others), rest);
+    }
+
+    /// What was not unpacked or copied, and why: the script may be among it.
+    std::string told_left_out() const {
+        if (left_out_.empty()) return "";
+        return fmt::format(" Left out: {}.", fmt::join(shortened_list(left_out_), "; "));
     }
 
     static std::vector<std::string> shortened_list(std::vector<std::string> names) {
@@ -228,8 +265,9 @@ class Stager {
     const fs::path& program_;
     SubmissionLimits limits_;
     int opened_ = 0;
-    std::set<fs::path> of_notebooks_;  ///< folders whose script was a notebook
-    std::string damage_;               ///< of the last archive that could not be opened
+    std::set<fs::path> of_notebooks_;    ///< folders whose script was a notebook
+    std::vector<std::string> left_out_;  ///< and why, a clause each
+    std::string damage_;                 ///< of the last archive that could not be opened
 };
 
 }  // namespace
