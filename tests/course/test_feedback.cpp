@@ -112,6 +112,24 @@ TEST(feedback, of_a_hand_in_that_does_not_count_says_so) {
     EXPECT_THAT(work.read("out/gradebook.csv"), HasSubstr("3,Ida Rhodes,Zoé Lefèvre_900001_assign"));
 }
 
+// oracle: French typography, which has no space within a place and none of its quotation marks in code
+TEST(feedback, in_french_tells_what_stopped_a_script_in_french) {
+    GradingBench bench(kAnswers,
+                       "check{id = 'x', about = 'The number', hint = 'damp(G, \"all\")',\n"
+                       "  test = function(a) return near(a.x, 42) end}\n",
+                       kSolution);
+    const Workbench& work = bench.bench();
+    bench.hand_in("a", std::string(kFrench) + "-- ---\nanswer('x', maen({1}))\n");
+    const ChildResult run =
+        work.dynlab({"grade", "in", "--lesson", "99", "--out", "out", "--isolation", bench.level()});
+    ASSERT_EQ(run.exit_code, 0) << run.error_output;
+    EXPECT_THAT(work.read("out/results/a/feedback.md"),
+                AllOf(HasSubstr("`analysis.lua:8`: il n'y a ni fonction ni variable « maen » ; vouliez-vous dire"),
+                      Not(HasSubstr("there is no function"))));
+    EXPECT_THAT(work.shell("pdftotext out/results/a/feedback.pdf - | tr '\\n' ' '").output,
+                AllOf(HasSubstr("analysis.lua:8"), HasSubstr("damp(G, \"all\")")));
+}
+
 // oracle: the file itself, which a new one would replace, and poppler's text of it
 TEST(feedback, is_set_again_only_where_its_text_has_changed) {
     GradingBench bench(kAnswers, kChecks, kSolution);

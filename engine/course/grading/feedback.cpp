@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <regex>
 #include <string_view>
 
 #include "course/findings/french_sentences.h"
@@ -52,7 +53,7 @@ class FeedbackText {
         const char* const what = grade_.unreadable ? words_.unreadable
                                  : grade_.began    ? words_.not_ended
                                                    : words_.not_begun;
-        return what + escape_(grade_.trouble);
+        return what + told_trouble();
     }
 
     std::string checks() const {
@@ -86,7 +87,22 @@ class FeedbackText {
         return item + "\n";
     }
 
-    std::string told(const std::string& sentence) const { return escape_(sentences_.translated(sentence)); }
+    std::string told(const std::string& sentence) const { return escaped(sentences_.translated(sentence)); }
+
+    /// French sets a space before a colon, which is none of "analysis.lua:3": there the place is code.
+    std::string told_trouble() const {
+        static const std::regex place(R"([\w.-]+\.lua:\d+(?=: ))");
+        const std::string text = sentences_.translated(grade_.trouble);
+        std::smatch found;
+        if (grade_.language != "fr" || !std::regex_search(text, found, place, std::regex_constants::match_continuous))
+            return escaped(text);
+        return "`" + found.str() + "`" + escaped(found.suffix());
+    }
+
+    /// Quotation marks stay straight on paper: hints quote code.
+    std::string escaped(const std::string& text) const {
+        return escape_ == escaped_markdown ? replaced(escape_(text), "\"", "&#34;") : escape_(text);
+    }
 
     const Grade& grade_;
     const FeedbackWords& words_;
