@@ -596,7 +596,8 @@ do
                          {style = {"points", "line"}, marker = 0,
                           colour = {2, 0}, height = 7,
                           x_range = {0, 600},
-                          y_range = {math.floor(rest), math.ceil(rest + 0.66*change)},
+                          y_range = {math.floor(rest),
+                                     math.ceil(rest + 0.66*change)},
                           xlabel = "time (s)", ylabel = "outlet temperature (°C)"})
     by_hand:handle{x = 560, y = function(K) return rest + K*change end,
                    y_slider = "K", text = "final level"}
