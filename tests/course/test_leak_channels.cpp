@@ -324,6 +324,49 @@ TEST_F(leak_channels, of_a_jpeg_only_the_first_picture_stays) {
         EXPECT_EQ(parts_of_jpeg(bad).picture.substr(0, 2), "\xFF\xD8");
 }
 
+// Oracle: ISO 32000-1, 8.9.5 (bytes of samples); ITU-T T.88, 7.3 (62 is an extension, which draws nothing).
+TEST_F(leak_channels, what_pictures_hold_besides_their_samples) {
+    const std::string grey = "/ColorSpace/DeviceGray/BitsPerComponent 8", black = "/ImageMask true",
+                      author = "Author: Zoe Brandtner", samples(64, '\x80');
+    const auto copied = [&](const std::string& data, const std::string& entries) {
+        write("own.pdf", pdf_of({"<</Type/Catalog/Pages 2 0 R>>", "<</Type/Pages/Kids[3 0 R]/Count 1>>",
+                                 "<</Type/Page/Parent 2 0 R/MediaBox[0 0 595 842]/Contents 4 0 R/Resources<</Font<</F1 "
+                                 "5 0 R>>/XObject<</X0 6 0 R>>>>>>",
+                                 stream_of(std::string(kHello) + "q 9 0 0 9 72 600 cm /X0 Do Q"), kPlainFont,
+                                 stream_of(data, "/Type/XObject/Subtype/Image/Width 8/Height 8" + entries)}));
+        write("copy.pdf", clean_pdf(file("own.pdf")));
+        return found(file("own.pdf"));
+    };
+    for (const std::string filter : {"", "/Filter/ASCIIHexDecode"}) {
+        const auto coded = [&](const std::string& bytes) {
+            std::string digits;
+            char two[3];
+            for (const char c : bytes) {
+                std::snprintf(two, sizeof two, "%02x", static_cast<unsigned char>(c));
+                digits += two;
+            }
+            return filter.empty() ? bytes : digits + ">";
+        };
+        EXPECT_THAT(copied(coded(samples + author), grey + filter), ElementsAre("name-in-image 1")) << filter;
+        EXPECT_THAT(found(file("copy.pdf")), IsEmpty()) << filter;
+        EXPECT_THAT(copied(coded(samples), grey + filter), IsEmpty()) << filter;
+        EXPECT_THAT(copied(coded(samples.substr(0, 8) + author), black + filter), ElementsAre("name-in-image 1"));
+        EXPECT_THAT(copied(coded(samples + author), "/ColorSpace/Unheard/BitsPerComponent 8" + filter),
+                    ElementsAre("name-in-image 1"));
+        EXPECT_THAT(copied(coded(author + samples.substr(author.size())), grey + filter),
+                    ElementsAre("name-in-image 1"));
+    }
+    const std::string page_segment =
+                          std::string("\0\0\0\0\x30\0\x01\0\0\0\x13\0\0\0\x08\0\0\0\x08", 19) + std::string(11, '\0'),
+                      comment = std::string("Author\0Zoe Brandtner\0\0", 22);
+    const std::string extension = std::string("\0\0\0\x01\x3E\0\x01\0\0\0\x1A\x20\0\0\0", 15) + comment;
+    EXPECT_THAT(copied(page_segment + extension, grey + "/Filter/JBIG2Decode"), ElementsAre("name-in-image 1"));
+    EXPECT_THAT(copied(std::string("\xFF\xFF\0\x10\x01\0\x10\x01", 8) + author,
+                       "/ColorSpace/DeviceGray/BitsPerComponent 1/Filter/CCITTFaxDecode"
+                       "/DecodeParms<</K -1/Columns 8/Rows 8>>"),
+                ElementsAre("name-in-image 1"));
+}
+
 // Oracle: the page as pdftoppm draws it, before and after.
 TEST_F(leak_channels, a_cleaned_photograph_looks_as_before) {
     run({"gnuplot", "-e", "set terminal jpeg size 80,60; set output 'plain.jpg'; plot x"});

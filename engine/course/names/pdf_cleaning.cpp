@@ -4,6 +4,7 @@
 
 #include "course/names/anonymous_copy.h"
 #include "course/names/jpeg_parts.h"
+#include "course/names/picture_samples.h"
 #include "course/names/plain_words.h"
 
 namespace dynlab::inline course {
@@ -47,7 +48,7 @@ const std::set<std::string>& active_kinds() {
 
 class PdfCleaner {
   public:
-    explicit PdfCleaner(QPDF& pdf) : pdf_(pdf) {}
+    PdfCleaner(QPDF& pdf, std::uint64_t most) : pdf_(pdf), most_(most) {}
 
     void clean() {
         Object trailer = pdf_.getTrailer();
@@ -147,20 +148,32 @@ class PdfCleaner {
         }
         clean(entries);
         if (!entries.isDictionaryOfType("", "/Image")) return;
+        cut_samples(stream);
         const std::string bytes = stored_bytes(stream);
         if (!bytes.starts_with("\xFF\xD8")) return;
         stream.replaceStreamData(parts_of_jpeg(bytes).picture, entries.getKey("/Filter"),
                                  entries.getKey("/DecodeParms"));
     }
 
+    /// Of samples as they are, or packed without loss, only those that are shown.
+    void cut_samples(Object picture) {
+        const std::uint64_t shown = bytes_of_samples(picture.getDict());
+        if (shown == 0) return;
+        StreamContent samples = stream_content(picture, most_);
+        if (!samples.decoded || samples.bytes.size() <= shown) return;
+        samples.bytes.resize(shown);
+        picture.replaceStreamData(samples.bytes, Object::newNull(), Object::newNull());
+    }
+
     QPDF& pdf_;
+    const std::uint64_t most_;  ///< bytes of a stream
 };
 
 }  // namespace
 
 std::string clean_pdf(const std::filesystem::path& file, const PdfObjectLimits& limits) {
     return work_on_pdf_objects(file, limits, [&](QPDF& pdf, const std::string&) {
-        PdfCleaner(pdf).clean();
+        PdfCleaner(pdf, limits.bytes_inside).clean();
         return written_pdf(pdf, limits.bytes_inside,
                            [](QPDFWriter& writer) { writer.setObjectStreamMode(qpdf_o_generate); });
     });

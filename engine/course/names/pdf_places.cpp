@@ -12,6 +12,7 @@
 #include "course/names/content_text.h"
 #include "course/names/drawn_letters.h"
 #include "course/names/jpeg_parts.h"
+#include "course/names/picture_samples.h"
 #include "documents/pdf/inflate.h"
 #include "documents/pdf/pdf_objects.h"
 #include "platform/utf8.h"
@@ -23,6 +24,7 @@ using Object = QPDFObjectHandle;
 
 constexpr int kDeepestPlace = 600;  ///< libqpdf reads 500 levels
 constexpr std::size_t kMostMaps = 200, kMostInflated = 64u << 20;
+constexpr std::size_t kMostSamples = 256u << 10;  ///< of a file's pictures: noise spells words, and takes its time
 
 /// Whether bytes look like UTF-16 without its mark rather than like Latin letters: control characters, or every second
 /// byte beyond ASCII.
@@ -302,14 +304,21 @@ class Places {
         say(PdfPlace::kInside, "", text_in(data), is_text(data) ? TextManner::kData : TextManner::kBytes);
     }
 
+    /// Bytes behind the samples, segments of JBIG2 that draw nothing and the like are in no viewer's sight.
     void visit_image(Object entries, const std::string& data) {
         if (data.starts_with("\xFF\xD8")) {
             const JpegParts parts = parts_of_jpeg(data);
             say(PdfPlace::kImage, "", without_references(parts.words));
             say(PdfPlace::kImage, "", parts.tables, TextManner::kBytes);
-        } else if (entries.getKey("/Filter").unparseResolved().find("JPX") != std::string::npos) {
-            say(PdfPlace::kImage, "", text_in(data), TextManner::kBytes);
+            return;
         }
+        const std::uint64_t samples = bytes_of_samples(entries);
+        if (samples == 0) return say(PdfPlace::kImage, "", text_in(data), TextManner::kBytes);
+        const std::string_view shown = std::string_view(data).substr(0, samples), rest = data;
+        say(PdfPlace::kImage, "", without_references(text_in(rest.substr(shown.size()))));
+        const std::size_t searched = std::min(shown.size(), samples_left_);
+        samples_left_ -= searched;
+        say(PdfPlace::kImage, "", text_in(shown.substr(0, searched)), TextManner::kBytes);
     }
 
     void visit_attachment(const std::string& data) {
@@ -379,6 +388,7 @@ class Places {
     std::set<std::size_t> seen_;
     std::vector<CodeMap> maps_;
     std::string trouble_;
+    std::size_t samples_left_ = kMostSamples;
     int page_ = 0;
 };
 
