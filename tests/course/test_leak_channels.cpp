@@ -15,6 +15,7 @@
 namespace dynlab {
 namespace test_leak_channels {
 
+using testing::AllOf;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -124,6 +125,17 @@ TEST_F(leak_channels, fonts_that_tell_no_letters_are_told) {
     };
     EXPECT_THAT(found_in("BT /F1 12 Tf 72 700 Td <0102> Tj ET", drawn("/g31/g32")), ElementsAre("not-searched 0"));
     EXPECT_THAT(found_in("BT /F1 12 Tf 72 700 Td <0102> Tj ET", drawn("/A/eacute")), IsEmpty());
+    const auto simple = [](const std::string& kind, const std::string& entries) {
+        return "<</Type/Font/Subtype/" + kind + "/BaseFont/Own/FirstChar 33/LastChar 34/Widths[600 600]" + entries +
+               ">>";
+    };
+    const std::string numbered = "/Encoding<</Differences[33/g500/g501/space]>>",
+                      named = "/Encoding<</Differences[33/A/eacute/a31/g5]>>",
+                      codes = "BT /F1 12 Tf 72 700 Td <2122> Tj ET";
+    for (const char* kind : {"TrueType", "Type1"}) {
+        EXPECT_THAT(found_in(codes, simple(kind, numbered)), ElementsAre("not-searched 0")) << kind;
+        EXPECT_THAT(found_in(codes, simple(kind, named)), IsEmpty()) << kind;
+    }
 }
 
 /// A composite font with the whole of a font's file in it, its objects from 7 on: what its codes mean, the file, which
@@ -207,6 +219,58 @@ TEST_F(leak_fonts, a_table_that_lies_of_its_letters) {
         EXPECT_THAT(found_of(font, honest_, honest_), IsEmpty()) << font.file;
         EXPECT_THAT(found_of(font, numbered, lie_about(numbered)), Contains("name-hidden 1")) << font.file;
     }
+}
+
+/// A letter has the code 33 and on as it comes first in the text, as programs number those of a subset: the table of a
+/// TrueType file that says so, in the place of its own.
+std::string file_with_codes(std::string font, const std::vector<unsigned>& glyphs) {
+    const auto number = [](std::size_t value, int bytes) {
+        std::string written;
+        for (int i = bytes - 1; i >= 0; --i) written += static_cast<char>(value >> (8 * i) & 0xFF);
+        return written;
+    };
+    std::string table = number(0, 2) + number(1, 2) + number(1, 2) + number(0, 2) + number(12, 4) + number(6, 2) +
+                        number(10 + 2 * glyphs.size(), 2) + number(0, 2) + number(33, 2) + number(glyphs.size(), 2);
+    for (const unsigned glyph : glyphs) table += number(glyph, 2);
+    const std::size_t entry = font.find("cmap");
+    return font.replace(entry + 8, 8, number(font.size(), 4) + number(table.size(), 4)) + table;
+}
+
+// Oracle: pdftoppm draws the letters; ISO 32000-1, 9.6.6.4 (codes of simple TrueType fonts).
+TEST_F(leak_fonts, simple_fonts_are_read_by_what_they_draw) {
+    const auto found_of_simple = [&](const std::string& text, const std::string& told, const std::string& encoding) {
+        FT_Library library = nullptr;
+        FT_Face face = nullptr;
+        EXPECT_EQ(FT_Init_FreeType(&library), 0);
+        EXPECT_EQ(FT_New_Face(library, kMonospaced, 0, &face), 0);
+        std::string codes, lines, seen;
+        std::vector<unsigned> glyphs;
+        for (std::size_t i = 0; i < text.size(); ++i) {
+            const std::size_t known = seen.find(text[i]);
+            char code[8], line[32];
+            std::snprintf(code, sizeof code, "%02X", static_cast<unsigned>(33 + std::min(known, seen.size())));
+            std::snprintf(line, sizeof line, "<%s> <%04X>\n", code,
+                          told.empty() ? 0U : static_cast<unsigned char>(told[i]));
+            codes += code, lines += line;
+            if (known != std::string::npos) continue;
+            seen += text[i];
+            glyphs.push_back(FT_Get_Char_Index(face, static_cast<unsigned char>(text[i])));
+        }
+        FT_Done_FreeType(library);
+        const std::string map = "begincmap 1 begincodespacerange <00> <FF> endcodespacerange\n100 beginbfchar\n" +
+                                lines + "endbfchar endcmap";
+        const std::string table = told.empty() ? "" : "/ToUnicode 7 0 R";
+        return found_in("BT /F1 12 Tf 72 700 Td <" + codes + "> Tj ET",
+                        "<</Type/Font/Subtype/TrueType/BaseFont/Own/FirstChar 33/LastChar 34/Widths[600 600]" + table +
+                            encoding + "/FontDescriptor<</Type/FontDescriptor/FontName/Own/Flags 4/FontFile2 8 0 R>>>>",
+                        "0 0 m 9 9 l S", {stream_of(map), stream_of(file_with_codes(read(kMonospaced), glyphs))});
+    };
+    EXPECT_THAT(found_of_simple(named_, lie_about(named_), ""), Contains("name-hidden 1"));
+    EXPECT_THAT(found_of_simple(honest_, lie_about(honest_), ""), IsEmpty());
+    EXPECT_THAT(found_of_simple(honest_, honest_, ""), IsEmpty());
+    EXPECT_THAT(found_of_simple(honest_, "", ""), ElementsAre("not-searched 0"));
+    EXPECT_THAT(found_of_simple(named_, "", ""), AllOf(Contains("name-hidden 1"), Contains("not-searched 0")));
+    EXPECT_THAT(found_of_simple(named_, "", "/Encoding/WinAnsiEncoding"), Contains("name-hidden 1"));
 }
 
 // Oracle: ISO 32000-1, 9.7.5 and 9.7.6.2, what each CMap says; pdftoppm draws the letters in all.

@@ -24,6 +24,7 @@ constexpr int kPixelsOfSide = 16;    ///< of the square that an outline is stret
 constexpr double kSlant = 0.21;      ///< of slanted letters, 12 degrees
 constexpr double kLike = 0.10;       ///< at most so far from a letter is an outline like it
 constexpr double kClearly = 0.03;    ///< by so much it must be nearer to that letter than to the one that is told
+constexpr FT_Int kMostTables = 8;    ///< of codes, in a font
 constexpr double kOfStretch = 0.06;  ///< what another ratio of height to width counts, an octave
 
 }  // namespace
@@ -147,9 +148,23 @@ void hold_against(const StretchedOutline& outline, const std::vector<KnownLetter
     }
 }
 
+using GlyphByCode = std::map<std::uint32_t, std::uint32_t>;
+
+/// By one of the font's tables; those of symbols have their codes at 0xF000, too (ISO 32000-1, 9.6.6.4).
+GlyphByCode glyph_by_table(FT_Face face, FT_CharMap table) {
+    GlyphByCode glyphs;
+    if (FT_Set_Charmap(face, table) != 0) return glyphs;
+    for (std::uint32_t code = 0; code < 0x100; ++code) {
+        const FT_UInt plain = FT_Get_Char_Index(face, code),
+                      glyph = plain != 0 ? plain : FT_Get_Char_Index(face, 0xF000 + code);
+        if (glyph != 0) glyphs[code] = glyph;
+    }
+    return glyphs;
+}
+
 /// By code, the glyph that it shows. Those of CFF fonts with numbers of their own (CIDs) are these.
-std::map<std::uint32_t, std::uint32_t> glyph_by_code(FT_Face face, const GlyphCodes& codes) {
-    std::map<std::uint32_t, std::uint32_t> glyphs;
+GlyphByCode glyph_by_code(FT_Face face, const GlyphCodes& codes) {
+    GlyphByCode glyphs;
     const auto count = static_cast<std::uint32_t>(std::clamp<FT_Long>(face->num_glyphs, 0, 0xFFFF));
     if (!codes.glyphs.empty()) {
         for (std::uint32_t code = 0; code < codes.glyphs.size(); ++code)
@@ -164,6 +179,15 @@ std::map<std::uint32_t, std::uint32_t> glyph_by_code(FT_Face face, const GlyphCo
         glyphs.emplace(code, glyph);
     }
     return glyphs;
+}
+
+/// All ways in which viewers may come from codes to glyphs.
+std::vector<GlyphByCode> ways_of_codes(FT_Face face, const GlyphCodes& codes) {
+    if (!codes.by_own_table) return {glyph_by_code(face, codes)};
+    std::vector<GlyphByCode> ways;
+    for (FT_Int i = 0; i < std::min<FT_Int>(face->num_charmaps, kMostTables); ++i)
+        ways.push_back(glyph_by_table(face, face->charmaps[i]));
+    return ways;
 }
 
 }  // namespace
@@ -203,24 +227,26 @@ std::vector<CodeMap> DrawnLetters::read(const std::string& font_file, const Glyp
     const FontReader& reader = letters_->reader;
     const FontReader::Face face = reader.face(font_file);
     if (!face) return {};
-    std::array<CodeMap, 2> drawn = {told, told};  // as letters, as digits
     std::map<std::uint32_t, Likeness> of_glyphs;  // many codes may lead to one glyph, such as that of what is missing
-    for (const auto& [code, glyph] : glyph_by_code(face.get(), codes)) {
-        const auto claim = told.text.find(code);
-        const std::string claimed = claim == told.text.end() ? "" : folded_text(claim->second);
-        const auto [known, is_new] = of_glyphs.try_emplace(glyph);
-        Likeness& like = known->second;
-        for (const double slant : {0.0, kSlant})
-            if (const auto outline = is_new ? reader.outline(face.get(), glyph, slant) : std::nullopt)
-                hold_against(*outline, letters_->all, like);
-        for (std::size_t kind = 0; kind < drawn.size(); ++kind)
-            if (like.away[kind] < kLike && like.away_from(claimed) - like.away[kind] > kClearly)
-                drawn[kind].text[code] = like.nearest[kind]->text;
-    }
     std::vector<CodeMap> otherwise;
-    for (CodeMap& map : drawn) {
-        map.bytes = codes.bytes;
-        if (map.text != told.text) otherwise.push_back(std::move(map));
+    for (const GlyphByCode& glyphs : ways_of_codes(face.get(), codes)) {
+        std::array<CodeMap, 2> drawn = {told, told};  // as letters, as digits
+        for (const auto& [code, glyph] : glyphs) {
+            const auto claim = told.text.find(code);
+            const std::string claimed = claim == told.text.end() ? "" : folded_text(claim->second);
+            const auto [known, is_new] = of_glyphs.try_emplace(glyph);
+            Likeness& like = known->second;
+            for (const double slant : {0.0, kSlant})
+                if (const auto outline = is_new ? reader.outline(face.get(), glyph, slant) : std::nullopt)
+                    hold_against(*outline, letters_->all, like);
+            for (std::size_t kind = 0; kind < drawn.size(); ++kind)
+                if (like.away[kind] < kLike && like.away_from(claimed) - like.away[kind] > kClearly)
+                    drawn[kind].text[code] = like.nearest[kind]->text;
+        }
+        for (CodeMap& map : drawn) {
+            map.bytes = codes.bytes;
+            if (map.text != told.text) otherwise.push_back(std::move(map));
+        }
     }
     return otherwise;
 }

@@ -19,10 +19,11 @@ const KnownFonts& known_fonts();  ///< read once
 struct GlyphCodes {
     std::size_t bytes = 2;              ///< of a code
     std::vector<std::uint16_t> glyphs;  ///< by code; empty: codes are glyphs, or what the font itself numbers them by
+    bool by_own_table = false;          ///< of a simple font: codes lead through a table (cmap) of the font's file
 };
 
-/// What composite fonts (ISO 32000-1, 9.7) show, where their outlines are clearly those of other letters than their
-/// tables say.
+/// What composite fonts (ISO 32000-1, 9.7) and simple TrueType fonts (9.6.3) show, where their outlines are clearly
+/// those of other letters than their tables say.
 class DrawnLetters {
   public:
     explicit DrawnLetters(const KnownFonts& known);
@@ -30,8 +31,9 @@ class DrawnLetters {
 
     /// The `told` map of a font with the letters that it draws instead, and one with digits instead, as a 0 may be an
     /// O. Each outline, stretched to a square, is held against the Latin letters and the digits of the known fonts;
-    /// what is like none of them there, such as letters with accents, stays as told. Empty where everything is as told,
-    /// or where the font (TrueType, OpenType or CFF, as PDFs embed them) cannot be read.
+    /// what is like none of them there, such as letters with accents, stays as told. Each table that codes may lead
+    /// through gives its own. Empty where everything is as told, or where the font (TrueType, OpenType or CFF, as PDFs
+    /// embed them) cannot be read.
     std::vector<CodeMap> read(const std::string& font_file, const GlyphCodes& codes, const CodeMap& told);
 
   private:

@@ -100,6 +100,13 @@ bool is_of_font(const std::string& key) {
     return keys.contains(key);
 }
 
+/// "g31", "glyph31": numbers that stand for letters; those of dingbats are "a31".
+bool is_numbered_glyph(const std::string& name) {
+    const std::size_t digits = name.find_first_of("0123456789");
+    return digits != std::string::npos && name.find_first_not_of("0123456789", digits) == std::string::npos &&
+           name.substr(0, digits) != "a" && !is_known_glyph(name);
+}
+
 class Places {
   public:
     Places(QPDF& pdf, const std::string& file, std::uint64_t most, const KnownFonts& known, const PlaceVisitor& visit,
@@ -158,6 +165,7 @@ class Places {
         if (text_of(value, "/Type") == "Font" || has_any(value, {"/DescendantFonts", "/CharProcs"})) {
             note_font(value);
             note_drawn_letters(value);
+            note_simple_letters(value);
         }
         for (auto& [key, entry] : value.getDictAsMap()) {
             if (key.starts_with("/FontFile")) fonts_.insert(entry.getObjGen());
@@ -222,24 +230,56 @@ class Places {
         }
     }
 
+    static bool is_descendant(Object font) { return text_of(font, "/Subtype").starts_with("CIDFont"); }
+    static Object font_file_of(Object font) {
+        Object description = font.getKey("/FontDescriptor");
+        return description.isDictionary() ? description.getKey("/FontFile2") : description;
+    }
+    static Object differences_of(Object font) {
+        Object encoding = font.getKey("/Encoding");
+        return encoding.isDictionary() ? encoding.getKey("/Differences") : Object::newNull();
+    }
+    /// Whether most of the letters that a simple font names have numbers for names.
+    static bool numbers_its_letters(Object font) {
+        int most = 0;
+        const Object differences = differences_of(font);
+        for (int i = 0; Object(differences).isArray() && i < Object(differences).getArrayNItems(); ++i)
+            if (const Object name = Object(differences).getArrayItem(i); Object(name).isName())
+                most += is_numbered_glyph(Object(name).getName().substr(1)) ? 1 : -1;
+        return most > 0;
+    }
+
+    /// The same of a simple TrueType font, whose codes lead through a table of its file where no names of letters do.
+    void note_simple_letters(Object font) {
+        const Object file = font_file_of(font), table = font.getKey("/ToUnicode");
+        if (font.hasKey("/DescendantFonts") || is_descendant(font) || !Object(file).isStream()) return;
+        if (Object(differences_of(font)).isArray() && !numbers_its_letters(font)) return;
+        CodeMap told = Object(table).isStream() ? code_map(content_of(table)) : CodeMap();
+        for (std::uint32_t code = ' '; !font.hasKey("/ToUnicode") && font.hasKey("/Encoding") && code < 127; ++code)
+            told.text[code] = static_cast<char>(code);
+        for (CodeMap& map : drawn_.read(content_of(file), {1, {}, true}, told)) note_map(std::move(map));
+    }
+
     /// A font whose codes no table explains shows what nobody can read but on paper.
     void note_font(Object font) {
         const std::string kind = text_of(font, "/Subtype");
-        const bool is_composite = kind == "Type0" || font.hasKey("/DescendantFonts");
-        if (font.hasKey("/ToUnicode") || (!is_composite && kind != "Type3")) return;
+        if (font.hasKey("/ToUnicode") || is_descendant(font)) return;
         bool readable = false;
-        if (is_composite) {
+        if (kind == "Type0" || font.hasKey("/DescendantFonts")) {
             const Object first = descendant_of(font);
             const Object system = Object(first).isDictionary() ? Object(first).getKey("/CIDSystemInfo") : first;
             const std::string script = Object(system).isDictionary() ? text_of(system, "/Ordering") : "";
             const bool is_known = font.getKey("/Encoding").isName() && bytes_of_code(font.getKey("/Encoding")) == 0;
             readable = is_known || (!script.empty() && script != "Identity");
-        } else {
+        } else if (kind == "Type3") {
             const Object encoding = font.getKey("/Encoding");
-            const Object names = Object(encoding).isDictionary() ? Object(encoding).getKey("/Differences") : encoding;
+            const Object names = Object(encoding).isDictionary() ? differences_of(font) : encoding;
             readable = !Object(names).isArray();
             for (int i = 0; !readable && i < Object(names).getArrayNItems(); ++i)
                 readable = is_known_glyph(unicode_of(Object(names).getArrayItem(i)));
+        } else {
+            const bool is_own = !font.hasKey("/Encoding") && Object(font_file_of(font)).isStream();
+            readable = !is_own && !numbers_its_letters(font);
         }
         if (!readable) trouble_ = "It has text in a font that does not tell which letters it shows.";
     }
@@ -316,9 +356,8 @@ class Places {
         if (samples == 0) return say(PdfPlace::kImage, "", text_in(data), TextManner::kBytes);
         const std::string_view shown = std::string_view(data).substr(0, samples), rest = data;
         say(PdfPlace::kImage, "", without_references(text_in(rest.substr(shown.size()))));
-        const std::size_t searched = std::min(shown.size(), samples_left_);
-        samples_left_ -= searched;
-        say(PdfPlace::kImage, "", text_in(shown.substr(0, searched)), TextManner::kBytes);
+        say(PdfPlace::kImage, "", text_in(shown.substr(0, samples_left_)), TextManner::kBytes);
+        samples_left_ -= std::min(shown.size(), samples_left_);
     }
 
     void visit_attachment(const std::string& data) {

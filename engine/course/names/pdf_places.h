@@ -42,9 +42,10 @@ using NestedVisitor = std::function<void(const std::string& name, const std::str
 
 /// Everything in a PDF that may hold a name, besides what poppler reads on its pages. `file` the bytes themselves, for
 /// what no object holds. Meant for work_on_pdf_objects. Composite fonts (ISO 32000-1, 9.7) whose codes are the numbers
-/// of their letters, by name or by a CMap of the identity, are read by what they draw, too, as `known` fonts draw it.
-/// Returns a sentence when something was not looked at: a stream of more than `most` bytes, too many fonts whose codes
-/// a content might be written in, an embedded composite font with another CMap; else "".
+/// of their letters, by name or by a CMap of the identity, and simple TrueType fonts (9.6.3) are read by what they
+/// draw, too, as `known` fonts draw it. Returns a sentence when something was not looked at: a stream of more than
+/// `most` bytes, too many fonts whose codes a content might be written in, an embedded composite font with another
+/// CMap, a font that does not tell its letters; else "".
 std::string visit_places(QPDF& pdf, const std::string& file, std::uint64_t most, const KnownFonts& known,
                          const PlaceVisitor& visit, const NestedVisitor& nested);
 
