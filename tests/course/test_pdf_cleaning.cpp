@@ -128,8 +128,9 @@ TEST_F(pdf_cleaning, addresses_of_the_web_and_of_mail_stay) {
     Parts parts;
     parts.links = {to("(HTTPS://example.org)"), to("(mailto:a@example.org)"), to("(figures/a.html#b:c)")};
     for (const char* address :
-         {"(file:///home/ada/a.pdf)", "(javascript:alert\\(1\\))", "( javascript:1)", "(smb://example.org/a)",
-          "(vbscript:x)", "<FEFF00660069006C0065003A002F0061>", "12", "null"})
+         {"(//example.org/a)", "(\\\\\\\\example.org\\\\a)", "(/\\\\example.org/a)", "(file:///home/ada/a.pdf)",
+          "(javascript:alert\\(1\\))", "( javascript:1)", "(smb://example.org/a)", "(vbscript:x)",
+          "<FEFF00660069006C0065003A002F0061>", "12", "null"})
         parts.links.push_back(to(address));
     parts.bookmarks = {to("(http://example.net)"), to("(ftp://example.net)")};
     const std::string shown = cleaned(parts);
@@ -211,6 +212,19 @@ TEST_F(pdf_cleaning, nothing_is_fetched_from_other_files) {
         stream_of("own form", "/Type/XObject/Subtype/Form/BBox[0 0 9 9]/Ref<</F(https://example.org/b)/Page 0>>")};
     parts.catalogue = "/Own[7 0 R 8 0 R]";
     EXPECT_THAT(cleaned(parts), AllOf(HasSubstr("own data"), HasSubstr("own form"), Not(HasSubstr("example.org"))));
+}
+
+// Oracle: ISO 32000-1, 12.6.4.7 (what addresses are relative to), 7.11.5 (files by their address) and 7.7.4 (names).
+TEST_F(pdf_cleaning, nothing_leads_addresses_elsewhere) {
+    Parts parts;
+    parts.links = {"/A<</S/URI/URI(figures/a.html)>>"};
+    parts.objects = {"<</Type/Filespec/FS/URL/F(https://example.org/a)>>"};
+    parts.catalogue =
+        "/URI<</Base(javascript:)>>/Own 7 0 R/More[7 0 R<</FS/URL/F(https://example.org/b)>>]/Names<</URLS<</Names[(c)"
+        "<</URL(https://example.org/c)>>]>>/Renditions<</Names[(d)<</N(https://example.org/d)>>]>>>>/OutputIntents[<<"
+        "/Type/OutputIntent/DestOutputProfileRef<</URLs[<</FS/URL/F(https://example.org/e)>>]>>>>]";
+    EXPECT_THAT(cleaned(parts),
+                AllOf(HasSubstr("(figures/a.html)"), Not(HasSubstr("/Base")), Not(HasSubstr("example.org"))));
 }
 
 }  // namespace test_pdf_cleaning

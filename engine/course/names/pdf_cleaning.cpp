@@ -27,7 +27,9 @@ const std::set<std::string>& private_entries() {
                                                   "/OpenAction",
                                                   "/AA",
                                                   "/PresSteps",
-                                                  "/URI_Base",
+                                                  "/DestOutputProfileRef",
+                                                  "/URLS",
+                                                  "/Renditions",
                                                   "/SpiderInfo",
                                                   "/PTEX.Fullbanner",
                                                   "/ID",
@@ -54,6 +56,7 @@ class PdfCleaner {
         Object trailer = pdf_.getTrailer();
         for (const std::string& key : trailer.getKeys())
             if (key != "/Root") trailer.removeKey(key);
+        pdf_.getRoot().removeKey("/URI");                    // addresses would be meant relative to its /Base
         trailer.replaceKey("/Size", Object::newInteger(1));  // libqpdf writes its own, but only where there is one
         for (const Object& object : pdf_.getAllObjects()) {
             if (Object(object).isStream())
@@ -69,7 +72,7 @@ class PdfCleaner {
         if (value.isArray()) {
             for (int i = 0; i < value.getArrayNItems(); ++i) {
                 const Object entry = value.getArrayItem(i);
-                if (is_active("", entry))
+                if (is_active("", entry) || is_fetched(entry))
                     value.setArrayItem(i, Object::newNull());
                 else if (!entry.isIndirect())
                     clean(entry);
@@ -81,7 +84,7 @@ class PdfCleaner {
         if (name_at(value, "/Subtype") == "/Link") clean_link(value);
         if (is_plain_action(value)) value.removeKey("/Next");
         for (const auto& [key, entry] : value.getDictAsMap()) {
-            if (is_active(key, entry))
+            if (is_active(key, entry) || is_fetched(entry))
                 value.removeKey(key);
             else if (!entry.isIndirect())
                 clean(entry);
@@ -107,8 +110,10 @@ class PdfCleaner {
         return links;
     }
 
-    /// An address of the web or of mail, or one that lies beside the document.
+    /// An address of the web or of mail, or one that lies beside the document, not on another machine ("//HOST/a",
+    /// "\\HOST\a").
     static bool is_plain_address(const std::string& address) {
+        if (address.starts_with("//") || address.find('\\') != std::string::npos) return false;
         const std::string scheme = folded(address.substr(0, address.find_first_of(":/?#")));
         const bool has_scheme = address.size() > scheme.size() && address[scheme.size()] == ':';
         return !has_scheme || scheme == "http" || scheme == "https" || scheme == "mailto";
@@ -136,6 +141,9 @@ class PdfCleaner {
         return key == "/A" || key == "/Next" || kind == "/Named" || kind == "/URI" || active_kinds().contains(kind) ||
                name_at(value, "/Type") == "/Action";
     }
+
+    /// A file that lies elsewhere (ISO 32000-1, 7.11.5).
+    static bool is_fetched(Object entry) { return entry.isDictionary() && name_at(entry, "/FS") == "/URL"; }
 
     void clean_stream(Object stream) {
         Object entries = stream.getDict();
