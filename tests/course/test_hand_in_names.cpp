@@ -11,6 +11,7 @@ namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::SizeIs;
 
 struct Person {
@@ -280,11 +281,15 @@ TEST(hand_in_names, a_course_takes_files_by_the_same_names) {
                                              "3student_LATE_78_901_report.pdf", "team_04-lab report.pdf"};
     for (std::size_t i = 0; i < places.size(); ++i) work.write("in/" + places[i], small_pdf(std::to_string(i)));
     work.write("in/group-77/report.pdf", small_pdf("of nobody"));
+    // What dynlab run drew lies beside the script, whether there is a report or not.
+    work.write("in/Group 1/analysis_out/01-times.pdf", small_pdf("a figure"));
+    work.write("in/group-78/analysis_out/01-times.pdf", small_pdf("another figure"));
     const ChildResult taken =
         bench.course({"receive", "in", "--at", "2026-03-01 10:00", "--isolation", CourseBench::level()});
     EXPECT_THAT(taken.output, HasSubstr("4 files taken, 0 late"));
     for (int i = 1; i <= 4; ++i) EXPECT_THAT(taken.output, HasSubstr(CourseBench::group(i)));
     EXPECT_THAT(taken.error_output, HasSubstr("no group and no student of the course is called \"group-77\""));
+    EXPECT_THAT(taken.output + taken.error_output, Not(HasSubstr("01-times")));
 }
 
 }  // namespace test_hand_in_names

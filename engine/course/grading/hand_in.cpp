@@ -38,7 +38,6 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t kMostPackedBytes = 200ull << 20;
 constexpr int kMostFiles = 2000;
 constexpr char kManifest[] = "MANIFEST.json";
-constexpr char kFiguresOfRuns[] = "analysis_out/";  // dynlab run draws them again
 
 /// All files below, by their path there.
 std::map<std::string, std::string> contents_of(const fs::path& folder) {
@@ -68,7 +67,8 @@ Pack pack_folder(const fs::path& folder, const fs::path& file) {
     take_notebooks(copy.path());
     std::map<std::string, std::string> contents = contents_of(copy.path());
     std::erase_if(contents, [](const auto& entry) {
-        return entry.first.ends_with(".zip") || entry.first == kManifest || entry.first.starts_with(kFiguresOfRuns);
+        return entry.first.ends_with(".zip") || entry.first == kManifest ||
+               entry.first.starts_with(std::string(kFiguresOfRuns) + "/");
     });
     Pack pack;
     pack.left_out = copied.left_out;

@@ -6,6 +6,9 @@
 
 namespace dynlab::inline course {
 
+/// The folder of the figures that dynlab run saved for analysis.lua: it draws them again, and they are no report.
+inline constexpr const char* kFiguresOfRuns = "analysis_out";
+
 struct FolderCopy {
     bool too_large = false;             ///< a limit was passed; the copy is not whole
     std::vector<std::string> left_out;  ///< links, and what is neither file nor folder, by their path in the folder

@@ -134,8 +134,8 @@ bool Roster::has(const std::string& column) const {
 }
 
 std::vector<std::string> Roster::unknown_columns() const {
-    static const std::set<std::string> known = {"id",   "name",  "first", "last",   "group",
-                                                "seed", "email", "mail",  "moodle", "canvas"};
+    static const std::set<std::string> known = {"id",    "name", "first",  "last",   "group",   "seed",
+                                                "email", "mail", "moodle", "canvas", "language"};
     std::vector<std::string> unknown;
     for (const std::string& column : columns_)
         if (!known.contains(column)) unknown.push_back(column);

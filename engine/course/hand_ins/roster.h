@@ -39,7 +39,7 @@ class Roster {
     bool has(const std::string& column) const;  ///< `mail` also for `email`
     /// Of the file, in lower case, platforms' names of them translated; empty without a file.
     const std::vector<std::string>& columns() const { return columns_; }
-    std::vector<std::string> unknown_columns() const;  ///< that a course does not keep
+    std::vector<std::string> unknown_columns() const;  ///< those that no command reads
     bool converted() const { return converted_; }      ///< see TextTable
 
   private:

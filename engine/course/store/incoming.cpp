@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "course/hand_ins/folder_copy.h"
 #include "course/hand_ins/notebooks.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
@@ -119,6 +120,7 @@ void IncomingFiles::add_folder_of(const Submission& sender, const fs::path& fold
         const std::string shown_source = source + "/" + entry.filename().string();
         if (entry.filename() == "data") continue;  // the course's records, or a link to them
         if (names_the_folder_itself(entry)) {
+            if (entry.filename() == kFiguresOfRuns) continue;
             add_folder_of(sender, entry, shown_source, own);
             continue;
         }
