@@ -67,6 +67,28 @@ TEST(handing_back, gives_platforms_what_they_import) {
     EXPECT_EQ(work.dynlab({"hand-back", "in"}).exit_code, 1);
 }
 
+// oracle: the help of the command, which says what 1 means
+TEST(handing_back, platforms_that_know_nobody_are_told) {
+    GradingBench bench(kAnswers, kChecks, kSolution);
+    Workbench& work = bench.bench();
+    bench.hand_in("1", kSolution);
+    const auto back_with = [&](const std::string& columns, const std::string& numbers) {
+        work.write("roster.csv", "id,name" + columns + "\n1,Anna Lovelace" + numbers + "\n");
+        return work.dynlab({"hand-back", "out", "--roster", "roster.csv"});
+    };
+    work.write("roster.csv", "id,name\n1,Anna Lovelace\n");
+    bench.grade({"--roster", "roster.csv"});
+    const ChildResult none = back_with("", "");
+    EXPECT_EQ(none.exit_code, 1);
+    EXPECT_EQ(none.output, "out/handed_back/mail.csv\n");
+    EXPECT_THAT(none.error_output, AllOf(HasSubstr("without moodle-grades.csv"), HasSubstr("without canvas-grades.csv"),
+                                         HasSubstr("no marks could be entered")));
+    const ChildResult one = back_with(",canvas", ",31");
+    EXPECT_EQ(one.exit_code, 0);
+    EXPECT_THAT(one.error_output,
+                AllOf(HasSubstr("without moodle-grades.csv"), Not(HasSubstr("without canvas-grades.csv"))));
+}
+
 // oracle: the French of the sentences that the program tells students, and the decimal comma
 TEST(handing_back, comments_are_in_the_language_of_the_feedback) {
     const std::string unseen = "On a record that you have not seen, it falls short of full points.";

@@ -18,6 +18,7 @@ int hand_back_marks(const HandBackArguments& words) {
     request.assignment = words.assignment;
     if (!words.roster.empty()) request.roster = words.roster;
     const HandedBack back = hand_back(request);
+    for (const std::string& platform : back.unwritten) std::cerr << "dynlab: " << terminal_text(platform) << '\n';
     for (const std::string& complaint : back.complaints) std::cerr << "dynlab: " << terminal_text(complaint) << '\n';
     for (const auto& file : back.files) std::cout << terminal_text(file.string()) << '\n';
     return back.complaints.empty() ? kDone : kFailed;
@@ -43,9 +44,10 @@ void add_hand_back(CLI::App& app, Action& action) {
         "In OUT/handed_back: moodle-grades.csv (upload as grading worksheet), moodle-feedback.zip (upload as feedback\n"
         "files), canvas-grades.csv (import into the gradebook), and mail.csv, which tells what is new for whom since\n"
         "the last time. Numbers of participants come from the names of the submissions or from the roster's columns\n"
-        "moodle and canvas. What nobody has a number for is not written.\n"
+        "moodle and canvas. What nobody has a number for is not written, and is told.\n"
         "Example:  dynlab hand-back marks --roster roster.csv\n"
-        "Exit codes: 0 done, 1 somebody with marks could not be entered, 2 wrong usage.");
+        "Exit codes: 0 done, 1 somebody with marks could not be entered (nobody could where neither platform has a\n"
+        "file), 2 wrong usage.");
     command->callback([words, &action] { action = [words] { return hand_back_marks(*words); }; });
 }
 

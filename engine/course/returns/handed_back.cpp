@@ -149,6 +149,11 @@ class Outbox {
         moodle();
         canvas();
         mail();
+        const bool marked = std::any_of(students_.begin(), students_.end(),
+                                        [](const MarkedStudent& student) { return !student.points.empty(); });
+        if (result_.unwritten.size() == 2 && marked)
+            result_.complaints.emplace_back(
+                "no marks could be entered for Moodle or Canvas; mail.csv tells whom the feedback belongs to");
         return std::move(result_);
     }
 
@@ -165,6 +170,13 @@ class Outbox {
         result_.files.push_back(folder_ / name);
     }
 
+    void not_written(const char* files, const char* column) {
+        result_.unwritten.push_back(
+            fmt::format("without {}: of nobody with marks is a number there known, neither from the name of a "
+                        "submission nor from the roster's column {}",
+                        files, column));
+    }
+
     void moodle() {
         TextTable table;
         table.names = {"Identifier",       "Full name", "Grade", "Maximum Grade", "Last modified (grade)",
@@ -179,7 +191,7 @@ class Outbox {
             if (const fs::path answers = model_answers(); !student.feedback.empty() && !answers.empty())
                 feedback.add(student, answers.filename().string(), read_file(answers));
         }
-        if (table.rows.empty()) return;
+        if (table.rows.empty()) return not_written("moodle-grades.csv and moodle-feedback.zip", "moodle");
         write("moodle-grades.csv", table);
         if (!feedback.empty()) {
             feedback.write(folder_ / "moodle-feedback.zip");
@@ -202,7 +214,7 @@ class Outbox {
             table.rows.push_back({student.name, student.canvas, student.id, student.mail, "", student.points});
             possible = student.possible;
         }
-        if (table.rows.empty()) return;
+        if (table.rows.empty()) return not_written("canvas-grades.csv", "canvas");
         table.rows.insert(table.rows.begin(), {"    Points Possible", "", "", "", "", possible});
         write("canvas-grades.csv", table);
     }

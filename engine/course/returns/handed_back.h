@@ -15,7 +15,8 @@ struct HandBackRequest {
 
 struct HandedBack {
     std::vector<std::filesystem::path> files;
-    std::vector<std::string> complaints;  ///< whole sentences
+    std::vector<std::string> complaints;  ///< who could not be entered, in whole sentences
+    std::vector<std::string> unwritten;   ///< platforms whose files are not there, and why, in whole sentences
 };
 
 /// Writes into `marks`/handed_back, from gradebook.csv and the feedback in `marks`:
@@ -28,7 +29,8 @@ struct HandedBack {
 ///   the last time.
 ///
 /// Where dynlab grade --answers left model answers in `marks`, everybody with feedback gets them as well.
-/// Who has no marks is left out, and so is a platform that nobody has a number of. Throws EnvironmentError where there
+/// Who has no marks is left out, and so is a platform that nobody has a number of; where that leaves none, everybody
+/// with marks could not be entered. Throws EnvironmentError where there
 /// is no gradebook.csv, or one of another kind.
 HandedBack hand_back(const HandBackRequest& request);
 
