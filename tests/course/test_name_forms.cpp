@@ -59,6 +59,19 @@ TEST(name_forms, numbers_of_accounts_and_in_groups) {
                     "student20214711", "2021 4711", "2021-4711", "2021/4711", "number 20 214 711", "(s20214711)"});
 }
 
+TEST(name_forms, numbers_of_one_digit_say_nothing) {
+    SoughtNames names;
+    names.add(known("1", "Ada Lovelace", "group-01"), true);
+    names.add(known("12", "Bo Linwood", "group-02", "b2@uni.example"));
+    names.add(known("a7", "Grace Hopper", "group-03"));
+    names.add(known("123", "Mei Wuthering", "group-04"));
+    for (const char* text : {"1", "12", "a7", "b2", "No. 1", "number 12", "ID 1"})
+        for (const TextManner manner : {TextManner::kData, TextManner::kProse})
+            EXPECT_EQ(found(names, text, manner), "");
+    EXPECT_EQ(found(names, "student 123"), "Mei Wuthering");
+    EXPECT_EQ(found(names, "123", TextManner::kData), "Mei Wuthering");
+}
+
 TEST(name_forms, groups_in_other_words) {
     expect_certain({"by Group 1 of the course", "group1.pdf", "Group #1", "by team 01", "Team 1", "G01", "groupe 01",
                     "Gruppe 1", "GROUP-1", "group_1"});

@@ -11,6 +11,7 @@ constexpr std::size_t kShortestName = 4;    ///< letters of a surname or given n
 constexpr std::size_t kShortestGiven = 3;   ///< of the document's own authors
 constexpr std::size_t kShortestNumber = 6;  ///< digits
 constexpr std::size_t kShortestMixed = 5;   ///< letters and digits
+constexpr std::size_t kShortestSought = 3;  ///< of a number that is looked for at all
 
 /// A word of a name: "O'Brien" has two tokens.
 struct Part {
@@ -226,7 +227,7 @@ void add_number(NameKind kind, const std::string& who, const std::string& text, 
         (token.digits ? digits : letters) = true;
         if (token.digits && token.letters.size() == 1) pattern.spaced = false;
     }
-    if (!digits) return;
+    if (!digits || (kind != NameKind::kGroup && !is_sought_number(text))) return;
     pattern.labelled = pattern.letters.size() < (letters ? kShortestMixed : kShortestNumber);
     patterns.push_back(pattern);
 }
@@ -260,6 +261,12 @@ void add_group(const std::string& group, bool own, std::vector<NamePattern>& pat
 }
 
 }  // namespace
+
+bool is_sought_number(const std::string& id) {
+    std::size_t letters = 0;
+    for (const NameToken& token : name_tokens(id)) letters += token.letters.size();
+    return letters >= kShortestSought;
+}
 
 std::vector<NamePattern> patterns_of_pair(const Student& one, const Student& other) {
     const FullName a = full_name(one.name), b = full_name(other.name);

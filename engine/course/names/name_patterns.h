@@ -32,6 +32,9 @@ struct NamePattern {
 /// All ways in which the student's name, number, group and the account in the mail address are looked for.
 std::vector<NamePattern> patterns_of(const Student& student, bool own);
 
+/// Whether a student's number is looked for: one of fewer than three letters and digits stands in every document.
+bool is_sought_number(const std::string& id);
+
 /// Ways in which two authors of one document are named together, each by surname or given name only.
 std::vector<NamePattern> patterns_of_pair(const Student& one, const Student& other);
 

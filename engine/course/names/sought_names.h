@@ -34,9 +34,10 @@ struct NameHit {
 /// looked for: given names alone (uncertain, but in an identifier or a path), two of them together ("Wu & Li", "Ada and
 /// Grace"), short names with an initial ("B. Li", "Ada L."). A number counts from six digits on, also in groups ("2021
 /// 4711") or behind the letters of an account ("s20214711"), or from five letters and digits; a shorter one when a word
-/// such as "student" or "ID" stands before it. A group's name counts with other words for a group, and without its
-/// zeros ("Group 1") as uncertain where it is not the authors' own. Home folders (/home/NAME, C:\Users\NAME, the
-/// prompt NAME@HOST:~) count whoever's they are. Letters that look like others are read as those.
+/// such as "student" or "ID" stands before it, and one of fewer than three never. A group's name counts with other
+/// words for a group, and without its zeros ("Group 1") as uncertain where it is not the authors' own. Home folders
+/// (/home/NAME, C:\Users\NAME, the prompt NAME@HOST:~) count whoever's they are. Letters that look like others are read
+/// as those.
 class SoughtNames {
   public:
     SoughtNames() = default;

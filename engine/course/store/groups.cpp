@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "course/names/name_patterns.h"
 #include "numerics/error.h"
 #include "platform/error.h"
 #include "platform/spelling.h"
@@ -173,6 +174,8 @@ RosterChange import_roster(Course& course, const std::filesystem::path& file, bo
             file.string(), fmt::join(roster.columns(), ", ")));
     RosterChange change = Import(course, roster).run();
     change.unknown_columns = roster.unknown_columns();
+    for (const Student& student : roster.students())
+        if (!is_sought_number(student.id)) change.unsought_ids.push_back(student.id);
     change.converted = roster.converted();
     return change;
 }
