@@ -178,6 +178,19 @@ TEST(program, students_copy_has_no_solutions_and_its_report_works) {
 }
 
 // oracle: the lesson's source
+TEST(program, commands_that_it_shows_can_be_copied_whatever_the_folder_is_called) {
+    const Workbench bench;
+    const std::string folder = "Mein Ordner Übung é";
+    const ChildResult made = bench.dynlab({"new", "02", folder});
+    EXPECT_THAT(made.output,
+                testing::HasSubstr("Try:  dynlab run '" + folder + "'    then    dynlab report '" + folder + "'\n"));
+    const ChildResult plain = bench.dynlab({"new", "review", "my-review"});
+    EXPECT_THAT(plain.output, testing::HasSubstr("dynlab report my-review "));
+    EXPECT_THAT(bench.dynlab({"hint", folder}).output, testing::HasSubstr("dynlab hint '" + folder + "' "));
+    EXPECT_THAT(bench.dynlab({"pack", folder}).error_output,
+                testing::HasSubstr("dynlab report '" + folder + "', then"));
+}
+
 TEST(program, a_task_sheet_has_the_questions_and_no_solutions) {
     const Workbench bench;
     const ChildResult made = bench.dynlab({"sheet", "02"});

@@ -14,6 +14,7 @@
 #include "platform/error.h"
 #include "platform/temporary_folder.h"
 #include "platform/terminal/terminal_text.h"
+#include "platform/text/shell_word.h"
 #include "workflow/script_folder.h"
 
 namespace dynlab::inline cli {
@@ -49,7 +50,7 @@ void tell_of_report(const fs::path& folder, const std::string& subject) {
         if (is_draft(entry.path()))
             std::cerr << terminal_text(
                 fmt::format("dynlab: {} is a draft: ?? stands in it; dynlab check {} says what is missing\n",
-                            entry.path().filename().string(), subject));
+                            entry.path().filename().string(), shell_word(subject)));
     }
     bool older = false;
     for (const char* source : {"report.md", "analysis.lua", "analysis.ipynb"})
@@ -58,7 +59,7 @@ void tell_of_report(const fs::path& folder, const std::string& subject) {
         std::cerr << terminal_text(fmt::format(
             "dynlab: {}: dynlab report {}, then pack again\n",
             made ? "the PDF in it is older than the report's text or script" : "there is no PDF of the report in it",
-            subject));
+            shell_word(subject)));
 }
 
 int pack(const PackArguments& words) {

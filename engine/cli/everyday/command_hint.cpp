@@ -7,6 +7,7 @@
 #include "cli/terminal_width.h"
 #include "documents/template_file.h"
 #include "platform/error.h"
+#include "platform/text/shell_word.h"
 #include "scripting/runtime/help_layout.h"
 #include "workflow/hints.h"
 #include "workflow/lesson_catalogue.h"
@@ -90,7 +91,7 @@ void show_stages(const std::vector<std::string>& stages, std::size_t shown, cons
 }
 
 int give_hint(HintArguments words) {
-    const std::string name = words.lesson;
+    const std::string name = shell_word(words.lesson);
     const Lesson lesson = lesson_to_help(words);
     const Hints hints = hints_of(lesson, words.language);
     if (hints.empty()) throw EnvironmentError("the hints of lesson " + lesson.slug + " are empty");

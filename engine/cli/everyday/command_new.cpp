@@ -4,6 +4,7 @@
 #include "cli/commands.h"
 #include "platform/error.h"
 #include "platform/terminal/activity_line.h"
+#include "platform/text/shell_word.h"
 #include "workflow/authoring/editor_files.h"
 #include "workflow/authoring/lesson_skeleton.h"
 #include "workflow/student_copy.h"
@@ -27,7 +28,8 @@ int make_editor_files(const std::string& folder) {
 int make_lesson(const std::string& folder) {
     for (const std::string& name : make_lesson_skeleton(folder)) std::cout << name << '\n';
     std::cout << folder << ": a small lesson that runs; lesson.lua holds its text, code and worked solution.\n"
-              << "Try:  dynlab test-lesson " << folder << "    then    dynlab report " << folder << '\n';
+              << "Try:  dynlab test-lesson " << shell_word(folder) << "    then    dynlab report " << shell_word(folder)
+              << '\n';
     return kDone;
 }
 
@@ -37,7 +39,8 @@ int make_new(const NewArguments& words) {
     if (words.lesson == "review") {
         make_review_folder(words.folder, words.language);
         std::cout << words.folder << ": report.md has the five questions, analysis.lua takes scores.\n"
-                  << "Then:  dynlab report " << words.folder << "    and    dynlab check " << words.folder << '\n';
+                  << "Then:  dynlab report " << shell_word(words.folder) << "    and    dynlab check "
+                  << shell_word(words.folder) << '\n';
         return kDone;
     }
     const Lesson lesson = find_lesson(words.lesson);
@@ -48,7 +51,8 @@ int make_new(const NewArguments& words) {
         write_editor_files(words.folder);
     }
     std::cout << words.folder << ": analysis.lua is yours to edit, report.md is your report's text.\n"
-              << "Try:  dynlab run " << words.folder << "    then    dynlab report " << words.folder << '\n';
+              << "Try:  dynlab run " << shell_word(words.folder) << "    then    dynlab report "
+              << shell_word(words.folder) << '\n';
     return kDone;
 }
 
