@@ -1,8 +1,14 @@
 #include "cli/usage_error.h"
 
-#include <regex>
+#include <fmt/format.h>
 
+#include <regex>
+#include <vector>
+
+#include "platform/spelling.h"
+#include "platform/terminal/terminal_text.h"
 #include "platform/text/regex_limit.h"
+#include "platform/text/shell_word.h"
 
 namespace dynlab::inline cli {
 namespace {
@@ -16,22 +22,80 @@ constexpr UsageSentence kSentences[] = {
     {"Could not convert: (\\S+) = (.*)", "$1 wants a number, but '$2' was given"},
     {"(\\S+): At Most 1 required but received .*", "$1 can be given once only"},
     {"(\\S+): 1 required .*", "$1 wants a value behind it"},
-    {"The following argument was not expected: (\\S+\\.lua)", "a script is run by its command: dynlab run $1"},
-    {"The following arguments? (was|were) not expected: (.*)", "nothing is known of $2 here"},
 };
+
+std::string in_our_words(const std::string& message) {
+    for (const auto& [theirs, ours] : kSentences) {
+        if (message.size() > kLongestForRegex) break;
+        const std::regex pattern(theirs);
+        if (std::regex_match(message, pattern)) return std::regex_replace(message, pattern, ours);
+    }
+    return message;
+}
+
+/// The command that the words reached: a command's own command where it has some.
+const CLI::App* reached_command(const CLI::App* app) {
+    while (!app->get_subcommands().empty()) app = app->get_subcommands().back();
+    return app;
+}
+
+/// As it is typed: "dynlab course peer".
+std::string whole_name(const CLI::App* command) {
+    if (command->get_parent() == nullptr) return "dynlab";
+    return whole_name(command->get_parent()) + " " + command->get_name();
+}
+
+std::vector<std::string> command_names(const CLI::App* of) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : of->get_subcommands([](const CLI::App*) { return true; }))
+        if (!command->get_group().empty()) names.push_back(command->get_name());
+    return names;
+}
+
+/// The long ones with their signs; those that the help does not show are nobody's to mean.
+std::vector<std::string> option_names(const CLI::App* of) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : of->get_options())
+        if (!option->get_group().empty())
+            for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    return names;
+}
+
+std::string guess(const std::string& word, const std::vector<std::string>& names) {
+    const auto near = nearest_word(word, names);
+    return near ? fmt::format("; did you mean '{}'?", *near) : "";
+}
+
+/// What is told of words that no command and no option takes, the first of them above all.
+std::string unknown_words(const CLI::App* command, const std::vector<std::string>& words, bool required) {
+    const std::string option = words.front().substr(0, words.front().find('='));
+    if (option.size() > 1 && option.starts_with('-'))
+        return fmt::format("{} has no option '{}'{}", whole_name(command), option,
+                           guess(option, option_names(command)));
+    const std::vector<std::string> names = command_names(command);
+    if (words.front().ends_with(".lua") && command->get_parent() == nullptr)
+        return "a script is run by its command: dynlab run " + shell_word(words.front());
+    if (!names.empty())
+        return fmt::format(
+            "{} '{}'{}",
+            command->get_parent() == nullptr ? "there is no command" : whole_name(command) + " has no command",
+            words.front(), guess(words.front(), names));
+    return required ? "" : fmt::format("nothing is known of {} here", fmt::join(words, " "));
+}
 
 }  // namespace
 
 std::string usage_message(const CLI::App* app, const CLI::Error& error) {
-    std::string message = error.what();
-    for (const auto& [theirs, ours] : kSentences) {
-        if (message.size() > kLongestForRegex) break;
-        const std::regex pattern(theirs);
-        if (!std::regex_match(message, pattern)) continue;
-        message = std::regex_replace(message, pattern, ours);
-        break;
-    }
-    return message + "\nRun with " + app->get_help_ptr()->get_name() + " for more information.\n";
+    // The parser gives unknown words backwards, and asks for what it misses before it tells of a word that was
+    // misspelt.
+    const bool required = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
+    std::string message;
+    if (const std::vector<std::string> words = app->remaining(true);
+        !words.empty() && (required || dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr))
+        message = unknown_words(reached_command(app), words, required);
+    if (message.empty()) message = in_our_words(error.what());
+    return fmt::format("dynlab: {}\nRun with {} for more information.\n", terminal_text(message),
+                       app->get_help_ptr()->get_name());
 }
 
 }  // namespace dynlab::inline cli

@@ -1,6 +1,7 @@
 #include "documents/bibliography.h"
 
 #include "documents/error.h"
+#include "documents/own_file.h"
 #include "documents/work_file.h"
 #include "platform/text_file.h"
 
@@ -23,13 +24,19 @@ void check_bibliography_name(const std::string& name, const std::string& where) 
                         name + "\"");
 }
 
+std::string why_no_bibliography(const fs::path& file) {
+    if (!is_inside(file, folder_around(file)))
+        return "the bibliography lies outside the folder of this file; copy it into the folder";
+    if (!fs::is_regular_file(file))
+        return "the bibliography is missing; put the file there or take \"bibliography:\" out";
+    if (fs::file_size(file) > kMostBytes)
+        return "the bibliography is longer than a megabyte; keep what the document cites";
+    return "";
+}
+
 std::string place_bibliography(const fs::path& file, const fs::path& work_folder, Complaints& complaints) {
-    if (!fs::is_regular_file(file)) {
-        complaints.add({file, 0}, "the bibliography is missing; put the file there or take \"bibliography:\" out");
-        return "";
-    }
-    if (fs::file_size(file) > kMostBytes) {
-        complaints.add({file, 0}, "the bibliography is longer than a megabyte; keep what the document cites");
+    if (const std::string fault = why_no_bibliography(file); !fault.empty()) {
+        complaints.add({file, 0}, fault);
         return "";
     }
     const std::string name = "references" + file.extension().string();

@@ -12,8 +12,12 @@ namespace dynlab::inline documents {
 /// Throws DocumentError, its message begun with `where`, unless `name` is that of a .bib or .json file without folder.
 void check_bibliography_name(const std::string& name, const std::string& where);
 
-/// Copies `file` into the folder in which Pandoc works, and returns the name it has there. Adds to `complaints`: that
-/// it is missing or longer than a megabyte.
+/// Why `file` cannot be a document's bibliography: it is missing, longer than a megabyte, or a link to a file outside
+/// its folder. Empty where it can.
+std::string why_no_bibliography(const std::filesystem::path& file);
+
+/// Copies `file` into the folder in which Pandoc works, and returns the name it has there. Where it cannot be the
+/// bibliography, `complaints` get why, and nothing is copied.
 std::string place_bibliography(const std::filesystem::path& file, const std::filesystem::path& work_folder,
                                Complaints& complaints);
 

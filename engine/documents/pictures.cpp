@@ -4,6 +4,7 @@
 #include <map>
 
 #include "documents/html/web_page.h"
+#include "documents/own_file.h"
 #include "documents/pandoc.h"
 #include "platform/atomic_file.h"
 #include "platform/text/small_letters.h"
@@ -36,15 +37,6 @@ bool format_holds(DocumentFormat format, const std::string& extension) {
     return extension == ".pdf" || (is_web_picture(extension) && extension != ".svg");
 }
 
-bool is_inside(const fs::path& file, const fs::path& folder) {
-    const fs::path inner = fs::weakly_canonical(file), outer = fs::weakly_canonical(folder);
-    return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
-}
-
-fs::path folder_of(const fs::path& file) {
-    return file.has_parent_path() ? file.parent_path() : fs::path(".");
-}
-
 }  // namespace
 
 std::vector<PlacedPicture> find_picture_files(const std::vector<UsedPicture>& pictures, const MarkdownText& markdown,
@@ -56,7 +48,7 @@ std::vector<PlacedPicture> find_picture_files(const std::vector<UsedPicture>& pi
         const fs::path path = without_percent_signs(picture.name);
         SourceLine where = find_in(markdown, picture.name, template_file);
         if (where.line == 0) where = find_in(markdown, path.string(), template_file);
-        const fs::path folder = folder_of(where.file), file = folder / path;
+        const fs::path folder = folder_around(where.file), file = folder / path;
         const std::string shown = "the picture \"" + path.string() + "\" ";
         if (picture.name.find("://") != std::string::npos || picture.name.starts_with("data:"))
             complaints.add(where, shown + "must be a file beside this one, not an address");

@@ -5,6 +5,8 @@
 #include <regex>
 #include <set>
 
+#include "documents/bibliography.h"
+#include "documents/error.h"
 #include "documents/percent_script.h"
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"
@@ -50,7 +52,12 @@ void make_script_folder(const fs::path& script, const fs::path& folder) {
                                             replaced(title, "'", "''"), read.header.language));
     fs::last_write_time(text, fs::last_write_time(script));
     std::set<std::string> names = files_named_in(read.source, beside);
-    if (const fs::path literature = bibliography_of(read); !literature.empty()) names.insert(literature.filename());
+    if (const fs::path literature = bibliography_of(read); !literature.empty()) {
+        // A link would bring in a file from elsewhere, and with it what its owner never meant to hand in.
+        if (const std::string fault = why_no_bibliography(literature); !fault.empty())
+            throw DocumentError(literature.string() + ": " + fault);
+        names.insert(literature.filename());
+    }
     for (const std::string& name : names)
         if (!fs::exists(folder / name)) copy_with_time(beside / name, folder / name);
     const fs::path pdf = fs::path(script).replace_extension(".pdf");

@@ -65,6 +65,16 @@ TEST_F(literature, citations_without_a_bibliography_are_errors) {
     EXPECT_EQ(refusal("Write to ada@example.org or \\@home.\n"), "");
 }
 
+TEST_F(literature, a_link_to_a_file_outside_the_folder_is_refused) {
+    const TemporaryFolder elsewhere;
+    std::ofstream(elsewhere.path() / "outside.bib") << "@book{secret2020, author={Outsider, O.}, year={2020}}\n";
+    std::filesystem::create_symlink(elsewhere.path() / "outside.bib", file("link.bib"));
+    EXPECT_THAT(refusal("---\nbibliography: link.bib\n---\nAs in [@secret2020].\n"),
+                HasSubstr("link.bib: the bibliography lies outside the folder of this file"));
+    std::filesystem::create_symlink("books.bib", file("same.bib"));
+    EXPECT_EQ(refusal("---\nbibliography: same.bib\n---\nAs in [@ljung1999].\n"), "");
+}
+
 TEST_F(literature, a_bibliography_that_cannot_be_read_is_told) {
     EXPECT_THAT(refusal("---\nbibliography: none.bib\n---\nText\n"),
                 HasSubstr("none.bib: the bibliography is missing"));

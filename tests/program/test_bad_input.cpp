@@ -220,5 +220,30 @@ TEST(bad_input, group_file_errors_are_told) {
     expect_failure(bench.dynlab({"report", "mine"}), 1, "group.toml:2");
 }
 
+TEST(bad_input, misspelt_commands_and_options_are_told_in_the_order_given_with_the_nearest) {
+    const Workbench bench;
+    expect_failure(bench.dynlab({"raport", "my-work"}), 2,
+                   "dynlab: there is no command 'raport'; did you mean 'report'?\nRun with --help");
+    expect_failure(bench.dynlab({"course", "statu", "here"}), 2,
+                   "dynlab: dynlab course has no command 'statu'; did you mean 'status'?\n");
+    expect_failure(bench.dynlab({"report", "02", "--outputt", "a.pdf"}), 2,
+                   "dynlab: dynlab report has no option '--outputt'; did you mean '--output'?\n");
+    expect_failure(bench.dynlab({"xyzzy", "a"}), 2, "dynlab: there is no command 'xyzzy'\n");
+    expect_failure(bench.dynlab({"report", "a", "b", "c"}), 2, "dynlab: nothing is known of b c here\n");
+    EXPECT_THAT(bench.files(), ElementsAre());
+}
+
+TEST(bad_input, a_bibliography_that_is_a_link_to_elsewhere_is_not_packed) {
+    const Workbench bench;
+    bench.write("outside.bib", "@book{secret, author={Outsider, O.}, title={A secret}, year={2020}}\n");
+    bench.write("mine/analysis.lua",
+                "-- ---\n-- bibliography: link.bib\n-- ---\n-- %% [markdown]\n-- As in @secret.\n");
+    std::filesystem::create_symlink("../outside.bib", bench.path("mine/link.bib"));
+    for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+             {"pack", "mine/analysis.lua"}, {"weave", "mine/analysis.lua", "-o", "mine.html"}})
+        expect_failure(bench.dynlab(words), 1, "link.bib: the bibliography lies outside the folder of this file");
+    EXPECT_THAT(bench.files(), ElementsAre("mine", "outside.bib"));
+}
+
 }  // namespace test_bad_input
 }  // namespace dynlab::test

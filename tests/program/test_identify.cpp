@@ -246,14 +246,14 @@ TEST_F(identify, wrong_options_are_wrong_usage) {
     }
     EXPECT_THAT(complaint({"even.csv", "--input", "u", "--output", "x,x", "--poles", "2"}, 2), HasSubstr("twice"));
     EXPECT_THAT(complaint({"even.csv", "--input", "u", "--output", "x", "--poles", "2", "--zeros", "a"}, 2),
-                StartsWith("--zeros wants a number, but 'a' was given\n"));
+                StartsWith("dynlab: --zeros wants a number, but 'a' was given\n"));
     EXPECT_THAT(
         complaint({"even.csv", "--input", "u", "--output", "x", "--time", "t", "--time", "u", "--poles", "2"}, 2),
-        StartsWith("--time can be given once only\n"));
+        StartsWith("dynlab: --time can be given once only\n"));
     EXPECT_THAT(complaint({"even.csv", "extra", "--input", "u", "--output", "x", "--poles", "2"}, 2),
-                StartsWith("nothing is known of extra here\n"));
+                StartsWith("dynlab: nothing is known of extra here\n"));
     EXPECT_EQ(bench_.dynlab({"mine.lua"}).error_output,
-              "a script is run by its command: dynlab run mine.lua\nRun with --help for more information.\n");
+              "dynlab: a script is run by its command: dynlab run mine.lua\nRun with --help for more information.\n");
     EXPECT_THAT(complaint({"even.csv", "--input", "u", "--output", "x", "--poles", "2", "-o", "a.docx"}, 1),
                 HasSubstr(".pdf"));
 }
