@@ -325,6 +325,10 @@ TEST_F(leaks, copies_are_made_again_from_the_source) {
     EXPECT_EQ(fallen_back.findings.front().id, "name-in-text");
     std::filesystem::remove(file("work/report.pdf"));
     EXPECT_THAT(anonymous_copy(file("work"), file("other.pdf"), setup).trouble, HasSubstr("cannot be made again"));
+    write("work/analysis.lua", "x = 1\nprint(meen({1, 2}))\n");
+    EXPECT_THAT(anonymous_copy(file("work"), file("other.pdf"), setup).trouble,
+                testing::AllOf(testing::StartsWith("The report cannot be made again: analysis.lua:2: "),
+                               testing::EndsWith("did you mean 'mean'?")));
 }
 
 // Oracle: the folder that was handed in, which stays as it was, and the size of what a script writes.

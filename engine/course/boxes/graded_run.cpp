@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "course/boxes/told_reason.h"
 #include "documents/error.h"
 #include "documents/percent_script.h"
 #include "documents/words/sentence_catalogue.h"
@@ -79,13 +80,14 @@ GradedRun run_for_grading(const RunJob& job) {
         runtime.set_service(&language);
         const auto start = std::chrono::steady_clock::now();
         GradedRun run = graded_run(runtime.run(script), script);
+        if (run.error) run.error = told_outside(*run.error, job.script.parent_path());
         run.lesson = script.header.lesson;
         run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         return run;
     } catch (const DocumentError& error) {
         GradedRun unread;
         unread.began = false;
-        unread.error = error.what();
+        unread.error = told_outside(error.what(), job.script.parent_path());
         return unread;
     }
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <csignal>
 
+#include "course/boxes/told_reason.h"
 #include "course/hand_ins/staging.h"
 #include "course/names/name_findings.h"
 #include "documents/work_file.h"
@@ -121,15 +122,16 @@ class CopyingAnonymously {
             box.run({program.string(), "report", inside.string(), "-o", (out / "report.pdf").string()}, {}, "", limits);
         const bool made = child.exit_code == 0 && fs::is_regular_file(report());
         if (made && bytes_below(report().parent_path()) <= kMostMade) return true;
-        result_.trouble = "The report cannot be made again: " + (made ? "it is too large" : reason_of(child)) + ".";
+        result_.trouble =
+            as_sentence("The report cannot be made again: " + (made ? "it is too large" : reason_of(child, inside)));
         return false;
     }
 
-    std::string reason_of(const ChildResult& child) const {
+    std::string reason_of(const ChildResult& child, const fs::path& folder) const {
         if (child.timed_out) return fmt::format("it takes more than {} s", setup_.report_time.count());
         if (child.exit_code == 128 + SIGXFSZ)
             return fmt::format("it writes a file of more than {} MB", kLargestFile >> 20);
-        return terminal_text(child.error_output.substr(0, child.error_output.find('\n')));
+        return terminal_text(told_outside(child.error_output.substr(0, child.error_output.find('\n')), folder));
     }
 
     fs::path handed_in_;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "course/boxes/boxed_work.h"
+#include "course/boxes/told_reason.h"
 #include "course/hand_ins/staging.h"
 #include "course/review/version_description.h"
 #include "documents/text_lines.h"
@@ -61,7 +62,7 @@ class VersionReader {
             const fs::path folder = stage_submission(submission, staged, level_, program_).folder;
             const std::string reason = make_version_in_box(folder, made, !files_.pdf, level_, program_);
             if (!reason.empty())
-                version_.troubles.push_back(fmt::format("The pack's report could not be made again: {}.", reason));
+                version_.troubles.push_back(as_sentence("The pack's report could not be made again: " + reason));
             read_made(folder, made);
         } catch (const SubmissionError& error) {
             version_.troubles.push_back(std::string("The pack: ") + error.what());
@@ -154,8 +155,7 @@ std::string make_version_in_box(const fs::path& folder, const fs::path& made, bo
     job.pdf = pdf;
     const auto result = run_boxed(box, program, job, kReadingTime);
     std::string reason = result.reason;
-    if (result.output && result.output->error)
-        reason = replaced(first_line(*result.output->error), job.folder.string() + "/", "");
+    if (result.output && result.output->error) reason = told_outside(first_line(*result.output->error), job.folder);
     while (reason.ends_with('.')) reason.pop_back();
     return reason;
 }

@@ -167,6 +167,12 @@ TEST(percent_script, a_file_that_is_not_there_is_named) {
     }
 }
 
+TEST(percent_script, a_message_that_quotes_a_zero_byte_goes_on_behind_it) {
+    using namespace std::string_literals;
+    EXPECT_EQ(refusal("-- ---\n-- \0\0rest\n-- ---\n"s),
+              "lesson.lua:2: script header: \"??rest\" is not of the form \"key: value\"");
+}
+
 TEST(percent_script, a_file_far_too_large_is_refused) {
     const TemporaryFolder folder;
     const std::filesystem::path file = folder.path() / "a.lua";
