@@ -108,6 +108,11 @@ TEST(help, lays_out_the_forms_of_a_page) {
         "x       y\n------  ---\na || b  1\nc       two\n\n    local x = `y`\n\n      z\n");
     EXPECT_EQ(laid_out("| a | b |\n|---|---|\n| one | a text of many words |\n", 20),
               "a    b\n---  ---------------\none  a text of many\n     words\n");
+    EXPECT_EQ(laid_out("List:\n\n* **One** is\n  a mark\n* two\nlazy\n\nEnd\n", 20),
+              "List:\n\n- One is a mark\n- two lazy\n\nEnd\n");
+    EXPECT_EQ(laid_out("So:\n\n> **A** – 0 of 3\\\n> B is biased by the noise.\\\n> *Why?*\n\nEnd\n", 24),
+              "So:\n\n    A – 0 of 3\n    B is biased by the\n    noise.\n    Why?\n\nEnd\n");
+    EXPECT_EQ(laid_out("> one\ntwo\n>\n> three\n", 40), "    one two\n\n    three\n");
     EXPECT_EQ(filled("one two three", 7, 2), "one\n  two\n  three");
 }
 

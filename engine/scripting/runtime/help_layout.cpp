@@ -162,8 +162,15 @@ class PageReader {
     }
 
   private:
-    void read_line(const std::string& line) {
-        const bool row = line.starts_with('|'), heading = line.starts_with('#'), item = line.starts_with("- ");
+    void read_line(std::string line) {
+        const bool quoted = line.starts_with('>');
+        if (quoted) line.erase(0, line.starts_with("> ") ? 2 : 1);
+        if (quoted != quoted_ && !(quoted_ && !block_.empty() && continues(line))) {  // or its last line lacks the sign
+            end_block();
+            quoted_ = quoted;
+        }
+        const bool row = line.starts_with('|'), heading = line.starts_with('#');
+        const bool item = line.starts_with("- ") || line.starts_with("* ");
         if (line.empty() || heading || item || row != !rows_.empty()) end_block();
         if (line.empty()) {
             text_ += '\n';
@@ -173,20 +180,49 @@ class PageReader {
         } else if (row) {
             if (Cells cells = cells_of(line); !is_rule(cells)) rows_.push_back(std::move(cells));
         } else {
-            if (item) indent_ = 2;
-            block_ += (block_.empty() ? "" : " ") + trimmed(line);
+            add_words(line, item);
         }
     }
 
-    void end_block() {
-        if (!block_.empty()) text_ += filled(without_marks(block_), width_, indent_) + '\n';
-        if (!rows_.empty()) text_ += filled_table(rows_, width_);
-        block_.clear();
-        rows_.clear();
-        indent_ = 0;
+    /// A backslash at the end of a line ends it in the text, too.
+    void add_words(const std::string& line, bool item) {
+        std::string words = trimmed(line);
+        if (item) {
+            indent_ = 2;
+            words[0] = '-';
+        }
+        const bool ends = words.ends_with('\\') && !words.ends_with("\\\\");
+        if (ends) words.pop_back();
+        block_ += (block_.empty() ? "" : " ") + words;
+        if (ends) end_line();
+        broken_ = broken_ || ends;
     }
 
+    /// Whether a line goes on with the paragraph before it, whatever signs that one had.
+    static bool continues(const std::string& line) {
+        return !line.empty() && !line.starts_with('|') && !line.starts_with('#') && !line.starts_with("- ") &&
+               !line.starts_with("* ");
+    }
+
+    void end_line() {
+        const std::size_t margin = quoted_ ? kQuotationMargin : 0, first = margin + (broken_ ? indent_ : 0);
+        if (!block_.empty())
+            text_ += std::string(first, ' ') + filled(without_marks(block_), width_, indent_ + margin) + '\n';
+        block_.clear();
+    }
+
+    void end_block() {
+        end_line();
+        if (!rows_.empty()) text_ += filled_table(rows_, width_);
+        rows_.clear();
+        indent_ = 0;
+        broken_ = false;
+    }
+
+    static constexpr std::size_t kQuotationMargin = 4;
+
     std::size_t width_, indent_ = 0;
+    bool quoted_ = false, broken_ = false;  // broken_: the block has had a line that its author ended
     std::string text_, block_;
     std::vector<Cells> rows_;
 };
