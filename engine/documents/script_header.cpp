@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <set>
 
 #include "documents/bibliography.h"
 #include "documents/error.h"
@@ -52,8 +53,7 @@ class HeaderReader {
         if (std::find(answer_kinds().begin(), answer_kinds().end(), kind) == answer_kinds().end())
             fail("answer \"" + name + "\" is of the unknown kind \"" + kind + "\"; known are " +
                  fmt::format("{}", fmt::join(answer_kinds(), ", ")));
-        for (const ExpectedAnswer& answer : header_.answers)
-            if (answer.name == name) fail("answer \"" + name + "\" is declared twice");
+        if (!declared_.insert(name).second) fail("answer \"" + name + "\" is declared twice");
         header_.answers.push_back({name, kind});
     }
 
@@ -110,6 +110,7 @@ class HeaderReader {
     const std::filesystem::path& file_;
     ScriptHeader& header_;
     std::vector<std::string> seen_;
+    std::set<std::string> declared_;  // answers
     bool in_answers_ = false;
     int number_ = 0;
 };

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <fstream>
 #include <regex>
 
@@ -129,6 +130,19 @@ TEST(lint, compares_answers_with_the_header) {
                 testing::AllOf(HasSubstr("7:8: unknown-answer"), HasSubstr("did you mean \"gain\"?"),
                                HasSubstr("4:6: unused-answer")));
     EXPECT_EQ(told("for _, name in ipairs{\"gain\", \"G\"} do answer(name, 1) end\n"), "") << "only a run knows";
+}
+
+TEST(lint, reads_a_header_of_many_answers_once) {
+    constexpr int kAnswers = 20000;
+    std::string source = "-- ---\n-- answers:\n";
+    for (int i = 0; i < kAnswers; ++i) source += "--   a" + std::to_string(i) + ": number\n";
+    const auto start = std::chrono::steady_clock::now();
+    const std::vector<LintFinding> found = lint_script(source + "-- ---\nx = 1\n", "a.lua");
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(15)) << "42 s when each answer was sought";
+    ASSERT_EQ(found.size(), static_cast<std::size_t>(kAnswers));
+    EXPECT_EQ(found.back().line, kAnswers + 2);
+    EXPECT_EQ(found.back().column, 6);
+    EXPECT_THAT(found.back().message, HasSubstr("\"a19999\""));
 }
 
 TEST(lint, takes_nothing_amiss_that_is_right) {

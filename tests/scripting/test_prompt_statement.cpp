@@ -118,6 +118,9 @@ TEST(prompt_statement, a_script_that_is_run_leaves_its_variables) {
     EXPECT_EQ(session({"run('" + path + "/analysis.lua')", "k + 1, gain, d.y"}), "3\n4\t6\t[1 5]\n");
     EXPECT_EQ(session({"run('" + path + "')", "k"}), "3\n3\n");
     EXPECT_EQ(session({"local k = 1", "g = 'text'", "who"}), "g  text\nk  1\n");
+    EXPECT_EQ(session({"G = tf({1}, {1, 1, 1})", "who"}), "G  1/(s^2 + s + 1)\n");
+    EXPECT_EQ(session({"G = tf({2, 1}, {1, 0.5}, {IODelay = 2})", "who"}), "G  exp(-2 s) (2 s + 1)/(s + 0.5)\n");
+    EXPECT_EQ(session({"G = tf({1}, {1, 0.5}, 0.1)", "who"}), "G  1/(z + 0.5), Ts = 0.1 s\n");
     EXPECT_THAT(session({"run('" + path + "/wrong.lua')"}), HasSubstr("wrong.lua:2: "));
     EXPECT_THAT(session({"run('absent.lua')"}), HasSubstr("there is no script absent.lua"));
     EXPECT_THAT(error_of("run('x.lua')"), HasSubstr("in a script write require(name)"));

@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <set>
+#include <string_view>
+#include <vector>
 
 #include "documents/error.h"
 #include "documents/percent_script.h"
@@ -35,7 +38,10 @@ end)";
 class Linter {
   public:
     Linter(const std::string& source, const std::filesystem::path& file, const std::vector<std::string>& more_names)
-        : source_(source), file_(file), more_names_(more_names) {}
+        : source_(source), file_(file), more_names_(more_names) {
+        for (std::size_t end = source.find('\n'); end != std::string::npos; end = source.find('\n', end + 1))
+            line_begins_.push_back(end + 1);
+    }
 
     std::vector<LintFinding> findings() {
         read_header();
@@ -48,13 +54,13 @@ class Linter {
 
   private:
     void add(std::size_t offset, const char* kind, std::string message) {
-        const std::size_t newline = offset == 0 ? std::string::npos : source_.rfind('\n', offset - 1);
-        const std::size_t begin = newline == std::string::npos ? 0 : newline + 1;
+        const auto behind = std::upper_bound(line_begins_.begin(), line_begins_.end(), offset);
+        const std::size_t begin = *std::prev(behind);
         const auto characters = std::count_if(source_.begin() + static_cast<std::ptrdiff_t>(begin),
                                               source_.begin() + static_cast<std::ptrdiff_t>(offset),
                                               [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
-        const auto lines = std::count(source_.begin(), source_.begin() + static_cast<std::ptrdiff_t>(begin), '\n');
-        found_.push_back({static_cast<int>(lines) + 1, static_cast<int>(characters) + 1, kind, std::move(message)});
+        found_.push_back({static_cast<int>(behind - line_begins_.begin()), static_cast<int>(characters) + 1, kind,
+                          std::move(message)});
     }
 
     /// Where the words of a line begin.
@@ -161,6 +167,7 @@ class Linter {
         if (header_.answers.empty()) return;
         std::vector<std::string> declared;
         for (const ExpectedAnswer& answer : header_.answers) declared.push_back(answer.name);
+        const std::set<std::string> known(declared.begin(), declared.end());
         std::set<std::string> given;
         bool computed = false;  // a name that only a run knows
         for (const WrittenCall& call : calls) {
@@ -169,32 +176,37 @@ class Linter {
             computed = computed || name.kind != WrittenArgument::Kind::kText;
             if (name.kind != WrittenArgument::Kind::kText) continue;
             given.insert(name.text);
-            if (std::find(declared.begin(), declared.end(), name.text) == declared.end())
+            if (!known.contains(name.text))
                 add(name.begin, "unknown-answer", undeclared_answer_sentence(name.text, declared));
         }
+        if (computed) return;
+        const std::map<std::string, std::size_t> places = declarations();
         for (const std::string& name : declared)
-            if (!computed && !given.contains(name))
-                add(declaration_of(name), "unused-answer",
+            if (!given.contains(name))
+                add(places.contains(name) ? places.at(name) : 0, "unused-answer",
                     fmt::format("the answer \"{0}\" is never handed in: answer(\"{0}\", ...)", name));
     }
 
-    /// Where the header names the answer.
-    std::size_t declaration_of(const std::string& name) const {
-        int line = 0;
+    /// Where the header names each answer: there may be thousands, so its lines are read once.
+    std::map<std::string, std::size_t> declarations() const {
+        std::map<std::string, std::size_t> places;
         bool answers = false;
-        for (const std::string& text : lines_of(source_)) {
-            ++line;
-            answers = answers || text.starts_with("-- answers:");
-            const std::size_t at = answers ? text.find(" " + name + ":") : std::string::npos;
-            if (at != std::string::npos) return offset_of_line(line) + at + 1;
+        for (const std::size_t begin : line_begins_) {
+            const std::string_view line = std::string_view(source_).substr(begin);
+            answers = answers || line.starts_with("-- answers:");
+            if (!answers || !line.starts_with("--")) continue;
+            const std::size_t name = line.find_first_not_of(" \t", 2), end = line.find_first_of(":\n", 2);
+            if (name < end && end != std::string_view::npos)
+                places.try_emplace(trimmed(line.substr(name, end - name)), begin + name);
         }
-        return 0;
+        return places;
     }
 
     const std::string& source_;
     const std::filesystem::path& file_;
     const std::vector<std::string>& more_names_;
     ScriptHeader header_;
+    std::vector<std::size_t> line_begins_ = {0};
     std::vector<LintFinding> found_;
 };
 
