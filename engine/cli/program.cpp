@@ -8,10 +8,12 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 
 #include "cli/usage_error.h"
 #include "platform/error.h"
+#include "platform/files/file_error.h"
 #include "platform/interrupt.h"
 #include "platform/memory.h"
 #include "platform/program_lookup.h"
@@ -43,11 +45,12 @@ constexpr const char* kFooter =
 /// Runs the chosen command and turns what it throws into one line on standard error and an exit code.
 int run_action(const Action& action) {
     const InterruptScope interrupts;
-    const auto complain = [](const std::exception& error, int code) {
+    const auto say = [](const std::string& sentence, int code) {
         std::fflush(stdout);
-        std::cerr << "dynlab: " << terminal_text(error.what()) << std::endl;
+        std::cerr << "dynlab: " << terminal_text(sentence) << std::endl;
         return code;
     };
+    const auto complain = [&say](const std::exception& error, int code) { return say(error.what(), code); };
     try {
         return action();
     } catch (const Interrupted& error) {
@@ -56,6 +59,8 @@ int run_action(const Action& action) {
         return code;
     } catch (const MissingProgram& error) {
         return complain(error, kMissingProgram);
+    } catch (const std::filesystem::filesystem_error& error) {
+        return say(file_error_sentence(error), kFailed);
     } catch (const std::exception& error) {
         return complain(error, kFailed);
     }

@@ -1,0 +1,37 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "platform/files/file_error.h"
+#include "platform/temporary_folder.h"
+
+namespace dynlab::test {
+namespace test_file_error {
+
+namespace fs = std::filesystem;
+
+template <class Call>
+std::string told(Call call) {
+    try {
+        call();
+    } catch (const fs::filesystem_error& error) {
+        return file_error_sentence(error);
+    }
+    return "nothing was thrown";
+}
+
+// A file stands where a folder is wanted: that refuses everybody, root as well.
+TEST(file_error, is_told_in_the_words_of_other_messages) {
+    const TemporaryFolder folder;
+    const fs::path file = folder.path() / "file", below = file / "below", none = folder.path() / "none";
+    std::ofstream(file) << "text";
+    EXPECT_EQ(told([&] { fs::create_directories(below); }),
+              "cannot make the folder " + below.string() + ": not a directory");
+    EXPECT_EQ(told([&] { fs::directory_iterator{none}; }),
+              "cannot read the folder " + none.string() + ": no such file or directory");
+    EXPECT_EQ(told([&] { fs::copy_file(none, below); }),
+              "cannot copy file " + none.string() + " to " + below.string() + ": no such file or directory");
+}
+
+}  // namespace test_file_error
+}  // namespace dynlab::test
