@@ -9,6 +9,8 @@
 #include "platform/error.h"
 #include "platform/files/course_home.h"
 #include "platform/program_lookup.h"
+#include "platform/spelling.h"
+#include "workflow/given_script.h"
 
 namespace dynlab::inline workflow {
 
@@ -20,6 +22,29 @@ std::string joined_slugs(const std::vector<Lesson>& found) {
     std::string list;
     for (const Lesson& lesson : found) list += (list.empty() ? "" : ", ") + lesson.slug;
     return list;
+}
+
+/// The folders here that hold work, as `dynlab new` makes them, under the names that people give.
+std::vector<std::string> folders_of_work() {
+    std::vector<std::string> names;
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(".", none))
+        if (fs::is_regular_file(entry.path() / "analysis.lua", none)) names.push_back(entry.path().filename());
+    return names;
+}
+
+/// Begins the sentence that `name` is no lesson: what it is instead, or what was meant.
+std::string no_lesson(const std::string& name, const std::vector<Lesson>& all) {
+    std::error_code none;
+    if (!name.empty() && fs::is_directory(name, none)) {
+        const bool work = fs::is_regular_file(fs::path(name) / "analysis.lua", none);
+        return "the folder '" + name + "' holds no lesson.lua" +
+               (work ? "" : " and no analysis.lua" + nearly_called(name, "analysis.lua")) + "; ";
+    }
+    std::vector<std::string> names = folders_of_work();
+    for (const Lesson& lesson : all) names.push_back(lesson.slug);
+    const auto near = nearest_word(name, names);
+    return "there is no lesson or folder '" + name + "'; " + (near ? "did you mean '" + *near + "'? " : "");
 }
 
 /// What the header says below the title, or nothing: "Lesson 3.2 - ...".
@@ -88,9 +113,7 @@ Lesson find_lesson(const std::string& name) {
     if (fitting.empty()) fitting = holding;
     if (fitting.size() == 1) return fitting.front();
     if (const auto own = name.empty() ? std::nullopt : lesson_in(name)) return *own;
-    if (fitting.empty()) {
-        throw EnvironmentError("there is no lesson or folder '" + name + "'; the lessons are " + joined_slugs(all));
-    }
+    if (fitting.empty()) throw EnvironmentError(no_lesson(name, all) + "the lessons are " + joined_slugs(all));
     throw EnvironmentError("'" + name + "' fits several lessons (" + joined_slugs(fitting) +
                            "); give enough of the name to tell them apart");
 }

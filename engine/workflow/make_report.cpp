@@ -19,7 +19,9 @@
 #include "platform/text_file.h"
 #include "scripting/memoized_calls/call_cache.h"
 #include "workflow/error_text.h"
+#include "workflow/given_script.h"
 #include "workflow/measures.h"
+#include "workflow/notebooks/notebook.h"
 #include "workflow/report_cache.h"
 #include "workflow/run_cache.h"
 #include "workflow/run_script.h"
@@ -56,7 +58,8 @@ std::uint32_t seed_of_group(const fs::path& folder, std::uint32_t otherwise) {
 ReportRequest report_of_folder(const fs::path& folder, const fs::path& output) {
     for (const char* needed : {"analysis.lua", "report.md"}) {
         if (!fs::is_regular_file(folder / needed)) {
-            throw EnvironmentError(folder.string() + " has no " + needed +
+            const std::string near = nearly_called(folder, needed);
+            throw EnvironmentError(folder.string() + " has no " + needed + near +
                                    "; a report needs analysis.lua and report.md (dynlab new LESSON DIR makes them)");
         }
     }
@@ -164,7 +167,7 @@ ReportRequest report_of(const std::string& subject, const fs::path& output, cons
     if (fs::is_regular_file(folder)) {
         if (!language.empty())
             throw EnvironmentError("the language of " + subject + " stands in its header, behind \"language:\"");
-        return report_of_script(read_percent_script(folder),
+        return report_of_script(read_script_or_notebook(folder),
                                 output.empty() ? fs::path(folder).replace_extension(".pdf") : output);
     }
     if (!fs::is_directory(folder) || (lesson_in(folder) && !fs::exists(folder / "analysis.lua")))

@@ -245,5 +245,59 @@ TEST(bad_input, a_bibliography_that_is_a_link_to_elsewhere_is_not_packed) {
     EXPECT_THAT(bench.files(), ElementsAre("mine", "outside.bib"));
 }
 
+TEST(bad_input, files_that_are_no_script_are_told_and_nothing_is_written) {
+    const Workbench bench;
+    write_folder(bench, "-- %%\nprint(1)\n", "Text\n");
+    bench.write("mine/report.pdf", "%PDF the good one");
+    bench.write("data.csv", "t,y\n0,1\n");
+    for (const std::string command : {"report", "run", "lint", "pack", "check"})
+        expect_failure(bench.dynlab({command, "mine/report.md"}), 2,
+                       "dynlab: report.md is the report's text: give the folder, dynlab " + command + " mine\n");
+    expect_failure(bench.dynlab({"weave", "mine/report.pdf", "-o", "a.html"}), 2,
+                   "report.pdf is the report's PDF: give the folder, dynlab weave mine\n");
+    for (const std::string command : {"report", "run", "lint"})
+        expect_failure(bench.dynlab({command, "data.csv"}), 2,
+                       "data.csv is a table of data: give a script (.lua) or a notebook (.ipynb)\n");
+    EXPECT_EQ(bench.read("mine/report.pdf"), "%PDF the good one");
+    EXPECT_THAT(bench.files(), ElementsAre("data.csv", "mine"));
+}
+
+TEST(bad_input, what_is_nearly_called_so_is_named) {
+    const Workbench bench;
+    bench.write("capital/Analysis.lua", "print(1)\n");
+    bench.write("second/analysis (2).lua", "print(1)\n");
+    bench.write("text/analysis.lua", "print(1)\n");
+    bench.write("text/Report.md", "Text\n");
+    bench.write("my-work/analysis.lua", "print(1)\n");
+    expect_failure(bench.dynlab({"run", "capital"}), 1,
+                   "there is no analysis.lua in the folder capital, but Analysis.lua: call it analysis.lua");
+    expect_failure(bench.dynlab({"lint", "second"}), 2, "in the folder second, but analysis (2).lua: call it");
+    expect_failure(bench.dynlab({"report", "capital"}), 1, "capital has no analysis.lua, but Analysis.lua: call it");
+    expect_failure(bench.dynlab({"report", "text"}), 1, "text has no report.md, but Report.md: call it report.md");
+    expect_failure(bench.dynlab({"report", "my-wrok"}), 1,
+                   "there is no lesson or folder 'my-wrok'; did you mean 'my-work'? the lessons are ");
+    expect_failure(bench.dynlab({"hint", "capital"}), 1,
+                   "the folder 'capital' holds no lesson.lua and no analysis.lua, but Analysis.lua: call it");
+    expect_failure(bench.dynlab({"hint", "."}), 1,
+                   "the folder '.' holds no lesson.lua and no analysis.lua; the lessons");
+}
+
+TEST(bad_input, lint_reads_notebooks_and_names_their_cells) {
+    const Workbench bench;
+    bench.write("a.lua", "-- %%\nx = 1\n\n-- %%\nprint(x)\nprint(meen(x))\n");
+    ASSERT_EQ(bench.dynlab({"notebook", "a.lua"}).exit_code, 0);
+    const ChildResult found = bench.dynlab({"lint", "a.ipynb"});
+    EXPECT_EQ(found.exit_code, 1);
+    EXPECT_THAT(found.output, testing::StartsWith("a.ipynb, cell 2, line 2: "));
+    EXPECT_THAT(found.output, HasSubstr("meen"));
+}
+
+TEST(bad_input, a_folder_that_cannot_be_made_is_told_as_other_files_are) {
+    const Workbench bench;
+    bench.write("block", "a file");
+    expect_failure(bench.dynlab({"run", "-e", "print(1)", "--out", "block/out"}), 1,
+                   "dynlab: cannot make the folder block/out: not a directory\n");
+}
+
 }  // namespace test_bad_input
 }  // namespace dynlab::test

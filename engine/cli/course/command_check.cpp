@@ -2,6 +2,7 @@
 #include <iostream>
 
 #include "cli/commands.h"
+#include "cli/options/script_argument.h"
 #include "cli/terminal_colour.h"
 #include "course/findings/findings_report.h"
 #include "course/findings/french_sentences.h"
@@ -12,6 +13,7 @@
 #include "platform/error.h"
 #include "platform/program_lookup.h"
 #include "platform/temporary_folder.h"
+#include "platform/text/small_letters.h"
 #include "workflow/notebooks/notebook.h"
 #include "workflow/script_folder.h"
 
@@ -123,7 +125,10 @@ void add_check(CLI::App& app, Action& action) {
         "Exit codes: 0 no rule is broken (there may be hints), 1 a rule is broken, 2 wrong usage.\n"
         "JSON: {subject, template, language, pages, passed, checked: [text],\n"
         "       findings: [{id, severity: \"rule\"|\"hint\", page, place, what, remedy}]}; what is not known is null.");
-    command->callback([words, &action] { action = [words] { return check(*words); }; });
+    command->callback([words, &action] {
+        if (ending_of(words->subject) != ".pdf") refuse_other_files(words->subject, "check");
+        action = [words] { return check(*words); };
+    });
 }
 
 }  // namespace dynlab::inline cli

@@ -7,6 +7,7 @@
 #include <regex>
 
 #include "cli/commands.h"
+#include "cli/options/script_argument.h"
 #include "course/grading/hand_in.h"
 #include "course/hand_ins/roster.h"
 #include "documents/pdf/pdf_layout.h"
@@ -129,7 +130,10 @@ void add_pack(CLI::App& app, Action& action) {
     command->footer(
         "The data link and the figures that dynlab run saved (analysis_out) are left out. Equal folders give equal "
         "files, byte by byte.\nExample:  dynlab pack my-work");
-    command->callback([words, &action] { action = [words] { return pack(*words); }; });
+    command->callback([words, &action] {
+        refuse_other_files(words->subject, "pack");
+        action = [words] { return pack(*words); };
+    });
 }
 
 void add_bundle(CLI::App& app, Action& action) {

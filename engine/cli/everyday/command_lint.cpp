@@ -5,10 +5,14 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
+#include "cli/options/script_argument.h"
 #include "course/checks/check_functions.h"
 #include "documents/text_lines.h"
+#include "platform/error.h"
 #include "platform/terminal/terminal_text.h"
 #include "scripting/lint/lint.h"
+#include "workflow/given_script.h"
+#include "workflow/notebooks/notebook.h"
 
 namespace dynlab::inline cli {
 namespace {
@@ -23,6 +27,7 @@ struct LintArguments {
 };
 
 std::string text_of(const std::string& file) {
+    if (is_notebook(file)) return read_notebook(file).source;
     if (file != kStandardInput) return text_of_source(file);
     return {std::istreambuf_iterator<char>(std::cin), {}};
 }
@@ -32,18 +37,25 @@ std::vector<std::string> names_in(const std::string& file) {
     return fs::path(file).filename() == "checks.lua" ? names_of_check_functions() : std::vector<std::string>();
 }
 
+/// Where editors find it; in a notebook, where people do.
+std::string finding_place(const LintFinding& found, const std::string& file, const std::string& source) {
+    const std::string cell = is_notebook(file) ? place_in_notebook(source, found.line) : "";
+    return cell.empty() ? fmt::format("{}:{}:{}", file, found.line, found.column) : fmt::format("{}, {}", file, cell);
+}
+
 int lint(const LintArguments& words) {
     nlohmann::json all = nlohmann::json::array();
     std::string text;
     for (const std::string& given : words.files) {
         const std::string file = fs::is_directory(given) ? (fs::path(given) / "analysis.lua").string() : given;
-        for (const LintFinding& found : lint_script(text_of(file), file, names_in(file))) {
+        const std::string source = text_of(file);
+        for (const LintFinding& found : lint_script(source, file, names_in(file))) {
             all.push_back({{"file", file},
                            {"line", found.line},
                            {"column", found.column},
                            {"kind", found.kind},
                            {"message", found.message}});
-            text += fmt::format("{}:{}:{}: {}\n", file, found.line, found.column, found.message);
+            text += fmt::format("{}: {}\n", finding_place(found, file, source), found.message);
         }
     }
     if (words.json)
@@ -57,7 +69,11 @@ int lint(const LintArguments& words) {
 std::string complaint_about(const std::string& given) {
     if (given == kStandardInput || fs::is_regular_file(given)) return {};
     if (fs::is_regular_file(fs::path(given) / "analysis.lua")) return {};
-    return fs::is_directory(given) ? "there is no analysis.lua in the folder " + given : "there is no file " + given;
+    try {
+        return "there is no file " + meant_script(given).string();
+    } catch (const EnvironmentError& error) {
+        return error.what();
+    }
 }
 
 }  // namespace
@@ -65,7 +81,8 @@ std::string complaint_about(const std::string& given) {
 void add_lint(CLI::App& app, Action& action) {
     auto words = std::make_shared<LintArguments>();
     CLI::App* command = app.add_subcommand("lint", "Look for mistakes in scripts without running them");
-    command->add_option("FILE", words->files, "Scripts, folders with an analysis.lua, or - for standard input")
+    command
+        ->add_option("FILE", words->files, "Scripts, notebooks, folders with an analysis.lua, or - for standard input")
         ->required()
         ->check(CLI::Validator([](std::string& given) { return complaint_about(given); }, "", "file"));
     command->add_flag("--json", words->json, "Print {findings: [{file, line, column, kind, message}]}");
@@ -74,7 +91,10 @@ void add_lint(CLI::App& app, Action& action) {
         "answers that the header does not declare or that are never handed in, each as FILE:LINE:COLUMN: what.\n"
         "Example:  dynlab lint analysis.lua\n"
         "Exit codes: 0 nothing was found, 1 something was, 2 wrong usage.");
-    command->callback([words, &action] { action = [words] { return lint(*words); }; });
+    command->callback([words, &action] {
+        for (const std::string& file : words->files) refuse_other_files(file, "lint");
+        action = [words] { return lint(*words); };
+    });
 }
 
 }  // namespace dynlab::inline cli

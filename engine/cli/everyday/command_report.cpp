@@ -1,5 +1,6 @@
 #include "cli/commands.h"
 #include "cli/document_command.h"
+#include "cli/options/script_argument.h"
 #include "cli/options/seed_option.h"
 #include "cli/options/slider_option.h"
 
@@ -45,7 +46,10 @@ void add_report(CLI::App& app, Action& action) {
     words->seed.add_to(*command);
     words->sliders.add_to(*command);
     command->footer("Examples:  dynlab report 02     dynlab report my-work -o my-work.html");
-    command->callback([words, &action] { action = [words] { return report(*words); }; });
+    command->callback([words, &action] {
+        refuse_other_files(words->subject, "report");
+        action = [words] { return report(*words); };
+    });
 }
 
 }  // namespace dynlab::inline cli

@@ -6,6 +6,7 @@
 #include <regex>
 
 #include "cli/commands.h"
+#include "cli/options/script_argument.h"
 #include "cli/options/seed_option.h"
 #include "cli/options/share_options.h"
 #include "cli/options/slider_option.h"
@@ -18,6 +19,7 @@
 #include "platform/written_files.h"
 #include "scripting/memoized_calls/call_cache.h"
 #include "workflow/error_text.h"
+#include "workflow/given_script.h"
 #include "workflow/make_report.h"
 #include "workflow/notebooks/notebook.h"
 #include "workflow/run_script.h"
@@ -119,7 +121,7 @@ RunRecord run_showing_activity(RunRequest& request, GnuplotRenderer& renderer) {
 int run(const RunArguments& words) {
     const bool from_file = !words.file.empty();
     RunRequest request;
-    const fs::path file = fs::is_directory(words.file) ? fs::path(words.file) / "analysis.lua" : fs::path(words.file);
+    const fs::path file = from_file ? meant_script(words.file) : fs::path();
     request.script = from_file ? read_script_or_notebook(file) : parse_percent_script(words.code, "command line");
     request.seed = words.seed.value();
     request.slider_values = words.sliders.values();
@@ -194,6 +196,7 @@ void add_run(CLI::App& app, Action& action, const FigureView& view) {
         if (words->file.empty() && words->code.empty()) {
             throw CLI::RequiredError("a script FILE or -e CODE");
         }
+        refuse_other_files(words->file, "run");
         action = [words, view] {
             if (words->view) return open_prompt(words->file, view());
             return words->interactive ? open_prompt(words->file, nullptr) : run(*words);
@@ -219,7 +222,10 @@ void add_study(CLI::App& app, Action& action) {
         "be quick, and must not ask for the time. A study that was ended goes on with the parts that were made.\n"
         "Example:  dynlab study bias.lua --on processes:8\n"
         "Exit codes: 0 done, 1 the script failed, 2 wrong usage.");
-    command->callback([words, &action] { action = [words] { return run(*words); }; });
+    command->callback([words, &action] {
+        refuse_other_files(words->file, "study");
+        action = [words] { return run(*words); };
+    });
 }
 
 }  // namespace dynlab::inline cli

@@ -1,7 +1,10 @@
 #include "cli/commands.h"
 #include "cli/document_command.h"
+#include "cli/options/script_argument.h"
 #include "cli/options/seed_option.h"
 #include "cli/options/slider_option.h"
+#include "workflow/given_script.h"
+#include "workflow/notebooks/notebook.h"
 
 namespace dynlab::inline cli {
 namespace {
@@ -14,7 +17,7 @@ struct WeaveArguments {
 };
 
 int weave(const WeaveArguments& words) {
-    ReportRequest request = report_of_script(read_percent_script(words.script), words.output);
+    ReportRequest request = report_of_script(read_script_or_notebook(meant_script(words.script)), words.output);
     request.seed = words.seed.value().value_or(request.seed);
     request.slider_values = words.sliders.values();
     return make_document(std::move(request), words.timings);
@@ -33,7 +36,10 @@ void add_weave(CLI::App& app, Action& action) {
     words->seed.add_to(*command);
     words->sliders.add_to(*command);
     command->footer("Example:  dynlab weave analysis.lua -o analysis.html");
-    command->callback([words, &action] { action = [words] { return weave(*words); }; });
+    command->callback([words, &action] {
+        refuse_other_files(words->script, "weave");
+        action = [words] { return weave(*words); };
+    });
 }
 
 }  // namespace dynlab::inline cli

@@ -2,6 +2,7 @@
 
 #include "app/live/preview.h"
 #include "cli/commands.h"
+#include "cli/options/script_argument.h"
 #include "cli/pages/browser.h"
 #include "platform/error.h"
 
@@ -44,7 +45,10 @@ void add_preview(CLI::App& app, Action& action) {
     command->add_flag("--run", words->options.run_at_once,
                       "Run the scripts of this folder without being asked on the page, now and later");
     command->footer("Examples:  dynlab preview my-work     dynlab preview my-work --edit     dynlab preview 02");
-    command->callback([words, &action] { action = [words] { return show_preview(*words); }; });
+    command->callback([words, &action] {
+        refuse_other_files(words->options.document, "preview");
+        action = [words] { return show_preview(*words); };
+    });
 }
 
 }  // namespace dynlab::inline cli
