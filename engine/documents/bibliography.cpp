@@ -1,8 +1,8 @@
 #include "documents/bibliography.h"
 
 #include "documents/error.h"
-#include "documents/own_file.h"
 #include "documents/work_file.h"
+#include "platform/files/inside_folder.h"
 #include "platform/text_file.h"
 
 namespace dynlab::inline documents {

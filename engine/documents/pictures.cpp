@@ -4,9 +4,9 @@
 #include <map>
 
 #include "documents/html/web_page.h"
-#include "documents/own_file.h"
 #include "documents/pandoc.h"
 #include "platform/atomic_file.h"
+#include "platform/files/inside_folder.h"
 #include "platform/text/small_letters.h"
 
 namespace dynlab::inline documents {

@@ -1,8 +1,8 @@
-#include "documents/own_file.h"
+#include "platform/files/inside_folder.h"
 
 #include <algorithm>
 
-namespace dynlab::inline documents {
+namespace dynlab::inline platform {
 
 namespace fs = std::filesystem;
 
@@ -15,4 +15,4 @@ bool is_inside(const fs::path& file, const fs::path& folder) {
     return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
 }
 
-}  // namespace dynlab::inline documents
+}  // namespace dynlab::inline platform

@@ -1,10 +1,7 @@
 #pragma once
 #include <filesystem>
 
-namespace dynlab::inline documents {
-
-/// What a document shows lies in its own folder: whoever is sent the document must not be sent other files of whoever
-/// makes it.
+namespace dynlab::inline platform {
 
 /// The folder that holds `file`, as one can write it down: "." where the name has none.
 std::filesystem::path folder_around(const std::filesystem::path& file);
@@ -12,4 +9,4 @@ std::filesystem::path folder_around(const std::filesystem::path& file);
 /// Whether `file` lies in `folder` or below it, symbolic links followed. It need not exist.
 bool is_inside(const std::filesystem::path& file, const std::filesystem::path& folder);
 
-}  // namespace dynlab::inline documents
+}  // namespace dynlab::inline platform
