@@ -123,9 +123,11 @@ TEST(feedback, in_french_tells_what_stopped_a_script_in_french) {
     const ChildResult run =
         work.dynlab({"grade", "in", "--lesson", "99", "--out", "out", "--isolation", bench.level()});
     ASSERT_EQ(run.exit_code, 0) << run.error_output;
-    EXPECT_THAT(work.read("out/results/a/feedback.md"),
-                AllOf(HasSubstr("`analysis.lua:8`: il n'y a ni fonction ni variable « maen » ; vouliez-vous dire"),
-                      Not(HasSubstr("there is no function"))));
+    EXPECT_THAT(
+        work.read("out/results/a/feedback.md"),
+        AllOf(
+            HasSubstr("`analysis.lua:8`: il n'y a ni fonction ni variable «\u00A0maen\u00A0»\u00A0; vouliez-vous dire"),
+            Not(HasSubstr("there is no function"))));
     EXPECT_THAT(work.shell("pdftotext out/results/a/feedback.pdf - | tr '\\n' ' '").output,
                 AllOf(HasSubstr("analysis.lua:8"), HasSubstr("damp(G, \"all\")")));
 }

@@ -5,6 +5,7 @@
 #include <pty.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <utmp.h>
 
 #include <chrono>
 #include <csignal>
@@ -21,8 +22,16 @@ Terminal::Terminal(const Workbench& bench, const std::vector<std::string>& argum
     for (std::string& word : words) command.push_back(word.data());
     command.push_back(nullptr);
     winsize size{40, 100, 0, 0};
-    child_ = forkpty(&terminal_, nullptr, nullptr, &size);
+    int program_side = -1;
+    if (openpty(&terminal_, &program_side, nullptr, nullptr, &size) != 0) {
+        ADD_FAILURE() << "there is no terminal";
+        return;
+    }
+    tcgetattr(terminal_, &modes_before_);  // a program that has started may have changed them
+    child_ = fork();
     if (child_ == 0) {
+        close(terminal_);
+        if (login_tty(program_side) != 0) _exit(127);
         const std::string state = bench.path("state").string(), home = bench.path().string();
         setenv("XDG_STATE_HOME", state.c_str(), 1);
         setenv("HOME", home.c_str(), 1);
@@ -32,7 +41,7 @@ Terminal::Terminal(const Workbench& bench, const std::vector<std::string>& argum
         if (chdir(bench.path().c_str()) == 0) execv(DYNLAB_PROGRAM, command.data());
         _exit(127);
     }
-    tcgetattr(terminal_, &modes_before_);
+    close(program_side);
 }
 
 Terminal::~Terminal() {

@@ -72,7 +72,7 @@ TEST(integrated_input, what_the_integrator_held_before_the_record_is_estimated) 
         EXPECT_LT(std::abs(estimate.theta[1] - 3), 5 * estimate.std[1]);
         EXPECT_GT(estimate.fit_percent[0], 95);
         const Fit sampled = oe(summed_inputs(data), PolynomialOrders::output_error({2}, {1}, {1}), options);
-        EXPECT_NEAR(sampled.theta[2], -std::exp(-0.2), 0.01) << sampled.message;
+        EXPECT_NEAR(sampled.theta[0], -std::exp(-0.2), 0.01) << sampled.message;
         EXPECT_GT(sampled.fit_percent[0], 95);
     }
 }

@@ -233,7 +233,8 @@ TEST(greyest, refuses_what_it_cannot_fit) {  // oracle: definitions
     EXPECT_THAT(refusal(pendulum(1, 1, 1), options), HasSubstr("name a parameter q"));
     options = {};
     options.output_weights = Vector::Ones(3);
-    EXPECT_THAT(refusal(pendulum(1, 1, 1), options), HasSubstr("one value for each of the 2 outputs"));
+    EXPECT_THAT(refusal(pendulum(1, 1, 1), options),
+                HasSubstr("holds a positive number for each of the 2 outputs, but has 3"));
     const GreyModel growing = grey_model({{"k", 50}}, {"x", "z"}, [](const Variables& v) -> std::vector<Term> {
         return {v.p[0] * v.x[0] * v.x[0] * v.x[0] + v.u, -v.x[1]};
     });
