@@ -21,10 +21,21 @@ void check_segments(const std::string& caller, const IdData& data, const std::ve
                                   std::to_string(count));
 }
 
+/// A sample that stands in two stretches would count twice.
+void check_apart(std::vector<Segment> kept) {
+    std::sort(kept.begin(), kept.end(), [](const Segment& a, const Segment& b) { return a.first < b.first; });
+    for (std::size_t i = 1; i < kept.size(); ++i)
+        if (kept[i].first <= kept[i - 1].last)
+            throw InvalidArgument("keep: the stretches " + std::to_string(kept[i - 1].first) + " to " +
+                                  std::to_string(kept[i - 1].last) + " and " + std::to_string(kept[i].first) + " to " +
+                                  std::to_string(kept[i].last) + " overlap, so that samples would count twice");
+}
+
 }  // namespace
 
 IdData keep_segments(const IdData& data, const std::vector<Segment>& kept) {
     check_segments("keep", data, kept);
+    check_apart(kept);
     std::vector<IdData> parts;
     for (const auto& [first, last] : kept) {
         parts.push_back(data.range(first, last));

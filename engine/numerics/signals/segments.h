@@ -13,7 +13,8 @@ struct Segment {
 };
 
 /// These stretches of a record (one experiment), each as an experiment of its own that keeps its times, in the order
-/// given. Throws InvalidArgument for no stretch, and for one that is empty or reaches outside the record.
+/// given. Throws InvalidArgument for no stretch, for one that is empty or reaches outside the record, and for two that
+/// overlap.
 IdData keep_segments(const IdData& data, const std::vector<Segment>& kept);
 
 /// What is left when these stretches, which may overlap, are cut out. Leftovers shorter than `shortest` samples go too.

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <set>
 #include <utility>
 
@@ -209,7 +210,11 @@ int make_iddata(Call& call) {
     check_names(data);
     data.time_unit = options.text("TimeUnit", data.time_unit);
     tell_time_unit(call, data.time_unit);
+    if (options.has("Tstart") && options.has("SamplingInstants"))
+        throw InvalidArgument("option 'Tstart' does not go with 'SamplingInstants', which tell the first instant, too");
     data.experiments.front().start_time = options.number("Tstart", data.experiments.front().start_time);
+    if (!std::isfinite(data.experiments.front().start_time))
+        throw InvalidArgument("option 'Tstart' must be a finite number");
     if (options.has("Reference")) data = data.with_reference(reference_of(options));
     return give_data(call, std::move(data));
 }
