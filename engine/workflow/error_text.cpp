@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "documents/text_lines.h"
+#include "platform/files/inside_folder.h"
 #include "platform/text_file.h"
 #include "scripting/runtime/errors.h"
 #include "scripting/runtime/output_path.h"
@@ -17,7 +18,7 @@ constexpr std::uintmax_t kLargestSource = 1u << 20;  // bytes of a file of which
 /// The source of `file`, which a message names: the script's own or one beside it; empty where it is not there.
 std::string source_of(const std::string& file, const PercentScript& script) {
     if (file == script.file.filename()) return script.source;
-    const fs::path folder = script.file.has_parent_path() ? script.file.parent_path() : fs::path(".");
+    const fs::path folder = folder_around(script.file);
     const fs::path path = folder / file;
     std::error_code none;
     if (fs::path(file).extension() != ".lua" || !fs::is_regular_file(path, none) || !lies_below(path, folder) ||

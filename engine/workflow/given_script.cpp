@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "platform/error.h"
+#include "platform/files/inside_folder.h"
 #include "platform/text/shell_word.h"
 #include "platform/text/small_letters.h"
 
@@ -31,10 +32,6 @@ constexpr std::pair<const char*, const char*> kKinds[] = {
     {".odt", "a document"},        {".xlsx", "a table of data"},
 };
 
-fs::path folder_with(const fs::path& file) {
-    return file.has_parent_path() ? file.parent_path() : fs::path(".");
-}
-
 }  // namespace
 
 std::string why_no_script(const fs::path& given, const std::string& command) {
@@ -43,7 +40,7 @@ std::string why_no_script(const fs::path& given, const std::string& command) {
         std::find_if(std::begin(kKinds), std::end(kKinds), [&](const auto& one) { return ending == one.first; });
     std::error_code none;
     if (kind == std::end(kKinds) || !fs::is_regular_file(given, none)) return "";
-    const fs::path folder = folder_with(given);
+    const fs::path folder = folder_around(given);
     if (!fs::is_regular_file(folder / kScriptOfFolder, none))
         return fmt::format("{} is {}: give a script (.lua) or a notebook (.ipynb)", name, kind->second);
     const bool report = in_small_letters(name) == "report.md" || in_small_letters(name) == "report.pdf";
@@ -79,7 +76,7 @@ fs::path meant_script(const fs::path& given) {
     const bool folder = fs::is_directory(given);
     const fs::path script = folder ? given / kScriptOfFolder : given;
     if (fs::exists(script)) return script;
-    const std::string near = nearly_called(folder_with(script), script.filename().string());
+    const std::string near = nearly_called(folder_around(script), script.filename().string());
     if (folder)
         throw EnvironmentError(fmt::format("there is no {} in the folder {}{}", kScriptOfFolder, given.string(), near));
     if (!near.empty()) throw EnvironmentError(fmt::format("there is no file {}{}", given.string(), near));
