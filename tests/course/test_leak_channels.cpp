@@ -1,4 +1,5 @@
 // Names in places of a PDF that no reader of its text meets. Oracle: what was put where (ISO 32000-1; ITU-T T.81).
+#include <fmt/format.h>
 #include <ft2build.h>
 #include <gmock/gmock.h>
 #include FT_FREETYPE_H
@@ -388,6 +389,12 @@ TEST_F(leak_channels, of_a_jpeg_only_the_first_picture_stays) {
         EXPECT_EQ(parts_of_jpeg(bad).picture.substr(0, 2), "\xFF\xD8");
 }
 
+std::string hexadecimal(const std::string& bytes) {
+    std::string digits;
+    for (const char c : bytes) digits += fmt::format("{:02x}", static_cast<unsigned char>(c));
+    return digits;
+}
+
 // Oracle: ISO 32000-1, 8.9.5 (bytes of samples); ITU-T T.88, 7.3 (62 is an extension, which draws nothing).
 TEST_F(leak_channels, what_pictures_hold_besides_their_samples) {
     const std::string grey = "/ColorSpace/DeviceGray/BitsPerComponent 8", black = "/ImageMask true",
@@ -402,15 +409,7 @@ TEST_F(leak_channels, what_pictures_hold_besides_their_samples) {
         return found(file("own.pdf"));
     };
     for (const std::string filter : {"", "/Filter/ASCIIHexDecode"}) {
-        const auto coded = [&](const std::string& bytes) {
-            std::string digits;
-            char two[3];
-            for (const char c : bytes) {
-                std::snprintf(two, sizeof two, "%02x", static_cast<unsigned char>(c));
-                digits += two;
-            }
-            return filter.empty() ? bytes : digits + ">";
-        };
+        const auto coded = [&](const std::string& bytes) { return filter.empty() ? bytes : hexadecimal(bytes) + ">"; };
         EXPECT_THAT(copied(coded(samples + author), grey + filter), ElementsAre("name-in-image 1")) << filter;
         EXPECT_THAT(found(file("copy.pdf")), IsEmpty()) << filter;
         EXPECT_THAT(copied(coded(samples), grey + filter), IsEmpty()) << filter;
@@ -429,6 +428,57 @@ TEST_F(leak_channels, what_pictures_hold_besides_their_samples) {
                        "/ColorSpace/DeviceGray/BitsPerComponent 1/Filter/CCITTFaxDecode"
                        "/DecodeParms<</K -1/Columns 8/Rows 8>>"),
                 ElementsAre("name-in-image 1"));
+}
+
+/// zlib's format (RFC 1950 and 1951) in one block that is stored.
+std::string deflated(const std::string& bytes) {
+    unsigned a = 1, b = 0;
+    for (const char c : bytes) {
+        a = (a + static_cast<unsigned char>(c)) % 65521;
+        b = (b + a) % 65521;
+    }
+    const auto size = static_cast<unsigned>(bytes.size()), check = b << 16 | a;
+    std::string packed = "\x78\x01\x01";
+    for (const unsigned byte : {size, size >> 8, ~size, ~size >> 8}) packed += static_cast<char>(byte & 0xFF);
+    packed += bytes;
+    for (const int shift : {24, 16, 8, 0}) packed += static_cast<char>(check >> shift & 0xFF);
+    return packed;
+}
+
+// Oracle: ISO 32000-1, 7.4: packed data end at a mark of their own, and filters follow one another.
+TEST_F(leak_channels, nothing_stands_behind_the_end_of_packed_data_in_copies) {
+    const std::string author = "Author: Zoe Brandtner";
+    run({"gnuplot", "-e", "set terminal jpeg size 80,60; set output 'plain.jpg'; plot x"});
+    const std::string plain = read(file("plain.jpg")), photograph = "/ColorSpace/DeviceRGB/BitsPerComponent 8";
+    const std::string named = plain.substr(0, plain.size() - 2) + segment(0xFE, author) + "\xFF\xD9";
+    const auto copied = [&](const std::string& content, const std::string& picture) {
+        write("own.pdf", pdf_of({"<</Type/Catalog/Pages 2 0 R>>", "<</Type/Pages/Kids[3 0 R]/Count 1>>",
+                                 "<</Type/Page/Parent 2 0 R/MediaBox[0 0 595 842]/Contents 4 0 R/Resources<</Font<</F1 "
+                                 "5 0 R>>/XObject<</X0 6 0 R>>>>>>",
+                                 content, kPlainFont, picture}));
+        write("copy.pdf", clean_pdf(file("own.pdf")));
+        EXPECT_THAT(found(file("copy.pdf")), IsEmpty());
+        EXPECT_THAT(text_of("copy.pdf"), HasSubstr("The gain is known"));
+        run({"qpdf", "--stream-data=uncompress", "copy.pdf", "written_out.pdf"});
+        return read(file("copy.pdf")) + read(file("written_out.pdf"));
+    };
+    const auto image = [](const std::string& data, const std::string& entries) {
+        return stream_of(data, "/Type/XObject/Subtype/Image/Width 80/Height 60" + entries);
+    };
+    const std::string shown = std::string(kHello) + "q 9 0 0 9 72 600 cm /X0 Do Q";
+    const std::string samples(80 * 60 * 3, '\x80');
+    for (const auto& [content, picture] :
+         {std::pair(stream_of(deflated(shown) + author, "/Filter/FlateDecode"),
+                    image(plain, photograph + "/Filter/DCTDecode")),
+          std::pair(stream_of(hexadecimal(shown) + ">" + author, "/Filter[/ASCIIHexDecode]"),
+                    image(hexadecimal(named) + ">" + author, photograph + "/Filter[/ASCIIHexDecode/DCTDecode]")),
+          std::pair(stream_of(shown), image(deflated(named) + author,
+                                            photograph + "/Filter[/FlateDecode/DCTDecode]/DecodeParms[null null]")),
+          std::pair(stream_of(shown), image(deflated(samples) + author, photograph + "/Filter/FlateDecode"))}) {
+        const std::string bytes = copied(content, picture);
+        for (const std::string& name : {std::string("Brandtner"), hexadecimal("Brandtner")})
+            EXPECT_THAT(bytes, Not(HasSubstr(name)));
+    }
 }
 
 // Oracle: the page as pdftoppm draws it, before and after.

@@ -130,6 +130,10 @@ TEST_F(leaks, in_comments_forms_links_and_bookmarks) {
                 ElementsAre("name-in-link 1"));
     EXPECT_THAT(found(prose_with("\\pdfoutline goto page 1 {/Fit}{Work of Brandtner}")),
                 ElementsAre("name-in-bookmark 0"));
+    EXPECT_THAT(found(prose_with("\\pdfoutline goto page 1 {/Fit}{\\string\\357\\string\\273\\string\\277"
+                                 "\\string\\342\\string\\200\\string\\256rentdnarB}")),
+                ElementsAre("name-in-bookmark 0"))
+        << "turned round by U+202E";
 }
 
 TEST_F(leaks, in_figures_and_pictures) {

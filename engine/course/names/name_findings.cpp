@@ -15,6 +15,7 @@
 #include "data_io/values/cbor_values.h"
 #include "documents/work_file.h"
 #include "platform/temporary_folder.h"
+#include "platform/text/shown_order.h"
 
 namespace dynlab::inline course {
 
@@ -213,11 +214,15 @@ class NameSearch {
         read.trouble = visit_places(
             pdf, bytes, limits_.objects.bytes_inside, known,
             [&](const PlacedText& placed) {
-                const std::vector<NameHit> hits = sought_.find(placed.text, placed.manner);
-                for (const NameHit& hit : hits)
-                    read.found.push_back({placed.place, placed.page, placed.detail, excerpt_of(placed.text, hit), hit});
+                const std::size_t before = read.found.size();
+                const auto look_into = [&](const std::string& text) {
+                    for (const NameHit& hit : sought_.find(text, placed.manner))
+                        read.found.push_back({placed.place, placed.page, placed.detail, excerpt_of(text, hit), hit});
+                };
+                look_into(placed.text);
+                if (const std::string shown = in_shown_order(placed.text); shown != placed.text) look_into(shown);
                 const bool author = placed.place == PdfPlace::kMetadata && placed.detail == "Author";
-                if (author && hits.empty() && !plain_words(placed.text).empty())
+                if (author && read.found.size() == before && !plain_words(placed.text).empty())
                     read.authors.push_back(printable(placed.text, 200));
             },
             [&](const std::string&, const std::string& inner) {

@@ -155,12 +155,33 @@ class PdfCleaner {
             return;
         }
         clean(entries);
+        unpack(stream);
         if (!entries.isDictionaryOfType("", "/Image")) return;
         cut_samples(stream);
         const std::string bytes = stored_bytes(stream);
         if (!bytes.starts_with("\xFF\xD8")) return;
         stream.replaceStreamData(parts_of_jpeg(bytes).picture, entries.getKey("/Filter"),
                                  entries.getKey("/DecodeParms"));
+    }
+
+    /// Takes off all packing, behind whose end no viewer looks; libqpdf packs again. The code of a picture stays.
+    void unpack(Object stream) {
+        Object filter = stream.getDict().getKey("/Filter"), told = stream.getDict().getKey("/DecodeParms");
+        if (filter.isNull()) return;
+        const StreamContent content = stream_content(stream, most_);
+        if (content.decoded) return stream.replaceStreamData(content.bytes, Object::newNull(), Object::newNull());
+        if (!filter.isArray() || filter.getArrayNItems() < 2) return;
+        std::vector<Object> filters = filter.getArrayAsVector(), settings;
+        if (told.isArray()) settings = told.getArrayAsVector();
+        settings.resize(filters.size(), Object::newNull());
+        const Object code = filters.back(), its_settings = settings.back();
+        filters.pop_back();
+        settings.pop_back();
+        Object packed = Object::newStream(&pdf_, stored_bytes(stream));
+        packed.getDict().replaceKey("/Filter", Object::newArray(filters));
+        packed.getDict().replaceKey("/DecodeParms", Object::newArray(settings));
+        const StreamContent picture = stream_content(packed, most_);
+        if (picture.decoded) stream.replaceStreamData(picture.bytes, code, its_settings);
     }
 
     /// Of samples as they are, or packed without loss, only those that are shown.
