@@ -33,13 +33,13 @@ Lesson with_own_records_alone(const Workbench& bench, const std::string& lesson)
 
 /// The worked solution is right on whatever records it is given. What it does with the records of another rig is the
 /// same for every group, so that it is run on them once.
-void expect_full_marks(const GroupsOfLesson& groups) {
+void expect_full_marks(const GroupsOfLesson& groups, const std::string& secret = "chosen by a test") {
     const auto& [lesson, seeds] = groups;
     const Workbench bench;
     bench.write("in/analysis.lua", quick_solution_of(lesson));
     GradingSetup setup;
     setup.lesson = {lesson, lesson_folder(lesson)};
-    setup.secret = "chosen by a test";
+    setup.secret = secret;
     setup.isolation = strongest_isolation();
     setup.program = DYNLAB_PROGRAM;
     setup.jobs = 2;
@@ -70,6 +70,14 @@ TEST_P(own_records, cost_the_worked_solution_no_points) {
 // A quarter of an hour for the crane: scripts/test --long.
 TEST_P(own_records_of_many, cost_the_worked_solution_no_points) {
     expect_full_marks(GetParam());
+}
+// So many courses, whose hidden records are drawn from secrets of their own.
+TEST_P(own_records_of_many, cost_no_points_whatever_the_secret) {
+    for (const int seed : GetParam().seeds) {
+        const std::string secret = fmt::format("secret {}", seed);
+        SCOPED_TRACE(secret);
+        expect_full_marks({GetParam().lesson, {1}}, secret);
+    }
 }
 
 // A crane whose pendulum swings 8 % faster than that of all, one whose limits are hard to notice, and a thruster with
