@@ -38,6 +38,30 @@ TEST(student_t, two_and_four_degrees_closed_form) {  // oracle: analytic (Shaw 2
     }
 }
 
+// Even degrees: P(|t| <= x) = sin a (1 + 1/2 cos^2 a + 1 3/(2 4) cos^4 a + ... cos^(degrees - 2) a), tan a =
+// x/sqrt(degrees)
+double within(double x, int degrees) {
+    const double angle = std::atan(x / std::sqrt(degrees));
+    double sum = 0, term = 1;
+    for (int power = 0; power <= degrees - 2; power += 2) {
+        sum += term;
+        term *= (power + 1.0) / (power + 2.0) * std::pow(std::cos(angle), 2);
+    }
+    return std::sin(angle) * sum;
+}
+
+TEST(student_t, keeps_its_digits_near_one_half) {  // oracle: finite series (Abramowitz and Stegun 26.7.3 and 26.7.4)
+    for (double distance : {1e-15, 1e-9, 1e-6, 1e-3, 0.05, 0.0999999, 0.1000001, 0.3}) {
+        const double p = 0.5 + distance, part = p - 0.5;
+        EXPECT_NEAR(student_t_quantile(p, 1) / std::tan(kPi * part), 1, 1e-13) << p;
+        for (int degrees : {2, 4, 6, 10})
+            EXPECT_NEAR(within(student_t_quantile(p, degrees), degrees) / (2 * part), 1, 1e-13) << degrees << " " << p;
+        for (double degrees : {1.0, 4.0, 2.5})
+            EXPECT_NEAR(student_t_quantile(0.5 - part, degrees) / student_t_quantile(p, degrees), -1, 1e-12) << p;
+    }
+    EXPECT_EQ(student_t_quantile(0.5, 4), 0);
+}
+
 TEST(student_t, quantile_inverts_the_integral_of_the_density) {  // oracle: second route, Simpson's rule
     for (double degrees : {0.7, 1.0, 2.5, 3.0, 27.0, 100.0})
         for (double p : {0.01, 0.3, 0.5, 0.8, 0.975})
