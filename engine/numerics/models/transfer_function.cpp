@@ -29,6 +29,15 @@ double delay_on_grid(double delay, double Ts) {
     return nearest * Ts;
 }
 
+/// p(x)/(x - root)^k at the root, k being how often p has it: the sign of p just above a root.
+double leading_value(Vector p, double root) {
+    while (p.size() > 1 && evaluate(p, root) == 0) {
+        for (Index i = 1; i < p.size(); ++i) p[i] += root * p[i - 1];  // Horner's scheme
+        p.conservativeResize(p.size() - 1);
+    }
+    return evaluate(p, root);
+}
+
 bool is_gain(const TransferFunction& G) {
     return G.num().size() == 1 && G.den().size() == 1 && G.delay() == 0;
 }
@@ -83,7 +92,8 @@ double TransferFunction::dc_gain() const {
     const double point = continuous() ? 0 : 1;
     const double below = evaluate(den_, point), above = evaluate(num_, point);
     if (below != 0) return above / below;
-    return above == 0 ? std::numeric_limits<double>::quiet_NaN() : std::numeric_limits<double>::infinity();
+    if (above == 0) return std::numeric_limits<double>::quiet_NaN();
+    return std::copysign(std::numeric_limits<double>::infinity(), above * leading_value(den_, point));
 }
 
 bool TransferFunction::stable() const {

@@ -27,7 +27,9 @@ class TransferFunction {
 
     ComplexVector poles() const;
     ComplexVector zeros() const;
-    double dc_gain() const;           ///< G(0) or G(z = 1); infinite with an integrator
+    /// G(0) or G(z = 1); with an integrator infinite, of the sign that G has just above; NaN where nothing is left of
+    /// both.
+    double dc_gain() const;
     bool stable() const;              ///< poles strictly inside the left half plane or the unit circle
     Complex at(Complex point) const;  ///< value at s or z, delay included
     TransferFunction with_delay(double delay) const;

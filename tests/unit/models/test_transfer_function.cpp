@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "support/thrown_message.h"
 
@@ -50,7 +51,18 @@ TEST(transfer_function, a_gain_fits_any_sampling_time) {  // oracle: definition
 }
 
 TEST(transfer_function, dc_gain_and_stability_at_the_border) {  // oracle: analytic
-    EXPECT_TRUE(std::isinf(TransferFunction(from({1}), from({1, 0})).dc_gain()));
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    const auto gain = [](const Vector& num, const Vector& den, double Ts = 0) {
+        return TransferFunction(num, den, Ts).dc_gain();
+    };
+    EXPECT_EQ(gain(from({1}), from({1, 0})), kInfinity);
+    EXPECT_EQ(gain(from({-1}), from({1, 0})), -kInfinity);
+    EXPECT_EQ(gain(from({3}), from({1, -2, 0})), -kInfinity);     // 3/(s (s - 2)): the tangent falls
+    EXPECT_EQ(gain(from({-3}), from({1, -1, 0, 0})), kInfinity);  // -3/(s^2 (s - 1))
+    EXPECT_EQ(gain(from({1}), from({1, -1}), 0.1), kInfinity);
+    EXPECT_EQ(gain(from({-1}), from({1, -2, 1}), 0.1), -kInfinity);
+    EXPECT_EQ(gain(from({1}), from({1, -3, 2}), 0.1), -kInfinity);  // 1/((z - 1)(z - 2))
+    EXPECT_TRUE(std::isnan(gain(from({1, 0}), from({1, 0}))));
     EXPECT_FALSE(TransferFunction(from({1}), from({1, 0})).stable());
     EXPECT_FALSE(TransferFunction(from({1}), from({1, -1}), 0.1).stable());
     EXPECT_TRUE(TransferFunction(from({1}), from({1, -0.5}), 0.1).stable());
