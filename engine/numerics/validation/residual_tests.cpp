@@ -12,6 +12,7 @@
 #include "numerics/number_text.h"
 #include "numerics/signals/correlation.h"
 #include "numerics/statistics/chi_squared.h"
+#include "numerics/statistics/lagged_sums.h"
 #include "numerics/validation/prediction.h"
 
 namespace dynlab::inline numerics {
@@ -104,46 +105,48 @@ WhitenessTest test_whiteness(const Signals& e, const VectorView& R, double confi
     return test;
 }
 
-// g(h) = sum_k w(k) R_e(k) R_u(k + h), h = 0..lags. Bartlett weights reach over a quarter of the record: positive by
-// construction, and as exact as the autocorrelations allow.
-Vector product_covariances(const Signals& e, const Signals& u, Index lags) {
+// R_e at lags -reach..reach, and g(h) = sum_k R_e(k) R_u(k + h), h = 0..lags.
+struct ProductCovariances {
+    Vector Re, g;
+};
+
+// Bartlett weights reach over a quarter of the record: g is positive by construction, and as exact as the
+// autocorrelations allow.
+ProductCovariances product_covariances(const Signals& e, const Signals& u, Index lags) {
     const Index reach = longest(e) / 4;
-    Vector Re, Ru;
-    tbb::parallel_invoke([&] { Re = covariances(e, e, reach); }, [&] { Ru = covariances(u, u, reach + lags); });
+    ProductCovariances product{{}, Vector(lags + 1)};
+    Vector Ru;
+    tbb::parallel_invoke([&] { product.Re = covariances(e, e, reach); }, [&] { Ru = covariances(u, u, reach + lags); });
     for (Index k = -reach; k <= reach; ++k)
-        Re[reach + k] *= 1 - static_cast<double>(std::abs(k)) / static_cast<double>(reach + 1);
-    Vector g(lags + 1);
-    for (Index h = 0; h <= lags; ++h) g[h] = Re.dot(Ru.segment(lags + h, 2 * reach + 1));
-    return g;
+        product.Re[reach + k] *= 1 - static_cast<double>(std::abs(k)) / static_cast<double>(reach + 1);
+    for (Index h = 0; h <= lags; ++h) product.g[h] = product.Re.dot(Ru.segment(lags + h, 2 * reach + 1));
+    return product;
 }
 
-Matrix symmetric_toeplitz(const VectorView& g, Index size) {
-    Matrix P(size, size);
-    for (Index i = 0; i < size; ++i)
-        for (Index j = 0; j < size; ++j) P(i, j) = g[std::abs(i - j)];
-    return P;
+Signals backwards(const Signals& signals) {
+    Signals all;
+    for (const Vector& x : signals) all.push_back(x.reverse());
+    return all;
 }
 
 struct QuadraticForm {
     double statistic = 0;
     Index degrees = 0;
+    double p_value = 1;
 };
 
-// N r' P^-1 r in the directions the input excites: those P gives more than the edges of the record can feign.
-QuadraticForm quadratic_form(const Vector& r, const Vector& g, double N) {
-    const auto [values, vectors] = symmetric_eigen(symmetric_toeplitz(g, r.size()));
+// N r' P^-1 r in the directions that the input excites by more than a sample's worth, r from N samples in `records`.
+QuadraticForm quadratic_form(const Vector& r, const Matrix& P, double N, double records) {
+    const auto [values, vectors] = symmetric_eigen(P);
     const Vector along = vectors.transpose() * r;
     QuadraticForm form;
     for (Index i = 0; i < r.size(); ++i) {
-        if (values[i] <= g[0] / N) continue;
+        if (values[i] <= P.diagonal().maxCoeff() / N) continue;
         form.statistic += N * along[i] * along[i] / values[i];
         ++form.degrees;
     }
+    form.p_value = explained_part_upper_tail(form.statistic / N, static_cast<double>(form.degrees), N - records);
     return form;
-}
-
-double p_value(const QuadraticForm& form) {
-    return form.degrees == 0 ? 1 : chi_squared_upper_tail(form.statistic, static_cast<double>(form.degrees));
 }
 
 std::string lag_text(Index lag, const IdData& data) {
@@ -214,15 +217,18 @@ IndependenceTest test_independence(const Signals& e, double variance, const Test
         return test;
     }
     const Vector& r = tested.with_error;
-    const Vector g = white ? Vector(Re * tested.own) : product_covariances(e, tested.u, lags);
+    const auto [own_Re, g] =
+        white ? ProductCovariances{Vector::Constant(1, Re), Re * tested.own} : product_covariances(e, tested.u, lags);
     test.correlation = r / std::sqrt(Re * Ru);
     test.bound = normal_half_width(options.confidence) * std::sqrt(g[0] / (N * Re * Ru));
     test.outside = (test.correlation.tail(lags + 1).cwiseAbs().array() > test.bound).count();
-    const QuadraticForm past = quadratic_form(r.tail(lags + 1), g, N);
+    const auto records = static_cast<double>(e.size());
+    const QuadraticForm past = quadratic_form(r.tail(lags + 1), lagged_sum_covariance(g, own_Re, tested.u), N, records);
+    const Matrix ahead = lagged_sum_covariance(g, own_Re, backwards(tested.u)).bottomRightCorner(lags, lags);
     test.statistic = past.statistic;
     test.degrees = past.degrees;
-    test.p_value = p_value(past);
-    test.p_value_future = p_value(quadratic_form(r.head(lags), g, N));
+    test.p_value = past.p_value;
+    test.p_value_future = quadratic_form(r.head(lags).reverse(), ahead, N, records).p_value;
     test.independent = test.p_value >= 1 - options.confidence;
     test.without_feedback = test.p_value_future >= 1 - options.confidence;
     test.verdict = independence_verdict(test, data);

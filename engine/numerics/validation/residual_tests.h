@@ -34,7 +34,7 @@ struct IndependenceTest {
     Index input = 0;            ///< 0-based
     Vector correlation;         ///< lags -L..L, normalised; at positive ones the input acts before the error
     double bound = 0;           ///< lag by lag, for an error that the input does not touch
-    double statistic = 0;       ///< of lags 0..L, chi-squared with `degrees` if independent
+    double statistic = 0;       ///< of lags 0..L, chi-squared with `degrees` if independent, N large
     Index degrees = 0;          ///< fewer than L + 1 when the input is not rich enough to tell the lags apart
     Index outside = 0;          ///< lags 0..L beyond the bound
     double p_value = 1;         ///< lags 0..L: dynamics the model lacks
@@ -62,7 +62,9 @@ struct ResidualTests {
 /// Tests on the output error e = y - simulated, all experiments together. Means are taken
 /// off e and u first, experiment by experiment. Whiteness: Ljung and Box (1978). Independence: the cross-correlations
 /// r of lags 0..L have under independence the covariance P/N, P_ij = sum_k R_e(k) R_u(k + i - j) (Ljung 1999, section
-/// 16.6), whose diagonal gives the bound; the statistic is N r' P^-1 r. When e is not
+/// 16.6) less what the ends of the record take away (see lagged_sum_covariance), whose diagonal far from the ends gives
+/// the bound; the statistic is N r' P^-1 r, N times the part R^2 of e that the input explains, and the p-value that of
+/// R^2: exact for white normal errors, however short the record. When e is not
 /// rejected as white the sum has one term; otherwise it is weighted (Bartlett) up to a quarter of the record.
 /// The degrees of freedom are not reduced by the estimated parameters, so that the tests reject a little less than they
 /// might. `simulated` holds N x ny outputs per experiment. Throws InvalidArgument for sizes that do not fit or fewer

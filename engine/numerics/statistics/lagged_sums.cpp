@@ -1,0 +1,67 @@
+#include "numerics/statistics/lagged_sums.h"
+
+#include <algorithm>
+#include <boost/math/special_functions/beta.hpp>
+#include <cstdlib>
+
+namespace dynlab::inline numerics {
+
+namespace {
+
+// c(|i - j|), 0 beyond the lags that c has.
+Matrix symmetric_toeplitz(const VectorView& c, Index size) {
+    Matrix P = Matrix::Zero(size, size);
+    for (Index i = 0; i < size; ++i)
+        for (Index j = 0; j < size; ++j)
+            if (std::abs(i - j) < c.size()) P(i, j) = c[std::abs(i - j)];
+    return P;
+}
+
+// With V the input moved on by a = 0..L within the record and T what is moved beyond its end (L rows), F = [V; T] is
+// whole, and F' R F the Toeplitz matrix of N g, R being that of Re. Z = [R F] in the rows of T gives what is wanted,
+// V' R V = F' R F - Z'T - T'Z + T' R T. The mean of e takes away another V'1 1'V sum(Re)/N, where 1'V = -1'T.
+struct BeyondEnd {
+    Matrix T, Z;
+};
+
+BeyondEnd beyond_end(const VectorView& Re, const VectorView& u, Index lags) {
+    const Index reach = Re.size() / 2, N = u.size();
+    BeyondEnd beyond{Matrix::Zero(lags, lags + 1), Matrix::Zero(lags, lags + 1)};
+    for (Index ahead = 1 - lags; ahead <= lags; ++ahead) {  // of the last sample
+        const Index at = N - 1 + ahead, first = std::max<Index>(0, at - reach);
+        const Index count = std::min(N - 1, at + reach) - first + 1;
+        const double filtered = count > 0 ? Re.segment(reach + first - at, count).dot(u.segment(first, count)) : 0;
+        const double moved = ahead <= 0 && at >= 0 ? u[at] : 0;
+        for (Index row = std::max<Index>(0, ahead - 1); row < lags && row + 1 - ahead <= lags; ++row) {
+            beyond.Z(row, row + 1 - ahead) = filtered;
+            beyond.T(row, row + 1 - ahead) = moved;
+        }
+    }
+    return beyond;
+}
+
+}  // namespace
+
+Matrix lagged_sum_covariance(const VectorView& g, const VectorView& Re, const std::vector<Vector>& u) {
+    const Index lags = g.size() - 1;
+    const Matrix R = symmetric_toeplitz(Re.tail(Re.size() / 2 + 1), lags);
+    Matrix ends = Matrix::Zero(lags + 1, lags + 1);
+    double N = 0;
+    for (const Vector& record : u) {
+        const auto [T, Z] = beyond_end(Re, record, lags);
+        const Eigen::RowVectorXd sums = T.colwise().sum();
+        const auto samples = static_cast<double>(record.size());
+        ends += Z.transpose() * T + T.transpose() * Z - T.transpose() * R * T +
+                Re.sum() / samples * sums.transpose() * sums;
+        N += samples;
+    }
+    return symmetric_toeplitz(g, lags + 1) - ends / N;
+}
+
+double explained_part_upper_tail(double part, double directions, double dimension) {
+    using Policy = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
+    if (directions <= 0 || dimension <= directions) return 1;
+    return boost::math::ibetac(directions / 2, (dimension - directions) / 2, std::clamp(part, 0.0, 1.0), Policy());
+}
+
+}  // namespace dynlab::inline numerics
