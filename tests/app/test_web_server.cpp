@@ -2,14 +2,17 @@
 // browsers (Fetch, RFC 6265bis) that attacks rely on.
 #include "app/server/web_server.h"
 
+#include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <httplib.h>
+#include <sys/socket.h>
 
 #include <atomic>
 #include <thread>
 
 #include "platform/error.h"
+#include "platform/system_call.h"
 
 namespace test_web_server {
 using namespace dynlab;
@@ -155,6 +158,30 @@ TEST_F(web_server, says_why_something_failed) {
     ASSERT_TRUE(reply);
     EXPECT_EQ(reply->status, 500);
     EXPECT_EQ(reply->body, "the disk is full");
+}
+
+/// A browser opens connections before it asks, and one that gets no processor meanwhile asks late. It does not ask
+/// again where a connection that had never served is closed: the page would lack a file.
+TEST_F(web_server, answers_the_first_request_of_a_connection_however_late) {
+    const FileDescriptor connection(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    address.sin_port = htons(static_cast<std::uint16_t>(server.port()));
+    ASSERT_EQ(::connect(connection.get(), reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+    const std::string request = "GET /picture/a HTTP/1.1\r\nHost: " + host() + "\r\nCookie: " + cookie() + "\r\n\r\n";
+    for (int i = 0; i < 7; ++i) {  // what a browser asks of one connection: more than httplib's five
+        if (i == 0) std::this_thread::sleep_for(std::chrono::seconds(2));
+        ASSERT_TRUE(write_all(connection.get(), request.data(), request.size()));
+        std::string reply;
+        char bytes[1000];
+        while (!reply.ends_with("\r\n\r\n/picture/a")) {
+            const ssize_t count = ::recv(connection.get(), bytes, sizeof bytes, 0);
+            ASSERT_GT(count, 0) << "closed at request " << i << " after: " << reply;
+            reply.append(bytes, static_cast<std::size_t>(count));
+        }
+        EXPECT_THAT(reply, testing::StartsWith("HTTP/1.1 200"));
+    }
 }
 
 /// Within the machine nothing is worth the time that compressing takes, whatever a browser offers.

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "app/server/event_streams.h"
+#include "app/server/page_connections.h"
 #include "platform/error.h"
 
 namespace dynlab::inline app {
@@ -21,8 +22,6 @@ using namespace std::chrono_literals;
 
 /// Threads for requests beside those that streams hold.
 constexpr std::size_t kThreadsForRequests = 8;
-/// An open connection without requests ends then; a server that ends waits for it.
-constexpr auto kIdleConnection = 1s;
 /// How often a silent stream looks whether its tab is gone, which gives its place to another, ...
 constexpr auto kLook = 250ms;
 /// ... and how often it says that it lives.
@@ -77,7 +76,6 @@ class WebServer::Work {
         server_.new_task_queue = [threads] { return new httplib::ThreadPool(threads); };
         server_.set_payload_max_length(options.largest_body);
         server_.set_tcp_nodelay(true);
-        server_.set_keep_alive_timeout(kIdleConnection.count());
         // Not SO_REUSEPORT, which would share a port that is taken.
         server_.set_socket_options([](socket_t socket) {
             const int yes = 1;
@@ -99,7 +97,7 @@ class WebServer::Work {
 
     ~Work() {
         streams_.end();
-        server_.stop();
+        server_.end();
         if (thread_.joinable()) thread_.join();
     }
 
@@ -122,7 +120,7 @@ class WebServer::Work {
         while (!server_.is_running()) std::this_thread::sleep_for(1ms);  // stop() before that would be lost
     }
 
-    httplib::Server server_;
+    PageConnections server_;
     EventStreams streams_;
     std::function<std::string()> first_;
     std::mutex sending_;  ///< news that are sent while first_() is made would stand before what is older
