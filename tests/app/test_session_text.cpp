@@ -68,10 +68,39 @@ TEST_F(session_text, takes_what_another_program_wrote_but_not_its_own) {
     EXPECT_TRUE(text.look_at_file());
     EXPECT_EQ(text.text(), "b = 7\n");
     EXPECT_FALSE(text.look_at_file());
+    std::ofstream(file).flush();  // as an editor that writes in place begins
+    EXPECT_FALSE(text.look_at_file());
+    EXPECT_EQ(text.text(), "b = 7\n");
     text.undo();
     EXPECT_EQ(on_disk(), "a = 1\n");
     std::filesystem::remove(file);
     EXPECT_FALSE(text.look_at_file());
+}
+
+/// Where nobody tells of it, as on a network drive that another machine writes to.
+TEST_F(session_text, an_order_is_not_written_over_what_another_program_wrote) {
+    SessionText text(file);
+    text.put("a = 1\n");
+    std::ofstream(file) << "b = 7\n";
+    EXPECT_FALSE(text.obey(line_one(text.revision(), "a = 2")));
+    EXPECT_EQ(on_disk(), "b = 7\n");
+    ASSERT_TRUE(text.obey({text.revision(), {{2, 1, "a = 2"}}, false, "", false, false}));
+    EXPECT_EQ(on_disk(), "b = 7\na = 2\n");
+    text.undo();
+    EXPECT_EQ(on_disk(), "b = 7\n");
+    text.undo();
+    EXPECT_EQ(on_disk(), "a = 1\n");
+}
+
+TEST_F(session_text, what_another_program_wrote_before_an_undo_can_be_had_again) {
+    SessionText text(file);
+    text.put("a = 1\n");
+    text.put("a = 2\n");
+    std::ofstream(file) << "b = 7\n";
+    text.undo();
+    EXPECT_EQ(on_disk(), "a = 2\n");
+    text.redo();
+    EXPECT_EQ(on_disk(), "b = 7\n");
 }
 
 }  // namespace test_session_text

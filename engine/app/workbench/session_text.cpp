@@ -19,6 +19,7 @@ SessionText::SessionText(std::filesystem::path file) : file_(std::move(file)) {
 }
 
 bool SessionText::obey(const ScriptOrder& order) {
+    if (!order.unsaved) look_at_file();
     if (order.revision != revision_) return false;
     change(order.whole ? order.text : with_edits(text_, order.edits), order.goes_on);
     if (!order.unsaved) save();
@@ -31,6 +32,7 @@ void SessionText::put(const std::string& text) {
 }
 
 void SessionText::undo() {
+    look_at_file();
     if (past_.empty()) return;
     future_.push_back(std::exchange(text_, past_.back()));
     past_.pop_back();
@@ -39,6 +41,7 @@ void SessionText::undo() {
 }
 
 void SessionText::redo() {
+    look_at_file();
     if (future_.empty()) return;
     past_.push_back(std::exchange(text_, future_.back()));
     future_.pop_back();
@@ -49,7 +52,7 @@ void SessionText::redo() {
 bool SessionText::look_at_file() {
     if (!std::filesystem::exists(file_)) return false;
     const std::string now = text_of_source(file_);
-    if (now == saved_) return false;
+    if (now == saved_ || now.empty()) return false;  // empty: an editor is about to write it
     saved_ = now;
     unsaved_.clear();
     if (now == text_) return false;

@@ -53,13 +53,17 @@ void WorkbenchSession::wake() {
 
 std::optional<std::size_t> WorkbenchSession::change(const ScriptOrder& order) {
     const std::lock_guard lock(mutex_);
-    if (!text_.obey(order)) return {};
+    if (!text_.obey(order)) {
+        wake();  // the page hears of another program's text
+        return {};
+    }
     order.unsaved ? wake() : text_is_ours();
     return text_.revision();
 }
 
 void WorkbenchSession::put(const std::function<std::string(const std::string&)>& make) {
     const std::lock_guard lock(mutex_);
+    text_.look_at_file();  // else what another program wrote would be lost
     text_.put(make(text_.text()));
     text_is_ours();
 }
