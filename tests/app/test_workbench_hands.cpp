@@ -113,6 +113,45 @@ TEST_F(workbench_hands, what_is_typed_stands_before_a_click_behind_it) {
     EXPECT_THAT(script(), Not(HasSubstr("typed")));
 }
 
+TEST_F(workbench_hands, what_is_typed_in_one_go_is_one_step_of_the_history) {
+    const std::string before = script();
+    evaluate("for (const letter of '-- typed') { atEnd(letter); await pause(500); }");
+    ASSERT_TRUE(file_comes({"-- typed"})) << script();
+    ASSERT_TRUE(is_ready(browser));
+    undo();
+    EXPECT_EQ(script(), before);
+}
+
+/// A field is made anew with each of its keys.
+TEST_F(workbench_hands, what_is_typed_into_a_field_is_one_step_until_something_else_is_done) {
+    ASSERT_TRUE(press(browser, "New model"));
+    ASSERT_TRUE(file_comes({"tfsrivc(estimation, 2, 0)"}));
+    ASSERT_TRUE(is_ready(browser));
+    const auto type = [&](const std::string& name, const std::string& value) {
+        evaluate(
+            "const box = [...document.querySelectorAll('#steps label')].find((one) => one.firstChild.textContent "
+            "=== '" +
+            name + "').querySelector('input'); box.focus(); box.value = '" + value +
+            "'; box.dispatchEvent(new Event('input', {bubbles: true}));");
+        ASSERT_TRUE(is_ready(browser));
+    };
+    type("np", "1");
+    type("np", "12");
+    type("nz", "1");
+    type("np", "3");
+    ASSERT_TRUE(file_comes({"tfsrivc(estimation, 3, 1)"})) << script();
+    undo();
+    EXPECT_THAT(script(), HasSubstr("tfsrivc(estimation, 12, 1)")) << "another field had the focus between";
+    type("np", "4");
+    ASSERT_TRUE(file_comes({"tfsrivc(estimation, 4, 1)"})) << script();
+    undo();
+    EXPECT_THAT(script(), HasSubstr("tfsrivc(estimation, 12, 1)")) << "it was undone between";
+    undo();
+    EXPECT_THAT(script(), HasSubstr("tfsrivc(estimation, 12, 0)"));
+    undo();
+    EXPECT_THAT(script(), HasSubstr("tfsrivc(estimation, 2, 0)")) << "1 and 12 were typed in one go";
+}
+
 TEST_F(workbench_hands, undo_behind_typing_undoes_what_was_typed) {
     const std::string before = script();
     evaluate("named('+ Level').click();");

@@ -82,6 +82,22 @@ const longField = (now, act) => expression(element("textarea", { rows: 2 }), now
 /// Controls are not made anew while a hand is at one of them.
 export const hold = (held) => document.dispatchEvent(new CustomEvent("benchheld", { detail: held }));
 
+/// What is typed into one field until another has the focus is one step of the history. Fields are made anew meanwhile: `place`
+/// says which it is.
+let typing = { place: "", hand: null };
+document.addEventListener("focusin", ({ target }) => { if (target.dataset?.place !== typing.place) typing = { place: "", hand: null }; });
+function typedHere(place) {
+  if (typing.place !== place) typing = { place, hand: {} };
+  return { hand: typing.hand };
+}
+/// A whole number, each form of which counts as it is typed.
+function countField(place, now, act) {
+  const box = element("input", { type: "number", min: 0, max: 99, value: now });
+  box.dataset.place = place;
+  box.oninput = () => { if (box.value !== "" && box.checkValidity()) act(box.value, typedHere(place)); };
+  return box;
+}
+
 /// A number with a slider over 1/30 to 30 times what it is when a hand takes it.
 function numberField(now, act, { slider = true } = {}) {
   if (now !== "" && !isNumber(now)) return textField(now, act);
@@ -108,18 +124,13 @@ function numberField(now, act, { slider = true } = {}) {
   return both;
 }
 
-function ordersField(parts, now, act) {
+function ordersField(key, parts, now, act) {
   const numbers = /^\{\s*[\d\s,]*\}$/.test(now) ? now.slice(1, -1).split(",").map((text) => text.trim()) : null;
   if (!numbers || numbers.length !== parts.length) return labelled(parts.join(", "), textField(now, act));
   const row = element("span", { className: "orders" });
   parts.forEach((name, i) => {
-    const box = element("input", { type: "number", min: 0, max: 99, value: numbers[i] });
-    box.oninput = () => {
-      if (box.value === "" || !box.checkValidity()) return;
-      numbers[i] = box.value;
-      act(`{${numbers.join(", ")}}`, {});
-    };
-    row.append(labelled(name, box));
+    const tell = (text, how) => { numbers[i] = text; act(`{${numbers.join(", ")}}`, how); };
+    row.append(labelled(name, countField(`${key} ${name}`, numbers[i], tell)));
   });
   return row;
 }
@@ -142,14 +153,11 @@ function processField(now, act) {
 
 function argumentControl(key, field, place, now) {
   const act = (text, how) => rewrite(key, (step) => withArgument(step, place, text), how);
-  if (field.kind === "orders") return ordersField(field.parts, now, act);
+  if (field.kind === "orders") return ordersField(key, field.parts, now, act);
   if (field.kind === "process") return processField(now, act);
   if (field.kind === "text") return labelled(field.name, longField(now, act), field.words);
   const whole = field.name !== "lambda" && isNumber(now);
-  if (!whole) return labelled(field.name, numberField(now, act), field.words);
-  const box = element("input", { type: "number", min: 0, max: 99, value: now });
-  box.oninput = () => { if (box.value !== "" && box.checkValidity()) act(box.value, {}); };
-  return labelled(field.name, box, field.words);
+  return labelled(field.name, whole ? countField(`${key} ${field.name}`, now, act) : numberField(now, act), field.words);
 }
 
 function optionControl(key, field, now) {

@@ -4,10 +4,12 @@ import { merged } from "/bench_merge.js";
 import { say } from "/bench_words.js";
 
 const kRest = 400;  // ms after the last key
+const kPause = 2000;  // ms without a key, behind which a new step of the history begins
 const kMargin = 60;  // px between a line that is shown and the edge
 let mirror = null, timer = 0, own = false, line = -1;
 let shown = "";  // the session's text from which the editor's comes
 let typing = false, unsent = false;  // the editor has text that the session does not have yet; that it did not take
+let hand = {}, typedAt = { time: 0, line: -1 };  // what is typed in one go into one line is one step of the history
 
 function loaded(file) {
   return new Promise((yes, no) => {
@@ -22,10 +24,18 @@ function loaded(file) {
 const textNow = () => (mirror ? mirror.getValue() : document.getElementById("field").value);
 
 function typed() {
+  const now = { time: Date.now(), line: mirror ? mirror.getCursor().line : 0 };
+  if (now.line !== typedAt.line || now.time - typedAt.time > kPause) nextHand();
+  typedAt = now;
   typing = true;
   unsent = false;
   clearTimeout(timer);
   timer = setTimeout(sendTyped, kRest);
+}
+/// What is not sent yet still belongs to the step before.
+function nextHand() {
+  sendTyped();
+  hand = {};
 }
 /// What was typed since `shown` goes into the session as it has become meanwhile.
 function sendTyped() {
@@ -44,7 +54,7 @@ function sendTyped() {
     showScript();
     if (result.clashed) trouble(say("typedOver"));
   };
-  change(make, { done }).then(() => { unsent = typing && !timer; });
+  change(make, { done, hand }).then(() => { unsent = typing && !timer; });
 }
 beforeOrders(sendTyped);
 document.addEventListener("visibilitychange", () => { if (document.hidden) sendTyped(); });

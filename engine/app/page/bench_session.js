@@ -63,9 +63,9 @@ export function inTurn(run) {
 }
 
 /// `make()` gives the order's edits of the script as it is in its turn (or {text} for all of it), or null for nothing to do;
-/// it is called again where the script was changed elsewhere meanwhile. `hand`: an object of one drag, whose moves are one
-/// step of the history; a move that is `held` still is overtaken by the next one of its hand. `done()` is called when the
-/// session has taken it.
+/// it is called again where the script was changed elsewhere meanwhile. `hand`: an object of one drag, or of what is typed in one
+/// go, whose moves are one step of the history as long as nothing else changes the script; a move that is `held` still is
+/// overtaken by the next one of its hand. `done()` is called when the session has taken it.
 export function change(make, { hand = null, held = false, goesOn = false, done = () => {} } = {}) {
   if (hand && last?.hand === hand && last.held) {
     Object.assign(last, { make, held });
@@ -85,11 +85,11 @@ async function obey(order) {
     if (!made || (Array.isArray(made) && made.length === 0)) return done();
     const whole = !Array.isArray(made), before = session.revision;
     const answer = await post("/script", { revision: before, edits: whole ? [] : made, whole, text: whole ? made.text : "",
-                                           goes_on: hand?.begun ?? goesOn, unsaved: held });
+                                           goes_on: hand ? hand.reached === before : goesOn, unsaved: held });
     const reached = answer.ok ? await answer.json() : before + 1;
     await settled(() => session.revision >= reached, kLongestNews);
     if (!answer.ok) continue;
-    if (hand && reached > before) hand.begun = true;
+    if (hand && reached > before) hand.reached = reached;
     if (held) await settled(() => session.shown === session.revision && !session.running, kLongestFrame);
     return done();
   }
