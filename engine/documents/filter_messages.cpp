@@ -68,8 +68,7 @@ class Sentences {
         if (code == "no-bibliography")
             return "@" + first +
                    " cites literature, but there is no \"bibliography: references.bib\" in the header; name one, or "
-                   "write "
-                   "\\@" +
+                   "write \\@" +
                    first + " for the text itself";
         if (code == "unknown-citation")
             return "the bibliography has no entry " + quoted(first) + suggestion(first, split_at(second, ' '));

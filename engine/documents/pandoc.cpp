@@ -20,10 +20,9 @@ const char* const kReader =
     "-markdown_in_html_blocks";
 constexpr std::chrono::seconds kMostTime = 60s;  // of the processor; the manual, the longest document, takes some 10 s
 const char* const kMarkdownWriter =
-    "markdown-raw_html-raw_tex-raw_attribute-native_divs-native_spans-fenced_divs-bracketed_spans-header_attributes"
-    "-link_attributes-fenced_code_attributes-inline_code_attributes-citations-simple_tables-multiline_tables-grid_"
-    "tables"
-    "-implicit_figures-smart";
+    "markdown-raw_html-raw_tex-raw_attribute-native_divs-native_spans-fenced_divs-bracketed_spans-header_attributes-"
+    "link_attributes-fenced_code_attributes-inline_code_attributes-citations-simple_tables-multiline_tables-grid_"
+    "tables-implicit_figures-smart";
 
 /// A Lua string that holds exactly these bytes.
 std::string lua_string(const std::string& text) {

@@ -197,8 +197,7 @@ void IdentifyRequest::validate() const {
         throw InvalidArgument("the number of poles is looked for up to 4, and there must be fewer zeros");
     if (!poles && delay && *delay > 0)
         throw InvalidArgument(
-            "the number of poles is found for no delay or an estimated one; give the number, or the "
-            "delay auto");
+            "the number of poles is found for no delay or an estimated one; give the number, or the delay auto");
     if (delay && !(std::isfinite(*delay) && *delay >= 0))
         throw InvalidArgument(fmt::format("the delay must be at least 0 s, not {}", *delay));
     if (Ts && !time.empty()) throw InvalidArgument("give either Ts or the column of the time, not both");

@@ -29,8 +29,7 @@ constexpr auto kSignOfLife = 20s;
 
 const char* const kNoEntrance =
     "<!DOCTYPE html><title>dynlab</title><p>This page belongs to a dynlab that runs in a terminal. Open the address "
-    "that "
-    "it printed there, with everything behind the question mark.</p>";
+    "that it printed there, with everything behind the question mark.</p>";
 
 std::string random_token() {
     if (sodium_init() < 0) throw EnvironmentError("cannot make random numbers");

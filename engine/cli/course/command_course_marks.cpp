@@ -75,8 +75,7 @@ void tell_costs_and_gaps(Course& course, const Assignment& a, const Marks& all) 
                 std::cout << terminal_text(fmt::format("{}: {}.\n", group.name, fmt::join(mark.costs, ", ")));
             if (mark.final_version)
                 std::cout << terminal_text(
-                    fmt::format("{}: the final version has {:.1f} percent, {:g} percent of the "
-                                "work's mark.\n",
+                    fmt::format("{}: the final version has {:.1f} percent, {:g} percent of the work's mark.\n",
                                 group.name, *mark.final_version, a.final_weight));
             std::vector<std::string> forgotten;
             for (std::size_t c = 0; c < a.criteria.size(); ++c)

@@ -172,8 +172,7 @@ void Owners::read_list(const std::filesystem::path& file) {
     const auto submission = table.column("submission"), group = table.column("group"), id = table.column("id");
     if (!submission || (!group && !id))
         throw EnvironmentError(
-            fmt::format("{}: the columns submission and group, or submission and id, are needed; "
-                        "there are {}",
+            fmt::format("{}: the columns submission and group, or submission and id, are needed; there are {}",
                         file.string(), fmt::join(table.names, ", ")));
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
         const auto& row = table.rows[i];

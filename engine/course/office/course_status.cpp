@@ -44,8 +44,7 @@ std::map<std::int64_t, std::string> groups_with_the_same_file(Course& course, co
              "SELECT DISTINCT v.group_id, g.name FROM versions v JOIN versions w ON w.hash = v.hash AND w.assignment = "
              "v.assignment AND w.group_id <> v.group_id JOIN groups g ON g.id = w.group_id WHERE v.assignment = ? AND "
              "v.stage <> 'review' AND w.stage <> 'review' AND EXISTS (SELECT 1 FROM standing s WHERE s.id = v.id) AND "
-             "EXISTS (SELECT 1 FROM standing s WHERE s.id = "
-             "w.id) ORDER BY 1, 2",
+             "EXISTS (SELECT 1 FROM standing s WHERE s.id = w.id) ORDER BY 1, 2",
              assignment.id);
          rows.next();) {
         std::string& names = twins[rows.integer(0)];

@@ -94,8 +94,7 @@ class Allocator {
         if (problem_.fixed.empty() && problem_.loose.empty() && problem_.reviews > others)
             throw InvalidArgument(
                 fmt::format("each group should write {} reviews, but there {} only {} with a report, so {} to review: "
-                            "wait for more "
-                            "first versions, or give an assignment with fewer --reviews",
+                            "wait for more first versions, or give an assignment with fewer --reviews",
                             problem_.reviews, order_.size() == 1 ? "is" : "are", order_.size(), std::max(0, others)));
     }
 

@@ -157,8 +157,7 @@ std::vector<PairWish> pair_wishes(Course& course, const Assignment& assignment) 
     for (Rows rows = course.database().query(
              "SELECT w.reviewer, w.author, w.wish FROM pair_wishes w WHERE w.assignment = ? AND w.wish <> 'free' AND "
              "w.id = (SELECT max(n.id) FROM pair_wishes n WHERE n.assignment = w.assignment AND n.reviewer = "
-             "w.reviewer "
-             "AND n.author = w.author) ORDER BY w.id",
+             "w.reviewer AND n.author = w.author) ORDER BY w.id",
              assignment.id);
          rows.next();)
         wishes.push_back({rows.integer(0), rows.integer(1), rows.text(2)});

@@ -25,8 +25,7 @@ std::optional<Version> newest(Course& course, const Assignment& assignment, std:
                               std::int64_t pair, const char* part) {
     Rows rows = course.database().query(
         "SELECT id, hash, name FROM standing WHERE assignment = ? AND group_id = ? AND stage = ? AND ifnull(pair, 0) = "
-        "? "
-        "AND part = ? ORDER BY number DESC LIMIT 1",
+        "? AND part = ? ORDER BY number DESC LIMIT 1",
         assignment.id, group, stage, pair, part);
     if (!rows.next()) return {};
     return Version{rows.integer(0), rows.text(1), rows.text(2)};

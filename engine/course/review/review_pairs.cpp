@@ -32,21 +32,19 @@ std::string ReviewPair::reviewer_pseudonym() const {
 std::vector<ReviewPair> review_pairs(Course& course, const Assignment& assignment) {
     std::vector<ReviewPair> pairs;
     for (Rows rows = course.database().query(
-             "SELECT p.id, p.reviewer, p.author, r.name, w.name, pw.number, pr.number, p.ended_at IS NOT NULL, "
-             "EXISTS (SELECT 1 FROM sendings WHERE pair = p.id AND way = 'to reviewer'), "
-             "EXISTS (SELECT 1 FROM standing WHERE pair = p.id AND part = 'review'), "
-             "EXISTS (SELECT 1 FROM sendings WHERE pair = p.id AND way = 'to author'), "
-             "EXISTS (SELECT 1 FROM standing WHERE pair = p.id AND part = 'review' AND late = 0), "
-             "(SELECT id FROM standing WHERE pair = p.id AND part = 'review' ORDER BY number DESC LIMIT 1), "
-             "(SELECT version FROM sendings WHERE pair = p.id AND way = 'to author' ORDER BY id DESC LIMIT 1), "
-             "(SELECT id FROM standing v WHERE v.assignment = p.assignment AND v.group_id = p.author AND v.stage = "
-             "'first' AND v.part = 'report' ORDER BY number DESC LIMIT 1), "
-             "(SELECT version FROM sendings WHERE pair = p.id AND way = 'to reviewer' ORDER BY id DESC LIMIT 1), "
-             "EXISTS (SELECT 1 FROM standing WHERE pair = p.id AND part = 'pack') "
-             "FROM pairs p JOIN groups r ON r.id = p.reviewer JOIN groups w ON w.id = p.author "
-             "JOIN pseudonyms pw ON pw.assignment = p.assignment AND pw.group_id = p.author AND pw.role = 'author' "
-             "JOIN pseudonyms pr ON pr.assignment = p.assignment AND pr.group_id = p.reviewer AND pr.role = 'reviewer' "
-             "WHERE p.assignment = ? ORDER BY r.name, w.name, p.id",
+             "SELECT p.id, p.reviewer, p.author, r.name, w.name, pw.number, pr.number, p.ended_at IS NOT NULL, EXISTS "
+             "(SELECT 1 FROM sendings WHERE pair = p.id AND way = 'to reviewer'), EXISTS (SELECT 1 FROM standing WHERE "
+             "pair = p.id AND part = 'review'), EXISTS (SELECT 1 FROM sendings WHERE pair = p.id AND way = 'to "
+             "author'), EXISTS (SELECT 1 FROM standing WHERE pair = p.id AND part = 'review' AND late = 0), (SELECT id "
+             "FROM standing WHERE pair = p.id AND part = 'review' ORDER BY number DESC LIMIT 1), (SELECT version FROM "
+             "sendings WHERE pair = p.id AND way = 'to author' ORDER BY id DESC LIMIT 1), (SELECT id FROM standing v "
+             "WHERE v.assignment = p.assignment AND v.group_id = p.author AND v.stage = 'first' AND v.part = 'report' "
+             "ORDER BY number DESC LIMIT 1), (SELECT version FROM sendings WHERE pair = p.id AND way = 'to reviewer' "
+             "ORDER BY id DESC LIMIT 1), EXISTS (SELECT 1 FROM standing WHERE pair = p.id AND part = 'pack') FROM "
+             "pairs p JOIN groups r ON r.id = p.reviewer JOIN groups w ON w.id = p.author JOIN pseudonyms pw ON "
+             "pw.assignment = p.assignment AND pw.group_id = p.author AND pw.role = 'author' JOIN pseudonyms pr ON "
+             "pr.assignment = p.assignment AND pr.group_id = p.reviewer AND pr.role = 'reviewer' WHERE p.assignment = "
+             "? ORDER BY r.name, w.name, p.id",
              assignment.id);
          rows.next();) {
         ReviewPair pair;

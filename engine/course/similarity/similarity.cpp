@@ -195,10 +195,8 @@ std::string similarity_in_markdown(const std::vector<ComparedScript>& scripts, c
     constexpr std::size_t most = kMostShownPairs;
     std::string text = fmt::format(
         "# Scripts that look alike\n\nCompared were {} scripts, without comments, layout and the names that they "
-        "chose; "
-        "what the lesson gave counts for nothing. The pairs that have {} or more of the shorter one's own code in "
-        "common "
-        "are listed. That says nothing of who wrote it, nor whether it was allowed: look at both.\n\n",
+        "chose; what the lesson gave counts for nothing. The pairs that have {} or more of the shorter one's own code "
+        "in common are listed. That says nothing of who wrote it, nor whether it was allowed: look at both.\n\n",
         scripts.size(), whole_percent(line));
     if (pairs.empty()) return text + "There are none.\n";
     text += "| first | second | code in common | lines letter by letter |\n|---|---|---|---|\n";

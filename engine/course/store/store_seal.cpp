@@ -117,8 +117,7 @@ std::vector<std::string> seal_troubles(Database& database, std::string_view publ
         if (known != sealed.end() && known->second == state) continue;
         troubles.push_back(fmt::format(
             "the table {} was changed by something else than dynlab: it has {} rows, and had {} when it was last "
-            "sealed "
-            "({}); take a backup",
+            "sealed ({}); take a backup",
             table, rows_of(state), known == sealed.end() ? "none" : rows_of(known->second), utc_text(seals.back().at)));
     }
     return troubles;

@@ -91,8 +91,7 @@ StateFeedback linear_quadratic_regulator(const MatrixView& A, const MatrixView& 
     if (!inverse)
         throw InvalidArgument(
             "no feedback makes the criterion finite: the input does not reach an unstable mode, or Q does not see a "
-            "mode "
-            "that does not die away by itself");
+            "mode that does not die away by itself");
     const Matrix P = (stable.bottomRows(n) * *inverse).real();
     return closed(A, B, cheapest->x * (P + P.transpose()) / 2);
 }
@@ -124,8 +123,7 @@ StateFeedback pole_placement(const MatrixView& A, const MatrixView& B, const Com
     if (misplacement(poles, result.poles) > 1e-4)
         throw InvalidArgument(
             "rounding errors keep the poles from their places; the states are measured in units that are too "
-            "different, "
-            "or the input hardly reaches one of them");
+            "different, or the input hardly reaches one of them");
     return result;
 }
 

@@ -209,8 +209,7 @@ void check(const IdData& data, const TransferStructure& structure, const Hammers
     check_transfer_data("hammerstein", data, structure);
     if (data.hold != Hold::kZoh)
         throw InvalidArgument(
-            "hammerstein needs a held input (zoh): the characteristic bends the straight lines "
-            "of any other");
+            "hammerstein needs a held input (zoh): the characteristic bends the straight lines of any other");
     for (const Experiment& experiment : data.experiments)
         if ((experiment.u.array() != experiment.u(0, 0)).any()) return;
     throw InvalidArgument("hammerstein: the input never changes, so it does not excite the system");

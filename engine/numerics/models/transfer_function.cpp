@@ -63,8 +63,7 @@ TransferFunction::TransferFunction(const VectorView& num, const VectorView& den,
     check_coefficients(den, "denominator");
     if (!(Ts >= 0) || !std::isfinite(Ts))
         throw InvalidArgument(
-            "transfer function: Ts must be a positive number of seconds, or 0 for continuous time, "
-            "but it is " +
+            "transfer function: Ts must be a positive number of seconds, or 0 for continuous time, but it is " +
             number_text(Ts));
     if (!(delay >= 0) || !std::isfinite(delay))
         throw InvalidArgument("transfer function: the delay must not be negative, but it is " + number_text(delay) +

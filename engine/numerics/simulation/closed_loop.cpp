@@ -18,8 +18,7 @@ namespace {
 constexpr double kSameStep = 1e-9;  // relative difference of two sampling times that mean the same
 constexpr const char* kEndlessAnswers =
     "closed loop: plant and controller both have a direct term (as many zeros as poles), so that each answers the "
-    "other "
-    "at the same instant without end; give the loop a computing delay, or one of the two a further pole";
+    "other at the same instant without end; give the loop a computing delay, or one of the two a further pole";
 
 void check_proper(const char* what, const TransferFunction& G) {
     if (G.proper()) return;
@@ -220,8 +219,7 @@ IdData ClosedLoop::record(const VectorView& r, const VectorView& v) const {
     if (!stable())
         throw InvalidArgument(
             "closed loop: the loop is unstable, so that its signals grow without bound; lower the controller's gain, "
-            "or "
-            "look at margin(C*G)");
+            "or look at margin(C*G)");
     const Response wanted = to_reference(r), disturbed = to_disturbance(v);
     IdData data(Matrix(wanted.x + disturbed.x + v), Matrix(wanted.u + disturbed.u), Ts_);
     data.hold = hold_of_record_;

@@ -115,8 +115,7 @@ Matrix state_variable_filter(const VectorView& x, int n, double lambda, double T
                               std::to_string(kHighestOrder) + ", but it is " + std::to_string(n));
     if (!(lambda > 0) || !std::isfinite(lambda))
         throw InvalidArgument(
-            "state-variable filter: the cut-off frequency lambda must be a positive number of rad/s, "
-            "but it is " +
+            "state-variable filter: the cut-off frequency lambda must be a positive number of rad/s, but it is " +
             number_text(lambda));
     check_sampling_time("state-variable filter", Ts);
     check_samples("state-variable filter", "the signal", x);

@@ -70,8 +70,7 @@ Matrix cramer_rao_bound(const TransferFunction& system, const VectorView& u, dou
     if (theta.size() == 0)
         throw InvalidArgument(
             "The Cramer-Rao bound is known for the coefficients a1, .., b0, .. (and Td) of a model with as many poles "
-            "as "
-            "the system and no fewer zeros");
+            "as the system and no fewer zeros");
     if (numbers.delay && numbers.numerator > numbers.poles)
         throw InvalidArgument(
             "The Cramer-Rao bound of a delay needs fewer zeros than poles: the output of this system jumps with its "

@@ -238,8 +238,7 @@ RecordFinding curve_at_output(const FittedRecord& fit, double effect) {
     if (runs_into_a_limit(slopes_of_curve(fit))) {
         return about(fit, "saturation", Weight::kWarning,
                      fit.output() +
-                         " hardly rises where a linear model rises on: it saturates at a limit under the "
-                         "noise (" +
+                         " hardly rises where a linear model rises on: it saturates at a limit under the noise (" +
                          short_text(100 * effect, 1) +
                          " % of its movement is missing). Leave these stretches out with data:discard, or repeat the "
                          "experiment with a smaller amplitude.",

@@ -12,10 +12,8 @@ namespace {
 void need_values(const Call& call, Index count, Index least) {
     if (count == 0) throw InvalidArgument("argument 1 (v) has no elements");
     if (count < least)
-        throw InvalidArgument(
-            fmt::format("{}: the spread of a single value is not defined; at least two values are "
-                        "needed",
-                        call.function_name()));
+        throw InvalidArgument(fmt::format(
+            "{}: the spread of a single value is not defined; at least two values are needed", call.function_name()));
 }
 
 /// A number for a vector, a vector with one number for each column of a matrix. Every column is summed in the same

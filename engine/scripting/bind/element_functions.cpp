@@ -55,8 +55,7 @@ int exponential(Call& call) {
     const std::optional<double> delay = delay_of(*model);
     if (!delay || *delay < 0)
         throw InvalidArgument(
-            "of models only a delay is there: exp(-Td*s) with s = tf(\"s\") and Td from 0 on, or "
-            "{IODelay = Td}");
+            "of models only a delay is there: exp(-Td*s) with s = tf(\"s\") and Td from 0 on, or {IODelay = Td}");
     const Vector one = Vector::Ones(1);
     return give_model(call, TransferFunction(one, one, 0, *delay));
 }

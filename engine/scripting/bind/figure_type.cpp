@@ -102,8 +102,7 @@ double handle_coordinate(const Options& options, const char* coordinate, bool ho
         const auto number = options.optional_number(coordinate);
         if (!number || options.has(key.c_str()))
             throw InvalidArgument(
-                fmt::format("a handle needs {} = number, or {} = function(number of the slider) and "
-                            "{} = \"NAME\"",
+                fmt::format("a handle needs {} = number, or {} = function(number of the slider) and {} = \"NAME\"",
                             coordinate, coordinate, key));
         return *number;
     }

@@ -144,8 +144,7 @@ int filter_signals(Call& call) {
     wanted.steady_start = options.choice("start", {"zero", "steady"}, 0) == 1;
     if (wanted.zero_phase && options.has("start"))
         throw InvalidArgument(
-            "option 'start' is for the causal filter; with zero_phase the record is continued at "
-            "both ends");
+            "option 'start' is for the causal filter; with zero_phase the record is continued at both ends");
     return give_signals(call, signals, filter_data(signals.data, band_argument(call), wanted));
 }
 

@@ -57,10 +57,8 @@ std::filesystem::path file_of_module(const Call& call, const std::string& name) 
     std::replace(relative.begin(), relative.end(), '.', '/');
     const std::filesystem::path folder = call.context().options.script_folder, file = folder / (relative + ".lua");
     if (!std::filesystem::is_regular_file(file))
-        throw InvalidArgument(
-            fmt::format("there is no file {}.lua in the script's folder; libraries from elsewhere "
-                        "are not there",
-                        relative));
+        throw InvalidArgument(fmt::format(
+            "there is no file {}.lua in the script's folder; libraries from elsewhere are not there", relative));
     if (!lies_below(file, folder))
         throw InvalidArgument(fmt::format("{}.lua leads outside the script's folder", relative));
     return file;

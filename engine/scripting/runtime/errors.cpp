@@ -174,8 +174,7 @@ std::string syntax_sentence(const std::string& text, const std::string& near) {
         return fmt::format("the break of line {} stands outside of any loop", line->substr(0, line->find(' ')));
     if (auto most = between(text, "too many local variables (limit is ", ")"))
         return fmt::format(
-            "here can be at most {} local variables; declare further ones without 'local', or keep them "
-            "in a table",
+            "here can be at most {} local variables; declare further ones without 'local', or keep them in a table",
             *most);
     if (text.find("unfinished string") != std::string::npos) return "a text is not closed with its quote";
     if (near == "<eof>") return "the script ends in the middle of a statement";

@@ -38,8 +38,7 @@ std::optional<SpoolNotice> notice_of(const fs::path& folder) {
         return from_json<SpoolNotice>(read_plain_file(folder / kNoticeFile, kMostOfANotice).value_or(""));
     } catch (const ValueError&) {
         throw EnvironmentError(
-            fmt::format("{} is spoilt; remove {} and begin again: what was finished stays in the "
-                        "folder of results",
+            fmt::format("{} is spoilt; remove {} and begin again: what was finished stays in the folder of results",
                         (folder / kNoticeFile).string(), folder.string()));
     }
 }

@@ -132,8 +132,7 @@ class WorkerProcess {
         if (spool_.identity().program != shared_identity())
             return fmt::format(
                 "{} has another version of dynlab, of its lessons or of their data than the coordinator, or a "
-                "processor "
-                "of another level; install the same one there",
+                "processor of another level; install the same one there",
                 options_.node);
         if (spool_.identity().isolation != isolation_name(Isolation::kFull)) return "";
         const auto obstacle = obstacle_to(Isolation::kFull);

@@ -293,8 +293,7 @@ class Approximation {
                                        " are left out, so that whole periods remain.");
         if (lines_.some_differ)
             result_.warnings.push_back(
-                "The realisations excite different lines: those that all of them excite are "
-                "used.");
+                "The realisations excite different lines: those that all of them excite are used.");
         if (periods_ < 2)
             result_.warnings.push_back(
                 "One period does not tell noise from nonlinear distortion, nor whether the "

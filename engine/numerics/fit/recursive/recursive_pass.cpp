@@ -383,8 +383,7 @@ void RecursiveOptions::validate(const std::string& method, Index parameters) con
     if (!(lambda > 0) || !std::isfinite(lambda))
         throw InvalidArgument(
             "lambda, the cut-off frequency of the filter, must be a positive number of rad/s, a bit above the "
-            "bandwidth "
-            "of the system, and is " +
+            "bandwidth of the system, and is " +
             number_text(lambda));
     if (!(forgetting > 0 && forgetting <= 1))
         throw InvalidArgument(method +

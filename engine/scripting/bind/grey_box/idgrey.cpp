@@ -106,8 +106,7 @@ std::vector<std::string> states_option(const Options& options) {
     if (type != LUA_TNIL && type != LUA_TNUMBER) return options.texts("states");
     if (count < 1)
         throw InvalidArgument(
-            "option 'states' tells the names of the states, or how many there are: {states = {\"h1\", "
-            "\"h2\"}}");
+            "option 'states' tells the names of the states, or how many there are: {states = {\"h1\", \"h2\"}}");
     std::vector<std::string> names;
     for (lua_Integer i = 1; i <= count; ++i) names.push_back(fmt::format("x{}", i));
     return names;

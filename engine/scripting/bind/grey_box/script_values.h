@@ -80,9 +80,8 @@ Entries<Value> read_matrix(lua_State* L, int index, const char* name, const Read
     Entries<Value> entries;
     const auto refuse = [&] {
         throw InvalidArgument(
-            fmt::format("the matrix {} must be a table of rows such as {{{{a, b}}, {{c, d}}}}, but {} "
-                        "was given",
-                        name, given_text(L, -1)));
+            fmt::format("the matrix {} must be a table of rows such as {{{{a, b}}, {{c, d}}}}, but {} was given", name,
+                        given_text(L, -1)));
     };
     const auto add = [&] {
         const auto value = read();

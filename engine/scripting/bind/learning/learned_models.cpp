@@ -60,8 +60,7 @@ FunctionLibrary library_option(const Call& call, const Options& options, const I
     const int index = options.push("library");
     if (lua_type(call.state(), index) != LUA_TFUNCTION)
         throw InvalidArgument(
-            fmt::format("option 'library' must be a function(x, u) that returns a list of vectors, "
-                        "but {} was given",
+            fmt::format("option 'library' must be a function(x, u) that returns a list of vectors, but {} was given",
                         given_text(call.state(), index)));
     FunctionLibrary library = lua_library(call, index, data, options.texts("names"));
     lua_pop(call.state(), 1);
