@@ -21,8 +21,7 @@ void check_name(const std::string& name) {
     const auto is_allowed = [&](char c) {
         return is_letter(c) || std::isdigit(static_cast<unsigned char>(c)) || c == '_';
     };
-    if (name.empty() || name.size() > kLongest || !is_letter(name[0]) ||
-        !std::all_of(name.begin(), name.end(), is_allowed)) {
+    if (name.empty() || name.size() > kLongest || !is_letter(name[0]) || !std::ranges::all_of(name, is_allowed)) {
         throw InvalidArgument(fmt::format(
             "\"{}\" cannot name a MATLAB variable: wanted a letter, then letters, digits and _, at most {} in all",
             name, kLongest));

@@ -79,7 +79,7 @@ bool opens_cells(const std::string& line) {
 }  // namespace
 
 void check_metadata(const std::string& key, const std::string& value, const std::string& where) {
-    if (std::find(kAllowedKeys.begin(), kAllowedKeys.end(), key) == kAllowedKeys.end()) {
+    if (std::ranges::find(kAllowedKeys, key) == kAllowedKeys.end()) {
         if (key == "author" || key == "authors")
             throw DocumentError(
                 where + "documents name no author, because reports are reviewed anonymously; remove \"" + key + "\"");
@@ -117,8 +117,7 @@ TemplateFile read_template(const std::filesystem::path& file) {
 bool shows_cells(const TemplateFile& source) {
     FencedCode fence;
     const std::vector<std::string> lines = lines_of(source.body.text);
-    return std::any_of(lines.begin(), lines.end(),
-                       [&](const std::string& line) { return !fence.holds(line) && opens_cells(line); });
+    return std::ranges::any_of(lines, [&](const std::string& line) { return !fence.holds(line) && opens_cells(line); });
 }
 
 MarkdownText with_cells(const TemplateFile& source, const MarkdownText& cells) {

@@ -22,9 +22,8 @@ bool is_named_block(const std::string& markdown, const std::string& name) {
 
 /// Figures that a cell made and dropped are shown after it: they are named "CELL-figure-K".
 bool is_captured(const RunRecord& record, const std::string& figure) {
-    return std::any_of(record.outputs.begin(), record.outputs.end(), [&](const auto& cell) {
-        return std::any_of(cell.second.begin(), cell.second.end(),
-                           [&](const CellOutput& piece) { return piece.figure == figure; });
+    return std::ranges::any_of(record.outputs, [&](const auto& cell) {
+        return std::ranges::any_of(cell.second, [&](const CellOutput& piece) { return piece.figure == figure; });
     });
 }
 

@@ -84,8 +84,7 @@ class LayoutWork {
     }
 
     double default_frame_height(double frame_width) const {
-        const bool equal = std::any_of(figure_.panels.begin(), figure_.panels.end(),
-                                       [](const Panel& panel) { return panel.equal_axes; });
+        const bool equal = std::ranges::any_of(figure_.panels, [](const Panel& panel) { return panel.equal_axes; });
         if (figure_.rows == 1) return equal ? std::min(frame_width, 7.5) : std::clamp(0.5 * frame_width, 3.2, 6.2);
         return figure_.rows == 2 ? (equal ? 5.0 : 3.4) : 2.7;
     }

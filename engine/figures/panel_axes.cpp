@@ -11,9 +11,8 @@ namespace {
 using Range = std::pair<double, double>;
 
 bool has_style(const Panel& panel, std::initializer_list<CurveStyle> styles) {
-    return std::any_of(panel.curves.begin(), panel.curves.end(), [&](const Curve& curve) {
-        return std::find(styles.begin(), styles.end(), curve.style) != styles.end();
-    });
+    return std::ranges::any_of(
+        panel.curves, [&](const Curve& curve) { return std::ranges::find(styles, curve.style) != styles.end(); });
 }
 
 Range x_range_of(const Panel& panel) {

@@ -107,8 +107,7 @@ ChildResult Box::run(const Words& command, const fs::path& folder, const std::st
     child.file_bytes = limits.file_bytes;
     auto environment = environment_;
     const auto set = [&environment](const char* name, const std::string& value) {
-        const bool given = std::any_of(environment.begin(), environment.end(),
-                                       [name](const auto& entry) { return entry.first == name; });
+        const bool given = std::ranges::any_of(environment, [name](const auto& entry) { return entry.first == name; });
         if (!given) environment.emplace_back(name, value);
     };
     set("PATH", "/usr/bin:/bin");

@@ -40,8 +40,7 @@ InputsRead inputs_read(const std::vector<fs::path>& files, const fs::path& scrip
 }
 
 bool unchanged(const InputsRead& inputs) {
-    return std::all_of(inputs.begin(), inputs.end(),
-                       [](const auto& input) { return state_of(input.first) == input.second; });
+    return std::ranges::all_of(inputs, [](const auto& input) { return state_of(input.first) == input.second; });
 }
 
 }  // namespace dynlab::inline workflow

@@ -128,8 +128,7 @@ PercentScript text_of(PercentScript script) {
 }
 
 bool has_text(const PercentScript& script) {
-    return std::any_of(script.cells.begin(), script.cells.end(),
-                       [](const Cell& cell) { return cell.kind == Cell::Kind::kText; });
+    return std::ranges::any_of(script.cells, [](const Cell& cell) { return cell.kind == Cell::Kind::kText; });
 }
 
 }  // namespace

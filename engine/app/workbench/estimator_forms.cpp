@@ -118,9 +118,8 @@ std::vector<EstimatorForm> make_forms() {
             const bool from_record = arguments_of(signature).front() == "data" && signature.ends_with("-> G");
             if (from_record) forms.push_back(form_of(method, *function));
         }
-    std::stable_sort(forms.begin(), forms.end(), [](const EstimatorForm& one, const EstimatorForm& other) {
-        return rank_of(one) < rank_of(other);
-    });
+    std::ranges::stable_sort(
+        forms, [](const EstimatorForm& one, const EstimatorForm& other) { return rank_of(one) < rank_of(other); });
     return forms;
 }
 

@@ -69,7 +69,7 @@ class Columns {
     explicit Columns(const LoadedData& loaded) : loaded_(loaded) {
         std::vector<std::string> names = loaded.columns;
         for (const auto& [name, variable] : loaded.variables)
-            if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+            if (std::ranges::find(names, name) == names.end()) names.push_back(name);
         for (const std::string& name : names) collect(name, "", loaded.variables.at(name));
     }
 
@@ -85,8 +85,8 @@ class Columns {
             RecordColumn& column = columns.back();
             if (signal.group != guessed) continue;
             const std::string own = signal.group.empty() ? signal.name : signal.name.substr(signal.group.size() + 1);
-            const bool first_output = std::none_of(columns.begin(), columns.end(),
-                                                   [](const RecordColumn& one) { return one.role == "output"; });
+            const bool first_output =
+                std::ranges::none_of(columns, [](const RecordColumn& one) { return one.role == "output"; });
             if (signal.group.empty() ? time && time->name == own : own == "t" || own == "time")
                 column.role = "time";
             else if (column.usable && sounds_like(own, kInputs))
@@ -130,8 +130,7 @@ class Columns {
 
     /// Whether the numbers of a signal go up by equal steps, as a clock does.
     bool counts_evenly(const std::string& name) const {
-        const auto found =
-            std::find_if(signals_.begin(), signals_.end(), [&](const Signal& signal) { return signal.name == name; });
+        const auto found = std::ranges::find(signals_, name, &Signal::name);
         constexpr Index kFewest = 5;
         if (found->numbers.size() < kFewest || loaded_.variables.contains("Ts")) return false;
         const InstantSpacing spacing = spacing_of(found->numbers);
@@ -141,20 +140,18 @@ class Columns {
     /// Where names tell nothing a clock may come first; of the rest the input is the first, the output the last.
     void guess_rest(std::vector<RecordColumn>& columns) const {
         const auto none = [&](const char* role) {
-            return std::none_of(columns.begin(), columns.end(),
-                                [&](const RecordColumn& column) { return column.role == role; });
+            return std::ranges::none_of(columns, [&](const RecordColumn& column) { return column.role == role; });
         };
         const auto free = [](const RecordColumn& column) { return column.role.empty() && column.usable; };
         if (none("time"))
-            if (const auto first = std::find_if(columns.begin(), columns.end(), free);
+            if (const auto first = std::ranges::find_if(columns, free);
                 first != columns.end() && counts_evenly(first->name))
                 first->role = "time";
         if (none("output"))
             if (const auto last = std::find_if(columns.rbegin(), columns.rend(), free); last != columns.rend())
                 last->role = "output";
         if (none("input"))
-            if (const auto first = std::find_if(columns.begin(), columns.end(), free); first != columns.end())
-                first->role = "input";
+            if (const auto first = std::ranges::find_if(columns, free); first != columns.end()) first->role = "input";
     }
 
     const LoadedData& loaded_;
@@ -204,8 +201,7 @@ RecordOrder suggested_order(const RecordChoice& choice) {
 
 std::string with_record(const std::string& source, const RecordOrder& order, const std::string& lines) {
     const PercentScript script = parse_percent_script(source, "session.lua");
-    if (std::none_of(script.cells.begin(), script.cells.end(),
-                     [](const Cell& cell) { return cell.kind == Cell::Kind::kCode; }))
+    if (std::ranges::none_of(script.cells, [](const Cell& cell) { return cell.kind == Cell::Kind::kCode; }))
         return new_session("Identification from " + fs::path(order.data).stem().string(), lines,
                            script.header.language);
     const std::string own_cell = fmt::format("\n-- %% id={}\n{}", order.name, trimmed(lines));
@@ -219,7 +215,7 @@ std::string with_record(const std::string& source, const RecordOrder& order, con
 }
 
 void expect_plain_name(const std::string& name) {
-    if (std::any_of(name.begin(), name.end(), [](unsigned char c) { return std::iscntrl(c); }))
+    if (std::ranges::any_of(name, [](unsigned char c) { return std::iscntrl(c); }))
         throw EnvironmentError("there are control characters in the name of the file " + in_one_line(name));
 }
 

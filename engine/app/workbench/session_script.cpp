@@ -166,7 +166,7 @@ class Lines {
             if (source[i] == '\n') ends_.push_back(i);
     }
     int at(std::size_t offset) const {
-        return 1 + static_cast<int>(std::lower_bound(ends_.begin(), ends_.end(), offset) - ends_.begin());
+        return 1 + static_cast<int>(std::ranges::lower_bound(ends_, offset) - ends_.begin());
     }
     std::size_t begin_of(int line) const { return line == 1 ? 0 : ends_[static_cast<std::size_t>(line - 2)] + 1; }
 
@@ -326,16 +326,14 @@ std::vector<SessionStep> session_steps(const std::string& source) {
     std::vector<SessionStep> steps;
     add_running_steps(source, steps);
     add_steps_switched_off(source, steps);
-    std::stable_sort(steps.begin(), steps.end(),
-                     [](const SessionStep& a, const SessionStep& b) { return a.first_line < b.first_line; });
+    std::ranges::stable_sort(steps, {}, &SessionStep::first_line);
     return steps;
 }
 
 std::string with_edits(const std::string& source, std::vector<LineEdit> edits) {
     std::vector<std::string> lines = lines_of(source);
     const int count = static_cast<int>(lines.size());
-    std::stable_sort(edits.begin(), edits.end(),
-                     [](const LineEdit& a, const LineEdit& b) { return a.first < b.first; });
+    std::ranges::stable_sort(edits, {}, &LineEdit::first);
     std::string text;
     int next = 1;  // line of the source that has not been seen to
     const auto copy_until = [&](int line) {

@@ -13,8 +13,7 @@ namespace {
 constexpr double kMostPoints = 1000;
 
 bool plain_id(const std::string& id) {
-    return !id.empty() &&
-           std::all_of(id.begin(), id.end(), [](unsigned char c) { return std::isalnum(c) || c == '_'; });
+    return !id.empty() && std::ranges::all_of(id, [](unsigned char c) { return std::isalnum(c) || c == '_'; });
 }
 
 /// The option's place in Lua's registry; 0 where it is not given and need not be.
@@ -67,8 +66,7 @@ int check(Call& call) {
 
 /// The check of that id, declared before.
 std::vector<DeclaredCheck>::iterator declared(CheckSession& session, const std::string& id) {
-    const auto found = std::find_if(session.checks.begin(), session.checks.end(),
-                                    [&](const DeclaredCheck& check) { return check.id == id; });
+    const auto found = std::ranges::find(session.checks, id, &DeclaredCheck::id);
     if (found != session.checks.end()) return found;
     std::vector<std::string> ids;
     for (const DeclaredCheck& check : session.checks) ids.push_back(check.id);

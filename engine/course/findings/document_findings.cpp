@@ -48,7 +48,7 @@ std::vector<std::string> installed_templates() {
         const fs::path stem = entry.path().stem();
         if (entry.path().extension() == ".md" && !stem.has_extension()) names.push_back(stem);
     }
-    std::sort(names.begin(), names.end());
+    std::ranges::sort(names);
     return names;
 }
 
@@ -59,15 +59,15 @@ std::string listed(const std::vector<std::string>& words) {
 /// Of a template that may not be installed.
 DocumentStandard known_standard(const char* name) {
     const std::vector<std::string> known = installed_templates();
-    return std::find(known.begin(), known.end(), name) == known.end() ? DocumentStandard() : standard_of(name);
+    return std::ranges::find(known, name) == known.end() ? DocumentStandard() : standard_of(name);
 }
 
 /// How many of the demanded sections a document has.
 std::ptrdiff_t sections_in(const DocumentText& text, const DocumentStandard& standard) {
     const Findings found = section_findings(text, standard.rules, "en");
     const auto demanded = [](const SectionRule& section) { return !section.optional; };
-    return std::count_if(standard.rules.sections.begin(), standard.rules.sections.end(), demanded) -
-           std::count_if(found.begin(), found.end(), [](const Finding& f) { return f.id == "section-missing"; });
+    return std::ranges::count_if(standard.rules.sections, demanded) -
+           std::ranges::count_if(found, [](const Finding& f) { return f.id == "section-missing"; });
 }
 
 DocumentStandard usual_standard(const DocumentText& text) {
@@ -128,12 +128,11 @@ void check_names(const fs::path& file, const PdfLayout& layout, const SoughtName
 }  // namespace
 
 bool CheckResult::passed() const {
-    return std::none_of(findings.begin(), findings.end(),
-                        [](const Finding& finding) { return finding.severity == Severity::kRule; });
+    return std::ranges::none_of(findings, [](const Finding& finding) { return finding.severity == Severity::kRule; });
 }
 
 void sort_findings(Findings& findings) {
-    std::stable_sort(findings.begin(), findings.end(), [](const Finding& a, const Finding& b) {
+    std::ranges::stable_sort(findings, [](const Finding& a, const Finding& b) {
         return std::tie(a.severity, a.page) < std::tie(b.severity, b.page);
     });
 }
@@ -142,7 +141,7 @@ DocumentStandard standard_of(const std::string& name) {
     const bool is_file = name.ends_with(".md");
     const fs::path file = is_file ? fs::path(name) : shared_folder() / "report_templates" / (name + ".md");
     const std::vector<std::string> known = installed_templates();
-    if (!is_file && std::find(known.begin(), known.end(), name) == known.end())
+    if (!is_file && std::ranges::find(known, name) == known.end())
         throw EnvironmentError("there is no template '" + name + "'; the templates are " + listed(known));
     std::vector<std::string> guidance = guidance_of(read_text(file));
     const fs::path french = fs::path(file).replace_extension(".fr.md");

@@ -16,8 +16,7 @@ constexpr std::size_t kLongestHeading = 14;
 
 std::size_t letters_in(const std::string& text) {
     const std::string plain = folded(text);
-    return static_cast<std::size_t>(
-        std::count_if(plain.begin(), plain.end(), [](unsigned char c) { return std::isalpha(c); }));
+    return static_cast<std::size_t>(std::ranges::count_if(plain, [](unsigned char c) { return std::isalpha(c); }));
 }
 
 /// Collects the words of one line.
@@ -75,7 +74,7 @@ class LineMaker {
 bool is_page_number(const TextLine& line, const PdfPage& page) {
     if (line.bottom > 0.08 * page.height && line.top < 0.87 * page.height) return false;
     const std::string text = folded(line.text());
-    return std::all_of(text.begin(), text.end(), [](unsigned char c) { return !std::isalpha(c); });
+    return std::ranges::all_of(text, [](unsigned char c) { return !std::isalpha(c); });
 }
 
 /// A word that holds no-break spaces is several.
@@ -114,7 +113,7 @@ std::vector<TextLine> lines_of_page(const PdfPage& page, int number) {
 /// The smallest size: what stands for the prose where there are headings only.
 double smallest_size(const std::vector<TextLine>& lines) {
     const auto smaller = [](const TextLine& a, const TextLine& b) { return a.size < b.size; };
-    const auto smallest = std::min_element(lines.begin(), lines.end(), smaller);
+    const auto smallest = std::ranges::min_element(lines, smaller);
     return smallest == lines.end() ? 0 : smallest->size;
 }
 
@@ -134,7 +133,7 @@ double median_size(const std::vector<TextLine>& lines) {
     }
     const bool enough = prose_letters > 0.3 * all_letters;
     std::vector<std::pair<double, double>>& sizes = enough ? prose : all;
-    std::sort(sizes.begin(), sizes.end());
+    std::ranges::sort(sizes);
     double passed = 0;
     for (const auto& [size, letters] : sizes) {
         passed += letters;

@@ -36,8 +36,7 @@ struct NumberWord {
 std::optional<NumberWord> number_word(const std::string& word) {
     std::string text = folded(word);
     text.erase(0, text.find_first_not_of("(["));
-    const std::size_t digits =
-        static_cast<std::size_t>(std::find_if_not(text.begin(), text.end(), is_digit) - text.begin());
+    const std::size_t digits = static_cast<std::size_t>(std::ranges::find_if_not(text, is_digit) - text.begin());
     if (digits == 0 || digits > 3) return std::nullopt;
     NumberWord result{std::stoi(text.substr(0, digits)), text.substr(digits)};
     if (!result.rest.empty() && std::isalpha(static_cast<unsigned char>(result.rest[0]))) result.rest.erase(0, 1);

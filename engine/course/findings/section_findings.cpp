@@ -41,9 +41,8 @@ bool same_word(const std::string& wanted, const std::string& given) {
 /// How well a heading fits a title, 0 to 1: most of the title's words must be there, the fewer others the better.
 double likeness(const std::string& title, const std::string& heading) {
     const std::vector<std::string> wanted = key_words(title), given = key_words(heading);
-    const auto found = std::count_if(wanted.begin(), wanted.end(), [&](const std::string& word) {
-        return std::any_of(given.begin(), given.end(),
-                           [&](const std::string& other) { return same_word(word, other); });
+    const auto found = std::ranges::count_if(wanted, [&](const std::string& word) {
+        return std::ranges::any_of(given, [&](const std::string& other) { return same_word(word, other); });
     });
     if (2 * found <= static_cast<std::ptrdiff_t>(wanted.size())) return 0;
     return 2 * static_cast<double>(found) / static_cast<double>(wanted.size() + given.size());
@@ -86,9 +85,9 @@ std::size_t words_below(const DocumentText& text, std::size_t index) {
 bool opens_appendix(const Heading& heading, const DocumentRules& rules) {
     const std::vector<std::string> words = plain_words(heading.text);
     for (const char* sign : {"appendix", "appendices", "annex", "annexe", "annexes"}) {
-        if (std::find(words.begin(), words.end(), sign) != words.end()) return true;
+        if (std::ranges::find(words, sign) != words.end()) return true;
     }
-    return std::any_of(rules.sections.begin(), rules.sections.end(), [&](const SectionRule& section) {
+    return std::ranges::any_of(rules.sections, [&](const SectionRule& section) {
         return section.optional && likeness(section, heading.text) > 0.6;
     });
 }

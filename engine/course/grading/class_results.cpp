@@ -56,8 +56,7 @@ std::vector<std::string> row_of(const std::string& id, const std::string& name, 
     row.push_back(points_text(grade.penalty));
     row.push_back(points_text(grade.late_hours));
     for (const std::string& check_id : ids) {
-        const auto found = std::find_if(grade.checks.begin(), grade.checks.end(),
-                                        [&](const CheckGrade& check) { return check.id == check_id; });
+        const auto found = std::ranges::find(grade.checks, check_id, &CheckGrade::id);
         row.push_back(found == grade.checks.end() || !found->graded ? "" : points_text(found->earned));
     }
     return row;
@@ -135,8 +134,7 @@ TextTable gradebook_of(const ClassResults& results) {
 }
 
 bool waits_for_a_hand(const Grade& grade) {
-    return std::any_of(grade.checks.begin(), grade.checks.end(),
-                       [](const CheckGrade& check) { return check.by_hand && !check.graded; });
+    return std::ranges::any_of(grade.checks, [](const CheckGrade& check) { return check.by_hand && !check.graded; });
 }
 
 /// What is to be marked by hand and is not yet: a table to be filled in and put into manual.csv.
@@ -238,18 +236,17 @@ Vector points_of(const ClassResults& results) {
     std::vector<double> points;
     for (const Entry& entry : results.entries)
         if (entry.grade && entry.grade->whole()) points.push_back(entry.grade->earned());
-    std::sort(points.begin(), points.end());
+    std::ranges::sort(points);
     return Eigen::Map<const Vector>(points.data(), static_cast<Index>(points.size()));
 }
 
 void add_numbers(const ClassResults& results, const Vector& points, double possible, RunRecord& record) {
     const auto value = [&record](const char* name, const std::string& text) { record.values[name] = {{}, text}; };
-    const auto not_whole = std::count_if(results.entries.begin(), results.entries.end(), [](const Entry& entry) {
+    const auto not_whole = std::ranges::count_if(results.entries, [](const Entry& entry) {
         return entry.grade && !entry.grade->whole() && !entry.grade->unreadable;
     });
-    const auto unreadable = std::count_if(results.entries.begin(), results.entries.end(), [](const Entry& entry) {
-        return entry.grade && entry.grade->without_marks();
-    });
+    const auto unreadable = std::ranges::count_if(
+        results.entries, [](const Entry& entry) { return entry.grade && entry.grade->without_marks(); });
     const Index n = points.size();
     value("lesson", results.setup->lesson.slug);
     value("isolation", isolation_name(results.setup->isolation));
@@ -284,8 +281,8 @@ NeedsTheEye what_needs_the_eye(const ClassResults& results) {
     const auto whole = [](const Entry& entry) {
         return !entry.grade || entry.grade->unreadable || entry.grade->whole();
     };
-    const bool some_whole = std::any_of(results.entries.begin(), results.entries.end(),
-                                        [&](const Entry& entry) { return entry.grade && whole(entry); });
+    const bool some_whole =
+        std::ranges::any_of(results.entries, [&](const Entry& entry) { return entry.grade && whole(entry); });
     std::map<std::string, const Entry*> by_content;
     for (const Entry& entry : results.entries) {
         const std::string name = shown_name(entry.submission);
@@ -325,8 +322,7 @@ std::vector<std::string> counted_instead(const ClassResults& results) {
     for (std::size_t i = 0; i < names.size(); ++i) {
         const Entry& entry = results.entries[i];
         const auto& owners = entry.owner.students;
-        if (std::any_of(owners.begin(), owners.end(), [&](std::size_t owner) { return work[owner] == &entry; }))
-            continue;
+        if (std::ranges::any_of(owners, [&](std::size_t owner) { return work[owner] == &entry; })) continue;
         if (!owners.empty()) names[i] = shown_name(work[owners.front()]->submission);
     }
     return names;

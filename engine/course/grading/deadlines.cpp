@@ -171,7 +171,7 @@ std::string Deadlines::Lateness::reason(const std::string& language) const {
     const bool french = language == "fr";
     const auto number = [&](double value) {
         std::string text = number_text(value, 4);
-        if (french) std::replace(text.begin(), text.end(), '.', ',');
+        if (french) std::ranges::replace(text, '.', ',');
         return text;
     };
     std::string duration = duration_text(came - deadline);
@@ -192,9 +192,8 @@ std::vector<std::string> Deadlines::strays(const std::vector<Submission>& submis
     for (const Submission& submission : submissions) names.insert(plain_key(submission.person));
     std::vector<std::string> strays;
     for (const auto& [who, rule] : rules_) {
-        const bool named = std::any_of(submissions.begin(), submissions.end(), [&, &name = who](const Submission& s) {
-            return s.name == name || s.lms_id == name;
-        });
+        const bool named = std::ranges::any_of(
+            submissions, [&, &name = who](const Submission& s) { return s.name == name || s.lms_id == name; });
         if (who != kForAll && !named && !names.contains(plain_key(who))) strays.push_back(who);
     }
     return strays;

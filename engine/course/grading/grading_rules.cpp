@@ -91,8 +91,7 @@ std::string hash_of_parts(const std::vector<std::string>& parts) {
 bool went_well(const CheckedSubmission& work) {
     const auto failed = [](const auto& run) { return run.second.error.has_value(); };
     const auto fails = [](const Finding& finding) { return finding.id == kDocumentFails; };
-    return std::none_of(work.runs.begin(), work.runs.end(), failed) &&
-           std::none_of(work.findings.begin(), work.findings.end(), fails);
+    return std::ranges::none_of(work.runs, failed) && std::ranges::none_of(work.findings, fails);
 }
 
 }  // namespace
@@ -123,7 +122,7 @@ void GradingRules::read_checks() {
         if (more.empty())
             throw EnvironmentError(fmt::format("the folder '{}' holds no checks: there is no file *.lua in it",
                                                setup_.more_checks->string()));
-        std::sort(more.begin(), more.end());
+        std::ranges::sort(more);
         for (const fs::path& file : more) files_.push_back({file.filename().string(), read_text(file), false});
     }
     const BoxedResult<CheckResults> read = listed();
@@ -141,7 +140,7 @@ void GradingRules::read_checks() {
                 "with a report.en.md beside lesson.lua",
                 check.id, setup_.lesson.slug));
         if (rerun.empty()) continue;
-        const bool declared = std::find(declared_rigs_.begin(), declared_rigs_.end(), rerun) != declared_rigs_.end();
+        const bool declared = std::ranges::find(declared_rigs_, rerun) != declared_rigs_.end();
         if (rerun != kOtherSeedRun && !find_rig(rerun) && !declared && !own_record("rerun", rerun))
             refuse_rerun(check.id, rerun);
         reruns_.insert(rerun);

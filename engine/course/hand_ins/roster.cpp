@@ -126,9 +126,7 @@ Roster::Roster(const std::filesystem::path& file) {
 }
 
 bool Roster::has(const std::string& column) const {
-    const auto there = [this](const char* name) {
-        return std::find(columns_.begin(), columns_.end(), name) != columns_.end();
-    };
+    const auto there = [this](const char* name) { return std::ranges::find(columns_, name) != columns_.end(); };
     return columns_.empty() || there(column.c_str()) || (column == "mail" && there("email")) ||
            (column == "name" && (there("first") || there("last")));
 }

@@ -75,8 +75,7 @@ FullName full_name(const std::string& name) {
     if (parts.empty()) return result;
     const auto is_large = [](const Part& part) { return part.capitals; };
     auto surname = parts.end() - 1;
-    if (std::count_if(parts.begin(), parts.end(), is_large) == 1)
-        surname = std::find_if(parts.begin(), parts.end(), is_large);
+    if (std::ranges::count_if(parts, is_large) == 1) surname = std::ranges::find_if(parts, is_large);
     result.surname = *surname;
     parts.erase(surname);
     result.given = std::move(parts);
@@ -241,7 +240,7 @@ void add_group(const std::string& group, bool own, std::vector<NamePattern>& pat
         std::vector<std::string> words = {"group", "groupe", "gruppe", "grp", "team", "equipe"};
         const std::string& given = tokens[1].letters;
         const std::string number = given.substr(std::min(given.find_first_not_of('0'), given.size() - 1));
-        if (std::find(words.begin(), words.end(), tokens[0].letters) == words.end()) words = {tokens[0].letters};
+        if (std::ranges::find(words, tokens[0].letters) == words.end()) words = {tokens[0].letters};
         const auto add = [&](const std::string& word, const std::string& digits) {
             NamePattern pattern;
             pattern.kind = NameKind::kGroup;

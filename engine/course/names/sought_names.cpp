@@ -23,7 +23,7 @@ constexpr std::size_t kShortestPlural = 5, kShortestInSmall = 6, kShortestInByte
 using Tokens = std::vector<NameToken>;
 
 bool is_one_of(const std::string& word, std::initializer_list<const char*> words) {
-    return std::any_of(words.begin(), words.end(), [&word](const char* one) { return word == one; });
+    return std::ranges::any_of(words, [&word](const char* one) { return word == one; });
 }
 
 bool is_label(const NameToken& token) {
@@ -281,8 +281,7 @@ void SoughtNames::add_writings(const Student& student, bool own) {
 
 void SoughtNames::add_account(const fs::path& home) {
     const std::string folder = home.lexically_normal().string();
-    if (std::count(folder.begin(), folder.end(), '/') >= 2 && !is_nobodys(home.filename().string()))
-        homes_.push_back(folder);
+    if (std::ranges::count(folder, '/') >= 2 && !is_nobodys(home.filename().string())) homes_.push_back(folder);
 }
 
 void SoughtNames::index(NamePattern pattern) {
@@ -292,7 +291,7 @@ void SoughtNames::index(NamePattern pattern) {
                other.own == pattern.own && other.whole == pattern.whole && other.connected == pattern.connected &&
                other.bare == pattern.bare;
     };
-    if (std::none_of(row.begin(), row.end(), same)) row.push_back(std::move(pattern));
+    if (std::ranges::none_of(row, same)) row.push_back(std::move(pattern));
 }
 
 void SoughtNames::find_patterns(const Tokens& tokens, std::string_view text, TextManner manner,
@@ -385,18 +384,18 @@ std::vector<NameHit> SoughtNames::find(std::string_view text, TextManner manner)
             find_patterns(name_tokens(text, reading), text, manner, hits);
     find_addresses(text, hits);
     find_paths(text, hits);
-    std::stable_sort(hits.begin(), hits.end(), [](const NameHit& a, const NameHit& b) {
+    std::ranges::stable_sort(hits, [](const NameHit& a, const NameHit& b) {
         return std::make_tuple(!a.certain, a.begin, b.end) < std::make_tuple(!b.certain, b.begin, a.end);
     });
     std::vector<NameHit> first;
     for (const NameHit& hit : hits) {
-        const bool known = std::any_of(first.begin(), first.end(), [&hit](const NameHit& other) {
+        const bool known = std::ranges::any_of(first, [&hit](const NameHit& other) {
             return other.who == hit.who &&
                    (other.kind == hit.kind || (other.begin <= hit.begin && hit.end <= other.end));
         });
         if (!known) first.push_back(hit);
     }
-    std::stable_sort(first.begin(), first.end(), [](const NameHit& a, const NameHit& b) { return a.begin < b.begin; });
+    std::ranges::stable_sort(first, {}, &NameHit::begin);
     return first;
 }
 

@@ -115,8 +115,7 @@ const std::string& text_in(const StoredRow& row, const std::string& column) {
 std::string column_list(const StoredRow& row) {
     std::string list;
     for (const auto& [name, cell] : row) {
-        const bool plain =
-            std::all_of(name.begin(), name.end(), [](char c) { return c == '_' || (c >= 'a' && c <= 'z'); });
+        const bool plain = std::ranges::all_of(name, [](char c) { return c == '_' || (c >= 'a' && c <= 'z'); });
         if (!plain || name.empty()) throw ValueError(fmt::format("there is no column \"{}\"", printable(name)));
         list += (list.empty() ? "" : ", ") + name;
     }

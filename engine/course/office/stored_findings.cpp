@@ -20,8 +20,7 @@ std::vector<StoredFindings> stored_findings(Course& course, const Assignment& as
     while (rows.next()) {
         StoredFindings& one = found.emplace_back();
         one.part = rows.text(0), one.version = rows.integer(2), one.received_at = rows.integer(3);
-        const auto pair =
-            std::find_if(pairs.begin(), pairs.end(), [&](const ReviewPair& p) { return p.id == rows.integer(1); });
+        const auto pair = std::ranges::find(pairs, rows.integer(1), &ReviewPair::id);
         if (pair != pairs.end()) one.about = pair->report_pseudonym();
         if (!rows.text(4).empty()) one.result = findings_from_json(rows.text(4));
     }

@@ -25,8 +25,7 @@ class TaskMaker {
   public:
     TaskMaker(Course& course, const Assignment& assignment)
         : course_(course), assignment_(assignment), pairs_(review_pairs(course, assignment)) {
-        std::sort(pairs_.begin(), pairs_.end(),
-                  [](const ReviewPair& a, const ReviewPair& b) { return a.reviewer_number < b.reviewer_number; });
+        std::ranges::sort(pairs_, {}, &ReviewPair::reviewer_number);
     }
 
     /// Nothing where the group handed in neither version.

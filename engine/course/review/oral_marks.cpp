@@ -190,8 +190,7 @@ std::string oral_sheet(Course& course, const Assignment& a, const OralSheetWishe
     table.names.emplace_back("comment");
     std::vector<Group> groups = groups_of(course);
     const auto lot = [&](const Group& group) { return sha256_of(fmt::format("{} oral {}", a.seed, group.name)); };
-    if (wishes.drawn)
-        std::sort(groups.begin(), groups.end(), [&](const Group& x, const Group& y) { return lot(x) < lot(y); });
+    if (wishes.drawn) std::ranges::sort(groups, [&](const Group& x, const Group& y) { return lot(x) < lot(y); });
     std::map<std::string, std::string> names;
     for (const Student& student : students_of(course)) names[student.id] = student.name;
     const auto points = oral_points(course, a);
@@ -221,7 +220,7 @@ void add_student_marks(Course& course, const Assignment& a, std::vector<GroupMar
     for (GroupMark& mark : marks)
         for (const std::string& id : members[mark.group]) {
             const CriterionPoints* const own = given_for(own_points, id);
-            if (!own || std::none_of(own->begin(), own->end(), [](const auto& p) { return p.has_value(); })) continue;
+            if (!own || std::ranges::none_of(*own, [](const auto& p) { return p.has_value(); })) continue;
             StudentMark student{id, mark.medians, {}};
             for (std::size_t c = 0; c < own->size(); ++c)
                 if ((*own)[c]) student.points[c] = (*own)[c];

@@ -20,8 +20,7 @@ std::vector<std::string> title_words(const std::string& heading) {
 
 bool is_one_of(const std::string& heading, const std::vector<std::string>& titles) {
     const std::vector<std::string> words = title_words(heading);
-    return std::any_of(titles.begin(), titles.end(),
-                       [&](const std::string& title) { return title_words(title) == words; });
+    return std::ranges::any_of(titles, [&](const std::string& title) { return title_words(title) == words; });
 }
 
 }  // namespace

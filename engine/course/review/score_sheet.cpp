@@ -18,8 +18,7 @@ ScoreSheet::ScoreSheet(const Assignment& assignment, const std::filesystem::path
                        const std::vector<std::string>& owners, std::set<std::string> others)
     : assignment_(assignment), file_(file), table_(read_text_table(file)) {
     const auto has = [&](const std::string& name) { return table_.column(name).has_value(); };
-    if (std::none_of(owners.begin(), owners.end(), has))
-        fail(1, fmt::format("the column {} is missing", fmt::join(owners, " or ")));
+    if (std::ranges::none_of(owners, has)) fail(1, fmt::format("the column {} is missing", fmt::join(owners, " or ")));
     others.insert(owners.begin(), owners.end());
     std::vector<std::string> criteria, unknown;
     bool any = false;

@@ -26,7 +26,7 @@ bool is_item_number(const std::string& word) {
     if (inner.size() < 2 || (inner.back() != '.' && inner.back() != ')')) return false;
     inner.pop_back();
     const bool digits =
-        inner.size() <= 2 && std::all_of(inner.begin(), inner.end(), [](unsigned char c) { return std::isdigit(c); });
+        inner.size() <= 2 && std::ranges::all_of(inner, [](unsigned char c) { return std::isdigit(c); });
     return digits || (inner.size() == 1 && std::islower(static_cast<unsigned char>(inner.front())));
 }
 
@@ -71,7 +71,7 @@ class BlockMaker {
 
   private:
     bool is_title(const TextLine& line) const {
-        const bool at_start = std::all_of(blocks_.begin(), blocks_.end(), [](const TextBlock& b) { return b.heading; });
+        const bool at_start = std::ranges::all_of(blocks_, [](const TextBlock& b) { return b.heading; });
         return at_start && !line.fixed_width && line.size > kTitleSize * text_.body_size;
     }
 
@@ -120,8 +120,7 @@ class BlockMaker {
     /// "... beside the position in / Figure 1.": the line before is a sentence without its end, set as this one.
     bool leads_on(const TextLine& line) const {
         const std::string& word = last_->words.back();
-        const bool plain =
-            std::all_of(word.begin(), word.end(), [](unsigned char c) { return std::islower(c) || c >= 0x80; });
+        const bool plain = std::ranges::all_of(word, [](unsigned char c) { return std::islower(c) || c >= 0x80; });
         return plain && last_->is_prose() && std::abs(line.size - last_->size) < kSameSize * line.size;
     }
 

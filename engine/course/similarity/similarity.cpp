@@ -75,8 +75,7 @@ class ScriptComparison {
                 found.push_back({a, b, std::min(share, 1.0), same_lines(a, b), {}});
             }
         }
-        std::stable_sort(found.begin(), found.end(),
-                         [](const SimilarPair& x, const SimilarPair& y) { return x.share > y.share; });
+        std::ranges::stable_sort(found, [](const SimilarPair& x, const SimilarPair& y) { return x.share > y.share; });
         for (std::size_t k = 0; k < std::min(found.size(), kMostShownPairs); ++k)
             found[k].passages = passages(found[k].a, found[k].b);
         return found;
@@ -102,8 +101,7 @@ class ScriptComparison {
     double same_lines(std::size_t a, std::size_t b) const {
         const auto &one = lines_[a], &other = lines_[b];
         const auto &fewer = one.size() < other.size() ? one : other, &more = one.size() < other.size() ? other : one;
-        const auto same =
-            std::count_if(fewer.begin(), fewer.end(), [&](const auto& line) { return more.contains(line); });
+        const auto same = std::ranges::count_if(fewer, [&](const auto& line) { return more.contains(line); });
         return fewer.empty() ? 0 : static_cast<double>(same) / static_cast<double>(fewer.size());
     }
 
@@ -129,9 +127,8 @@ class ScriptComparison {
             all.push_back(longest);
             k = end;
         }
-        std::stable_sort(all.begin(), all.end(), [](const CommonPassage& x, const CommonPassage& y) {
-            return x.fingerprints > y.fingerprints;
-        });
+        std::ranges::stable_sort(
+            all, [](const CommonPassage& x, const CommonPassage& y) { return x.fingerprints > y.fingerprints; });
         if (all.size() > kMostPassages) all.resize(kMostPassages);
         return all;
     }
@@ -146,7 +143,7 @@ class ScriptComparison {
         for (std::size_t next = i + 1; next < prints_[a].size() && next <= end + kGap; ++next) {
             const auto found = places.find(prints_[a][next].hash);
             if (found == places.end()) continue;
-            const auto place = std::upper_bound(found->second.begin(), found->second.end(), j);
+            const auto place = std::ranges::upper_bound(found->second, j);
             if (place == found->second.end() || *place > j + 1 + kGap) continue;
             j = *place;
             end = next + 1;

@@ -28,8 +28,7 @@ bool Senders::knows(const Submission& submission) const {
 std::optional<Group> Senders::find(const Submission& submission) const {
     const Owners::Found found = owners_.find(submission);
     if (!found.anybody()) return {};
-    const auto group =
-        std::find_if(groups_.begin(), groups_.end(), [&](const Group& g) { return g.name == found.group; });
+    const auto group = std::ranges::find(groups_, found.group, &Group::name);
     return group == groups_.end() ? std::nullopt : std::optional(*group);
 }
 

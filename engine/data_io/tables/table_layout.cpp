@@ -164,8 +164,7 @@ class LayoutFinder {
     }
 
     void find_names() {
-        const bool has_numbers =
-            std::find(layout_.is_text.begin(), layout_.is_text.end(), false) != layout_.is_text.end();
+        const bool has_numbers = std::ranges::find(layout_.is_text, false) != layout_.is_text.end();
         first_row_ = 0;
         if (!has_numbers) {  // a table of texts: the first line of that length names them
             while (first_row_ < records_.size() && !names_columns(records_[first_row_])) ++first_row_;
@@ -175,8 +174,7 @@ class LayoutFinder {
         const auto is_row = [this](const TableRecord& record) {
             return record.cells.size() == sample_.cells && holds_number(record) && !holds_text(record);
         };
-        first_row_ =
-            static_cast<std::size_t>(std::find_if(records_.begin(), records_.end(), is_row) - records_.begin());
+        first_row_ = static_cast<std::size_t>(std::ranges::find_if(records_, is_row) - records_.begin());
         std::vector<std::size_t> wordy;  // records above that may hold names or units
         for (std::size_t i = 0; i < first_row_; ++i)
             if (!holds_number(records_[i]) && holds_text(records_[i]) && names_columns(records_[i])) wordy.push_back(i);

@@ -53,14 +53,14 @@ constexpr std::array<std::string_view, 60> kWords = {
 
 template <class Names>
 bool is_one_of(const Names& names, std::string_view text) {
-    return std::find(names.begin(), names.end(), text) != names.end();
+    return std::ranges::find(names, text) != names.end();
 }
 
 bool is_symbol(std::string_view text) {
     if (is_one_of(kWords, text) || seconds_of(text)) return true;
     const std::string lower = in_small_letters(std::string(text));
     if (lower.size() > 3 && is_one_of(kWords, lower)) return true;  // Volts
-    return std::any_of(kPrefixes.begin(), kPrefixes.end(), [text](std::string_view prefix) {
+    return std::ranges::any_of(kPrefixes, [text](std::string_view prefix) {
         return text.starts_with(prefix) && is_one_of(kSymbols, text.substr(prefix.size()));
     });
 }
@@ -71,8 +71,7 @@ std::string_view take_factor(std::string_view& rest) {
     constexpr std::array<std::string_view, 3> kDots = {"\u00B7", "\u22C5", "\u00D7"};
     std::size_t size = 0;
     const auto at_dot = [&] {
-        return std::any_of(kDots.begin(), kDots.end(),
-                           [&](std::string_view dot) { return rest.substr(size).starts_with(dot); });
+        return std::ranges::any_of(kDots, [&](std::string_view dot) { return rest.substr(size).starts_with(dot); });
     };
     while (size < rest.size() && kBetween.find(rest[size]) == std::string_view::npos && !at_dot()) ++size;
     std::string_view factor = rest.substr(0, size);

@@ -23,8 +23,7 @@ CharacterKind character_kind(char c) {
 }
 
 bool is_plain_number(std::string_view word) {
-    return std::all_of(word.begin(), word.end(),
-                       [](char c) { return (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+'; });
+    return std::ranges::all_of(word, [](char c) { return (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+'; });
 }
 
 /// How many numbers an operator of paths takes; nothing for any other word.

@@ -64,8 +64,7 @@ void check_outside(const fs::path& file, const PdfLimits& limits) {
 }
 
 bool contains_any(const std::string& text, std::initializer_list<const char*> parts) {
-    return std::any_of(parts.begin(), parts.end(),
-                       [&](const char* part) { return text.find(part) != std::string::npos; });
+    return std::ranges::any_of(parts, [&](const char* part) { return text.find(part) != std::string::npos; });
 }
 
 PdfWord word_of(const poppler::text_box& box) {

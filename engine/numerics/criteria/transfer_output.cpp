@@ -20,8 +20,7 @@ std::vector<Index> denominators_of(const TransferStructure& structure, Index out
     std::vector<Index> different;
     for (Index input = 0; input < structure.inputs; ++input) {
         const Index denominator = structure.channel(output, input).denominator;
-        if (std::find(different.begin(), different.end(), denominator) == different.end())
-            different.push_back(denominator);
+        if (std::ranges::find(different, denominator) == different.end()) different.push_back(denominator);
     }
     return different;
 }
@@ -206,7 +205,7 @@ void TransferOutput::keep_stable() {
 void TransferOutput::fix(const std::map<std::string, double>& values) {
     const std::vector<std::string> names = structure_.parameter_names();
     for (const auto& [name, value] : values) {
-        const auto known = std::find(names.begin(), names.end(), name);
+        const auto known = std::ranges::find(names, name);
         if (known == names.end()) {
             std::string all;
             for (const std::string& one : names) all += (all.empty() ? "" : ", ") + one;

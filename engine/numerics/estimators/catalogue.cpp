@@ -230,8 +230,7 @@ const std::vector<MethodEntry>& method_catalogue() {
 
 std::optional<MethodEntry> find_method(const std::string& lua_name) {
     for (const MethodEntry& method : method_catalogue())
-        if (std::find(method.lua_names.begin(), method.lua_names.end(), lua_name) != method.lua_names.end())
-            return method;
+        if (std::ranges::find(method.lua_names, lua_name) != method.lua_names.end()) return method;
     return std::nullopt;
 }
 

@@ -63,8 +63,8 @@ std::vector<StartCondition> conditions_for(const IdData& data, const ProcessStru
                                            const FitOptions& options) {
     std::vector<StartCondition> conditions = start_conditions(data, options.initial_state, options.offset);
     if (!structure.integrator) return conditions;
-    const bool rests = std::all_of(data.experiments.begin(), data.experiments.end(),
-                                   [](const Experiment& experiment) { return experiment.u(0, 0) == 0; });
+    const bool rests =
+        std::ranges::all_of(data.experiments, [](const Experiment& experiment) { return experiment.u(0, 0) == 0; });
     if (options.initial_state == InitialState::kSteady && !rests)
         throw InvalidArgument(
             "A process with an integrator rests at zero input only, so `initial_state` \"steady\" does not suit: use "
@@ -104,7 +104,7 @@ Fit ProcessProblem::best_fit(const IdData& data, const std::vector<StartConditio
     return fit_output_error({"procsrivc", data, conditions,
                              [&](const StartCondition& condition) { return value_count(data, condition); },
                              [&](const StartCondition& condition) {
-                                 const auto start = std::find_if(starts.begin(), starts.end(), [&](const Fit& one) {
+                                 const auto start = std::ranges::find_if(starts, [&](const Fit& one) {
                                      return one.start.state == condition.state && one.start.offset == condition.offset;
                                  });
                                  return fit(data, condition, start == starts.end() ? nullptr : &*start);
@@ -139,7 +139,7 @@ std::vector<Fit> worth_a_fit(const std::vector<Fit>& trials, const ProcessProble
     };
     std::vector<Fit> chosen;
     for (const Fit& trial : trials) {
-        const bool behind = std::any_of(trials.begin(), trials.end(), [&](const Fit& other) {
+        const bool behind = std::ranges::any_of(trials, [&](const Fit& other) {
             return other.start.offset == trial.start.offset && evidence(other) + kCloseEvidence < evidence(trial);
         });
         if (!behind) chosen.push_back(trial);
@@ -163,8 +163,7 @@ Vector likely_delays(const IdData& data, const ProcessProblem& problem) {
 }
 
 bool input_changes(const IdData& data) {
-    return std::any_of(data.experiments.begin(), data.experiments.end(),
-                       [](const Experiment& e) { return (e.u.array() != e.u(0, 0)).any(); });
+    return std::ranges::any_of(data.experiments, [](const Experiment& e) { return (e.u.array() != e.u(0, 0)).any(); });
 }
 
 /// A long record: every start condition on its beginning, then those worth it on the whole, from where these ended.
@@ -186,7 +185,7 @@ Fit best_fit_to_long(ProcessProblem problem, const IdData& data, const std::vect
         if (trials.back().termination == Termination::kCancelled) return problem.best_fit(data, {condition});
     }
     const std::vector<Fit> starts = worth_a_fit(trials, problem, beginning, data.sample_count());
-    if (!std::all_of(starts.begin(), starts.end(), [&](const Fit& start) { return is_a_start(problem, start); }))
+    if (!std::ranges::all_of(starts, [&](const Fit& start) { return is_a_start(problem, start); }))
         return problem.best_fit(data, conditions);
     std::vector<StartCondition> worth;
     for (const Fit& start : starts) worth.push_back(start.start);

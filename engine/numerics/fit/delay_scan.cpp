@@ -55,8 +55,7 @@ class DelayCurve {
     /// More delays on both sides of the lowest valleys.
     void look_closely(double spacing) {
         for (const double delay : delays_of_valleys()) {
-            const auto found = std::find_if(points_.begin(), points_.end(),
-                                            [&](const DelayPoint& point) { return point.delay == delay; });
+            const auto found = std::ranges::find(points_, delay, &DelayPoint::delay);
             const auto i = static_cast<std::size_t>(found - points_.begin());
             if (i > 0) fill(i - 1, spacing);
             const std::size_t here = place_of(delay);
@@ -69,7 +68,7 @@ class DelayCurve {
     /// losses.
     std::vector<DelayPoint> beginnings() const {
         std::vector<Valley> all = valleys_between();
-        std::stable_sort(all.begin(), all.end(), [](const Valley& a, const Valley& b) { return a.loss < b.loss; });
+        std::ranges::stable_sort(all, {}, &Valley::loss);
         std::set<std::size_t> places;
         std::vector<DelayPoint> chosen;
         const auto choose = [&](std::size_t place) {
@@ -95,7 +94,7 @@ class DelayCurve {
             const bool right = i + 1 == points_.size() || points_[i].loss < points_[i + 1].loss;
             if (left && right && std::isfinite(points_[i].loss)) places.push_back(i);
         }
-        std::sort(places.begin(), places.end(), [&](auto a, auto b) { return points_[a].loss < points_[b].loss; });
+        std::ranges::sort(places, [&](auto a, auto b) { return points_[a].loss < points_[b].loss; });
         if (places.size() > kValleys) places.resize(kValleys);
         return places;
     }
@@ -135,8 +134,7 @@ class DelayCurve {
     }
 
     std::size_t place_of(double delay) const {
-        const auto found = std::lower_bound(points_.begin(), points_.end(), delay,
-                                            [](const DelayPoint& point, double at) { return point.delay < at; });
+        const auto found = std::ranges::lower_bound(points_, delay, {}, &DelayPoint::delay);
         return static_cast<std::size_t>(found - points_.begin());
     }
 

@@ -23,7 +23,7 @@ bool is_constant(const Eigen::Ref<const Vector>& x) {
 
 template <class Holds>
 bool in_all_experiments(const IdData& data, const Holds& holds) {
-    return std::all_of(data.experiments.begin(), data.experiments.end(), holds);
+    return std::ranges::all_of(data.experiments, holds);
 }
 
 /// A constant input is a step from zero at the first sample, when the output begins there as well.
@@ -200,8 +200,7 @@ void warn_of_delay(Fit& fit, double delay, const DelayRange& range, const std::s
     else if (delay <= range.least + edge && range.least > 0)
         fit.warnings.push_back(subject + "`least_delay` = " + number_text(range.least) + searched +
                                "lower `least_delay`.");
-    else if (delay <= edge && range.largest > 0 &&
-             std::none_of(fit.fit_percent.begin(), fit.fit_percent.end(), explains_little))
+    else if (delay <= edge && range.largest > 0 && std::ranges::none_of(fit.fit_percent, explains_little))
         fit.warnings.push_back("No delay" + channel + " is visible: a model without one suits.");
 }
 

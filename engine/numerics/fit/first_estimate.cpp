@@ -142,8 +142,7 @@ Vector best_cutoff_start(const IdData& data, const TransferStructure& structure,
     const bool all = trials == CutoffTrials::kAll;
     if (!all) starts = valleys_over_the_cutoff(starts);
     if (!all && starts.size() == 1 && std::isfinite(starts.front().loss)) return starts.front().theta;  // no rivals
-    std::stable_sort(starts.begin(), starts.end(),
-                     [](const CutoffStart& a, const CutoffStart& b) { return a.loss < b.loss; });
+    std::ranges::stable_sort(starts, {}, &CutoffStart::loss);
     for (const CutoffStart& start : starts) {
         if (!all && start.loss > kFarOff * best_loss) break;
         const auto consider = [&](const Vector& theta, double loss) {

@@ -36,8 +36,8 @@ std::vector<double> search_grid(const TransferFunction& G, const Vector& corners
     std::vector<double> grid(corners.begin(), corners.end());
     const int count = std::max(2, static_cast<int>((last - first) * kPointsPerDecade));
     for (int i = 0; i < count; ++i) grid.push_back(std::pow(10, first + (last - first) * i / (count - 1)));
-    std::sort(grid.begin(), grid.end());
-    grid.erase(std::upper_bound(grid.begin(), grid.end(), std::pow(10, last)), grid.end());
+    std::ranges::sort(grid);
+    grid.erase(std::ranges::upper_bound(grid, std::pow(10, last)), grid.end());
     return grid;
 }
 
@@ -57,9 +57,7 @@ double crossing(const TransferFunction& G, double low, double high, double level
 std::vector<PoleDescription> damping(const TransferFunction& G) {
     std::vector<PoleDescription> rows;
     for (const Complex& pole : G.poles()) rows.push_back(describe(G, pole));
-    std::stable_sort(rows.begin(), rows.end(), [](const PoleDescription& a, const PoleDescription& b) {
-        return a.natural_frequency < b.natural_frequency;
-    });
+    std::ranges::stable_sort(rows, {}, &PoleDescription::natural_frequency);
     return rows;
 }
 
@@ -73,7 +71,7 @@ Vector corner_frequencies(const TransferFunction& G) {
     };
     collect(G.poles());
     collect(G.zeros());
-    std::sort(corners.begin(), corners.end());
+    std::ranges::sort(corners);
     return Eigen::Map<const Vector>(corners.data(), static_cast<Index>(corners.size()));
 }
 

@@ -133,8 +133,7 @@ std::shared_ptr<const IrregularEvents> recent_events(const VectorView& u, const 
     constexpr std::size_t kMost = 4;    // input and output, at the delays before and behind a step
     if (u.size() > kLongest) return std::make_shared<const IrregularEvents>(u, t, hold, delay);
     thread_local std::deque<MadeEvents> made;
-    const auto found =
-        std::find_if(made.begin(), made.end(), [&](const MadeEvents& one) { return one.are_of(u, t, hold, delay); });
+    const auto found = std::ranges::find_if(made, [&](const MadeEvents& one) { return one.are_of(u, t, hold, delay); });
     if (found != made.end()) {
         std::rotate(made.begin(), found, found + 1);
         return made.front().events;

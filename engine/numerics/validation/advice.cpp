@@ -43,7 +43,7 @@ void add(ModelAdvice model, const std::string& output, double range, std::vector
     std::erase_if(findings, [&](const RecordFinding& f) {
         return of_channel("saturation")(f) && is_expected(f, model.error, range);
     });
-    if (std::any_of(findings.begin(), findings.end(), of_channel("saturation")))
+    if (std::ranges::any_of(findings, of_channel("saturation")))
         std::erase_if(model.findings, of_channel("saturation"));
     for (RecordFinding& finding : model.findings) findings.push_back(std::move(finding));
 }
@@ -55,27 +55,25 @@ bool Advice::has(const std::string& code) const {
 }
 
 const RecordFinding* Advice::find(const std::string& code) const {
-    const auto found =
-        std::find_if(findings.begin(), findings.end(), [&](const RecordFinding& f) { return f.code == code; });
+    const auto found = std::ranges::find(findings, code, &RecordFinding::code);
     return found == findings.end() ? nullptr : &*found;
 }
 
 bool Advice::clean() const {
-    return std::none_of(findings.begin(), findings.end(),
-                        [](const RecordFinding& f) { return f.weight == Weight::kWarning; });
+    return std::ranges::none_of(findings, [](const RecordFinding& f) { return f.weight == Weight::kWarning; });
 }
 
 Advice advise(const IdData& data, const std::function<bool()>& cancel) {
     Advice advice{signal_advice(data), {}};
-    const bool usable = std::none_of(advice.findings.begin(), advice.findings.end(), forbids_a_model);
+    const bool usable = std::ranges::none_of(advice.findings, forbids_a_model);
     if (usable && data.input_count() == 1 && data.regular())
         for (Index output = 1; output <= data.output_count(); ++output) {
             const auto y = data.experiments.front().y.col(output - 1);
             add(model_advice(data.select({output}, {1}), cancel),
                 data.output_names[static_cast<std::size_t>(output - 1)], y.maxCoeff() - y.minCoeff(), advice.findings);
         }
-    std::stable_sort(advice.findings.begin(), advice.findings.end(),
-                     [](const RecordFinding& a, const RecordFinding& b) { return a.weight > b.weight; });
+    std::ranges::stable_sort(advice.findings,
+                             [](const RecordFinding& a, const RecordFinding& b) { return a.weight > b.weight; });
     for (const RecordFinding& finding : advice.findings)
         if (spoils_a_stretch(finding))
             advice.discard.insert(advice.discard.end(), finding.sections.begin(), finding.sections.end());

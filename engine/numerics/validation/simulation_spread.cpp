@@ -51,8 +51,7 @@ SimulationSpread simulation_spread(const ModelsOfParameters& models, const Vecto
     SimulationSpread spread{simulated_sum(own, u, Ts, hold), {}, Matrix(N, runs), 0};
     for (Index run = 0; run < runs; ++run) {
         const std::vector<TransferFunction> drawn = models(theta + root * random.normal(d));
-        if (!std::all_of(drawn.begin(), drawn.end(), [](const TransferFunction& G) { return G.stable(); }))
-            ++spread.unstable;
+        if (!std::ranges::all_of(drawn, [](const TransferFunction& G) { return G.stable(); })) ++spread.unstable;
         spread.drawn.col(run) = simulated_sum(drawn, u, Ts, hold);
     }
     const Vector mean = spread.drawn.rowwise().mean();

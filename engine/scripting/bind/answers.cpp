@@ -20,14 +20,12 @@ void check_declared(const std::vector<ExpectedAnswer>& expected, const std::stri
             throw InvalidArgument(
                 fmt::format("the answer \"{}\" must be of the kind {}, but a {} was given", name, answer.kind, kind));
     }
-    if (std::find(names.begin(), names.end(), name) == names.end())
-        throw InvalidArgument(undeclared_answer_sentence(name, names));
+    if (std::ranges::find(names, name) == names.end()) throw InvalidArgument(undeclared_answer_sentence(name, names));
 }
 
 /// The kind that the script's header declares for an answer; empty where it declares none of this name.
 std::string kind_of(const std::vector<ExpectedAnswer>& expected, const std::string& name) {
-    const auto found =
-        std::find_if(expected.begin(), expected.end(), [&](const ExpectedAnswer& one) { return one.name == name; });
+    const auto found = std::ranges::find(expected, name, &ExpectedAnswer::name);
     return found == expected.end() ? std::string() : found->kind;
 }
 

@@ -97,7 +97,7 @@ MonteCarloMethod method_of_function(const Call& call, const std::string& label, 
 /// Whether the method's second argument is a table of orders, as its signature says.
 bool takes_orders(const Call& call, const std::string& method) {
     const auto& functions = call.context().functions;
-    return std::any_of(functions.begin(), functions.end(), [&](const FunctionEntry* entry) {
+    return std::ranges::any_of(functions, [&](const FunctionEntry* entry) {
         return entry->name == method && std::string_view(entry->signature).find("(data, {n") != std::string_view::npos;
     });
 }
@@ -140,10 +140,8 @@ std::vector<std::string> entry_names(lua_State* L, int table) {
         if (lua_type(L, -1) == LUA_TSTRING) names.emplace_back(lua_tostring(L, -1));
     }
     const std::vector<std::string> known = estimation_names();
-    const auto rank = [&](const std::string& name) {
-        return std::find(known.begin(), known.end(), name) - known.begin();
-    };
-    std::sort(names.begin(), names.end(), [&](const std::string& a, const std::string& b) {
+    const auto rank = [&](const std::string& name) { return std::ranges::find(known, name) - known.begin(); };
+    std::ranges::sort(names, [&](const std::string& a, const std::string& b) {
         return rank(a) != rank(b) ? rank(a) < rank(b) : a < b;
     });
     return names;

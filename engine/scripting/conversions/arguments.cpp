@@ -282,9 +282,7 @@ void Options::check_names(std::initializer_list<const char*> known) const {
             throw InvalidArgument(fmt::format("options are written {{name = value}}; the entry [{}] has no name{}",
                                               given_text(L, -1), names_of(known)));
         const std::string name = lua_tostring(L, -1);
-        const auto is_known = [&](const std::string& word) {
-            return std::find(known.begin(), known.end(), word) != known.end();
-        };
+        const auto is_known = [&](const std::string& word) { return std::ranges::find(known, word) != known.end(); };
         if (is_known(name)) continue;
         if (const std::string other = with_other_case(name); is_known(other)) {
             if (lua_getfield(L, index_, other.c_str()) != LUA_TNIL)
@@ -400,7 +398,7 @@ std::optional<std::pair<double, double>> Options::range(const char* name) const 
 std::size_t Options::choice(const char* name, std::initializer_list<const char*> choices, std::size_t fallback) const {
     if (!has(name)) return fallback;
     const std::string given = text(name, "");
-    const auto found = std::find(choices.begin(), choices.end(), given);
+    const auto found = std::ranges::find(choices, given);
     if (found == choices.end())
         throw InvalidArgument(fmt::format("{} must be one of \"{}\", but \"{}\" was given", label(name),
                                           fmt::join(choices, "\", \""), given));

@@ -59,8 +59,7 @@ std::string in_lua_words(std::string_view message) {
         const std::size_t begin = message.find('`'), end = message.find('`', begin + 1);
         if (begin == std::string_view::npos || end == std::string_view::npos) break;
         const std::string_view name = message.substr(begin + 1, end - begin - 1);
-        const auto word = std::find_if(kOptionWords.begin(), kOptionWords.end(),
-                                       [&](const OptionWord& option) { return option.first == name; });
+        const auto word = std::ranges::find(kOptionWords, name, &OptionWord::first);
         const bool known = word != kOptionWords.end();
         text += message.substr(0, known ? begin : end);  // a closing backtick may open the next name
         if (known) text += word->second;

@@ -107,9 +107,7 @@ std::vector<std::pair<std::string, std::string>> described_options(const std::st
 }
 
 bool FunctionOptions::knows(const std::string& name) const {
-    const auto is_mentioned = [this](const std::string& word) {
-        return std::binary_search(mentioned.begin(), mentioned.end(), word);
-    };
+    const auto is_mentioned = [this](const std::string& word) { return std::ranges::binary_search(mentioned, word); };
     return is_mentioned(name) || is_mentioned(with_other_case(name));
 }
 
@@ -123,7 +121,7 @@ std::optional<FunctionOptions> options_of_function(const std::string& function) 
         const std::vector<std::string> arguments = arguments_of(form);
         for (const std::string& argument : arguments)
             if (!is_options(argument)) add_names(argument, positional);
-        const auto table = std::find_if(arguments.begin(), arguments.end(), is_options);
+        const auto table = std::ranges::find_if(arguments, is_options);
         if (table == arguments.end()) continue;
         const bool varies = std::find(arguments.begin(), table, "...") != table;
         const std::size_t place = varies ? 1 : static_cast<std::size_t>(table - arguments.begin());

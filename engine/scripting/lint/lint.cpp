@@ -46,7 +46,7 @@ class Linter {
     std::vector<LintFinding> findings() {
         read_header();
         if (is_lua()) look_at_names();
-        std::stable_sort(found_.begin(), found_.end(), [](const LintFinding& one, const LintFinding& other) {
+        std::ranges::stable_sort(found_, [](const LintFinding& one, const LintFinding& other) {
             return std::pair(one.line, one.column) < std::pair(other.line, other.column);
         });
         return std::move(found_);
@@ -54,7 +54,7 @@ class Linter {
 
   private:
     void add(std::size_t offset, const char* kind, std::string message) {
-        const auto behind = std::upper_bound(line_begins_.begin(), line_begins_.end(), offset);
+        const auto behind = std::ranges::upper_bound(line_begins_, offset);
         const std::size_t begin = *std::prev(behind);
         const auto characters = std::count_if(source_.begin() + static_cast<std::ptrdiff_t>(begin),
                                               source_.begin() + static_cast<std::ptrdiff_t>(offset),
@@ -142,8 +142,7 @@ class Linter {
         if (use.written) return add(use.begin, "library-name", replaced_name_sentence(use.name));
         const std::vector<std::string>& members = known->second;
         const bool table = !members.empty() && !own.contains(use.name);
-        if (!table || use.member.empty() || std::find(members.begin(), members.end(), use.member) != members.end())
-            return;
+        if (!table || use.member.empty() || std::ranges::find(members, use.member) != members.end()) return;
         const bool by_itself = find_function(use.member) != nullptr;
         add(use.member_begin, "unknown-name", unknown_member_sentence(use.name, use.member, by_itself, members));
     }

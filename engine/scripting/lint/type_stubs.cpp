@@ -89,8 +89,7 @@ std::string options_class(const std::string& function) {
     if (!options) return text;
     const auto described = described_options(function);
     for (const std::string& name : options->names) {
-        const auto words =
-            std::find_if(described.begin(), described.end(), [&](const auto& one) { return one.first == name; });
+        const auto words = std::ranges::find_if(described, [&](const auto& one) { return one.first == name; });
         text += fmt::format("---@field {}? any {}\n", name, words == described.end() ? "" : in_one_line(words->second));
     }
     return text;
@@ -102,8 +101,8 @@ std::string stub_of(const FunctionEntry& entry) {
     const bool braces = forms.front().find('(') == std::string::npos;  // figure{...}
     const std::string form = braces ? replaced(replaced(forms.front(), "{", "({"), "}", "})") : forms.front();
     const std::vector<Parameter> parameters = parameters_of(function, form);
-    const bool with_options = std::any_of(forms.begin(), forms.end(),
-                                          [](const std::string& one) { return one.find('{') != std::string::npos; });
+    const bool with_options =
+        std::ranges::any_of(forms, [](const std::string& one) { return one.find('{') != std::string::npos; });
     std::string text = with_options ? options_class(function) + "\n" : "";
     text += fmt::format("---{}\n---\n---`{}`\n", entry.summary, entry.signature);
     std::string names;

@@ -283,14 +283,13 @@ constexpr std::array kMemberHints = {
 }  // namespace
 
 const char* matlab_name_hint(const std::string& name) {
-    const auto found =
-        std::find_if(kNames.begin(), kNames.end(), [&](const NameHint& hint) { return hint.name == name; });
+    const auto found = std::ranges::find(kNames, name, &NameHint::name);
     return found == kNames.end() ? nullptr : found->hint;
 }
 
 const char* foreign_member_hint(const std::string& type, const std::string& name) {
-    const auto found = std::find_if(kMemberHints.begin(), kMemberHints.end(),
-                                    [&](const MemberHint& hint) { return hint.type == type && hint.name == name; });
+    const auto found = std::ranges::find_if(
+        kMemberHints, [&](const MemberHint& hint) { return hint.type == type && hint.name == name; });
     return found == kMemberHints.end() ? nullptr : found->hint;
 }
 

@@ -30,7 +30,7 @@ std::vector<std::string> help_names(const FunctionList& functions) {
 }
 
 const FunctionEntry* entry_of(std::string_view name, const FunctionList& functions) {
-    const auto found = std::find_if(functions.begin(), functions.end(), [&](const auto* e) { return e->name == name; });
+    const auto found = std::ranges::find_if(functions, [&](const auto* e) { return e->name == name; });
     return found == functions.end() ? nullptr : *found;
 }
 
@@ -46,7 +46,7 @@ bool begins_a_word(const std::string& text, const std::string& word) {
 }
 
 bool begin_words(const std::string& text, const std::vector<std::string>& words) {
-    return std::all_of(words.begin(), words.end(), [&](const auto& word) { return begins_a_word(text, word); });
+    return std::ranges::all_of(words, [&](const auto& word) { return begins_a_word(text, word); });
 }
 
 struct Found {
@@ -72,7 +72,7 @@ std::vector<Found> pages_about(const std::string& asked, const FunctionList& fun
     }
     for (const HelpPage& page : help_pages())
         if (entry_of(page.name, functions) == nullptr) look(std::string(page.name), subject_of(page), page.text);
-    std::stable_sort(found.begin(), found.end(), [](const Found& a, const Found& b) { return a.rank < b.rank; });
+    std::ranges::stable_sort(found, {}, &Found::rank);
     return found;
 }
 
@@ -92,7 +92,7 @@ std::string matlab_answer(const std::string& name, const char* hint, const Funct
     std::vector<std::string> shown;
     for (std::sregex_iterator i(words.begin(), words.end(), kCall), end; i != end; ++i) {
         const FunctionEntry* entry = entry_of((*i)[1].str(), functions);
-        if (entry == nullptr || std::find(shown.begin(), shown.end(), entry->name) != shown.end()) continue;
+        if (entry == nullptr || std::ranges::find(shown, entry->name) != shown.end()) continue;
         text += (shown.empty() ? "\n" : "") + help_row(entry->name, entry->summary, width);
         shown.emplace_back(entry->name);
     }
@@ -112,8 +112,7 @@ std::optional<std::string> method_answer(const std::string& name, std::size_t wi
     const auto dot = name.find_last_of(".:");
     if (dot == std::string::npos) return std::nullopt;
     const std::string object = name.substr(0, dot), method = name.substr(dot + 1);
-    const auto known =
-        std::find_if(kObjects.begin(), kObjects.end(), [&](const ObjectWords& one) { return one.word == object; });
+    const auto known = std::ranges::find(kObjects, object, &ObjectWords::word);
     if (known == kObjects.end() || method.empty()) return std::nullopt;
     const auto page = find_help_page(known->page);
     const auto at = page ? page->text.find(":" + method) : std::string_view::npos;
@@ -123,7 +122,7 @@ std::optional<std::string> method_answer(const std::string& name, std::size_t wi
     auto end = page->text.find("\n\n", at);
     if (const auto next = page->text.find(", `", page->text.find('`', at)); next < end) end = next;
     std::string words(page->text.substr(begin, end - begin));
-    std::replace(words.begin(), words.end(), '\n', ' ');
+    std::ranges::replace(words, '\n', ' ');
     return laid_out(fmt::format("{}\n\nhelp {} tells the rest.\n", words, known->page), width);
 }
 
@@ -135,7 +134,7 @@ std::optional<std::string> lua_answer(const std::string& word, std::size_t width
         "pairs",      "pcall",        "print",        "repeat",  "return", "string", "table",  "then",
         "tostring",   "true",         "until",        "while",   "error",  "select", "unpack", "string.format",
         "table.sort", "table.concat", "string.upper", "function"};
-    if (std::find(kWords.begin(), kWords.end(), word) == kWords.end()) return std::nullopt;
+    if (std::ranges::find(kWords, word) == kWords.end()) return std::nullopt;
     const auto page = find_help_page("lua");
     if (!page) return std::nullopt;
     const std::string guide(page->text);
@@ -176,7 +175,7 @@ std::string subject_of(const HelpPage& page) {
 std::string help_overview(const FunctionList& functions, std::size_t width) {
     std::vector<std::string_view> areas;
     for (const FunctionEntry* entry : functions)
-        if (std::find(areas.begin(), areas.end(), entry->area) == areas.end()) areas.emplace_back(entry->area);
+        if (std::ranges::find(areas, entry->area) == areas.end()) areas.emplace_back(entry->area);
     std::string text;
     for (std::string_view area : areas) {
         text += fmt::format("{}\n", area);

@@ -188,9 +188,8 @@ std::string command_hint(const std::string& code, const std::string& near) {
     static const std::regex kAsked(R"(\s*\?\s*(\w+)\s*)"), kTwoWords(R"(\s*([A-Za-z_]\w*)[ \t]+(\w+)[\s;]*)");
     std::smatch words;
     if (std::regex_match(code, words, kAsked)) return fmt::format("help is asked for by help(\"{}\")", words[1].str());
-    const bool words_only = std::all_of(code.begin(), code.end(), [](char c) {
-        return name_character(c) || std::string_view(" \t\r;").find(c) != std::string_view::npos;
-    });
+    const bool words_only = std::ranges::all_of(
+        code, [](char c) { return name_character(c) || std::string_view(" \t\r;").find(c) != std::string_view::npos; });
     const char* hint = words_only ? matlab_name_hint(first_word(code)) : nullptr;
     if (hint != nullptr) return hint;
     const std::string block = block_hint(code);
@@ -225,8 +224,7 @@ std::optional<std::string> foreign_character_sentence(const std::string& line) {
         const std::optional<char32_t> character = take_character(rest);
         if (!character) return "a byte that is not UTF-8 cannot stand here; save the script as UTF-8";
         if (*character < 128) continue;
-        const auto known = std::find_if(kForeign.begin(), kForeign.end(),
-                                        [&](const ForeignCharacter& one) { return one.character == *character; });
+        const auto known = std::ranges::find(kForeign, *character, &ForeignCharacter::character);
         const std::string instead = known == kForeign.end() ? "names are made of the letters a to z, digits and _"
                                                             : std::string("write ") + known->instead + " instead";
         return fmt::format("the character {} (U+{:04X}) cannot stand here; {}", utf8_of(*character),

@@ -37,8 +37,8 @@ void Recorder::tell_of_cell() const {
 std::string Recorder::current_cell() {
     const int line = current_line_ ? current_line_() : 0;
     if (line <= 0) return timed_cell_;
-    auto after = std::upper_bound(cells_.begin(), cells_.end(), line,
-                                  [](int wanted, const auto& cell) { return wanted < cell.first; });
+    auto after =
+        std::ranges::upper_bound(cells_, line, [](int wanted, const auto& cell) { return wanted < cell.first; });
     return after == cells_.begin() ? cells_.front().second : std::prev(after)->second;
 }
 
@@ -82,8 +82,7 @@ void Recorder::add_figure(const FigurePointer& figure) {
 void Recorder::show_figure(const FigurePointer& figure) {
     note_time();
     auto& pieces = pieces_[timed_cell_];
-    const bool made_here =
-        std::any_of(pieces.begin(), pieces.end(), [&](const Piece& piece) { return piece.figure == figure; });
+    const bool made_here = std::ranges::any_of(pieces, [&](const Piece& piece) { return piece.figure == figure; });
     figure->used = false;
     if (!made_here) pieces.push_back({"", figure});
 }
@@ -102,7 +101,7 @@ void Recorder::add_slider(const std::string& name, RecordedSlider slider) {
 
 void Recorder::note_file_read(const std::filesystem::path& file) {
     auto& files = record_.files_read;
-    if (std::find(files.begin(), files.end(), file) == files.end()) files.push_back(file);
+    if (std::ranges::find(files, file) == files.end()) files.push_back(file);
 }
 
 void Recorder::capture_figures(const std::string& cell, const std::vector<Piece>& pieces) {

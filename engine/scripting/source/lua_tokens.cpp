@@ -60,8 +60,7 @@ class Scanner {
         std::size_t end = offset_;
         while (end < text_.size() && is_name_character(text_[end])) ++end;
         const auto& keywords = lua_keywords();
-        const bool reserved =
-            std::binary_search(keywords.begin(), keywords.end(), text_.substr(offset_, end - offset_));
+        const bool reserved = std::ranges::binary_search(keywords, text_.substr(offset_, end - offset_));
         take(reserved ? Kind::kKeyword : Kind::kName, end);
     }
 
@@ -144,8 +143,8 @@ bool is_name_character(char c) {
 
 bool is_variable_name(std::string_view word) {
     const std::vector<std::string_view>& reserved = lua_keywords();
-    return !word.empty() && !is_digit(word.front()) && std::all_of(word.begin(), word.end(), is_name_character) &&
-           !std::binary_search(reserved.begin(), reserved.end(), word);
+    return !word.empty() && !is_digit(word.front()) && std::ranges::all_of(word, is_name_character) &&
+           !std::ranges::binary_search(reserved, word);
 }
 
 }  // namespace dynlab::inline scripting

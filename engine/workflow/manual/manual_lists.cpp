@@ -101,8 +101,7 @@ ManualPage contents_page(const std::vector<ManualPage>& pages) {
 ManualPage functions_page(const std::vector<ManualPage>& pages) {
     std::vector<std::string> areas;
     for (const ManualPage& page : pages)
-        if (page.kind == "function" && std::find(areas.begin(), areas.end(), page.area) == areas.end())
-            areas.push_back(page.area);
+        if (page.kind == "function" && std::ranges::find(areas, page.area) == areas.end()) areas.push_back(page.area);
     std::string main;
     for (const std::string& area : areas) {
         std::vector<ManualPage> of_area;

@@ -82,9 +82,7 @@ const FunctionEntry* entry_of(const std::string& name) {
 /// The place of the first function of the area in the catalogue.
 std::size_t place_of_area(const std::string& area) {
     const auto& all = catalogue_of_functions();
-    return static_cast<std::size_t>(
-        std::find_if(all.begin(), all.end(), [&](const FunctionEntry& entry) { return entry.area == area; }) -
-        all.begin());
+    return static_cast<std::size_t>(std::ranges::find(all, area, &FunctionEntry::area) - all.begin());
 }
 
 std::string with_capital(std::string text) {
@@ -132,7 +130,7 @@ std::vector<ManualText> help_texts(const HelpExamples& examples) {
     }
     std::stable_partition(guides.begin(), guides.end(),
                           [](const ManualText& guide) { return guide.name == "guide-first-hour"; });
-    std::stable_sort(functions.begin(), functions.end(), [](const ManualText& a, const ManualText& b) {
+    std::ranges::stable_sort(functions, [](const ManualText& a, const ManualText& b) {
         return place_of_area(a.part) < place_of_area(b.part);
     });
     guides.insert(guides.end(), functions.begin(), functions.end());

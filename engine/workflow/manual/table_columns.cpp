@@ -41,9 +41,8 @@ bool is_rule(const std::string& line) {
 
 /// As it is printed: letters, without the marks of code and emphasis.
 double length_of(const std::string& cell) {
-    return static_cast<double>(std::count_if(cell.begin(), cell.end(), [](char c) {
-        return (static_cast<unsigned char>(c) & 0xc0) != 0x80 && c != '`' && c != '*';
-    }));
+    return static_cast<double>(std::ranges::count_if(
+        cell, [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80 && c != '`' && c != '*'; }));
 }
 
 /// What fits is given its length, round after round, as long as that leaves more to the others.

@@ -73,8 +73,7 @@ class ParallelHosts : public WorkerEngine {
     void end() override {
         const auto latest = ParallelClock::now() + kEndOfHosts;
         const auto busy = [](const auto& run) { return !run.second.ended(); };
-        while (std::any_of(runs_.begin(), runs_.end(), busy) && ParallelClock::now() < latest)
-            std::this_thread::sleep_for(20ms);
+        while (std::ranges::any_of(runs_, busy) && ParallelClock::now() < latest) std::this_thread::sleep_for(20ms);
         tell_ends();
         runs_.clear();
     }
@@ -116,7 +115,7 @@ class ParallelHosts : public WorkerEngine {
 
     void refuse_when_hopeless() const {
         if (!runs_.empty() || ParallelClock::now() - last_life_ < kHopeless) return;
-        const bool hopeless = std::all_of(hosts_.begin(), hosts_.end(), [this](const SshHost& host) {
+        const bool hopeless = std::ranges::all_of(hosts_, [this](const SshHost& host) {
             const auto found = refusals_.find(host.name);
             return found != refusals_.end() && found->second >= kMostRefusals;
         });

@@ -41,8 +41,7 @@ class LocalProcesses : public WorkerEngine {
     void end() override {
         const auto latest = Clock::now() + kEndOfProcesses;
         const auto busy = [](const auto& process) { return process && !process->ended(); };
-        while (std::any_of(processes_.begin(), processes_.end(), busy) && Clock::now() < latest)
-            std::this_thread::sleep_for(20ms);
+        while (std::ranges::any_of(processes_, busy) && Clock::now() < latest) std::this_thread::sleep_for(20ms);
         for (auto& process : processes_) process.reset();
     }
 
@@ -92,8 +91,8 @@ std::unique_ptr<WorkerEngine> engine_of(const std::string& words, const Spool& s
     const std::size_t colon = words.find(':');
     const std::string name = words.substr(0, colon), rest = colon == std::string::npos ? "" : words.substr(colon + 1);
     if (name == "processes" && !rest.empty() && rest.size() < 4 &&
-        std::all_of(rest.begin(), rest.end(), [](unsigned char c) { return std::isdigit(c); }) &&
-        std::stoi(rest) >= 1 && std::stoi(rest) <= kMostProcesses)
+        std::ranges::all_of(rest, [](unsigned char c) { return std::isdigit(c); }) && std::stoi(rest) >= 1 &&
+        std::stoi(rest) <= kMostProcesses)
         return local_processes(std::stoi(rest), std::move(command));
     if (name == "parallel" && !rest.empty()) return hosts_by_parallel(rest, std::move(command));
     if (name == "slurm") return slurm_tasks(rest, spool, std::move(command));

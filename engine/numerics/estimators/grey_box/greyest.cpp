@@ -55,8 +55,7 @@ double spread_value(const GreyParameter& p, double share) {
 Vector named_start(const GreyModel& model, const std::map<std::string, double>& values) {
     Vector start = model.start();
     for (const auto& [name, value] : values) {
-        const auto found = std::find_if(model.parameters.begin(), model.parameters.end(),
-                                        [&, &wanted = name](const GreyParameter& p) { return p.name == wanted; });
+        const auto found = std::ranges::find(model.parameters, name, &GreyParameter::name);
         if (found == model.parameters.end())
             throw InvalidArgument("greyest: `starts` name a parameter " + name + ", which the model has not");
         if (!(value >= found->lower && value <= found->upper))
@@ -122,7 +121,7 @@ Vector squares_of_outputs(const GreyOutput& criterion, const Vector& theta, cons
 
 /// Of each output's errors: its share of the values that were searched.
 double residual_degrees(const Fit& end, const IdData& data) {
-    const double held = static_cast<double>(std::count(end.at_bound.begin(), end.at_bound.end(), true));
+    const double held = static_cast<double>(std::ranges::count(end.at_bound, true));
     const double searched = static_cast<double>(end.theta.size()) - held;
     return static_cast<double>(data.sample_count()) - searched / static_cast<double>(data.output_count());
 }

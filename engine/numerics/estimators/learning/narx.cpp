@@ -85,9 +85,7 @@ Choice choose_forwards(const Matrix& R, Index rows, Index most, const std::funct
 }
 
 std::size_t number_of_terms(const Choice& choice, Index wanted) {
-    if (wanted == 0)
-        return static_cast<std::size_t>(std::min_element(choice.bic.begin(), choice.bic.end()) - choice.bic.begin()) +
-               1;
+    if (wanted == 0) return static_cast<std::size_t>(std::ranges::min_element(choice.bic) - choice.bic.begin()) + 1;
     if (static_cast<Index>(choice.terms.size()) < wanted)
         throw InvalidArgument("narx: " + std::to_string(wanted) + " terms are wanted, and only " +
                               std::to_string(choice.terms.size()) +

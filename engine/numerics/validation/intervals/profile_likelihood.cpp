@@ -46,8 +46,8 @@ class ProfileSearch {
     /// From the estimate outwards on both sides, then back.
     std::vector<HeldFit> walk(const std::vector<double>& values) {
         std::vector<HeldFit> all(values.size());
-        const auto above = static_cast<std::size_t>(
-            std::upper_bound(values.begin(), values.end(), base_.theta[place_]) - values.begin());
+        const auto above =
+            static_cast<std::size_t>(std::ranges::upper_bound(values, base_.theta[place_]) - values.begin());
         const auto go = [&](std::size_t i, const Fit& from) {
             HeldFit next = at(values[i], from);
             if (!(all[i].loss <= next.loss)) all[i] = std::move(next);
@@ -87,7 +87,7 @@ std::vector<double> grid_between(double low, double high, int points, double sam
     for (int i = 0; i < points; ++i) values.push_back(low + (high - low) * i / (points - 1));
     if (sample > 0 && (high - low) / sample < 1000)
         for (double k = std::ceil(low / sample); k * sample <= high; ++k) values.push_back(k * sample);
-    std::sort(values.begin(), values.end());
+    std::ranges::sort(values);
     const double same = 1e-9 * (high - low);
     values.erase(std::unique(values.begin(), values.end(), [&](double a, double b) { return b - a < same; }),
                  values.end());
@@ -116,11 +116,10 @@ Ends first_ends(const RefittedOutput& model, Index place, const Fit& base, const
 
 void read_interval(Profile& profile, ProfileSearch& search, const std::vector<HeldFit>& fits, double least) {
     const auto inside = [&](const HeldFit& one) { return search.rise(one.loss, least) < profile.level; };
-    const auto first = std::find_if(fits.begin(), fits.end(), inside);
+    const auto first = std::ranges::find_if(fits, inside);
     const auto last = std::find_if(fits.rbegin(), fits.rend(), inside);
     if (first == fits.end()) {  // narrower than the grid: the estimate is all there is inside
-        const auto above =
-            std::find_if(fits.begin(), fits.end(), [&](const HeldFit& one) { return one.value > profile.estimate; });
+        const auto above = std::ranges::find_if(fits, [&](const HeldFit& one) { return one.value > profile.estimate; });
         const HeldFit base{profile.estimate, search.base().loss, search.base()};
         if (above != fits.begin()) profile.low = search.crossing(base, (above - 1)->value, least, profile.level);
         if (above != fits.end()) profile.high = search.crossing(base, above->value, least, profile.level);
