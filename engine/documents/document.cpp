@@ -1,7 +1,6 @@
 #include "documents/document.h"
 
 #include <algorithm>
-#include <chrono>
 #include <regex>
 
 #include "documents/bibliography.h"

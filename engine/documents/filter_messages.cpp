@@ -1,7 +1,6 @@
 #include "documents/filter_messages.h"
 
 #include <algorithm>
-#include <functional>
 #include <map>
 #include <set>
 

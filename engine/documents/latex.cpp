@@ -3,8 +3,6 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <csignal>
-#include <map>
 #include <optional>
 #include <regex>
 

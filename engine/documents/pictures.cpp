@@ -1,11 +1,9 @@
 #include "documents/pictures.h"
 
 #include <algorithm>
-#include <map>
 
 #include "documents/html/web_page.h"
 #include "documents/pandoc.h"
-#include "platform/atomic_file.h"
 #include "platform/files/inside_folder.h"
 #include "platform/text/small_letters.h"
 

@@ -1,7 +1,6 @@
 #include "documents/template_file.h"
 
 #include <algorithm>
-#include <optional>
 #include <regex>
 
 #include "documents/bibliography.h"

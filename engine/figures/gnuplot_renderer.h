@@ -1,8 +1,6 @@
 #pragma once
 #include <filesystem>
 #include <memory>
-#include <string>
-#include <vector>
 
 #include "figures/error.h"
 #include "figures/figure.h"

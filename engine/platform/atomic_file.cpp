@@ -4,7 +4,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "platform/error.h"
 #include "platform/file_blocks.h"
 #include "platform/files/replacement_file.h"
 #include "platform/system_call.h"

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "platform/error.h"
 #include "platform/program_lookup.h"
 #include "platform/temporary_folder.h"
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 #include <algorithm>
-#include <chrono>
 
 #include "documents/error.h"
 #include "documents/solutions.h"
@@ -12,7 +11,6 @@
 #include "documents/unplaced_entries.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
-#include "platform/interrupt.h"
 #include "platform/program_lookup.h"
 #include "platform/stopwatch.h"
 #include "platform/temporary_folder.h"

@@ -6,7 +6,6 @@
 
 #include "platform/atomic_file.h"
 #include "platform/child_process.h"
-#include "platform/error.h"
 #include "platform/program_lookup.h"
 
 namespace dynlab::inline app {

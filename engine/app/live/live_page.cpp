@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "data_io/values/json_values.h"
 #include "documents/html/web_page.h"

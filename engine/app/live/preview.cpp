@@ -11,13 +11,10 @@
 #include "app/page/page_routes.h"
 #include "app/server/web_server.h"
 #include "data_io/values/json_values.h"
-#include "documents/error.h"
-#include "platform/atomic_file.h"
 #include "platform/cache.h"
 #include "platform/error.h"
 #include "platform/hash.h"
 #include "platform/locks/file_lock.h"
-#include "platform/program_lookup.h"
 #include "platform/text_file.h"
 #include "workflow/lesson_catalogue.h"
 

@@ -11,7 +11,6 @@
 #include "app/live/folder_watch.h"
 #include "app/live/runner_process.h"
 #include "data_io/values/cbor_values.h"
-#include "documents/text_lines.h"
 #include "platform/error.h"
 
 namespace dynlab::inline app {

@@ -2,7 +2,6 @@
 #include <sys/types.h>
 
 #include <filesystem>
-#include <optional>
 #include <set>
 #include <string>
 #include <vector>

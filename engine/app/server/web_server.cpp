@@ -9,7 +9,6 @@
 #include <mutex>
 #include <regex>
 #include <thread>
-#include <vector>
 
 #include "app/server/event_streams.h"
 #include "app/server/page_connections.h"

@@ -5,7 +5,6 @@
 #include <regex>
 #include <set>
 
-#include "documents/text_lines.h"
 #include "documents/words/sentence_catalogue.h"
 #include "numerics/estimators/catalogue.h"
 #include "scripting/lint/function_forms.h"

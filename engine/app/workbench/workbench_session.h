@@ -4,7 +4,6 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "app/live/folder_watch.h"
 #include "app/live/page_content.h"

@@ -6,7 +6,6 @@
 #include "course/grading/check_trial.h"
 #include "platform/atomic_file.h"
 #include "platform/cache.h"
-#include "platform/error.h"
 #include "platform/program_lookup.h"
 #include "platform/terminal/terminal_text.h"
 

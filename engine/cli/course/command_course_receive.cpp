@@ -11,7 +11,6 @@
 #include "course/store/store_check.h"
 #include "numerics/number_text.h"
 #include "platform/atomic_file.h"
-#include "platform/error.h"
 #include "platform/program_lookup.h"
 #include "platform/terminal/aligned_table.h"
 #include "platform/terminal/terminal_text.h"

@@ -8,7 +8,6 @@
 #include "course/store/course_key.h"
 #include "course/store/receipts.h"
 #include "platform/atomic_file.h"
-#include "platform/error.h"
 #include "platform/terminal/terminal_text.h"
 
 namespace dynlab::inline cli {

@@ -2,7 +2,6 @@
 
 #include <iostream>
 #include <memory>
-#include <set>
 #include <thread>
 
 #include "cli/commands.h"

@@ -1,6 +1,5 @@
 #include <charconv>
 #include <cstdio>
-#include <iostream>
 
 #include "cli/commands.h"
 #include "cli/document_command.h"

@@ -3,13 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <future>
 
 #include "course/grading/feedback.h"
 #include "documents/solutions.h"
 #include "platform/atomic_file.h"
-#include "platform/error.h"
 #include "platform/temporary_folder.h"
 #include "platform/terminal/progress.h"
 #include "platform/text_file.h"

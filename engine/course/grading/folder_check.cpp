@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <csignal>
 #include <optional>
 #include <regex>
 #include <thread>
 
-#include "course/findings/leftover_findings.h"
 #include "course/grading/feedback.h"
 #include "course/grading/grading_rules.h"
 #include "course/hand_ins/folder_copy.h"

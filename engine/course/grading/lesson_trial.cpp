@@ -13,7 +13,6 @@
 #include "documents/error.h"
 #include "documents/solutions.h"
 #include "documents/text_lines.h"
-#include "numerics/number_text.h"
 #include "platform/error.h"
 #include "platform/temporary_folder.h"
 #include "platform/text_file.h"

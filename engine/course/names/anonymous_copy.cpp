@@ -3,14 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <csignal>
 
 #include "course/boxes/told_reason.h"
 #include "course/hand_ins/staging.h"
 #include "course/names/name_findings.h"
 #include "documents/work_file.h"
 #include "platform/atomic_file.h"
-#include "platform/error.h"
 #include "platform/hash.h"
 #include "platform/program_lookup.h"
 #include "platform/temporary_folder.h"

@@ -1,7 +1,6 @@
 #pragma once
 #include <chrono>
 #include <filesystem>
-#include <optional>
 #include <string>
 
 #include "course/hand_ins/finding.h"

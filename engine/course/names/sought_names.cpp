@@ -6,7 +6,6 @@
 #include <tuple>
 
 #include "platform/text_file.h"
-#include "platform/utf8.h"
 
 namespace dynlab::inline course {
 namespace {

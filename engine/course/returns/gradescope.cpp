@@ -12,7 +12,6 @@
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"
 #include "platform/child_process.h"
-#include "platform/error.h"
 #include "platform/program_lookup.h"
 
 namespace dynlab::inline course {

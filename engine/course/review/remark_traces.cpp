@@ -6,7 +6,6 @@
 #include <set>
 
 #include "course/names/plain_words.h"
-#include "course/review/edit_script.h"
 
 namespace dynlab::inline course {
 namespace {

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <cmath>
 #include <map>
 
 #include "course/review/oral_marks.h"
@@ -11,7 +10,6 @@
 #include "course/store/newest_versions.h"
 #include "numerics/error.h"
 #include "numerics/number_text.h"
-#include "platform/error.h"
 
 namespace dynlab::inline course {
 namespace {

@@ -10,7 +10,6 @@
 #include <limits>
 #include <map>
 #include <set>
-#include <thread>
 #include <utility>
 
 #include "course/store/course_key.h"

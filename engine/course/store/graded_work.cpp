@@ -13,7 +13,6 @@
 #include "course/store/groups.h"
 #include "data_io/text_table.h"
 #include "numerics/error.h"
-#include "platform/atomic_file.h"
 #include "platform/error.h"
 
 namespace dynlab::inline course {

@@ -3,19 +3,15 @@
 #include <boost/preprocessor/seq/for_each.hpp>
 #include <boost/preprocessor/stringize.hpp>
 #include <boost/preprocessor/variadic/to_seq.hpp>
-#include <complex>
 #include <concepts>
 #include <cstring>
 #include <exception>
 #include <filesystem>
-#include <limits>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 #include "data_io/values/value_stream.h"
 

@@ -1,7 +1,6 @@
 #pragma once
 #include <algorithm>
 #include <string>
-#include <utility>
 
 #include "data_io/values/described.h"
 #include "numerics/error.h"

@@ -4,7 +4,6 @@
 
 #include <map>
 
-#include "documents/text_lines.h"
 #include "platform/atomic_file.h"
 #include "platform/text/base64.h"
 #include "platform/text/small_letters.h"

@@ -1,6 +1,5 @@
 #include "figures/plots/arx_order_plot.h"
 
-#include <cmath>
 #include <functional>
 #include <map>
 

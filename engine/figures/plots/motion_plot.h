@@ -1,6 +1,5 @@
 #pragma once
 #include <string>
-#include <vector>
 
 #include "figures/figure.h"
 #include "figures/moving_rig.h"

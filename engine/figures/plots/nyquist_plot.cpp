@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "figures/plots/bode_plot.h"
 #include "numerics/error.h"

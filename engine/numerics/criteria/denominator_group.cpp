@@ -1,7 +1,6 @@
 #include "numerics/criteria/denominator_group.h"
 
 #include <Eigen/LU>
-#include <cmath>
 #include <limits>
 
 #include "numerics/linalg/decompositions.h"

@@ -1,5 +1,4 @@
 #pragma once
-#include <optional>
 
 #include "numerics/criteria/function_library.h"
 #include "numerics/signals/iddata.h"

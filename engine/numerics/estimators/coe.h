@@ -1,5 +1,4 @@
 #pragma once
-#include "numerics/fit/transfer_search.h"
 
 namespace dynlab::inline numerics {
 

@@ -1,7 +1,6 @@
 #include "numerics/estimators/impulseest.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "numerics/error.h"
 #include "numerics/fit/spectral_estimate.h"

@@ -2,8 +2,6 @@
 #include <array>
 #include <cmath>
 
-#include "numerics/linalg/types.h"
-
 namespace dynlab::inline numerics {
 
 /// State-variable filters 1/A and cascades B/A, 1/A whose coefficients may change at every sample: a step is exact for

@@ -1,6 +1,5 @@
 #include "numerics/filters/normal_equations.h"
 
-#include <algorithm>
 #include <numeric>
 
 #include "numerics/filters/delta_regression.h"

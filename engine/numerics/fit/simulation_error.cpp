@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "numerics/criteria/denominator_group.h"
-#include "numerics/error.h"
 
 namespace dynlab::inline numerics {
 

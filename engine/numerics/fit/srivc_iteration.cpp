@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
-#include "numerics/error.h"
 #include "numerics/fit/simulation_error.h"
 
 namespace dynlab::inline numerics {

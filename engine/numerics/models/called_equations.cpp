@@ -3,8 +3,6 @@
 #include <cmath>
 #include <utility>
 
-#include "numerics/error.h"
-
 namespace dynlab::inline numerics {
 namespace {
 

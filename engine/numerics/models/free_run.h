@@ -1,8 +1,6 @@
 #pragma once
-#include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "numerics/signals/iddata.h"
 

@@ -1,5 +1,4 @@
 #pragma once
-#include <string>
 
 #include "numerics/linalg/types.h"
 #include "numerics/signals/iddata.h"

@@ -1,5 +1,4 @@
 #pragma once
-#include <optional>
 
 #include "numerics/linalg/types.h"
 #include "numerics/signals/iddata.h"

@@ -7,7 +7,6 @@
 
 #include "numerics/error.h"
 #include "numerics/estimators/srivc.h"
-#include "numerics/fit/transfer_search.h"
 #include "numerics/number_text.h"
 #include "numerics/signals/correlation.h"
 #include "numerics/signals/robust_statistics.h"

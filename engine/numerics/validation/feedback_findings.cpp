@@ -4,7 +4,6 @@
 #include "numerics/error.h"
 #include "numerics/estimators/srivc.h"
 #include "numerics/linalg/decompositions.h"
-#include "numerics/number_text.h"
 #include "numerics/signals/correlation.h"
 #include "numerics/signals/robust_statistics.h"
 #include "numerics/statistics/autoregression.h"

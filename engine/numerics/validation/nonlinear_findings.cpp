@@ -4,7 +4,6 @@
 
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/least_squares.h"
-#include "numerics/number_text.h"
 #include "numerics/simulation/lsim.h"
 #include "numerics/statistics/autoregression.h"
 #include "numerics/statistics/chi_squared.h"

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 
 #include "numerics/error.h"
 #include "numerics/fit/missed_options.h"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "numerics/error.h"
 #include "numerics/fit/discrete/arma_noise.h"

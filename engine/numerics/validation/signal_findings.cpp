@@ -8,7 +8,6 @@
 #include "numerics/signals/correlation.h"
 #include "numerics/signals/quantisation.h"
 #include "numerics/signals/repair.h"
-#include "numerics/signals/robust_statistics.h"
 #include "numerics/validation/advice_record.h"
 #include "numerics/validation/sampling_findings.h"
 

@@ -1,7 +1,6 @@
 #include "numerics/validation/simulation_spread.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "numerics/error.h"
 #include "numerics/linalg/decompositions.h"

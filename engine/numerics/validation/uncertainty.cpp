@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "numerics/criteria/process_output.h"
 #include "numerics/error.h"
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/polynomial.h"
-#include "numerics/number_text.h"
 #include "numerics/simulation/time_response.h"
 #include "numerics/statistics/chi_squared.h"
 

@@ -1,9 +1,7 @@
 #pragma once
 #include <span>
-#include <string>
 #include <vector>
 
-#include "numerics/fit/transfer_search.h"
 #include "scripting/arguments/estimation.h"
 #include "scripting/arguments/order_vector.h"
 

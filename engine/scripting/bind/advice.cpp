@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <array>
 
 #include "numerics/number_text.h"

@@ -5,7 +5,6 @@
 #include "numerics/number_text.h"
 #include "numerics/signals/fourier.h"
 #include "scripting/bind/bindings.h"
-#include "scripting/objects/model.h"
 
 namespace dynlab::inline scripting {
 namespace {

@@ -1,5 +1,4 @@
 #include <array>
-#include <cmath>
 
 #include "scripting/conversions/boxed.h"
 #include "scripting/conversions/numeric_operators.h"

@@ -8,7 +8,6 @@
 #include "scripting/bind/bindings.h"
 #include "scripting/bind/preprocess_bindings.h"
 #include "scripting/objects/data_object.h"
-#include "scripting/runtime/text_form.h"
 
 namespace dynlab::inline scripting {
 namespace {

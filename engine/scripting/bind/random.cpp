@@ -1,5 +1,4 @@
 #include <array>
-#include <cmath>
 
 #include "scripting/bind/bindings.h"
 #include "scripting/conversions/boxed.h"

@@ -11,7 +11,6 @@
 #include "numerics/number_text.h"
 #include "platform/error.h"
 #include "platform/interrupt.h"
-#include "platform/spelling.h"
 #include "scripting/conversions/boxed.h"
 #include "scripting/conversions/numeric_tables.h"
 #include "scripting/conversions/option_words.h"

@@ -1,6 +1,5 @@
 #pragma once
 #include <concepts>
-#include <new>
 #include <optional>
 #include <type_traits>
 #include <utility>

@@ -2,8 +2,6 @@
 #include <lua.hpp>
 #include <string>
 
-#include "numerics/linalg/types.h"
-
 namespace dynlab::inline scripting {
 
 /// Replaces a table of numbers at stack index `index` by a vector; entries may also be vectors, which are joined.

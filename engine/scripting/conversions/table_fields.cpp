@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "scripting/runtime/errors.h"
-
 namespace dynlab::inline scripting {
 
 namespace {

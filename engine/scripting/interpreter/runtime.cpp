@@ -7,8 +7,6 @@
 
 #include "numerics/error.h"
 #include "platform/error.h"
-#include "scripting/bind/bindings.h"
-#include "scripting/objects/figure_object.h"
 #include "scripting/runtime/call_chain.h"
 #include "scripting/runtime/context.h"
 #include "scripting/runtime/errors.h"

@@ -1,10 +1,6 @@
 #pragma once
-#include <chrono>
-#include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <typeinfo>
 

@@ -7,7 +7,6 @@
 
 #include "documents/text_lines.h"
 #include "scripting/lint/function_forms.h"
-#include "scripting/lint/lint.h"
 #include "scripting/source/lua_tokens.h"
 
 namespace dynlab::inline scripting {

@@ -2,8 +2,6 @@
 #include <optional>
 #include <string>
 
-#include "scripting/conversions/arguments.h"
-
 namespace dynlab::inline scripting {
 
 /// What a call's text holds of large arguments: their kind and size, which costs nothing to look at, or their content

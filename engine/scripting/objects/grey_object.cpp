@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "scripting/conversions/option_words.h"
-#include "scripting/runtime/text_form.h"
 
 namespace dynlab::inline scripting {
 namespace {

@@ -5,7 +5,6 @@
 #include "scripting/conversions/table_fields.h"
 #include "scripting/objects/fit_model.h"
 #include "scripting/objects/grey_object.h"
-#include "scripting/runtime/text_form.h"
 
 namespace dynlab::inline scripting {
 namespace {

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "scripting/conversions/option_words.h"
-#include "scripting/runtime/text_form.h"
 
 namespace dynlab::inline scripting {
 namespace {

@@ -1,7 +1,6 @@
 #include "scripting/objects/traced_value.h"
 
 #include <array>
-#include <cmath>
 
 namespace dynlab::inline scripting {
 namespace {

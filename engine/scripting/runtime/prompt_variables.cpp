@@ -1,7 +1,5 @@
 #include "scripting/runtime/prompt_variables.h"
 
-#include "scripting/runtime/sandbox.h"
-
 namespace dynlab::inline scripting {
 namespace {
 

@@ -12,7 +12,6 @@
 #include "platform/cache.h"
 #include "platform/program_lookup.h"
 #include "platform/temporary_folder.h"
-#include "platform/text_file.h"
 #include "scripting/runtime/help.h"
 #include "workflow/demonstration.h"
 #include "workflow/make_report.h"

@@ -1,8 +1,6 @@
 #include "numerics/estimators/learning/dmdc.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "numerics/error.h"
 #include "numerics/estimators/learning/cancelled.h"

@@ -1,7 +1,6 @@
 #include "numerics/estimators/grey_box/greyest.h"
 
 #include <array>
-#include <cmath>
 
 #include "scripting/bind/grey_box/grey_bindings.h"
 #include "scripting/conversions/named_vector.h"

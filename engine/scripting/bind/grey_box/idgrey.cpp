@@ -7,7 +7,6 @@
 #include "scripting/conversions/table_fields.h"
 #include "scripting/conversions/told_sentences.h"
 #include "scripting/objects/grey_object.h"
-#include "scripting/runtime/text_form.h"
 
 namespace dynlab::inline scripting {
 namespace {
