@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 
 #include "data_io/tables/number_cell.h"
 #include "platform/error.h"
 #include "platform/text/foreign_text.h"
+#include "platform/text/read_number.h"
 #include "platform/text/small_letters.h"
 #include "platform/text_file.h"
 
@@ -105,12 +105,6 @@ class Reader {
     int line_ = 1;
 };
 
-bool is_number(const std::string& cell) {
-    double number = 0;
-    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
-    return error == std::errc() && end == cell.data() + cell.size();
-}
-
 /// After blanks, a sign that makes spreadsheets compute; some take the full-width ones for the same.
 bool begins_like_a_formula(std::string_view cell) {
     constexpr std::array<std::string_view, 10> kSpaces = {" ",      "\t",     "\r",     "\n",     "\u00A0",
@@ -126,7 +120,7 @@ bool begins_like_a_formula(std::string_view cell) {
 }
 
 void append_cell(std::string& text, std::string cell) {
-    if (begins_like_a_formula(cell) && !is_number(cell)) cell.insert(0, "'");
+    if (begins_like_a_formula(cell) && !read_number<double>(cell)) cell.insert(0, "'");
     if (cell.find_first_of(",;\"\r\n\t") == std::string::npos) {
         text += cell;
         return;

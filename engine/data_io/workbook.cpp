@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 #include <memory>
 #include <pugixml.hpp>
@@ -16,6 +15,7 @@
 #include "platform/confinement.h"
 #include "platform/error.h"
 #include "platform/guarded_call.h"
+#include "platform/text/read_number.h"
 #include "platform/utf8_locale.h"
 
 namespace dynlab::inline data_io {
@@ -189,11 +189,8 @@ class SheetReader {
     }
 
     static std::size_t whole_number(const std::string& text) {
-        std::size_t number = 0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-        if (error != std::errc() || end != text.data() + text.size())
-            fail_workbook(fmt::format("is damaged: wanted a whole number, given \"{}\"", text.substr(0, 20)));
-        return number;
+        if (const auto number = read_number<std::size_t>(text)) return *number;
+        fail_workbook(fmt::format("is damaged: wanted a whole number, given \"{}\"", text.substr(0, 20)));
     }
 
     /// 0 for A5, 26 for AA5.

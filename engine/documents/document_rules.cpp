@@ -1,9 +1,8 @@
 #include "documents/document_rules.h"
 
-#include <charconv>
-
 #include "documents/error.h"
 #include "documents/text_lines.h"
+#include "platform/text/read_number.h"
 
 namespace dynlab::inline documents {
 namespace {
@@ -26,11 +25,9 @@ SectionRule section_rule(const std::string& line, const std::string& where) {
 }
 
 int page_count(const std::string& key, const std::string& value, const std::string& where) {
-    int count = 0;
-    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), count);
-    if (error != std::errc{} || end != value.data() + value.size() || count < 1)
-        throw DocumentError(where + key + " must be a number of pages such as 6, not \"" + value + "\"");
-    return count;
+    const int count = read_number<int>(value).value_or(0);
+    if (count >= 1) return count;
+    throw DocumentError(where + key + " must be a number of pages such as 6, not \"" + value + "\"");
 }
 
 bool is_slides(const std::string& value, const std::string& where) {

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <set>
 
 #include "documents/bibliography.h"
 #include "documents/error.h"
 #include "documents/text_lines.h"
 #include "platform/spelling.h"
+#include "platform/text/read_number.h"
 
 namespace dynlab::inline documents {
 namespace {
@@ -92,11 +92,8 @@ class HeaderReader {
     }
 
     std::uint32_t seed_of(const std::string& value) const {
-        std::uint32_t seed = 0;
-        const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), seed);
-        if (error != std::errc{} || end != value.data() + value.size())
-            fail("seed \"" + value + "\" must be a whole number from 0 to 4294967295");
-        return seed;
+        if (const auto seed = read_number<std::uint32_t>(value)) return *seed;
+        fail("seed \"" + value + "\" must be a whole number from 0 to 4294967295");
     }
 
     [[noreturn]] void unknown(const std::string& key) const {

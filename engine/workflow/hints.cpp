@@ -1,22 +1,15 @@
 #include "workflow/hints.h"
 
-#include <charconv>
 #include <optional>
 
 #include "documents/error.h"
 #include "documents/text_lines.h"
 #include "platform/cache.h"
+#include "platform/text/read_number.h"
 #include "platform/text_file.h"
 
 namespace dynlab::inline workflow {
 namespace {
-
-std::optional<int> whole_number(std::string_view text) {
-    int number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (text.empty() || error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-    return number;
-}
 
 class HintsReader {
   public:
@@ -43,7 +36,8 @@ class HintsReader {
 
     void read_heading(const std::string& line) {
         const std::string begin = "# Question ";
-        const auto question = line.starts_with(begin) ? whole_number(trimmed(line.substr(begin.size()))) : std::nullopt;
+        const auto question =
+            line.starts_with(begin) ? read_number<int>(trimmed(line.substr(begin.size()))) : std::nullopt;
         if (!question) fail("a heading of hints is \"# Question 4\", not \"" + trimmed(line) + "\"");
         const auto [place, is_new] = hints_.try_emplace(*question);
         if (!is_new) fail("question " + std::to_string(*question) + " has hints already");
@@ -54,7 +48,7 @@ class HintsReader {
         if (!stages_) fail("hints stand below a heading such as \"# Question 4\"");
         const std::size_t point = line.find(". ");
         const std::size_t next = stages_->size() + 1;
-        if (point == std::string::npos || whole_number(line.substr(0, point)) != static_cast<int>(next))
+        if (point == std::string::npos || read_number<int>(line.substr(0, point)) != static_cast<int>(next))
             fail("here hint " + std::to_string(next) + " should begin, with \"" + std::to_string(next) +
                  ". \", not \"" + trimmed(line).substr(0, 30) + "\" (further lines of a hint are indented)");
         stages_->push_back(trimmed(line.substr(point + 2)));
@@ -90,7 +84,7 @@ bool HintsSeen::lasting() const {
 
 std::size_t HintsSeen::count() const {
     const auto known = Cache().recall(entry_);
-    const auto number = known ? whole_number(*known) : std::nullopt;
+    const auto number = known ? read_number<int>(*known) : std::nullopt;
     return number && *number > 0 ? static_cast<std::size_t>(*number) : 0;
 }
 

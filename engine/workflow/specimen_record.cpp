@@ -2,14 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-
 #include "data_io/dataset_index.h"
 #include "data_io/mat_file.h"
 #include "documents/text_lines.h"
 #include "numerics/error.h"
 #include "platform/atomic_file.h"
 #include "platform/program_lookup.h"
+#include "platform/text/read_number.h"
 #include "platform/text_file.h"
 
 namespace dynlab::inline workflow {
@@ -73,9 +72,7 @@ std::optional<std::uint32_t> group_seed_of(const fs::path& data_folder) {
         for (const std::string& line : lines_of(read_text(source))) {
             if (!line.starts_with(kSpecimenKey)) continue;
             const std::string number = trimmed(std::string_view(line).substr(kSpecimenKey.size()));
-            std::uint32_t seed = 0;
-            const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), seed);
-            if (error == std::errc() && end == number.data() + number.size()) return seed;
+            if (const auto seed = read_number<std::uint32_t>(number)) return seed;
         }
     }
     return {};

@@ -2,13 +2,13 @@
 #include <poll.h>
 #include <unistd.h>
 
-#include <charconv>
 #include <iostream>
 #include <memory>
 #include <optional>
 
 #include "cli/commands.h"
 #include "platform/interrupt.h"
+#include "platform/text/read_number.h"
 #include "scripting/memoized_calls/call_cache.h"
 #include "workflow/demonstration.h"
 #include "workflow/error_text.h"
@@ -80,10 +80,8 @@ int list(const std::vector<Demonstration>& all) {
 
 /// The demonstration a menu's answer means: its number or its name.
 const Demonstration* chosen(const std::vector<Demonstration>& all, const std::string& answer) {
-    std::size_t number = 0;
-    const auto [end, error] = std::from_chars(answer.data(), answer.data() + answer.size(), number);
-    const bool is_number = error == std::errc() && end == answer.data() + answer.size();
-    if (is_number && number >= 1 && number <= all.size()) return &all[number - 1];
+    const std::size_t number = read_number<std::size_t>(answer).value_or(0);
+    if (number >= 1 && number <= all.size()) return &all[number - 1];
     for (const Demonstration& one : all)
         if (one.name == answer) return &one;
     return nullptr;

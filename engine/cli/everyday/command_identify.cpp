@@ -1,9 +1,9 @@
-#include <charconv>
 #include <cstdio>
 
 #include "cli/commands.h"
 #include "cli/document_command.h"
 #include "numerics/error.h"
+#include "platform/text/read_number.h"
 #include "workflow/identify.h"
 #include "workflow/recording.h"
 
@@ -17,21 +17,11 @@ struct IdentifyArguments {
 };
 
 /// Nothing for "auto".
-std::optional<double> delay_of(const std::string& text) {
-    if (text == "auto") return std::nullopt;
-    double seconds = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seconds);
-    if (error == std::errc() && end == text.data() + text.size()) return seconds;
-    throw CLI::ValidationError("--delay", "wanted a number of seconds or the word auto, not '" + text + "'");
-}
-
-/// Nothing for "auto".
-std::optional<int> poles_of(const std::string& text) {
-    if (text == "auto") return std::nullopt;
-    int number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error == std::errc() && end == text.data() + text.size()) return number;
-    throw CLI::ValidationError("--poles", "wanted a whole number or the word auto, not '" + text + "'");
+template <class Number>
+std::optional<Number> number_or_auto(const std::string& text, const char* option, const std::string& wanted) {
+    const auto number = read_number<Number>(text);
+    if (number || text == "auto") return number;
+    throw CLI::ValidationError(option, "wanted " + wanted + " or the word auto, not '" + text + "'");
 }
 
 void print_at_once(const std::string& text) {
@@ -85,7 +75,10 @@ void add_identify(CLI::App& app, Action& action) {
         ->required();
     command
         ->add_option_function<std::string>(
-            "--poles", [&request](const std::string& text) { request.poles = poles_of(text); },
+            "--poles",
+            [&request](const std::string& text) {
+                request.poles = number_or_auto<int>(text, "--poles", "a whole number");
+            },
             "Number of poles, or the word auto: then srivcstruc finds it, and the zeros with it")
         ->type_name("N|auto")
         ->required();
@@ -93,7 +86,10 @@ void add_identify(CLI::App& app, Action& action) {
         ->type_name("N");
     command
         ->add_option_function<std::string>(
-            "--delay", [&request](const std::string& text) { request.delay = delay_of(text); },
+            "--delay",
+            [&request](const std::string& text) {
+                request.delay = number_or_auto<double>(text, "--delay", "a number of seconds");
+            },
             "Delay in seconds, or the word auto: then it is estimated. 0 unless given")
         ->type_name("SECONDS|auto");
     command->add_option("--Ts", request.Ts, "Sampling time, instead of what the file says")->type_name("SECONDS");

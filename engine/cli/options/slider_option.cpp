@@ -1,8 +1,9 @@
 #include "cli/options/slider_option.h"
 
-#include <charconv>
 #include <cmath>
 #include <optional>
+
+#include "platform/text/read_number.h"
 
 namespace dynlab::inline cli {
 namespace {
@@ -10,11 +11,9 @@ namespace {
 std::optional<std::pair<std::string, double>> parse_setting(const std::string& text) {
     const std::size_t sign = text.find('=');
     if (sign == 0 || sign == std::string::npos) return std::nullopt;
-    double value = 0;
-    const char* const last = text.data() + text.size();
-    const auto [end, error] = std::from_chars(text.data() + sign + 1, last, value);
-    if (error != std::errc() || end != last || !std::isfinite(value)) return std::nullopt;
-    return std::pair{text.substr(0, sign), value};
+    const auto value = read_number<double>(text.substr(sign + 1));
+    if (!value || !std::isfinite(*value)) return std::nullopt;
+    return std::pair{text.substr(0, sign), *value};
 }
 
 }  // namespace

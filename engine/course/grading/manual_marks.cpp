@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-
 #include "course/grading/feedback.h"
 #include "data_io/text_table.h"
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
+#include "platform/text/read_number.h"
 
 namespace dynlab::inline course {
 
@@ -25,13 +24,12 @@ ManualMarks::ManualMarks(const std::filesystem::path& file) {
         // A decimal comma, as a spreadsheet writes it in much of Europe.
         const std::string text = replaced(row[*points], ",", ".");
         if (text.empty()) continue;  // not marked yet
-        Mark mark{0, reason ? row[*reason] : ""};
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), mark.points);
-        if (error != std::errc() || end != text.data() + text.size() || !(mark.points >= 0 && mark.points <= 1000))
+        const auto given = read_number<double>(text);
+        if (!given || !(*given >= 0 && *given <= 1000))
             throw EnvironmentError(
                 fmt::format("{}, line {}: points must be a number from 0 to 1000, but \"{}\" was given", file.string(),
                             table.lines[i], text));
-        marks_[{row[*submission], row[*check]}] = std::move(mark);
+        marks_[{row[*submission], row[*check]}] = {*given, reason ? row[*reason] : ""};
     }
 }
 

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 #include <set>
 
 #include "data_io/tables/number_cell.h"
 #include "data_io/text_table.h"
 #include "platform/error.h"
+#include "platform/text/read_number.h"
 
 namespace dynlab::inline course {
 namespace {
@@ -112,11 +112,9 @@ Roster::Roster(const std::filesystem::path& file) {
                         cell("canvas")};
         if (seed && !row[*seed].empty()) {
             const std::string& text = row[*seed];
-            std::uint32_t number = 0;
-            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-            if (error != std::errc() || end != text.data() + text.size() || number == 0)
+            student.seed = read_number<std::uint32_t>(text);
+            if (student.seed.value_or(0) == 0)
                 fail(fmt::format("the seed must be a whole number from 1 to 4294967295, but \"{}\" was given", text));
-            student.seed = number;
         }
         student.language = cell("language");
         if (!student.language.empty() && student.language != "en" && student.language != "fr")

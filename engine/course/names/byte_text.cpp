@@ -4,12 +4,12 @@
 #include <archive_entry.h>
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 #include <memory>
 #include <optional>
 
 #include "documents/pdf/inflate.h"
+#include "platform/text/read_number.h"
 #include "platform/utf8.h"
 #include "platform/utf8_locale.h"
 
@@ -121,12 +121,10 @@ std::optional<char32_t> referred_to(std::string_view reference) {
     }
     const bool hexadecimal = reference.starts_with("#x") || reference.starts_with("#X");
     reference.remove_prefix(hexadecimal ? 2 : 1);
-    std::uint32_t code = 0;
-    const char* const end = reference.data() + reference.size();
-    const auto read = std::from_chars(reference.data(), end, code, hexadecimal ? 16 : 10);
-    if (read.ec != std::errc() || read.ptr != end) return std::nullopt;
-    const bool is_character = code > 0 && code <= 0x10FFFF && (code < 0xD800 || code >= 0xE000);
-    return is_character ? static_cast<char32_t>(code) : kNoCharacter;
+    const auto code = read_number<std::uint32_t>(reference, hexadecimal ? 16 : 10);
+    if (!code) return std::nullopt;
+    const bool is_character = *code > 0 && *code <= 0x10FFFF && (*code < 0xD800 || *code >= 0xE000);
+    return is_character ? static_cast<char32_t>(*code) : kNoCharacter;
 }
 
 }  // namespace

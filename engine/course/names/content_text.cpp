@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -16,6 +15,7 @@
 #include <vector>
 
 #include "course/names/byte_text.h"
+#include "platform/text/read_number.h"
 #include "platform/utf8.h"
 
 namespace dynlab::inline course {
@@ -133,11 +133,9 @@ std::string sign_of_glyph(const std::string& name) {
 /// "uni00E9", "u1D400".
 std::string character_of_glyph(const std::string& name) {
     const std::size_t digits = name.starts_with("uni") ? 3 : name.starts_with("u") ? 1 : name.size();
-    std::uint32_t code = 0;
-    const char* const end = name.data() + name.size();
-    const auto read = std::from_chars(name.data() + std::min(digits, name.size()), end, code, 16);
-    const bool whole = read.ec == std::errc() && read.ptr == end && name.size() >= digits + 4;
-    return whole ? utf8_of(char32_t{code}) : "";
+    if (name.size() < digits + 4) return "";
+    const auto code = read_number<std::uint32_t>(name.substr(digits), 16);
+    return code ? utf8_of(char32_t{*code}) : "";
 }
 
 /// [a b c d e f] of ISO 32000-1, 8.3.3.

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "data_io/values/json_values.h"
+#include "platform/text/read_number.h"
 
 namespace dynlab::inline course {
 namespace {
@@ -17,11 +17,8 @@ using Entries = std::map<std::string, RecordedValue>;
 
 std::optional<double> number_in(std::string text) {
     while (!text.empty() && (text.back() == ' ' || text.back() == '%')) text.pop_back();
-    double number = 0;
-    const char* const end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data(), end, number);
-    if (error != std::errc() || stop != end || !std::isfinite(number)) return {};
-    return number;
+    const auto number = read_number<double>(text);
+    return number && std::isfinite(*number) ? number : std::nullopt;
 }
 
 std::string text_of(const json& cell) {

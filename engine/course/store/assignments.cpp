@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <random>
 #include <set>
 
 #include "course/store/exceptions.h"
 #include "numerics/error.h"
 #include "platform/spelling.h"
+#include "platform/text/read_number.h"
 
 namespace dynlab::inline course {
 namespace {
@@ -93,13 +93,6 @@ std::vector<std::pair<std::string, std::string>> named_numbers(const std::string
         items.emplace_back(item.substr(0, colon), colon == std::string::npos ? "" : item.substr(colon + 1));
     }
     return items;
-}
-
-std::optional<double> number_in(const std::string& text) {
-    double value = 0;
-    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || stop != text.data() + text.size()) return {};
-    return value;
 }
 
 }  // namespace
@@ -239,7 +232,7 @@ std::vector<Criterion> criteria_of(const std::string& text) {
     std::set<std::string> seen;
     for (const auto& [name, points] : named_numbers(text)) {
         refuse_odd_name("the criterion", name);
-        const std::optional<double> given = points.empty() ? 5.0 : number_in(points);
+        const std::optional<double> given = points.empty() ? 5.0 : read_number<double>(points);
         if (!given || !(*given > 0 && *given <= 1000))
             throw InvalidArgument(fmt::format(
                 "the points of criterion {} must be a number from 0 to 1000, but \"{}\" was given", name, points));
@@ -261,7 +254,7 @@ Costs costs_of(const std::string& text) {
     for (const auto& [name, points] : named_numbers(text)) {
         const auto is_named = [&wanted = name](const auto& cost) { return cost.first == wanted; };
         const auto known = std::find_if(std::begin(kCosts), std::end(kCosts), is_named);
-        const auto value = number_in(points);
+        const auto value = read_number<double>(points);
         if (known == std::end(kCosts) || !value || !(*value >= 0 && *value <= 100))
             throw InvalidArgument(fmt::format(
                 "costs are late-day, missing-final, late-review and missing-review with percent points from 0 to 100, "

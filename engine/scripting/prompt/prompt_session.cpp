@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-
 #include "platform/error.h"
+#include "platform/text/read_number.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -19,10 +18,8 @@ unsigned highest_figure(const fs::path& folder) {
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(folder, error)) {
         const std::string stem = entry.path().stem().string();
-        unsigned number = 0;
         if (!stem.starts_with(kStem)) continue;
-        const auto [end, failure] = std::from_chars(stem.data() + kStem.size(), stem.data() + stem.size(), number);
-        if (failure == std::errc() && end == stem.data() + stem.size()) highest = std::max(highest, number);
+        highest = std::max(highest, read_number<unsigned>(stem.substr(kStem.size())).value_or(0));
     }
     return highest;
 }
