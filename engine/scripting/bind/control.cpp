@@ -2,7 +2,7 @@
 
 #include "numerics/control/state_feedback.h"
 #include "numerics/rigs/crane_control.h"
-#include "scripting/bind/control_bindings.h"
+#include "scripting/bind/bindings.h"
 #include "scripting/conversions/boxed.h"
 #include "scripting/conversions/table_fields.h"
 #include "scripting/objects/model.h"

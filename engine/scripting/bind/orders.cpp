@@ -11,7 +11,7 @@
 #include "scripting/arguments/estimation.h"
 #include "scripting/arguments/order_vector.h"
 #include "scripting/arguments/transfer_arguments.h"
-#include "scripting/bind/study_bindings.h"
+#include "scripting/bind/bindings.h"
 #include "scripting/conversions/table_fields.h"
 #include "scripting/conversions/told_sentences.h"
 #include "scripting/memoized_calls/memoized_call.h"

@@ -6,7 +6,7 @@
 #include "platform/terminal/progress.h"
 #include "scripting/arguments/estimation.h"
 #include "scripting/arguments/loop_arguments.h"
-#include "scripting/bind/study_bindings.h"
+#include "scripting/bind/bindings.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/memoized_calls/shared_pieces.h"
 #include "scripting/objects/model.h"

@@ -1,10 +1,4 @@
 #include "scripting/bind/bindings.h"
-#include "scripting/bind/control_bindings.h"
-#include "scripting/bind/frequency/frequency_bindings.h"
-#include "scripting/bind/grey_box/grey_bindings.h"
-#include "scripting/bind/intervals/interval_bindings.h"
-#include "scripting/bind/learning/learning_bindings.h"
-#include "scripting/bind/study_bindings.h"
 
 namespace dynlab::inline scripting {
 

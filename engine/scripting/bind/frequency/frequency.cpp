@@ -6,7 +6,7 @@
 #include "numerics/estimators/frequency/bla.h"
 #include "numerics/number_text.h"
 #include "numerics/simulation/sampled_response.h"
-#include "scripting/bind/frequency/frequency_bindings.h"
+#include "scripting/bind/bindings.h"
 #include "scripting/conversions/table_fields.h"
 #include "scripting/conversions/told_sentences.h"
 #include "scripting/memoized_calls/memoized_call.h"

@@ -1,10 +1,7 @@
 #pragma once
 #include "scripting/conversions/arguments.h"
-#include "scripting/runtime/function_entry.h"
 
 namespace dynlab::inline scripting {
-
-FunctionEntries frequency_functions();
 
 /// srivc, coe, tfsrivc and tfcoe of a response at argument 1, by the name the script called.
 int fit_response(Call& call);

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "scripting/bind/grey_box/grey_bindings.h"
+#include "scripting/bind/bindings.h"
 #include "scripting/conversions/named_vector.h"
 #include "scripting/conversions/table_fields.h"
 #include "scripting/conversions/told_sentences.h"

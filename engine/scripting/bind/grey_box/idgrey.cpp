@@ -2,7 +2,7 @@
 #include <array>
 #include <cmath>
 
-#include "scripting/bind/grey_box/grey_bindings.h"
+#include "scripting/bind/bindings.h"
 #include "scripting/bind/grey_box/script_equations.h"
 #include "scripting/conversions/table_fields.h"
 #include "scripting/conversions/told_sentences.h"

@@ -7,7 +7,7 @@
 #include "numerics/validation/intervals/profile_likelihood.h"
 #include "platform/terminal/progress.h"
 #include "scripting/arguments/simulation_options.h"
-#include "scripting/bind/intervals/interval_bindings.h"
+#include "scripting/bind/bindings.h"
 #include "scripting/conversions/table_fields.h"
 #include "scripting/conversions/told_sentences.h"
 #include "scripting/memoized_calls/memoized_call.h"

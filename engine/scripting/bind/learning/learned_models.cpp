@@ -4,7 +4,7 @@
 #include "numerics/estimators/learning/narx.h"
 #include "numerics/estimators/learning/sindy.h"
 #include "scripting/arguments/order_vector.h"
-#include "scripting/bind/learning/learning_bindings.h"
+#include "scripting/bind/bindings.h"
 #include "scripting/bind/learning/lua_library.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/data_object.h"
