@@ -10,7 +10,7 @@ using namespace dynlab;
 using namespace dynlab::test;
 
 Fit hair_dryer_model(int nk) {
-    return arx(remove_mean(hair_dryer()).data, PolynomialOrders::arx(2, {2}, {nk}));
+    return arx(remove_mean(hair_dryer()), PolynomialOrders::arx(2, {2}, {nk}));
 }
 
 void expect_values(const Vector& theta, const Vector& published, double tolerance) {

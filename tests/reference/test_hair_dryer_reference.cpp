@@ -16,8 +16,7 @@ using namespace dynlab::test;
 IdData first_half() {
     const IdData all = hair_dryer();
     return remove_mean(
-               IdData(Matrix(all.experiments[0].y.topRows(500)), Matrix(all.experiments[0].u.topRows(500)), all.Ts))
-        .data;
+        IdData(Matrix(all.experiments[0].y.topRows(500)), Matrix(all.experiments[0].u.topRows(500)), all.Ts));
 }
 
 Fit optimum(int poles, double delay) {

@@ -54,7 +54,7 @@ IdData nonparametric_data(const std::string& caller, const IdData& data, Index f
     }
     if (!input_changes) throw InvalidArgument(caller + ": the input never changes, so it does not excite the dynamics");
     if (!output_changes) throw InvalidArgument(caller + ": the output never changes, so no dynamics can be estimated");
-    return remove_means ? remove_mean(data).data : data;
+    return remove_means ? remove_mean(data) : data;
 }
 
 SpectralPoint spectral_point(double input, double output, Complex cross, double averages, bool real) {

@@ -9,20 +9,14 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-struct Line {
-    Vector offset, slope;
-};
-
 /// Takes the mean or the least-squares line off each column; `t` counts from the first sample.
-Line remove_line(Matrix& signals, const Vector& t, TrendKind kind) {
+void remove_line(Matrix& signals, const Vector& t, TrendKind kind) {
     const Eigen::RowVectorXd mean = signals.colwise().mean();
     signals.rowwise() -= mean;
-    if (kind == TrendKind::kConstant) return {mean.transpose(), Vector::Zero(signals.cols())};
-    const double mean_time = t.mean();
-    const Vector centred = t.array() - mean_time;
+    if (kind == TrendKind::kConstant) return;
+    const Vector centred = t.array() - t.mean();
     const Eigen::RowVectorXd slope = centred.transpose() * signals / centred.squaredNorm();
     signals -= centred * slope;
-    return {(mean - mean_time * slope).transpose(), slope.transpose()};
 }
 
 constexpr double kStays = 0.05;  // part of an input's range within which it counts as not yet changed
@@ -56,44 +50,33 @@ Index initial_stretch(const Experiment& experiment, Index samples) {
 }
 
 /// Takes off each column the mean of its first `count` samples.
-Vector remove_first_level(Matrix& signals, Index count) {
+void remove_first_level(Matrix& signals, Index count) {
     const Eigen::RowVectorXd level = signals.topRows(count).colwise().mean();
     signals.rowwise() -= level;
-    return level.transpose();
 }
 
 }  // namespace
 
-Detrended remove_initial_level(const IdData& data, Index samples) {
-    Detrended result{data, {}};
-    for (Experiment& experiment : result.data.experiments) {
+IdData remove_initial_level(IdData data, Index samples) {
+    for (Experiment& experiment : data.experiments) {
         const Index count = initial_stretch(experiment, samples);
-        const Vector output = remove_first_level(experiment.y, count), input = remove_first_level(experiment.u, count);
-        Trend trend{output, Vector::Zero(output.size()), input, Vector::Zero(input.size())};
-        if (experiment.r.cols() > 0) {
-            trend.reference_offset = remove_first_level(experiment.r, count);
-            trend.reference_slope = Vector::Zero(experiment.r.cols());
-        }
-        result.removed.push_back(std::move(trend));
+        for (Matrix* signals : {&experiment.y, &experiment.u, &experiment.r})
+            if (signals->cols() > 0) remove_first_level(*signals, count);
     }
-    return result;
+    return data;
 }
 
-Detrended detrend(const IdData& data, TrendKind kind) {
-    Detrended result{data, {}};
+IdData detrend(IdData data, TrendKind kind) {
     for (std::size_t i = 0; i < data.experiments.size(); ++i) {
-        Experiment& experiment = result.data.experiments[i];
+        Experiment& experiment = data.experiments[i];
         if (kind == TrendKind::kLinear && experiment.y.rows() < 2)
             throw InvalidArgument("detrend: a straight line needs at least 2 samples, but the experiment has 1");
         const Vector time = data.time(i);
         const Vector since_start = time.array() - time(0);
-        const Line output = remove_line(experiment.y, since_start, kind);
-        const Line input = remove_line(experiment.u, since_start, kind);
-        const Line reference = experiment.r.cols() > 0 ? remove_line(experiment.r, since_start, kind) : Line();
-        result.removed.push_back(
-            {output.offset, output.slope, input.offset, input.slope, reference.offset, reference.slope});
+        for (Matrix* signals : {&experiment.y, &experiment.u, &experiment.r})
+            if (signals->cols() > 0) remove_line(*signals, since_start, kind);
     }
-    return result;
+    return data;
 }
 
 }  // namespace dynlab::inline numerics

@@ -109,7 +109,7 @@ int shift(Call& call) {
 
 int remove_mean_of(Call& call) {
     call.at_most(1);
-    return give_data(call, remove_mean(data_self(call)).data);
+    return give_data(call, remove_mean(data_self(call)));
 }
 
 std::string data_text(const IdData& data) {

@@ -121,14 +121,14 @@ int detrend_signals(Call& call) {
     const std::string kind = trend_kind(call);
     const Options options(call, 3, {"samples"});
     if (kind == "start")
-        return give_signals(call, signals, remove_initial_level(signals.data, options.size("samples", 0)).data);
+        return give_signals(call, signals, remove_initial_level(signals.data, options.size("samples", 0)));
     if (kind != "linear" && kind != "mean")
         throw InvalidArgument(
             fmt::format("the kind of trend must be \"linear\", \"mean\" or \"start\", but \"{}\" was given", kind));
     if (options.has("samples"))
         throw InvalidArgument("option 'samples' belongs to the kind \"start\": how many samples come before the step");
     return give_signals(call, signals,
-                        detrend(signals.data, kind == "linear" ? TrendKind::kLinear : TrendKind::kConstant).data);
+                        detrend(signals.data, kind == "linear" ? TrendKind::kLinear : TrendKind::kConstant));
 }
 
 int filter_signals(Call& call) {
