@@ -36,7 +36,6 @@ struct CopyRequest {
     std::filesystem::path pdf;    ///< as it was handed in
     std::filesystem::path pack;   ///< its source, where the group handed one in; else empty
     std::filesystem::path copy;   ///< where the clean copy is to be written
-    std::string pseudonym;        ///< "report-17", "reviewer-05"
     std::vector<Student> people;  ///< all of the course, with group, name, id and mail address
     std::string group = {};       ///< whose it is
 };

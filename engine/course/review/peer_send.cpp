@@ -125,12 +125,7 @@ class CopySender {
             fs::copy_file(course_.file(v.hash), file);
             return file;
         };
-        CopyRequest request{under_its_name(*version),
-                            {},
-                            scratch.path() / ".copy" / "copy.pdf",
-                            to_reviewers() ? pair.report_pseudonym() : pair.reviewer_pseudonym(),
-                            people_,
-                            author};
+        CopyRequest request{under_its_name(*version), {}, scratch.path() / ".copy" / "copy.pdf", people_, author};
         if (const auto pack = newest(course_, assignment_, group, stage, to_reviewers() ? 0 : pair.id, "pack"))
             request.pack = under_its_name(*pack);
         fs::create_directories(request.copy.parent_path());

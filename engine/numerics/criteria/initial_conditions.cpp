@@ -59,11 +59,6 @@ JointOperatingPoint joint_operating_point(const MatrixView& u, const VectorView&
     return {u.colwise().mean().transpose(), y.mean()};
 }
 
-OperatingPoint operating_point(const VectorView& u, const VectorView& y) {
-    const JointOperatingPoint joint = joint_operating_point(u, y);
-    return {joint.inputs[0], joint.output};
-}
-
 std::vector<StartCondition> start_conditions(const MatrixView& u, InitialState state, Offset offset) {
     const bool flat = constant(u), zero_first = u.row(0).isZero(0);
     if (flat && state == InitialState::kSteady)

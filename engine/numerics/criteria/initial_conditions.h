@@ -17,7 +17,7 @@ enum class InitialState {
 /// A constant that is no answer to the input.
 enum class Offset {
     kNone,      ///< "none"
-    kRemove,    ///< "remove": input and output are counted from the operating point, see operating_point
+    kRemove,    ///< "remove": input and output are counted from the operating point, see joint_operating_point
     kEstimate,  ///< "estimate": a constant is added to the model's output and estimated
     kAuto,      ///< "auto": none or estimate, by BIC
 };
@@ -26,16 +26,9 @@ enum class Offset {
 InitialState parse_initial_state(const std::string& text);
 Offset parse_offset(const std::string& text);
 
-/// Where a record's signals rest. A step experiment (the input changes once) rests where it was before the step:
-/// the first input value, and the mean output up to the sample of the step. An input that never changes is a
-/// step from zero at the first sample: zero, zero. Any other record swings about its means.
-struct OperatingPoint {
-    double input = 0, output = 0;
-};
-OperatingPoint operating_point(const VectorView& u, const VectorView& y);
-
-/// The same for several inputs (N x nu): a step experiment is one whose inputs change at most once each, and its output
-/// rests up to the first change.
+/// Where a record's signals rest. A step experiment (inputs, N x nu, that change at most once each) rests where it was
+/// before the step: the first input values, and the mean output up to the sample of the first step. Inputs that never
+/// change are a step from zero at the first sample: zero, zero. Any other record swings about its means.
 struct JointOperatingPoint {
     Vector inputs;  ///< nu
     double output = 0;

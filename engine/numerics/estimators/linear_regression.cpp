@@ -97,10 +97,6 @@ LinearRegression lsq(const MatrixView& Phi, const VectorView& y, RegressionMetho
     return fit;
 }
 
-double PolynomialFit::at(double x) const {
-    return evaluate(regression.theta, x - centre);
-}
-
 PolynomialFit fit_polynomial(const VectorView& x, const VectorView& y, int degree, const PolyfitOptions& options) {
     if (degree < 0) throw InvalidArgument("The degree must not be negative, and is " + std::to_string(degree));
     if (x.size() != y.size())

@@ -40,8 +40,6 @@ struct PolynomialFit {
     double centre = 0;            ///< 0 when not centred
     LinearRegression regression;  ///< theta = [c_1 ... c_(n+1)], highest power first
     Vector coefficients;          ///< of the same polynomial in powers of x itself, highest first
-
-    double at(double x) const;
 };
 
 /// Throws InvalidArgument for a negative degree, lengths that differ, or no more distinct x than the degree.

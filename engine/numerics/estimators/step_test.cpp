@@ -84,12 +84,6 @@ ReadingPoint overshoot_point(const StepRecord& record) {
 
 }  // namespace
 
-double StepTestResult::parameter(const std::string& name) const {
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end()) throw InvalidArgument("The step test has no parameter called " + name);
-    return parameters[found - names.begin()];
-}
-
 StepTestResult step_first_order(const IdData& data) {
     StepTestResult result = begin_reading(data, {"K", "T"}, 2);
     const StepRecord& record = result.record;

@@ -21,8 +21,6 @@ struct StepTestResult {
     StepRecord record;                 ///< levels with their intervals, step, noise, smoothed response
     std::vector<ReadingPoint> points;  ///< in the order of time
     std::string message;               ///< one sentence
-
-    double parameter(const std::string& name) const;  ///< throws InvalidArgument when there is no such name
 };
 
 /// Parameters of a transfer function read off a step response as one does with a ruler: K = output change over

@@ -84,16 +84,6 @@ CraneTruth crane_truth(const CraneParameters& p) {
     return truth;
 }
 
-double crane_energy(const CraneParameters& p, const CraneState& s) {
-    const double motor = motor_mass(p) * s.motor_speed * s.motor_speed / 2;
-    const double belt = p.belt_stiffness * std::pow(s.motor_position - s.position, 2) / 2;
-    const double trolley = (p.trolley_mass + p.pendulum_mass) * s.speed * s.speed / 2;
-    const double pendulum =
-        inertia_at_pivot(p) * s.angle_rate * s.angle_rate / 2 + lever(p) * std::cos(s.angle) * s.speed * s.angle_rate;
-    const double half = std::sin(s.angle / 2);
-    return motor + belt + trolley + pendulum + 2 * lever(p) * p.gravity * half * half;
-}
-
 CraneSimulator::CraneSimulator(const CraneParameters& parameters, const CraneState& start, const OdeOptions& options)
     : p_(parameters), x_(packed(start)), solver_([this](double, const OdeState& x) { return rate(x); }, options) {
     p_.validate();

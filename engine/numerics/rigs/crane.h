@@ -67,9 +67,6 @@ struct CraneTruth {
 /// What the record should tell, from the parameters by formula. Throws InvalidArgument as their validate() does.
 CraneTruth crane_truth(const CraneParameters& parameters);
 
-/// The energy stored in masses, belt and gravity (zero hanging at rest), without buffers and current, J.
-double crane_energy(const CraneParameters& parameters, const CraneState& state);
-
 /// The crane in motion. Sliding either way, sticking and touching a buffer are separate forms of the equations; each
 /// change is located as an event.
 class CraneSimulator {

@@ -26,12 +26,12 @@ TEST(initial_conditions, words_are_understood) {  // oracle: definition
 
 TEST(initial_conditions, operating_point_of_a_step_lies_before_it) {  // oracle: definition
     const Vector y{{10.0, 12.0, 11.0, 40.0}};
-    EXPECT_EQ(operating_point(kStep, y).input, 2);
-    EXPECT_EQ(operating_point(kStep, y).output, 11);
-    EXPECT_EQ(operating_point(kFlat, y).input, 0);
-    EXPECT_EQ(operating_point(kFlat, y).output, 0);
-    EXPECT_EQ(operating_point(kRich, y).input, 0.5);
-    EXPECT_EQ(operating_point(kRich, y).output, y.mean());
+    EXPECT_EQ(joint_operating_point(kStep, y).inputs[0], 2);
+    EXPECT_EQ(joint_operating_point(kStep, y).output, 11);
+    EXPECT_EQ(joint_operating_point(kFlat, y).inputs[0], 0);
+    EXPECT_EQ(joint_operating_point(kFlat, y).output, 0);
+    EXPECT_EQ(joint_operating_point(kRich, y).inputs[0], 0.5);
+    EXPECT_EQ(joint_operating_point(kRich, y).output, y.mean());
 }
 
 TEST(initial_conditions, automatic_choices_can_be_told_apart) {  // oracle: identifiability

@@ -86,7 +86,7 @@ TEST(linear_regression, centring_changes_the_conditioning_only) {  // oracle: se
     const Forecast a = forecast(centred, 2024), b = forecast(plain, 2024);
     EXPECT_NEAR(a.value, b.value, 1e-10);
     EXPECT_NEAR(a.high, b.high, 1e-9);
-    EXPECT_NEAR(centred.at(1950), plain.at(1950), 1e-10);
+    EXPECT_NEAR(forecast(centred, 1950).value, forecast(plain, 1950).value, 1e-10);
 }
 
 TEST(linear_regression, polynomial_coefficients_describe_the_same_curve) {  // oracle: analytic
@@ -94,7 +94,7 @@ TEST(linear_regression, polynomial_coefficients_describe_the_same_curve) {  // o
     const Vector y = 2 * x.array().cube() - x.array() + 4;
     const PolynomialFit fit = fit_polynomial(x, y, 3);
     EXPECT_LT((fit.coefficients - Vector{{2.0, 0.0, -1.0, 4.0}}).cwiseAbs().maxCoeff(), 1e-9);
-    EXPECT_NEAR(fit.at(20), 2 * 8000 - 20 + 4, 1e-8);
+    EXPECT_NEAR(forecast(fit, 20).value, 2 * 8000 - 20 + 4, 1e-8);
 }
 
 TEST(linear_regression, interval_covers_as_often_as_it_says) {  // oracle: statistics, fixed seed

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -45,6 +46,11 @@ std::function<double(double)> second_order(double z, double w0) {
     };
 }
 
+double parameter(const StepTestResult& result, const std::string& name) {
+    const auto found = std::find(result.names.begin(), result.names.end(), name);
+    return found == result.names.end() ? std::nan("") : result.parameters[found - result.names.begin()];
+}
+
 std::string refusal(const std::function<void()>& action) {
     try {
         action();
@@ -58,11 +64,11 @@ TEST(step_test,
      first_order_recovers_a_clean_response) {  // oracle: analytic; ln 20 time constants to 5 %, read as three
     const Experimental e;
     const auto result = step_first_order(record_of(e, 2.5, first_order(0.8)));
-    EXPECT_NEAR(result.parameter("K"), 2.5, 2.5 * 1e-3);
-    EXPECT_NEAR(result.parameter("T"), 0.8 * std::log(20.0) / 3, 0.8 * 5e-3);
-    EXPECT_NEAR(result.model.dc_gain(), result.parameter("K"), 1e-12);
+    EXPECT_NEAR(parameter(result, "K"), 2.5, 2.5 * 1e-3);
+    EXPECT_NEAR(parameter(result, "T"), 0.8 * std::log(20.0) / 3, 0.8 * 5e-3);
+    EXPECT_NEAR(result.model.dc_gain(), parameter(result, "K"), 1e-12);
     ASSERT_EQ(result.points.size(), 1u);
-    EXPECT_NEAR(result.points[0].time, 1 + 3 * result.parameter("T"), 1e-12);
+    EXPECT_NEAR(result.points[0].time, 1 + 3 * parameter(result, "T"), 1e-12);
     EXPECT_NEAR(result.points[0].value, 0.95 * result.record.final.value, 1e-3);
 }
 
@@ -73,8 +79,8 @@ TEST(step_test, works_from_any_level_in_either_direction) {  // oracle: invarian
     shifted.offset = -30;
     const auto a = step_first_order(record_of(plain, 2.5, first_order(0.8)));
     const auto b = step_first_order(record_of(shifted, 2.5, first_order(0.8)));
-    EXPECT_NEAR(a.parameter("K"), b.parameter("K"), 1e-9);
-    EXPECT_NEAR(a.parameter("T"), b.parameter("T"), 1e-9);
+    EXPECT_NEAR(parameter(a, "K"), parameter(b, "K"), 1e-9);
+    EXPECT_NEAR(parameter(a, "T"), parameter(b, "T"), 1e-9);
     EXPECT_NEAR(b.record.initial.value, -30 + 2.5 * 7, 1e-9);
     EXPECT_EQ(b.record.input_before, 7);
     EXPECT_EQ(b.record.input_after, 4);
@@ -88,9 +94,9 @@ TEST(step_test, constant_input_is_a_step_at_the_first_sample) {  // oracle: inva
     at_once.step = 0;
     const auto a = step_second_order(record_of(late, 1.5, second_order(0.2, 6)));
     const auto b = step_second_order(record_of(at_once, 1.5, second_order(0.2, 6)));
-    EXPECT_NEAR(a.parameter("K"), b.parameter("K"), 1e-9);
-    EXPECT_NEAR(a.parameter("z"), b.parameter("z"), 1e-9);
-    EXPECT_NEAR(a.parameter("w0"), b.parameter("w0"), 1e-9);
+    EXPECT_NEAR(parameter(a, "K"), parameter(b, "K"), 1e-9);
+    EXPECT_NEAR(parameter(a, "z"), parameter(b, "z"), 1e-9);
+    EXPECT_NEAR(parameter(a, "w0"), parameter(b, "w0"), 1e-9);
     EXPECT_EQ(b.record.input_before, 0);
     EXPECT_EQ(b.record.initial.value, 0);
 }
@@ -100,9 +106,9 @@ TEST(step_test, second_order_recovers_a_clean_response) {  // oracle: analytic
         Experimental e;
         e.N = 2000;
         const auto result = step_second_order(record_of(e, -0.7, second_order(z, 5)));
-        EXPECT_NEAR(result.parameter("K"), -0.7, 0.7 * 2e-3) << z;
-        EXPECT_NEAR(result.parameter("z"), z, 2e-3) << z;
-        EXPECT_NEAR(result.parameter("w0"), 5, 5 * 3e-3) << z;
+        EXPECT_NEAR(parameter(result, "K"), -0.7, 0.7 * 2e-3) << z;
+        EXPECT_NEAR(parameter(result, "z"), z, 2e-3) << z;
+        EXPECT_NEAR(parameter(result, "w0"), 5, 5 * 3e-3) << z;
         EXPECT_NEAR(result.model.poles().real()[0], -z * 5, 0.02) << z;
     }
 }
@@ -111,10 +117,10 @@ TEST(step_test, delayed_recovers_a_clean_response) {  // oracle: analytic
     Experimental e;
     e.N = 1500;
     const auto result = step_delayed(record_of(e, 3, first_order(0.9, 0.55)));
-    EXPECT_NEAR(result.parameter("K"), 3, 3e-3);
-    EXPECT_NEAR(result.parameter("T"), 0.9, 0.9 * 5e-3);
-    EXPECT_NEAR(result.parameter("D"), 0.55, 0.01);
-    EXPECT_NEAR(result.model.delay(), result.parameter("D"), 1e-15);
+    EXPECT_NEAR(parameter(result, "K"), 3, 3e-3);
+    EXPECT_NEAR(parameter(result, "T"), 0.9, 0.9 * 5e-3);
+    EXPECT_NEAR(parameter(result, "D"), 0.55, 0.01);
+    EXPECT_NEAR(result.model.delay(), parameter(result, "D"), 1e-15);
     ASSERT_EQ(result.points.size(), 2u);
     EXPECT_NEAR(result.points[0].value / result.record.final.value, 0.283, 1e-3);
     EXPECT_NEAR(result.points[1].value / result.record.final.value, 0.632, 1e-3);
@@ -127,10 +133,10 @@ TEST(step_test, delayed_without_delay_says_so) {  // oracle: analytic
     double least = 1;
     for (e.seed = 1; e.seed < 20; ++e.seed) {
         const auto result = step_delayed(record_of(e, 1, first_order(0.9)));
-        EXPECT_GE(result.parameter("D"), 0);
-        EXPECT_LT(result.parameter("D"), 0.02);
-        EXPECT_EQ(result.parameter("D") == 0, result.message.find("no room for a delay") != std::string::npos);
-        least = std::min(least, result.parameter("D"));
+        EXPECT_GE(parameter(result, "D"), 0);
+        EXPECT_LT(parameter(result, "D"), 0.02);
+        EXPECT_EQ(parameter(result, "D") == 0, result.message.find("no room for a delay") != std::string::npos);
+        least = std::min(least, parameter(result, "D"));
     }
     EXPECT_EQ(least, 0);
 }
@@ -141,8 +147,8 @@ TEST(step_test, reads_the_heat_exchanger_through_its_noise) {  // oracle: physic
     for (std::uint32_t seed = 1; seed <= 50; ++seed) {
         const auto record = simulate_heat_exchanger(p, seed);
         const auto result = step_first_order(IdData(record.y, record.u, p.Ts));
-        EXPECT_NEAR(result.parameter("K") / truth.gain, 1, 0.02) << seed;
-        EXPECT_NEAR(result.parameter("T") / truth.time_constant, 1, 0.1) << seed;
+        EXPECT_NEAR(parameter(result, "K") / truth.gain, 1, 0.02) << seed;
+        EXPECT_NEAR(parameter(result, "T") / truth.time_constant, 1, 0.1) << seed;
         EXPECT_NEAR(result.record.initial.value, truth.initial_output, 0.1) << seed;
         EXPECT_NEAR(result.record.noise_std, p.noise_std, 0.3 * p.noise_std) << seed;
     }
@@ -154,9 +160,9 @@ TEST(step_test, reads_the_suspension_through_its_noise) {  // oracle: physical t
     for (std::uint32_t seed = 1; seed <= 50; ++seed) {
         const auto record = simulate_suspension(p, seed);
         const auto result = step_second_order(IdData(record.y, record.u, p.Ts));
-        EXPECT_NEAR(result.parameter("K") / truth.gain, 1, 0.02) << seed;
-        EXPECT_NEAR(result.parameter("z") / truth.damping_ratio, 1, 0.05) << seed;
-        EXPECT_NEAR(result.parameter("w0") / truth.natural_frequency, 1, 0.03) << seed;
+        EXPECT_NEAR(parameter(result, "K") / truth.gain, 1, 0.02) << seed;
+        EXPECT_NEAR(parameter(result, "z") / truth.damping_ratio, 1, 0.05) << seed;
+        EXPECT_NEAR(parameter(result, "w0") / truth.natural_frequency, 1, 0.03) << seed;
     }
 }
 
@@ -166,7 +172,7 @@ TEST(step_test, survives_an_outlier) {  // oracle: definition of a robust level
     data.experiments[0].y(50, 0) = 40;
     data.experiments[0].y(990, 0) = -40;
     const auto result = step_delayed(data);
-    EXPECT_NEAR(result.parameter("K"), 2, 0.01);
+    EXPECT_NEAR(parameter(result, "K"), 2, 0.01);
 }
 
 TEST(step_test, reads_irregular_samples) {  // oracle: analytic
@@ -182,8 +188,8 @@ TEST(step_test, reads_irregular_samples) {  // oracle: analytic
         y(k, 0) = k < 100 ? 0 : 2 * 1.5 * first_order(0.7, 0.3)(t[k] - start);
     }
     const auto result = step_delayed(IdData(y, u, t));
-    EXPECT_NEAR(result.parameter("T"), 0.7, 0.02);
-    EXPECT_NEAR(result.parameter("D"), 0.3, 0.02);
+    EXPECT_NEAR(parameter(result, "T"), 0.7, 0.02);
+    EXPECT_NEAR(parameter(result, "D"), 0.3, 0.02);
 }
 
 TEST(step_test, refuses_an_input_that_is_no_step) {
@@ -205,7 +211,7 @@ TEST(step_test, accepts_a_noisy_step_input) {  // oracle: the same record with a
     const auto clean = step_first_order(data);
     RandomStream random(2);
     for (Index k = 0; k < e.N; ++k) data.experiments[0].u(k, 0) += 0.02 * (random.uniform() - 0.5);
-    EXPECT_NEAR(step_first_order(data).parameter("K"), clean.parameter("K"), 0.01);
+    EXPECT_NEAR(parameter(step_first_order(data), "K"), parameter(clean, "K"), 0.01);
 }
 
 TEST(step_test, refuses_a_response_that_has_not_settled) {  // justified: the final level would be 10 % off
@@ -243,8 +249,6 @@ TEST(step_test, refuses_records_it_cannot_read) {
     EXPECT_THAT(refusal([&] { step_first_order(record_of(e, 1, first_order(1e-4))); }), HasSubstr("sample faster"));
     const IdData two_inputs(Matrix::Zero(50, 1), Matrix::Ones(50, 2), 1.0);
     EXPECT_THAT(refusal([&] { step_first_order(two_inputs); }), HasSubstr("one input"));
-    const auto result = step_first_order(record_of(e, 1, first_order(0.8)));
-    EXPECT_THROW(result.parameter("z"), InvalidArgument);
 }
 
 }  // namespace test_step_test

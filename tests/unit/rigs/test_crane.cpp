@@ -35,6 +35,18 @@ CraneState at(double position, double angle) {
     return state;
 }
 
+/// Of rotor, belt, trolley and pendulum, whose centre of mass moves in the plane; zero hanging at rest, J.
+double crane_energy(const CraneParameters& p, const CraneState& s) {
+    const double rotor_speed = s.motor_speed * p.gear_ratio / p.pulley_radius, l = p.pendulum_length;
+    const double across = s.speed + l * std::cos(s.angle) * s.angle_rate,
+                 upwards = l * std::sin(s.angle) * s.angle_rate;
+    const double height = 2 * l * std::pow(std::sin(s.angle / 2), 2);
+    return p.rotor_inertia * rotor_speed * rotor_speed / 2 +
+           p.belt_stiffness * std::pow(s.motor_position - s.position, 2) / 2 + p.trolley_mass * s.speed * s.speed / 2 +
+           p.pendulum_mass * (across * across + upwards * upwards) / 2 +
+           p.pendulum_inertia * s.angle_rate * s.angle_rate / 2 + p.pendulum_mass * p.gravity * height;
+}
+
 /// Rate at which energy turns into heat, W.
 double heating(const CraneParameters& p, const CraneState& s) {
     const double slip = s.motor_speed - s.speed, swing = std::abs(s.angle_rate), speed = std::abs(s.speed);
