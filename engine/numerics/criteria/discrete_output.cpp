@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <complex>
-#include <limits>
 #include <numeric>
 
 #include "numerics/linalg/polynomial.h"
@@ -48,9 +47,7 @@ DiscreteOutput::DiscreteOutput(const PolynomialOrders& orders, const StartCondit
         values_ = std::accumulate(orders_.nf.begin(), orders_.nf.end(), Index{0});
     }
     const Index each = values_ + (condition_.offset ? 1 : 0);
-    const Index count = orders_.parameter_count() + each * static_cast<Index>(experiments_.size());
-    lower_ = Vector::Constant(count, -std::numeric_limits<double>::infinity());
-    upper_ = -lower_;
+    set_free(orders_.parameter_count() + each * static_cast<Index>(experiments_.size()));
 }
 
 Index DiscreteOutput::rows(const SampledExperiment& experiment) const {

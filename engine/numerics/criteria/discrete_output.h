@@ -50,9 +50,6 @@ class DiscreteOutput : public OutputErrorModel {
     DiscreteOutput(const PolynomialOrders& orders, const StartCondition& condition,
                    const std::vector<SampledExperiment>& experiments);
 
-    Index parameter_count() const override { return lower_.size(); }
-    const Vector& lower() const override { return lower_; }
-    const Vector& upper() const override { return upper_; }
     void simulate(const Vector& theta, Vector& output, Matrix* sensitivities) const override;
     OutputErrorProducts products(const Vector& theta, const VectorView& y) const override;
     bool products_come_cheap() const override { return true; }
@@ -84,7 +81,6 @@ class DiscreteOutput : public OutputErrorModel {
     StartCondition condition_;
     const std::vector<SampledExperiment>& experiments_;
     Index head_ = 0, values_ = 0;  // values_: initial values of one experiment
-    Vector lower_, upper_;
 };
 
 }  // namespace dynlab::inline numerics

@@ -58,7 +58,7 @@ FrequencyOutput::FrequencyOutput(const FrequencyData& data, const TransferStruct
     weights_ = response_weights(data);
     basis_ = basis_near(s_, weights_, data.response, start, poles_, zeros_);
     const Index count = poles_ + zeros_ + 1 + (free_delay_ ? 1 : 0);
-    lower_ = Vector::Constant(count, -kInfinity), upper_ = Vector::Constant(count, kInfinity);
+    set_free(count);
     scale_.resize(count);
     for (Index i = 0; i < poles_; ++i) scale_[i] = std::pow(unit_, -static_cast<double>(i + 1));
     for (Index j = 0; j <= zeros_; ++j) scale_[poles_ + j] = std::pow(unit_, -static_cast<double>(poles_ - zeros_ + j));

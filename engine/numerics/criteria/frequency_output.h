@@ -19,9 +19,6 @@ class FrequencyOutput : public OutputErrorModel {
     FrequencyOutput(const FrequencyData& data, const TransferStructure& structure, const Vector& start,
                     double least_delay = 0, double largest_delay = 0);
 
-    Index parameter_count() const override { return lower_.size(); }
-    const Vector& lower() const override { return lower_; }
-    const Vector& upper() const override { return upper_; }
     /// Not finite where a pole lies on a frequency of the data, instead of failing there; with keep_stable() also where
     /// one lies to the right of the imaginary axis.
     void simulate(const Vector& theta, Vector& output, Matrix* sensitivities) const override;
@@ -51,7 +48,6 @@ class FrequencyOutput : public OutputErrorModel {
     Vector weights_;       // of each frequency's real and imaginary part
     RationalBasis basis_;
     Vector scale_;  // from time units to seconds
-    Vector lower_, upper_;
 };
 
 /// 1/sqrt(variance/2), or ones where it is not known: what the real and imaginary parts are weighted with.

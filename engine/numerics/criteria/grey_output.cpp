@@ -39,9 +39,7 @@ GreyOutput::GreyOutput(const IdData& data, const GreyModel& model, const Vector&
         inputs_.push_back({data.experiments[k].u.leftCols(model.inputs), data.time(k), data.hold});
         measured_.push_back(data.experiments[k].y);
     }
-    const auto values = free_count() + static_cast<Index>(estimated_.size() * measured_.size());
-    lower_ = Vector::Constant(values, -kInfinity);
-    upper_ = Vector::Constant(values, kInfinity);
+    set_free(free_count() + static_cast<Index>(estimated_.size() * measured_.size()));
     for (Index q = 0; q < free_count(); ++q) {
         const GreyParameter& parameter = model.parameters[static_cast<std::size_t>(free_[static_cast<std::size_t>(q)])];
         lower_[q] = parameter.lower;

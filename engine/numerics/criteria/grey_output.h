@@ -19,9 +19,6 @@ class GreyOutput final : public OutputErrorModel {
     GreyOutput(const IdData& data, const GreyModel& model, const Vector& parameters, std::optional<Matrix> initial,
                const Vector& weights, double relative_tolerance);
 
-    Index parameter_count() const override { return lower_.size(); }
-    const Vector& lower() const override { return lower_; }
-    const Vector& upper() const override { return upper_; }
     void simulate(const Vector& theta, Vector& output, Matrix* sensitivities) const override;
 
     Vector measured() const;                       ///< the data's outputs, as the rows are
@@ -42,7 +39,6 @@ class GreyOutput final : public OutputErrorModel {
     std::vector<Index> free_, estimated_;
     std::vector<GreyInputs> inputs_;
     std::vector<Matrix> measured_;
-    Vector lower_, upper_;
     mutable GreySimulator simulator_;
 };
 

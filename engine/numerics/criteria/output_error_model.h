@@ -17,10 +17,10 @@ class OutputErrorModel {
   public:
     virtual ~OutputErrorModel() = default;
 
-    virtual Index parameter_count() const = 0;
+    Index parameter_count() const { return lower_.size(); }
     /// Closed bounds of each parameter (infinite when free); the search never evaluates outside them.
-    virtual const Vector& lower() const = 0;
-    virtual const Vector& upper() const = 0;
+    const Vector& lower() const { return lower_; }
+    const Vector& upper() const { return upper_; }
     /// Simulated output (N) and, when wanted, its derivatives with respect to the parameters (N x d).
     virtual void simulate(const Vector& theta, Vector& output, Matrix* sensitivities) const = 0;
     Vector output_at(const Vector& theta) const;  ///< simulate() without derivatives
@@ -32,6 +32,14 @@ class OutputErrorModel {
     /// Whether they cost little more than the output alone, so that a search asks for them before it knows whether it
     /// will go there.
     virtual bool products_come_cheap() const { return false; }
+
+  protected:
+    void set_free(Index count) {
+        lower_ = Vector::Constant(count, -kInfinity);
+        upper_ = Vector::Constant(count, kInfinity);
+    }
+
+    Vector lower_, upper_;
 };
 
 inline Vector OutputErrorModel::output_at(const Vector& theta) const {

@@ -6,7 +6,9 @@
 namespace dynlab::inline numerics {
 
 Reparametrised::Reparametrised(const OutputErrorModel& inner, Map map, Vector lower, Vector upper)
-    : inner_(inner), map_(std::move(map)), lower_(std::move(lower)), upper_(std::move(upper)) {}
+    : inner_(inner), map_(std::move(map)) {
+    lower_ = std::move(lower), upper_ = std::move(upper);
+}
 
 void Reparametrised::simulate(const Vector& theta, Vector& output, Matrix* sensitivities) const {
     const Point point = map_(theta);

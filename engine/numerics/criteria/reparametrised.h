@@ -18,9 +18,6 @@ class Reparametrised : public OutputErrorModel {
     /// Keeps a reference to `inner`. The bounds, of equal length, are those of theta.
     Reparametrised(const OutputErrorModel& inner, Map map, Vector lower, Vector upper);
 
-    Index parameter_count() const override { return lower_.size(); }
-    const Vector& lower() const override { return lower_; }
-    const Vector& upper() const override { return upper_; }
     void simulate(const Vector& theta, Vector& output, Matrix* sensitivities) const override;
     OutputErrorProducts products(const Vector& theta, const VectorView& y) const override;
     Index silent_rows() const override { return inner_.silent_rows(); }
@@ -29,7 +26,6 @@ class Reparametrised : public OutputErrorModel {
   private:
     const OutputErrorModel& inner_;
     Map map_;
-    Vector lower_, upper_;
 };
 
 }  // namespace dynlab::inline numerics

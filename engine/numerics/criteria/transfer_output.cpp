@@ -77,8 +77,7 @@ void TransferOutput::set_parameter_count() {
     const Index experiments = static_cast<Index>(experiments_.size());
     Index count = initial_start(0, 0) + (condition_.offset ? experiments * structure_.outputs : 0);
     for (Index output = 0; output < structure_.outputs; ++output) count += experiments * initial_count(output);
-    lower_ = Vector::Constant(count, -kInfinity);
-    upper_ = Vector::Constant(count, kInfinity);
+    set_free(count);
     seconds_ = Vector::Ones(count);
 }
 

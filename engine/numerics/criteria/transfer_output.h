@@ -35,9 +35,6 @@ class TransferOutput : public OutputErrorModel {
     TransferOutput(const TransferStructure& structure, const StartCondition& condition, const IdData& data,
                    double least_delay, double largest_delay, AtRest at_rest = AtRest::kCoefficients);
 
-    Index parameter_count() const override { return lower_.size(); }
-    const Vector& lower() const override { return lower_; }
-    const Vector& upper() const override { return upper_; }
     /// Not finite where a coefficient is beyond all use, instead of failing there.
     void simulate(const Vector& theta, Vector& output, Matrix* sensitivities) const override;
 
@@ -105,7 +102,7 @@ class TransferOutput : public OutputErrorModel {
     std::vector<Record> experiments_;
     std::vector<std::vector<Index>> denominators_;  // the different ones of each output
     Index samples_ = 0;
-    Vector lower_, upper_, seconds_, weights_;
+    Vector seconds_, weights_;
 };
 
 }  // namespace dynlab::inline numerics

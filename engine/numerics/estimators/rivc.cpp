@@ -40,11 +40,10 @@ void check(const IdData& data, const NoiseOrders& orders, const TransferStructur
 class WhitenedOutput : public OutputErrorModel {
   public:
     WhitenedOutput(const TransferOutput& output, const ArmaNoise& noise, const Vector& y)
-        : output_(output), noise_(noise), y_(y) {}
+        : output_(output), noise_(noise), y_(y) {
+        lower_ = output.lower(), upper_ = output.upper();
+    }
 
-    Index parameter_count() const override { return output_.parameter_count(); }
-    const Vector& lower() const override { return output_.lower(); }
-    const Vector& upper() const override { return output_.upper(); }
     void simulate(const Vector& theta, Vector& output, Matrix* sensitivities) const override {
         output_.simulate(theta, output, sensitivities);
         output = filtered(output);

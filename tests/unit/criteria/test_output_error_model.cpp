@@ -10,13 +10,7 @@ using namespace dynlab;
 /// output = J theta for a given J, without bounds.
 class LinearModel : public OutputErrorModel {
   public:
-    explicit LinearModel(Matrix J)
-        : J_(std::move(J)),
-          lower_(Vector::Constant(J_.cols(), -kInfinity)),
-          upper_(Vector::Constant(J_.cols(), kInfinity)) {}
-    Index parameter_count() const override { return J_.cols(); }
-    const Vector& lower() const override { return lower_; }
-    const Vector& upper() const override { return upper_; }
+    explicit LinearModel(Matrix J) : J_(std::move(J)) { set_free(J_.cols()); }
     void simulate(const Vector& theta, Vector& output, Matrix* sensitivities) const override {
         output = J_ * theta;
         if (sensitivities != nullptr) *sensitivities = J_;
@@ -24,7 +18,6 @@ class LinearModel : public OutputErrorModel {
 
   private:
     Matrix J_;
-    Vector lower_, upper_;
 };
 
 // Oracle: the sums term by term, in extended precision. 1100 rows are more than one block and no whole number of them.

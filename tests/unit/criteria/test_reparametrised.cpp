@@ -11,9 +11,7 @@ using namespace dynlab;
 /// y(k) = q_0 exp(-q_1 k/3000), k counted in rows.
 class Decay : public OutputErrorModel {
   public:
-    Index parameter_count() const override { return 2; }
-    const Vector& lower() const override { return bound_; }
-    const Vector& upper() const override { return bound_; }
+    Decay() { set_free(2); }
     void simulate(const Vector& q, Vector& output, Matrix* sensitivities) const override {
         const Vector k = Vector::LinSpaced(kRows, 0, 1);
         const Vector shape = (-q[1] * k).array().exp();
@@ -23,9 +21,6 @@ class Decay : public OutputErrorModel {
         *sensitivities << shape, -(k.array() * output.array()).matrix();
     }
     static constexpr Index kRows = 3001;  // several blocks of rows
-
-  private:
-    Vector bound_;
 };
 
 /// q = [theta_0 theta_1, exp(theta_1)].

@@ -17,18 +17,12 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // c exp(-r t), theta = [c, r].
 class Decay : public OutputErrorModel {
   public:
-    explicit Decay(const Vector& t) : t_(t) {
-        lower_.setConstant(2, -kInfinity);
-        upper_.setConstant(2, kInfinity);
-    }
+    explicit Decay(const Vector& t) : t_(t) { set_free(2); }
     Decay& within(const Vector& lower, const Vector& upper) {
         lower_ = lower;
         upper_ = upper;
         return *this;
     }
-    Index parameter_count() const override { return 2; }
-    const Vector& lower() const override { return lower_; }
-    const Vector& upper() const override { return upper_; }
     void simulate(const Vector& theta, Vector& output, Matrix* sensitivities) const override {
         EXPECT_TRUE((theta.array() >= lower_.array()).all() && (theta.array() <= upper_.array()).all());
         const Vector decay = (-theta[1] * t_).array().exp();
@@ -40,7 +34,7 @@ class Decay : public OutputErrorModel {
     }
 
   private:
-    Vector t_, lower_, upper_;
+    Vector t_;
 };
 
 const Vector kTimes = Vector::LinSpaced(50, 0, 5);

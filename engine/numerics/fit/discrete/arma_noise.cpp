@@ -45,18 +45,10 @@ Vector lagged(const Vector& x, Index lag, Index first) {
 /// The one-step prediction of v as a function of [c d], for the output-error search: v minus it is e.
 class Prediction : public OutputErrorModel {
   public:
-    Prediction(const std::vector<Vector>& records, int nc, int nd)
-        : records_(records),
-          nc_(nc),
-          nd_(nd),
-          lower_(Vector::Constant(nc + nd, -std::numeric_limits<double>::infinity())),
-          upper_(-lower_) {
+    Prediction(const std::vector<Vector>& records, int nc, int nd) : records_(records), nc_(nc), nd_(nd) {
+        set_free(nc + nd);
         for (const Vector& record : records) samples_ += record.size();
     }
-
-    Index parameter_count() const override { return lower_.size(); }
-    const Vector& lower() const override { return lower_; }
-    const Vector& upper() const override { return upper_; }
 
     ArmaNoise noise(const Vector& theta) const {
         ArmaNoise noise;
@@ -104,7 +96,6 @@ class Prediction : public OutputErrorModel {
   private:
     const std::vector<Vector>& records_;
     Index nc_, nd_, samples_ = 0;
-    Vector lower_, upper_;
 };
 
 /// The triangular factor of the regression below, block by block: for signals whose lags are nearly dependent.

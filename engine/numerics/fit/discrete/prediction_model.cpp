@@ -22,8 +22,7 @@ PredictionModel::PredictionModel(const PolynomialOrders& orders, const StartCond
     : orders_(orders), driven_(driven_orders(orders), condition, experiments), experiments_(experiments) {
     if (condition.state == InitialState::kEstimate) blind_ = std::max<Index>(0, orders_.na - driven_.head());
     const Index linear = driven_.parameter_count() - dynamic_count();
-    lower_ = Vector::Constant(orders_.parameter_count() + linear, -std::numeric_limits<double>::infinity());
-    upper_ = -lower_;
+    set_free(orders_.parameter_count() + linear);
 }
 
 std::vector<Index> PredictionModel::lengths() const {

@@ -21,9 +21,6 @@ class PredictionModel : public OutputErrorModel {
     PredictionModel(const PolynomialOrders& orders, const StartCondition& condition,
                     const std::vector<SampledExperiment>& experiments);
 
-    Index parameter_count() const override { return lower_.size(); }
-    const Vector& lower() const override { return lower_; }
-    const Vector& upper() const override { return upper_; }
     void simulate(const Vector& theta, Vector& output, Matrix* sensitivities) const override;
     OutputErrorProducts products(const Vector& theta, const VectorView& y) const override;
     bool products_come_cheap() const override { return true; }
@@ -53,7 +50,6 @@ class PredictionModel : public OutputErrorModel {
     DiscreteOutput driven_;
     const std::vector<SampledExperiment>& experiments_;
     Index blind_ = 0;  // rows of driven_ without a recorded past of y
-    Vector lower_, upper_;
 };
 
 }  // namespace dynlab::inline numerics

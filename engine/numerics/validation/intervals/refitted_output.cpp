@@ -18,13 +18,10 @@ constexpr double kMostErrorsOff = 3;  // of a model that may be this record's
 /// A model some of whose parameters stay where they are.
 class HeldOutput : public OutputErrorModel {
   public:
-    HeldOutput(const OutputErrorModel& inner, const std::map<Index, double>& held)
-        : inner_(inner), lower_(inner.lower()), upper_(inner.upper()) {
+    HeldOutput(const OutputErrorModel& inner, const std::map<Index, double>& held) : inner_(inner) {
+        lower_ = inner.lower(), upper_ = inner.upper();
         for (const auto& [place, value] : held) lower_[place] = upper_[place] = value;
     }
-    Index parameter_count() const override { return inner_.parameter_count(); }
-    const Vector& lower() const override { return lower_; }
-    const Vector& upper() const override { return upper_; }
     void simulate(const Vector& theta, Vector& output, Matrix* sensitivities) const override {
         inner_.simulate(theta, output, sensitivities);
     }
@@ -36,7 +33,6 @@ class HeldOutput : public OutputErrorModel {
 
   private:
     const OutputErrorModel& inner_;
-    Vector lower_, upper_;
 };
 
 /// The criterion of a fitted model on some data, in the units of a search.
