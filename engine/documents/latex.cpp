@@ -3,6 +3,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <optional>
 #include <regex>
 

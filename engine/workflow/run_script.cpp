@@ -10,6 +10,7 @@
 #include "documents/html/plot_data.h"
 #include "documents/text_lines.h"
 #include "figures/french_texts.h"
+#include "platform/written_files.h"
 #include "scripting/memoized_calls/shared_pieces.h"
 #include "workflow/script_world.h"
 

@@ -10,6 +10,7 @@
 #include "figures/french_texts.h"
 #include "scripting/conversions/arguments.h"
 #include "scripting/conversions/numeric.h"
+#include "scripting/objects/figure_object.h"
 #include "scripting/runtime/context.h"
 
 namespace dynlab::inline app {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <csignal>
 
 #include "course/boxes/told_reason.h"
 #include "course/hand_ins/staging.h"

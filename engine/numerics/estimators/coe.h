@@ -1,4 +1,5 @@
 #pragma once
+#include "numerics/fit/transfer_search.h"
 
 namespace dynlab::inline numerics {
 

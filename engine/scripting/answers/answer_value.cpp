@@ -6,6 +6,8 @@
 #include "data_io/values/json_values.h"
 #include "documents/percent_script.h"
 #include "platform/spelling.h"
+#include "scripting/objects/data_object.h"
+#include "scripting/objects/frequency_object.h"
 #include "scripting/objects/model_description.h"
 
 namespace dynlab::inline scripting {

@@ -2,6 +2,7 @@
 #include <span>
 #include <vector>
 
+#include "numerics/fit/search_aids.h"
 #include "scripting/arguments/estimation.h"
 #include "scripting/arguments/order_vector.h"
 

@@ -5,6 +5,7 @@
 #include "numerics/number_text.h"
 #include "numerics/signals/fourier.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/objects/model.h"
 
 namespace dynlab::inline scripting {
 namespace {

@@ -37,8 +37,7 @@ void Recorder::tell_of_cell() const {
 std::string Recorder::current_cell() {
     const int line = current_line_ ? current_line_() : 0;
     if (line <= 0) return timed_cell_;
-    auto after =
-        std::ranges::upper_bound(cells_, line, [](int wanted, const auto& cell) { return wanted < cell.first; });
+    auto after = std::ranges::upper_bound(cells_, line, {}, &std::pair<int, std::string>::first);
     return after == cells_.begin() ? cells_.front().second : std::prev(after)->second;
 }
 

@@ -5,6 +5,7 @@
 #include "scripting/arguments/transfer_arguments.h"
 #include "scripting/bind/frequency/frequency_bindings.h"
 #include "scripting/objects/fit_model.h"
+#include "scripting/objects/frequency_object.h"
 
 namespace dynlab::inline scripting {
 namespace {
