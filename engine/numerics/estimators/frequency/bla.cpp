@@ -315,7 +315,8 @@ class Approximation {
             return number_text(10 * std::log10(std::max(part, 0.0) / sums.power), 3);
         };
         if (std::isfinite(sums.noise))
-            result_.message += " Noise lies at " + decibels(sums.noise) + " dB of the output.";
+            result_.message += " Noise lies at " + decibels(sums.noise) + " dB of the output in the mean over " +
+                               counted(periods_, "period") + ".";
         if (std::isfinite(sums.distortion))
             result_.message += " Nonlinear distortion lies at " + decibels(sums.distortion) + " dB of the output.";
     }

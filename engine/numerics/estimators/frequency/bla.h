@@ -38,7 +38,8 @@ struct BlaOptions {
 /// System Identification, chapters 3 and 4.
 FrequencyData bla(const IdData& data, const BlaOptions& options);
 
-/// Sums over all lines, in units of the output squared: parts of its variance. NaN where they are not known.
+/// Sums over all lines, in units of the output squared: parts of the variance of its mean over the P periods, in which
+/// noise has one P-th of the power that it has in the record. NaN where they are not known.
 struct LevelSums {
     double power = 0, noise = 0, distortion = 0;
 };

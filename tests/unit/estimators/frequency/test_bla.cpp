@@ -137,6 +137,7 @@ TEST(bla, levels_sum_up_to_the_output) {  // oracle: Parseval; no line at zero o
     const double power = mean_periods.squaredNorm() / (4 * kPeriod);
     EXPECT_NEAR(sums.power, power, 1e-3 * power);
     EXPECT_NEAR(sums.noise, 0.05 * 0.05 / 3, 0.1 * 0.05 * 0.05 / 3);
+    EXPECT_THAT(found.message, HasSubstr("dB of the output in the mean over 3 periods."));
 }
 
 TEST(bla, tells_what_is_wrong_with_a_record) {
