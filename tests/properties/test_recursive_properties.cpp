@@ -38,6 +38,19 @@ TEST_P(recursive_properties, another_unit_of_time_scales_the_coefficients) {
               1e-6);
 }
 
+// 5/(cut-off x Ts), the blocks of samples that tell the errors' colour, is a whole number but for rounding.
+TEST_P(recursive_properties, another_unit_of_time_scales_the_standard_errors) {
+    for (const double unit : {1e6, 1e-6, 7.0, 1.0 / 3}) {
+        IdData data = course_record(0.05, 3);
+        data.Ts = 0.05;
+        const Vector std = kMethods[GetParam()](data, kStructure, recursive(4)).std;
+        data.Ts *= unit;
+        const Vector scaled = kMethods[GetParam()](data, kStructure, recursive(4 / unit)).std;
+        EXPECT_LT(relative_difference(scaled, std.cwiseQuotient(values({unit, unit * unit, unit * unit}))), 1e-6)
+            << unit;
+    }
+}
+
 TEST_P(recursive_properties, what_comes_later_changes_no_history) {
     const IdData data = course_record(0.05, 3);
     RecursiveOptions options = recursive(3);

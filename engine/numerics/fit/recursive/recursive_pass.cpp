@@ -25,6 +25,7 @@ constexpr double kBlockMemories = 5;        // of the blocks that tell the error
 constexpr Index kSamplesBetweenLooks = 16;  // at how well the model is known
 constexpr double kSurest = 0.03;            // relative standard errors of coefficients that filters follow
 constexpr double kQuickest = 5;             // poles of a model that filters follow, in cut-off frequencies
+constexpr double kStepRounding = 1e-9;      // relative, of a number of samples: the unit of time must not change it
 
 /// The record as the loop sees it.
 struct Samples {
@@ -103,8 +104,8 @@ bool is_stable(const EvolvingModel& model) {
 /// The samples of the first batch, and the model that ivsvf, or lssvf where that one fails, makes of them.
 Index first_batch(const IdData& data, Index parameters, double lambda) {
     const double steps = kFilterMemories / (lambda * data.mean_step());
-    const Index wanted =
-        std::max<Index>(kFirstSamplesPerParameter * parameters, static_cast<Index>(std::min(steps, 1e15)));
+    const Index wanted = std::max<Index>(kFirstSamplesPerParameter * parameters,
+                                         static_cast<Index>(std::min(steps * (1 + kStepRounding), 1e15)));
     return std::min(wanted, data.sample_count());
 }
 
@@ -131,7 +132,7 @@ class Pass {
         : samples_(samples),
           options_(options),
           array_(static_cast<int>(structure.parameter_count()),
-                 std::max(kBlockMemories / (options.lambda * step), 1.0)) {
+                 std::max(kBlockMemories / (options.lambda * step) * (1 - kStepRounding), 1.0)) {
         n_ = structure.poles.front();
         m_ = structure.channels.front().zeros;
         model_.n = filter_.n = n_;
