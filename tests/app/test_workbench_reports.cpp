@@ -72,6 +72,53 @@ TEST_F(workbench_reports, the_crane_is_identified_by_clicks_with_both_outputs_an
                                      HasSubstr("theta (rad)"), Not(HasSubstr("??"))));
 }
 
+/// What the workbench wrote into the script is told in the script's language; what somebody changed in it is theirs.
+TEST_F(workbench_reports, the_language_turns_what_the_workbench_has_written_and_says) {
+    write_record();
+    const auto program = app("plant.csv");
+    Browser browser;
+    browser.open(program->address());
+    ASSERT_TRUE(view_comes(browser, "record"));
+    ASSERT_TRUE(press(browser, "New model"));
+    ASSERT_TRUE(view_comes(browser, "compare"));
+    ASSERT_TRUE(is_ready(browser));
+    for (const char* view : {"compare", "step"}) {
+        browser.click(std::string(".tile[data-view=") + view + "] .into");
+        ASSERT_TRUE(script_has(browser, std::string("@fig:") + view + " shows"));
+        ASSERT_TRUE(is_ready(browser));
+    }
+    browser.evaluate(
+        "const mirror = document.querySelector('.CodeMirror').CodeMirror; mirror.setValue(mirror.getValue().replace("
+        "'the response to a unit step', 'how it settles'));");
+    ASSERT_TRUE(is_ready(browser));
+    const auto turn_to = [&](const std::string& language) {
+        browser.evaluate("const list = document.getElementById('language'); list.value = '" + language +
+                         "'; list.dispatchEvent(new Event('change'))");
+        ASSERT_TRUE(script_has(browser, "-- language: " + language + "\n"));
+        ASSERT_TRUE(is_ready(browser));
+    };
+    turn_to("en");
+    const std::string english = text_of("plant_session.lua");
+    EXPECT_THAT(english, AllOf(HasSubstr("@fig:step shows how it settles."), HasSubstr("title: Identification from ")));
+    turn_to("fr");
+    EXPECT_THAT(
+        text_of("plant_session.lua"),
+        AllOf(HasSubstr("-- title: Identification à partir de plant.csv\n"),
+              HasSubstr("-- La @fig:compare montre ce qui a été mesuré et ce que simulent les modèles.\n"),
+              HasSubstr("\"Réponse indicielle, avec sa bande de confiance là où elle est connue\")\n"),
+              HasSubstr("-- ![Réponse indicielle, avec sa bande de confiance là où elle est connue](figure:step)"),
+              HasSubstr("-- @fig:step shows how it settles.\n"), Not(HasSubstr("Measured output"))));
+    EXPECT_TRUE(
+        browser.comes("[...document.querySelectorAll('#steps option')].some((one) => "
+                      "one.textContent.includes('chacune avec D, I ou Z au choix'))"))
+        << "what is said of the methods";
+    turn_to("en");
+    EXPECT_EQ(text_of("plant_session.lua"), english);
+    EXPECT_TRUE(
+        browser.comes("[...document.querySelectorAll('#steps option')].some((one) => "
+                      "one.textContent.includes('each with any of D, I, Z'))"));
+}
+
 /// What the page's report holds is what each command makes of the script.
 TEST_F(workbench_reports, a_session_goes_through_run_report_check_and_pack_as_it_is) {
     write("plant.csv", [] {

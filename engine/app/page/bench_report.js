@@ -22,6 +22,14 @@ function together(call, models) {
   return `${call}(${[...all.map(({ code }) => code), ...(all.length > 1 ? [labels(all.map(({ label }) => label))] : [])].join(", ")})`;
 }
 
+/// What tables and legends call things, in English and French.
+const BY_HAND = ["by hand", "à la main"];
+const TITLE = ["-- title: Identification from ", "-- title: Identification à partir de "];  // as workbench/record_choice.cpp writes it
+const HEADS = { models: [["model", "estimation (%)", "validation (%)"], ["modèle", "estimation (%)", "validation (%)"]],
+                orders: [["poles", "zeros", "fit (%)", "YIC"], ["pôles", "zéros", "ajustement (%)", "YIC"]] };
+const inLanguage = ([english, french]) => (isFrench() ? french : english);
+const headText = (head) => `{${head.map(luaText).join(", ")}}`;
+
 /// By view: the figure's code, its caption and what a sentence says that it shows, in English and French.
 const FIGURES = {
   record: [({ raw }) => `idplot(${raw})`, "The record: output above, input below", "the record as it was measured",
@@ -45,7 +53,7 @@ const FIGURES = {
   correlation: [({ estimation }, models) => `(impulseest(${[estimation, ...models, ...(models.length > 0 ? [labels(models)] : [])].join(", ")}))`,
     "Impulse response by correlation; the grey band is what chance alone would give", "the impulse response that the record shows without any model",
     "Réponse impulsionnelle par corrélation ; la bande grise est ce que donnerait le hasard seul", "la réponse impulsionnelle que montre l'enregistrement sans aucun modèle"],
-  reading: [({ raw, reading }) => `compare(${raw}, ${reading}_model, {labels = {"by hand"}})`, "The record and the model that was read off it by hand", "the model that was read off by hand",
+  reading: [({ raw, reading }) => `compare(${raw}, ${reading}_model, ${labels([inLanguage(BY_HAND)])})`, "The record and the model that was read off it by hand", "the model that was read off by hand",
     "L'enregistrement et le modèle lu à la main", "le modèle lu à la main"],
   study: [({ study }) => `${study}:histograms()`, "Estimates of all runs of the Monte Carlo study, with the true values", "the estimates of all runs",
     "Estimées de tous les tirages de l'étude de Monte-Carlo, avec les vraies valeurs", "les estimées de tous les tirages"],
@@ -54,17 +62,15 @@ const number = (call, digits) => `string.format("%.${digits}f", ${call})`;
 const TABLES = {
   parameters: [(_, models) => models.map((model) => `present(${model})`).join("\n")],
   models: [({ estimation, validation }, models, name) => {
-    const head = isFrench() ? ["modèle", "estimation (%)", "validation (%)"] : ["model", "estimation (%)", "validation (%)"];
     const outputs = variables()[estimation]?.output_names ?? [""];
     const cell = (part, model, i) => number(outputs.length > 1 ? `(select(${i + 1}, fit(${part}, ${model})))` : `fit(${part}, ${model})`, 1);
     const rows = models.flatMap((model) => outputs.map((output, i) => `{${luaText(outputs.length > 1 ? `${model}, ${output}` : model)}, ${cell(estimation, model, i)}, ${cell(validation, model, i)}}`));
-    return `report.table("${name}", {\n  {${head.map(luaText).join(", ")}},\n  ${rows.join(",\n  ")}})`;
+    return `report.table("${name}", {\n  ${headText(inLanguage(HEADS.models))},\n  ${rows.join(",\n  ")}})`;
   }, "Fit of the simulated output", "how well the models simulate the records", "Ajustement de la sortie simulée", "l'ajustement des modèles"],
-  orders: [({ orders }, _, name) => {
-    const head = isFrench() ? ["pôles", "zéros", "ajustement (%)", "YIC"] : ["poles", "zeros", "fit (%)", "YIC"];
-    return `local structures = {{${head.map(luaText).join(", ")}}}\nfor _, row in ipairs(${orders}.rows) do\n  if not row.failure and #structures <= 10 then\n`
-      + `    structures[#structures + 1] = {row.poles, row.zeros, ${number("row.fit_percent", 1)}, ${number("row.yic", 1)}}\n  end\nend\nreport.table("${name}", structures)`;
-  }, "Structures that were compared", "the structures that were compared", "Structures comparées", "les structures comparées"],
+  orders: [({ orders }, _, name) =>
+    `local structures = {${headText(inLanguage(HEADS.orders))}}\nfor _, row in ipairs(${orders}.rows) do\n  if not row.failure and #structures <= 10 then\n`
+      + `    structures[#structures + 1] = {row.poles, row.zeros, ${number("row.fit_percent", 1)}, ${number("row.yic", 1)}}\n  end\nend\nreport.table("${name}", structures)`,
+    "Structures that were compared", "the structures that were compared", "Structures comparées", "les structures comparées"],
 };
 export const goesIntoReport = (view) => Object.hasOwn(FIGURES, view) || Object.hasOwn(TABLES, view);
 
@@ -95,8 +101,31 @@ const wordsOf = (view) => (FIGURES[view] ?? TABLES[view]).slice(isFrench() ? 3 :
 function linesOf(view, models, taken) {
   const id = freeId(view, taken), [caption, shows] = wordsOf(view), cell = `\n-- %% id=${id} echo=false\n${codeOf(view, models, id)}\n`;
   if (!caption) return cell;
-  const kind = FIGURES[view] ? "fig" : "tbl", sentence = isFrench() ? `${kind === "fig" ? "La" : "Le"} @${kind}:${id} montre ${shows}.` : `@${kind}:${id} shows ${shows}.`;
+  const kind = FIGURES[view] ? "fig" : "tbl", sentence = inLanguage(sentences(kind, id, shows, shows));
   return cell + (kind === "fig" ? text(sentence, "", `![${caption}](figure:${id}){#fig:${id}}`) : text(sentence, "", `::: {.table name=${id} #tbl:${id}}`, caption, ":::"));
+}
+const sentences = (kind, id, shows, montre) => [`@${kind}:${id} shows ${shows}.`, `${kind === "fig" ? "La" : "Le"} @${kind}:${id} montre ${montre}.`];
+
+/// The script with what this wrote into its report in the other language; what somebody has changed stays.
+export function reportIn(source, french) {
+  const from = french ? 0 : 1, to = 1 - from, turned = new Map();
+  const turn = (pair, lineOf = (one) => `-- ${one}`) => turned.set(lineOf(pair[from]), lineOf(pair[to]));
+  for (const [english, inFrench] of SECTIONS) turn([english, inFrench], (heading) => `-- ## ${heading}`);
+  turn(HEADS.models, (head) => `  ${headText(head)},`);
+  turn(HEADS.orders, (head) => `local structures = {${headText(head)}}`);
+  const entries = [...Object.entries(FIGURES), ...Object.entries(TABLES)].filter(([, [, caption]]) => caption);
+  for (const line of source.split("\n")) {
+    const [, kind, id] = /^-- .*@(fig|tbl):(\S+) /.exec(line) ?? [], [, name] = /^report\.figure\("([^"]+)"/.exec(line) ?? [];
+    for (const [view, [, caption, shows, legende, montre]] of entries) {
+      if (kind) turn(sentences(kind, id, shows, montre));
+      if (TABLES[view]) turn([caption, legende]);
+      else if (/^-- !\[/.test(line)) turn([caption, legende], (words) => line.replace(/^-- !\[.*\]\(/, () => `-- ![${words}](`));
+      else if (name) turn([caption, legende], (words) => line.replace(/, "(?:[^"\\]|\\.)*"\)$/, () => `, ${luaText(words)})`));
+    }
+  }
+  const byHand = labels([BY_HAND[from]]), written = (line) => (line.startsWith("report.figure(") ? line.replace(byHand, () => labels([BY_HAND[to]]))
+    : line.startsWith(TITLE[from]) ? TITLE[to] + line.slice(TITLE[from].length) : line);
+  return source.split("\n").map((line) => written(turned.get(line) ?? line)).join("\n");
 }
 const takenIds = () => new Set(session.cells.map(({ id }) => id));
 
@@ -108,7 +137,7 @@ export function wholeReport(shown, models) {
   const { raw, second, orders, reading, study } = roles(), taken = takenIds();
   const there = { record: raw, second, correlation: raw && shown.includes("correlation"), reading, orders, study };
   const wanted = (view) => (view in there ? there[view] : models.length > 0 && (shown.includes(view) || ["parameters", "models"].includes(view)));
-  return SECTIONS.map(([english, french, views]) => [isFrench() ? french : english, views.filter((view) => wanted(view) && goesIntoReport(view))])
+  return SECTIONS.map(([english, french, views]) => [inLanguage([english, french]), views.filter((view) => wanted(view) && goesIntoReport(view))])
     .filter(([, views]) => views.length > 0)
     .map(([heading, views]) => text(`## ${heading}`) + views.map((view) => linesOf(view, models, taken)).join("")).join("");
 }

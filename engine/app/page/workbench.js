@@ -8,6 +8,7 @@ import { knownPanel } from "/bench_known.js";
 import { arrange, ask, download, drawTiles, fillReport, redrawBrushes, renewTiles, shownViews, takeSaved, viewsPanel } from "/bench_views.js";
 import { exportsPanel } from "/bench_exports.js";
 import { closeScript, openScript, showMistake, showScript } from "/bench_script.js";
+import { reportIn } from "/bench_report.js";
 import { modelSteps, roles } from "/bench_steps.js";
 import { isFrench, say, useLanguage } from "/bench_words.js";
 
@@ -165,7 +166,10 @@ const told = (answer) => answer.catch((error) => trouble(error.message));
 const order = (path) => told(inTurn(() => post(path)));  // of the script as all that was asked for before leaves it
 for (const name of ["undo", "redo"]) $(name).onclick = () => order(`/${name}`);
 for (const name of ["stop", "again", "allow"]) $(name).onclick = () => told(post(`/${name}`));
-$("language").onchange = () => change(() => ({ text: inLanguage(session.source, $("language").value) }));
+$("language").onchange = () => change(() => {
+  const code = $("language").value;
+  return { text: reportIn(inLanguage(session.source, code), code === "fr") };
+});
 $("show-script").onclick = () => {
   const hidden = document.body.classList.toggle("without-script");
   $("show-script").setAttribute("aria-pressed", String(!hidden));

@@ -201,9 +201,11 @@ RecordOrder suggested_order(const RecordChoice& choice) {
 
 std::string with_record(const std::string& source, const RecordOrder& order, const std::string& lines) {
     const PercentScript script = parse_percent_script(source, "session.lua");
-    if (std::ranges::none_of(script.cells, [](const Cell& cell) { return cell.kind == Cell::Kind::kCode; }))
-        return new_session("Identification from " + fs::path(order.data).stem().string(), lines,
-                           script.header.language);
+    if (std::ranges::none_of(script.cells, [](const Cell& cell) { return cell.kind == Cell::Kind::kCode; })) {
+        const std::string& language = script.header.language;
+        const std::string title = language == "fr" ? "Identification à partir de " : "Identification from ";
+        return new_session(title + fs::path(order.data).stem().string(), lines, language);
+    }
     const std::string own_cell = fmt::format("\n-- %% id={}\n{}", order.name, trimmed(lines));
     for (const Cell& cell : script.cells) {
         if (cell.id != "record") continue;

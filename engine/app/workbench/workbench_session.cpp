@@ -352,6 +352,7 @@ std::string WorkbenchSession::language() const {
 }
 
 std::string WorkbenchSession::json(bool all) const {
+    const std::string told_in = language();
     ::nlohmann::json page = {{"all", all},
                              {"revision", text_.revision()},
                              {"shown", run_revision_},
@@ -361,18 +362,18 @@ std::string WorkbenchSession::json(bool all) const {
                              {"stopped", stopped_},
                              {"undo", text_.can_undo()},
                              {"redo", text_.can_redo()},
-                             {"unsaved", told_error(text_.unsaved(), language())},
+                             {"unsaved", told_error(text_.unsaved(), told_in)},
                              {"states", ::nlohmann::json::object()}};
     for (const auto& [cell, state] : states_)
         page["states"][cell] = {{"state", state.state}, {"seconds", state.seconds}, {"progress", state.progress}};
     if (!unread_.empty())
-        page["error"] = {{"message", told_error(unread_, language())}, {"line", 0}};
+        page["error"] = {{"message", told_error(unread_, told_in)}, {"line", 0}};
     else if (error_)
-        page["error"] = {{"message", told_error(error_->message, language())}, {"line", error_->line}};
-    if (all) {
-        page["file"] = fs::absolute(text_.file()).string();
+        page["error"] = {{"message", told_error(error_->message, told_in)}, {"line", error_->line}};
+    if (all) page["file"] = fs::absolute(text_.file()).string();
+    if (all || sent_language_ != told_in) {
         page["forms"] =
-            ::nlohmann::json::parse(json_of(language() == "fr" ? estimator_forms_in_french() : estimator_forms()));
+            ::nlohmann::json::parse(json_of(told_in == "fr" ? estimator_forms_in_french() : estimator_forms()));
     }
     if (all || sent_revision_ != text_.revision()) {
         page["source"] = text_.text();
@@ -403,6 +404,7 @@ std::optional<std::string> WorkbenchSession::changes() {
     std::string text = json(false);
     changed_ = false;
     sent_revision_ = text_.revision();
+    sent_language_ = language();
     for (auto& [name, view] : views_) view.fresh = false;
     return text;
 }

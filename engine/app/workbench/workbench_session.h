@@ -93,6 +93,7 @@ class WorkbenchSession {
     };
     std::map<std::string, View> views_;
     std::size_t sent_revision_ = 0;
+    std::string sent_language_;  ///< of what is said of the estimators
     bool changed_ = true;
 };
 
