@@ -119,6 +119,24 @@ TEST_F(workbench_reports, the_language_turns_what_the_workbench_has_written_and_
                       "one.textContent.includes('each with any of D, I, Z'))"));
 }
 
+/// What a run tells is in its script's language: a page in another would be half and half.
+TEST_F(workbench_reports, a_new_session_is_in_the_language_of_the_browser_and_another_in_its_own) {
+    write_record();
+    const auto program = app("plant.csv");
+    Browser browser;
+    browser.devtools("Network.setUserAgentOverride", R"({"userAgent": "Chromium", "acceptLanguage": "fr-FR"})");
+    browser.open(program->address());
+    ASSERT_TRUE(script_has(browser, "-- language: fr\n"));
+    EXPECT_TRUE(browser.comes("document.documentElement.lang === 'fr'"));
+    write("other.lua", "x = 1\n");
+    const auto other = app("other.lua", {"--run"});
+    browser.open(other->address());
+    ASSERT_TRUE(script_has(browser, "x = 1\n"));
+    ASSERT_TRUE(is_ready(browser));
+    EXPECT_EQ(browser.evaluate("return document.documentElement.lang"), "\"en\"");
+    EXPECT_EQ(text_of("other.lua"), "x = 1\n");
+}
+
 /// What the page's report holds is what each command makes of the script.
 TEST_F(workbench_reports, a_session_goes_through_run_report_check_and_pack_as_it_is) {
     write("plant.csv", [] {

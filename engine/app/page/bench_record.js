@@ -27,11 +27,12 @@ document.addEventListener("drop", (event) => {
   upload(file);
 });
 
-/// What the program was started with and could not decide alone.
+/// What the program was started with and could not decide alone; gives whether the session is a new one.
 export async function openFirst() {
-  const { data, words } = await (await fetch("/opening")).json();
+  const { data, words, fresh } = await (await fetch("/opening")).json();
   if (data && !roles().raw) await offer(await fetch(`/columns?data=${encodeURIComponent(data)}`));
   if (words) trouble(words);
+  return fresh;
 }
 
 let sets = null;

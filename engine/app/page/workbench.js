@@ -15,11 +15,11 @@ import { isFrench, say, useLanguage } from "/bench_words.js";
 const $ = (id) => document.getElementById(id);
 let connection = "here", opened = false, making = false, viewsBefore = "";
 
-/// The script's header says the language, else the browser.
+/// The script's header says the language, in which its run tells everything; the browser's is that of a new session.
 let languageBefore = null;
+const languageOfScript = () => /^-- language:\s*(\w+)/m.exec(session.source)?.[1];
 function label() {
-  const header = /^-- language:\s*(\w+)/m.exec(session.source)?.[1];
-  useLanguage(header ?? (navigator.language?.startsWith("fr") ? "fr" : "en"));
+  useLanguage(languageOfScript() ?? "en");
   const { lang } = document.documentElement, words = { undo: "undo", redo: "redo", stop: "stop", again: "again", "make-pdf": "pdf", "show-script": "script", "close-help": "close",
                                                        asked: "asked", allow: "allow", invitation: "invitation", "take-name": "rename", "give-up": "giveUp" };
   for (const [id, key] of Object.entries(words)) $(id).textContent = say(key);
@@ -29,6 +29,7 @@ function label() {
   if (languageBefore && languageBefore !== lang) { renewTiles(); viewsBefore = ""; }
   languageBefore = lang;
 }
+const turnTo = (code) => change(() => ({ text: reportIn(inLanguage(session.source, code), code === "fr") }));
 /// The script with this language in its header.
 function inLanguage(source, code) {
   const line = `-- language: ${code}`;
@@ -152,9 +153,14 @@ function draw(changed) {
   if (changed.views.includes("saved")) takeSaved();
   if (changed.source && opened) showScript();
   else if (opened) showMistake();
-  if (!opened && session.source !== undefined) { opened = true; openScript(); openFirst(); }
+  if (!opened && session.source !== undefined) open();
 }
 onChange(draw);
+async function open() {
+  opened = true;
+  openScript();
+  if (await openFirst() && !languageOfScript() && navigator.language?.startsWith("fr")) turnTo("fr");
+}
 document.addEventListener("benchdraw", drawPanels);
 connect((state) => {
   const before = connection;
@@ -166,10 +172,7 @@ const told = (answer) => answer.catch((error) => trouble(error.message));
 const order = (path) => told(inTurn(() => post(path)));  // of the script as all that was asked for before leaves it
 for (const name of ["undo", "redo"]) $(name).onclick = () => order(`/${name}`);
 for (const name of ["stop", "again", "allow"]) $(name).onclick = () => told(post(`/${name}`));
-$("language").onchange = () => change(() => {
-  const code = $("language").value;
-  return { text: reportIn(inLanguage(session.source, code), code === "fr") };
-});
+$("language").onchange = () => turnTo($("language").value);
 $("show-script").onclick = () => {
   const hidden = document.body.classList.toggle("without-script");
   $("show-script").setAttribute("aria-pressed", String(!hidden));

@@ -68,11 +68,12 @@ Subject subject_of(const std::string& words) {
     return {session_of(lesson.slug), record, "Identification from " + fs::path(record).stem().string()};
 }
 
-/// A record that the page has to ask about, and why.
+/// A record that the page has to ask about, and why; whether the session is a new one.
 struct Opening {
     std::string data, words;
+    bool fresh = false;
 };
-DYNLAB_DESCRIBE(Opening, data, words)
+DYNLAB_DESCRIBE(Opening, data, words, fresh)
 
 const std::string kSamplingRemedy = "; choose the column of the time, or type the sampling time below";
 
@@ -93,7 +94,7 @@ std::string first_script(const Subject& subject, Opening& opening) {
         try {
             lines = lines_of_order(suggested_order(choice));
         } catch (const EnvironmentError& error) {
-            opening = {subject.data, error.what()};
+            opening = {subject.data, error.what(), true};
         }
     }
     return new_session(subject.title, lines, "en");
@@ -218,7 +219,7 @@ void serve_workbench(const WorkbenchOptions& options) {
         subject.script = subject.script.filename();
     }
     const bool fresh = !fs::exists(subject.script);
-    Opening opening;
+    Opening opening{.data = "", .words = "", .fresh = fresh};
     if (fresh) write_file_atomically(subject.script, first_script(subject, opening));
     return_freed_memory();  // of the record's file
     WorkbenchSession bench(subject.script, runner);
