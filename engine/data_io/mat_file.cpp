@@ -79,11 +79,7 @@ struct MatContent {
     std::vector<std::string> left_out;
 };
 
-template <Is<MatContent> T, class V>
-void describe(T& object, V& member) {
-    auto& [variables, left_out] = object;
-    member("variables", variables), member("left_out", left_out);
-}
+DYNLAB_DESCRIBE(MatContent, variables, left_out)
 
 /// A guarded copy gives up opening files (a box sees no others anyway). libmatio has
 /// opened the one it reads, and HDF5 would follow links of a v7.3 file to others.

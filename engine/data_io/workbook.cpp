@@ -20,11 +20,7 @@
 
 namespace dynlab::inline data_io {
 
-template <Is<SheetText> T, class V>
-void describe(T& object, V& member) {
-    auto& [csv, sheets] = object;
-    member("csv", csv), member("sheets", sheets);
-}
+DYNLAB_DESCRIBE(SheetText, csv, sheets)
 
 namespace {
 
