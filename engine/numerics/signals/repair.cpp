@@ -48,6 +48,15 @@ RepairedSignal bridged(const VectorView& x, const VectorView& t, const std::vect
     return result;
 }
 
+/// The step of the grid on which the samples lie, 0 for none. Of a record that rests but for one sample, or one in a
+/// hundred, the distance of these says nothing of a grid: it is that of the outliers.
+double usual_step(const VectorView& x) {
+    const double rest = median(x);
+    const double rounding = 1e-9 * (x.maxCoeff() - x.minCoeff());
+    const Index elsewhere = ((x.array() - rest).abs() > rounding).count();
+    return elsewhere <= std::max<Index>(1, x.size() / 100) ? 0 : quantisation_of(x).step;
+}
+
 /// Hampel's question for one sample.
 class MovingMedian {
   public:
@@ -109,7 +118,7 @@ RepairedSignal replace_outliers(const VectorView& x, const OutlierOptions& optio
     options.validate();
     check_samples("filloutliers", "the signal", x);
     const double scatter = noise_from_differences(x);
-    const double step = options.quantisation ? *options.quantisation : quantisation_of(x).step;
+    const double step = options.quantisation ? *options.quantisation : usual_step(x);
     const double rounding = 1.5 * step + 1e-9 * (x.maxCoeff() - x.minCoeff());
     std::vector<bool> good(static_cast<std::size_t>(x.size()));
     const double allowed = options.threshold * scatter + rounding;

@@ -31,9 +31,10 @@ struct OutlierOptions {
 /// outlier and becomes the value of the straight line between its good neighbours. The scatter is the larger of 1.4826
 /// times the median distance inside the window (so that fast passages of the signal are not suspected) and the noise of
 /// the whole record, 1.4826 times the median of its second differences over sqrt(6); flicker by one and a half
-/// quantisation steps never counts. A step stays, because a median passes it on unchanged. Throws InvalidArgument for
-/// samples that are not finite. Reference: Pearson (2002), Outliers in process modeling and identification, IEEE
-/// Transactions on Control Systems Technology 10.
+/// quantisation steps never counts, but for a record at rest from which one sample in a hundred or fewer stand out. A
+/// step stays, because a median passes it on unchanged. Throws InvalidArgument for samples that are not finite.
+/// Reference: Pearson (2002), Outliers in process modeling and identification, IEEE Transactions on Control Systems
+/// Technology 10.
 RepairedSignal replace_outliers(const VectorView& x, const OutlierOptions& options = {});
 
 }  // namespace dynlab::inline numerics

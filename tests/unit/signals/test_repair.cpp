@@ -60,6 +60,20 @@ TEST(repair, outliers_put_in_are_found_and_bridged) {  // oracle: the places and
     }
 }
 
+TEST(repair, outliers_of_a_record_at_rest_are_found) {  // oracle: the places
+    Vector x = Vector::Constant(100, 20);
+    x[49] = 84;
+    EXPECT_THAT(replace_outliers(x).replaced, ElementsAre(50));
+    EXPECT_EQ(replace_outliers(x).signal, Vector::Constant(100, 20));
+    Vector lost_bits = Vector::Zero(400);
+    for (const Index k : {10, 200, 399}) lost_bits[k] = -4096;
+    EXPECT_THAT(replace_outliers(lost_bits).replaced, ElementsAre(11, 201, 400));
+    for (Index k = 5; k < 400; k += 10) lost_bits[k] = 1;  // a last bit that flickers, beside them
+    EXPECT_THAT(replace_outliers(lost_bits).replaced, ElementsAre(11, 201, 400));
+    lost_bits[10] = lost_bits[200] = lost_bits[399] = 0;
+    EXPECT_THAT(replace_outliers(lost_bits).replaced, IsEmpty());
+}
+
 TEST(repair, clean_signals_are_left_alone) {  // oracle: false alarms over seeds and kinds of signal
     Index suspected = 0;
     for (std::uint32_t seed = 1; seed <= 100; ++seed)
