@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "numerics/error.h"
+#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 namespace {
@@ -27,11 +28,13 @@ void check_points(const VectorView& x, const VectorView& y) {
 
 Vector interpolate_linearly(const VectorView& x, const VectorView& y, const VectorView& x_new, Outside outside) {
     check_points(x, y);
+    constexpr int kDigits = 15;  // a place just beyond the end must not read like the end
     const Index last = x.size() - 1;
     return x_new.unaryExpr([&](double place) {
         if (outside == Outside::kHold) place = std::clamp(place, x[0], x[last]);
         if (!(place >= x[0] && place <= x[last]))
-            refuse("there is no value at ", place, ": x goes from ", x[0], " to ", x[last]);
+            refuse("there is no value at ", number_text(place, kDigits), ": x goes from ", number_text(x[0], kDigits),
+                   " to ", number_text(x[last], kDigits));
         const Index right = std::clamp<Index>(std::upper_bound(x.begin(), x.end(), place) - x.begin(), 1, last);
         const double part = (place - x[right - 1]) / (x[right] - x[right - 1]);
         return y[right - 1] + part * (y[right] - y[right - 1]);

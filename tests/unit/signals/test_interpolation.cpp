@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "numerics/error.h"
+#include "support/thrown_message.h"
 
 namespace dynlab {
 namespace test_interpolation {
@@ -24,6 +25,10 @@ TEST(interpolation, has_no_values_outside_unless_the_ends_are_held) {
     EXPECT_EQ(found, (Vector{{5, 5, 0, -10}}));
     const Vector no_number = Vector::Constant(1, std::numeric_limits<double>::quiet_NaN());
     EXPECT_THROW(interpolate_linearly(kX, kY, no_number, Outside::kHold), InvalidArgument);
+    EXPECT_EQ(thrown_message([&] { interpolate_linearly(kX, kY, -no_number); }),
+              "there is no value at NaN: x goes from 0 to 3");
+    EXPECT_EQ(thrown_message([&] { interpolate_linearly(kX, kY, Vector{{3.0000001}}); }),
+              "there is no value at 3.0000001: x goes from 0 to 3");
 }
 
 }  // namespace test_interpolation
