@@ -19,8 +19,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Threads for requests beside those that streams hold.
-constexpr std::size_t kThreadsForRequests = 8;
+/// Threads for requests beside those that streams hold: a connection that may still ask has one, and a browser opens
+/// six.
+constexpr std::size_t kThreadsForRequests = 32;
 /// How often a silent stream looks whether its tab is gone, which gives its place to another, ...
 constexpr auto kLook = 250ms;
 /// ... and how often it says that it lives.
