@@ -156,6 +156,7 @@ void ChildProcess::give_input(const std::string& input) {
         if (part <= 0) break;
         given += static_cast<std::size_t>(part);
     }
+    ::shutdown(state_->input.get(), SHUT_WR);  // a close is no end while a copy of this process has the socket, too
     state_->input.close();
     if (state_->group) state_->group->start_clock();
 }

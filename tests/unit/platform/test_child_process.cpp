@@ -70,6 +70,26 @@ TEST(child_process, input_not_read_does_no_harm) {
     EXPECT_EQ(run_child(options, "dash").exit_code, 0);
 }
 
+/// As a page's sliders are computed in a copy of the process while Pandoc, started before, waits for its text.
+TEST(child_process, input_that_is_given_later_ends_although_a_copy_of_this_process_holds_it_open) {
+    ChildOptions options;
+    options.command = {"cat"};
+    options.input_later = true;
+    options.timeout = 20s;
+    ChildProcess child(options, "coreutils");
+    const pid_t copy = ::fork();
+    if (copy == 0) {
+        ::alarm(60);
+        for (;;) ::pause();
+    }
+    child.give_input("some text");
+    const ChildResult result = child.wait();
+    ::kill(copy, SIGKILL);
+    ::waitpid(copy, nullptr, 0);
+    EXPECT_FALSE(result.timed_out);
+    EXPECT_EQ(result.output, "some text");
+}
+
 TEST(child_process, no_input_is_an_empty_input) {
     EXPECT_EQ(run_child(shell("cat; echo end"), "dash").output, "end\n");
 }
