@@ -13,9 +13,9 @@ DYNLAB_DESCRIBE(RecordedTable, header, rows)
 
 template <Is<RecordedFigure> T, class V>
 void describe(T& object, V& member) {
-    auto& [figure, caption, file, order, plot] = object;
+    auto& [figure, caption, file, order, plot, axes] = object;
     member("caption", caption), member.unless_empty("file", file), member.kept("order", order),
-        member.kept("plot", plot);
+        member.kept("plot", plot), member.kept("axes", axes);
 }
 
 template <Is<CellOutput> T, class V>

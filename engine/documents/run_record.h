@@ -32,6 +32,7 @@ struct RecordedFigure {
     std::filesystem::path file;  ///< where it was drawn, once it was
     std::size_t order = 0;       ///< in the order in which the script made its figures
     std::string plot = {};       ///< what a page draws it from (documents/html/plot_data.h), where it was drawn for one
+    std::string axes = {};       ///< words_of_axes(), which stay where the figure itself is not kept
 };
 
 /// `report.text`: Markdown written by the script.

@@ -54,30 +54,6 @@ std::string literal(const std::string& text) {
     return markdown;
 }
 
-/// What the axes say, for a figure that nobody gave a caption: "y (m), u (V) over time (s)"; where they say nothing,
-/// the cell that drew it.
-std::string caption_of_axes(const Figure& figure, const std::string& cell, const std::string& language) {
-    const bool french = language == "fr";
-    const Figure told = french ? in_french(figure) : figure;
-    std::vector<std::string> drawn;
-    std::string over;
-    for (const Panel& panel : told.panels) {
-        if (!panel.y_label.empty() && std::find(drawn.begin(), drawn.end(), literal(panel.y_label)) == drawn.end())
-            drawn.push_back(literal(panel.y_label));
-        if (!panel.x_label.empty()) over = literal(panel.x_label);
-    }
-    if (drawn.empty()) return fmt::format("{} `{}`", french ? "De la cellule" : "From the cell", cell);
-    std::string caption = fmt::format("{}", fmt::join(drawn, ", "));
-    if (!over.empty())
-        caption +=
-            french ? (over.starts_with("temps") ? " en fonction du " : " en fonction de ") + over : " over " + over;
-    const auto small = [&](std::size_t i) {
-        return i < caption.size() && std::islower(static_cast<unsigned char>(caption[i]));
-    };
-    if (small(0) && small(1)) caption[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(caption[0])));
-    return caption;
-}
-
 class Weaver {
   public:
     Weaver(const PercentScript& script, const RunRecord& record) : script_(script), record_(record) {}
@@ -144,8 +120,11 @@ class Weaver {
     void add_figure(const std::string& name, const Cell& cell) {
         const auto figure = record_.figures.find(name);
         std::string caption;
-        if (figure != record_.figures.end() && figure->second.caption.empty())
-            caption = caption_of_axes(figure->second.figure, cell.id, script_.header.language);
+        if (figure != record_.figures.end() && figure->second.caption.empty()) {
+            const bool french = script_.header.language == "fr";
+            caption = figure->second.axes.empty() ? words_of_axes(figure->second.figure, french) : figure->second.axes;
+            if (caption.empty()) caption = fmt::format("{} `{}`", french ? "De la cellule" : "From the cell", cell.id);
+        }
         add(fmt::format("![{}](figure:{}){{#fig:{}}}", caption, name, name), cell.last_line());
         add("", cell.last_line());
     }
@@ -156,6 +135,33 @@ class Weaver {
 };
 
 }  // namespace
+
+std::string words_of_axes(const Figure& figure, bool french) {
+    Figure labels;
+    for (const Panel& panel : figure.panels) {
+        Panel& own = labels.panels.emplace_back();
+        own.x_label = panel.x_label;
+        own.y_label = panel.y_label;
+    }
+    if (french) labels = in_french(labels);
+    std::vector<std::string> drawn;
+    std::string over;
+    for (const Panel& panel : labels.panels) {
+        if (!panel.y_label.empty() && std::find(drawn.begin(), drawn.end(), literal(panel.y_label)) == drawn.end())
+            drawn.push_back(literal(panel.y_label));
+        if (!panel.x_label.empty()) over = literal(panel.x_label);
+    }
+    if (drawn.empty()) return {};
+    std::string words = fmt::format("{}", fmt::join(drawn, ", "));
+    if (!over.empty())
+        words +=
+            french ? (over.starts_with("temps") ? " en fonction du " : " en fonction de ") + over : " over " + over;
+    const auto small = [&](std::size_t i) {
+        return i < words.size() && std::islower(static_cast<unsigned char>(words[i]));
+    };
+    if (small(0) && small(1)) words[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(words[0])));
+    return words;
+}
 
 void MarkdownText::append(const std::string& lines, const std::filesystem::path& file, int first_line) {
     for (const std::string& line : lines_of(lines)) {

@@ -25,6 +25,10 @@ struct MarkdownText {
 /// left out; a recorded error appears at its cell.
 MarkdownText weave_cells(const PercentScript& script, const RunRecord& record);
 
+/// What the axes of a figure say, as Markdown in English or French, for a caption where nobody gave one: "y (m), u (V)
+/// over time (s)"; empty where they say nothing.
+std::string words_of_axes(const Figure& figure, bool french);
+
 /// A block that shows an error's message.
 std::string error_block(const std::string& message);
 

@@ -8,6 +8,7 @@
 #include "documents/figure_description.h"
 #include "documents/html/plot_data.h"
 #include "documents/record_description.h"
+#include "documents/weave.h"
 #include "figures/french_texts.h"
 #include "platform/error.h"
 #include "platform/interrupt.h"
@@ -96,6 +97,7 @@ class BranchingRun {
             const auto was = before_.find(name);
             const bool unchanged = was != before_.end() && was->second == cbor_of(figure.figure);
             if (!unchanged) figure.plot = plot_data(french ? in_french(figure.figure) : figure.figure, french);
+            figure.axes = words_of_axes(figure.figure, french);
             figure.figure = Figure(Panel());
         }
         return record;

@@ -9,6 +9,7 @@
 #include "documents/error.h"
 #include "documents/html/plot_data.h"
 #include "documents/text_lines.h"
+#include "documents/weave.h"
 #include "figures/french_texts.h"
 #include "platform/written_files.h"
 #include "scripting/memoized_calls/shared_pieces.h"
@@ -138,6 +139,7 @@ void draw_figures(RunRecord& record, GnuplotRenderer& renderer, const std::files
         const Figure shown = french ? in_french(figure.figure) : figure.figure;
         renderer.draw(shown, figure.file, format, french);
         if (format == FigureFormat::kSvg) figure.plot = plot_data(shown, french);
+        figure.axes = words_of_axes(figure.figure, french);
     }
 }
 

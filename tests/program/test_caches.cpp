@@ -179,6 +179,19 @@ TEST_F(caches, edited_prose_runs_nothing) {
                 AllOf(Not(HasSubstr("run the script")), Not(HasSubstr("long calls"))));
 }
 
+TEST_F(caches, a_figure_without_a_caption_is_told_by_its_axes_whether_its_run_is_recalled_or_not) {
+    const std::string cell = "-- %% id=b\nplot({1, 2}, {3, 4}, {xlabel = 'time (s)', ylabel = 'level (m)'})\n";
+    const std::string told = "**Figure\u00A01.** Level (m) over time (s)\n";
+    EXPECT_THAT(weave(cell, "a.md"), HasSubstr("run the script"));
+    EXPECT_THAT(bench_.read("a.md"), HasSubstr(told));
+    ASSERT_EQ(bench_.shell("rm a.md").exit_code, 0);
+    EXPECT_THAT(weave(cell, "a.md"), HasSubstr("recall"));
+    EXPECT_THAT(bench_.read("a.md"), HasSubstr(told));
+    const std::string slider = "local k = slider('k', 1, 0, 2)\n";
+    weave(cell + slider + cell.substr(cell.find('\n') + 1), "a.html");
+    EXPECT_THAT(bench_.read("a.html"), Not(HasSubstr("From the cell"))) << "at the slider's places, too";
+}
+
 TEST_F(caches, spoilt_entries_are_made_anew) {
     weave(kStudy + kLate);
     const std::string whole = bench_.read("a.html");

@@ -16,6 +16,7 @@
 #include "app/live/runner_messages.h"
 #include "data_io/values/cbor_values.h"
 #include "documents/html/plot_data.h"
+#include "documents/weave.h"
 #include "figures/french_texts.h"
 #include "figures/gnuplot_renderer.h"
 #include "platform/cache.h"
@@ -175,6 +176,7 @@ class RunnerProcess {
                 world_->drawn[name] = plot_data(shown, french);
             }
             figure.plot = world_->drawn.at(name);
+            figure.axes = words_of_axes(figure.figure, french);
         }
         renderer.finish();
     }
