@@ -63,6 +63,9 @@ local function with_models(f, first, models, labels, options)
   return f(table.unpack(arguments))
 end
 
+--- Behind a name, as the script's language sets it.
+local function colon() return language() == "fr" and "\u{202F}: " or ": " end
+
 local views = {}
 
 function views.record(settings, values)
@@ -122,7 +125,7 @@ function views.compare(settings, values)
   local told = {}
   for k, model in ipairs(models) do
     local done, measures = pcall(fit_measures, data, model)
-    if done then told[#told + 1] = labels[k] .. ": " .. measures.message end
+    if done then told[#told + 1] = labels[k] .. colon() .. measures.message end
   end
   return {figure = with_models(compare, {data}, models, labels), words = table.concat(told, "\n")}
 end
@@ -132,7 +135,7 @@ function views.residuals(settings, values)
   local data = values[settings.validation] or values[settings.estimation]
   if not is_data(data) or #models == 0 then return end
   local fig, tests = resid(data, models[#models])
-  return {figure = fig, words = labels[#labels] .. (language() == "fr" and "\u{202F}: " or ": ") .. tests.verdict}
+  return {figure = fig, words = labels[#labels] .. colon() .. tests.verdict}
 end
 
 for name, f in pairs{step = step, impulse = impulse, bode = bode, nyquist = nyquist, poles = pzmap} do
