@@ -121,12 +121,12 @@ Vector balance(Eigen::Ref<Matrix> A) {
     constexpr double kWorthwhile = 0.95;  // a smaller reduction of the norms is not worth another sweep
     const Index n = A.rows();
     Vector scale = Vector::Ones(n);
+    const Vector diagonal = A.diagonal();  // stays as it is, and would hide small neighbours in the sums
+    A.diagonal().setZero();
     for (bool changed = true; changed;) {
         changed = false;
         for (Index i = 0; i < n; ++i) {
-            const double diagonal = std::abs(A(i, i));
-            const double column_norm = A.col(i).lpNorm<1>() - diagonal;
-            const double row_norm = A.row(i).lpNorm<1>() - diagonal;
+            const double column_norm = A.col(i).lpNorm<1>(), row_norm = A.row(i).lpNorm<1>();
             if (!(column_norm > 0) || !(row_norm > 0)) continue;
             if (row_norm < 2 * column_norm && column_norm < 2 * row_norm) continue;  // the factor would be one
             const double factor = balancing_factor(column_norm, row_norm);
@@ -137,6 +137,7 @@ Vector balance(Eigen::Ref<Matrix> A) {
             changed = true;
         }
     }
+    A.diagonal() = diagonal;
     return scale;
 }
 

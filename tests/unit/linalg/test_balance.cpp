@@ -28,4 +28,14 @@ TEST(balance, brings_rows_and_columns_to_like_norms) {  // oracle: definition (P
     }
 }
 
+TEST(balance, sees_neighbours_that_are_small_beside_the_diagonal) {  // oracle: by hand, both near sqrt(1e-18 1e18) = 1
+    Matrix A{{2, 1e-18}, {1e18, 3}};
+    balance(A);
+    EXPECT_EQ(A.diagonal(), (Vector{{2, 3}}));
+    for (const double neighbour : {A(0, 1), A(1, 0)}) {
+        EXPECT_LT(neighbour, 2);
+        EXPECT_GT(neighbour, 0.5);
+    }
+}
+
 }  // namespace test_balance
