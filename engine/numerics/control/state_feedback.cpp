@@ -33,7 +33,9 @@ void require_symmetric(const char* name, const MatrixView& M) {
 
 StateFeedback closed(const MatrixView& A, const MatrixView& B, Matrix K) {
     StateFeedback result{std::move(K), {}};
-    result.poles = eigenvalues(A - B * result.K);
+    Matrix loop = A - B * result.K;
+    balance(loop);
+    result.poles = eigenvalues(loop);
     return result;
 }
 
@@ -81,6 +83,7 @@ StateFeedback linear_quadratic_regulator(const MatrixView& A, const MatrixView& 
 
     Matrix hamiltonian(2 * n, 2 * n);
     hamiltonian << A, -B * cheapest->x, -Q, -A.transpose();
+    const Vector scale = balance(hamiltonian);  // states may be measured in units of all sizes
     const auto [values, vectors] = eigenvectors(hamiltonian);
     const double size = std::max(values.cwiseAbs().maxCoeff(), 1e-300);
     Eigen::MatrixXcd stable(2 * n, n);
@@ -92,7 +95,8 @@ StateFeedback linear_quadratic_regulator(const MatrixView& A, const MatrixView& 
         throw InvalidArgument(
             "no feedback makes the criterion finite: the input does not reach an unstable mode, or Q does not see a "
             "mode that does not die away by itself");
-    const Matrix P = (stable.bottomRows(n) * *inverse).real();
+    const Matrix P = scale.tail(n).asDiagonal() * (stable.bottomRows(n) * *inverse).real() *
+                     scale.head(n).cwiseInverse().asDiagonal();
     return closed(A, B, cheapest->x * (P + P.transpose()) / 2);
 }
 

@@ -55,6 +55,26 @@ TEST(state_feedback, minimises_the_cost_of_the_way_from_any_state) {
     EXPECT_LT((closed.transpose() * P + P * closed + cost).norm(), 1e-8 * cost.norm());
 }
 
+// x1'' = -2 x1' + u with its states in other units, x = S z: K_z = K S; K is known, for the closed loop is of second
+// order.
+TEST(state_feedback, units_of_the_states_do_not_matter) {
+    const Matrix A{{0, 1}, {0, -2}}, B{{0}, {1}}, Q = Vector{{100, 1}}.asDiagonal();
+    const double position = 10, speed = -2 + std::sqrt(4 + 1 + 2 * position);
+    for (const double first : {1e-9, 1.0, 1e9})
+        for (const double second : {1e-9, 1.0, 1e9}) {
+            const Vector S{{first, second}}, inverse = S.cwiseInverse();
+            const StateFeedback found =
+                linear_quadratic_regulator(inverse.asDiagonal() * A * S.asDiagonal(), inverse.asDiagonal() * B,
+                                           S.asDiagonal() * Q * S.asDiagonal(), one(1));
+            EXPECT_NEAR(found.K(0, 0) / first / position, 1, 1e-12) << S.transpose();
+            EXPECT_NEAR(found.K(0, 1) / second / speed, 1, 1e-12) << S.transpose();
+            EXPECT_NEAR(found.poles.real().sum(), -2 - speed, 1e-10) << S.transpose();
+        }
+    const StateFeedback stiff = linear_quadratic_regulator(A, B, Matrix{{1e12, 0}, {0, 1}}, one(1e-6));
+    EXPECT_NEAR(stiff.K(0, 0) / 1e9, 1, 1e-12);
+    EXPECT_NEAR(stiff.K(0, 1) / (-2 + std::sqrt(4 + 1e6 + 2e9)), 1, 1e-12);
+}
+
 TEST(state_feedback, puts_poles_where_they_are_asked) {
     const Trolley system;
     const ComplexVector asked{{Complex(-2, 3), Complex(-2, -3), Complex(-4, 0), Complex(-9, 0)}};
