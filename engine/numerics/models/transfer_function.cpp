@@ -29,13 +29,22 @@ double delay_on_grid(double delay, double Ts) {
     return nearest * Ts;
 }
 
-/// p(x)/(x - root)^k at the root, k being how often p has it: the sign of p just above a root.
-double leading_value(Vector p, double root) {
-    while (p.size() > 1 && evaluate(p, root) == 0) {
-        for (Index i = 1; i < p.size(); ++i) p[i] += root * p[i - 1];  // Horner's scheme
+/// p at s = 0 or z = 1, where a step response ends: there a sum, which is zero when it is no more than the rounding of
+/// its terms, as that of a sampled integrator.
+double steady_value(const Vector& p, bool continuous) {
+    if (continuous) return p[p.size() - 1];
+    constexpr double kRounding = std::numeric_limits<double>::epsilon();
+    const double sum = p.sum();
+    return std::abs(sum) > static_cast<double>(p.size()) * kRounding * p.lpNorm<1>() ? sum : 0;
+}
+
+/// p(x)/(x - root)^k at the root 0 or 1, k being how often p has it: the sign of p just above.
+double leading_value(Vector p, bool continuous) {
+    while (p.size() > 1 && steady_value(p, continuous) == 0) {
+        for (Index i = 1; !continuous && i < p.size(); ++i) p[i] += p[i - 1];  // Horner's scheme
         p.conservativeResize(p.size() - 1);
     }
-    return evaluate(p, root);
+    return steady_value(p, continuous);
 }
 
 bool is_gain(const TransferFunction& G) {
@@ -88,16 +97,16 @@ ComplexVector TransferFunction::zeros() const {
 }
 
 double TransferFunction::dc_gain() const {
-    const double point = continuous() ? 0 : 1;
-    const double below = evaluate(den_, point), above = evaluate(num_, point);
+    const double below = steady_value(den_, continuous()), above = steady_value(num_, continuous());
     if (below != 0) return above / below;
     if (above == 0) return std::numeric_limits<double>::quiet_NaN();
-    return std::copysign(std::numeric_limits<double>::infinity(), above * leading_value(den_, point));
+    return std::copysign(std::numeric_limits<double>::infinity(), above * leading_value(den_, continuous()));
 }
 
 bool TransferFunction::stable() const {
     const ComplexVector all = poles();
-    return continuous() ? (all.real().array() < 0).all() : (all.array().abs() < 1).all();
+    if (continuous()) return (all.real().array() < 0).all();
+    return steady_value(den_, false) != 0 && (all.array().abs() < 1).all();
 }
 
 Complex TransferFunction::at(Complex point) const {

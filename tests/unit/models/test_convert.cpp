@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "numerics/signals/random.h"
 #include "numerics/simulation/lsim.h"
@@ -39,6 +40,20 @@ TEST(convert, foh_of_an_integrator_is_the_trapezoidal_rule) {  // oracle: analyt
     const TransferFunction G = c2d(TransferFunction(from({1}), from({1, 0})), 0.2, Discretisation::kFoh);
     EXPECT_TRUE(G.num().isApprox(from({0.1, 0.1}), 1e-15));
     EXPECT_TRUE(G.den().isApprox(from({1, -1}), 1e-15));
+}
+
+TEST(convert, integrators_stay_integrators) {  // oracle: analytic, a pole at s = 0 becomes one at z = 1
+    for (const Vector& integrating : {from({1, 3, 2, 0}), from({1, 3, 2, 0, 0}), from({1, 0.2, 4, 0})})
+        for (const double Ts : {0.003, 0.01, 0.1, 0.3, 1.0})
+            for (const auto method : {Discretisation::kZoh, Discretisation::kFoh, Discretisation::kTustin})
+                for (const double sign : {1.0, -1.0}) {
+                    const TransferFunction G = c2d(TransferFunction(from({sign}), integrating), Ts, method);
+                    EXPECT_EQ(G.dc_gain(), sign * std::numeric_limits<double>::infinity()) << integrating << Ts;
+                    EXPECT_FALSE(G.stable()) << integrating << Ts;
+                }
+    const TransferFunction slow = c2d(TransferFunction(from({0.5}), from({1, 1.5, 0.5})), 1e-3);
+    EXPECT_NEAR(slow.dc_gain(), 1, 1e-8) << "poles near 1 that are none at 1: rounding over Ts^2/2";
+    EXPECT_TRUE(slow.stable());
 }
 
 TEST(convert, tustin_is_the_substitution) {  // oracle: definition, values at z
