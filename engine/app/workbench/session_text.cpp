@@ -19,7 +19,7 @@ SessionText::SessionText(std::filesystem::path file) : file_(std::move(file)) {
 }
 
 bool SessionText::obey(const ScriptOrder& order) {
-    if (!order.unsaved) look_at_file();
+    if (!order.unsaved) take_from_file();
     if (order.revision != revision_) return false;
     change(order.whole ? order.text : with_edits(text_, order.edits), order.goes_on);
     if (!order.unsaved) save();
@@ -32,7 +32,7 @@ void SessionText::put(const std::string& text) {
 }
 
 void SessionText::undo() {
-    look_at_file();
+    take_from_file();
     if (past_.empty()) return;
     future_.push_back(std::exchange(text_, past_.back()));
     past_.pop_back();
@@ -41,7 +41,7 @@ void SessionText::undo() {
 }
 
 void SessionText::redo() {
-    look_at_file();
+    take_from_file();
     if (future_.empty()) return;
     past_.push_back(std::exchange(text_, future_.back()));
     future_.pop_back();
@@ -58,6 +58,13 @@ bool SessionText::look_at_file() {
     if (now == text_) return false;
     change(now, false);
     return true;
+}
+
+void SessionText::take_from_file() {
+    try {
+        look_at_file();
+    } catch (const EnvironmentError&) {
+    }
 }
 
 void SessionText::change(std::string text, bool goes_on) {

@@ -35,17 +35,20 @@ class SessionText {
     const std::string& unsaved() const { return unsaved_; }
 
     /// False when the order was made from another revision, or the file holds what another program wrote, which is
-    /// taken first: nothing is done then. Throws ValueError (with_edits()), and as look_at_file() and for a text that
-    /// is too long for a script.
+    /// taken first: nothing is done then. Throws ValueError (with_edits()), and as take_from_file() and for a text
+    /// that is too long for a script.
     bool obey(const ScriptOrder& order);
     void put(const std::string& text);  ///< as a step of the history
-    /// One step; what another program wrote meanwhile is a step of its own. Throw as look_at_file().
+    /// One step; what another program wrote meanwhile is a step of its own. Throw as take_from_file().
     void undo();
     void redo();
     bool save();  ///< what is not on disk yet; whether there was something, and it is there now
     /// Takes what another program wrote into the file; true when that is another text, and not none: editors that write
     /// in place empty the file first. Throws DocumentError and EnvironmentError where that cannot be read.
     bool look_at_file();
+    /// The same before the text is written. A file that cannot be read is nothing then: whether it can be written, the
+    /// save says. Throws DocumentError where what it holds is no script.
+    void take_from_file();
 
   private:
     void change(std::string text, bool goes_on);

@@ -63,7 +63,7 @@ std::optional<std::size_t> WorkbenchSession::change(const ScriptOrder& order) {
 
 void WorkbenchSession::put(const std::function<std::string(const std::string&)>& make) {
     const std::lock_guard lock(mutex_);
-    text_.look_at_file();  // else what another program wrote would be lost
+    text_.take_from_file();
     text_.put(make(text_.text()));
     text_is_ours();
 }
