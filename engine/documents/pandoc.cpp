@@ -191,9 +191,11 @@ ChildProcess start_pandoc(const PandocJob& job) {
 PandocResult run_pandoc(const PandocJob& job, Complaints& complaints) {
     write_work_file(job.work_folder / "slots.lua", slots_file(job));
     ChildResult run = finished_pandoc(job);
-    if (run.timed_out || run.output_exceeded)
+    if (run.timed_out)
         throw DocumentError(job.template_file.string() + ": Pandoc did not finish this document within " +
-                            std::to_string(kMostTime.count()) + " s");
+                            std::to_string(kMostTime.count()) + " s of processor time, or ten times as long by the clock");
+    if (run.output_exceeded)
+        throw DocumentError(job.template_file.string() + ": Pandoc wrote more than a document can hold");
     Complaints found;
     PandocResult result;
     FilterMessages messages =
