@@ -57,7 +57,7 @@ IdData nonparametric_data(const std::string& caller, const IdData& data, Index f
     return remove_means ? remove_mean(data) : data;
 }
 
-SpectralPoint spectral_point(double input, double output, Complex cross, double averages, bool real) {
+SpectralPoint spectral_point(double input, double output, Complex cross, double averages, double real_share) {
     SpectralPoint point;
     point.response = cross / input;
     const double explained = std::norm(cross) / input;
@@ -65,7 +65,7 @@ SpectralPoint spectral_point(double input, double output, Complex cross, double 
     // the response took one of the averages for itself
     const double degrees = averages > 1 ? averages / (averages - 1) : std::numeric_limits<double>::infinity();
     point.noise = std::max(output - explained, 0.0) * degrees;
-    point.std = std::sqrt(point.noise / input / averages / (real ? 1 : 2));
+    point.std = std::sqrt(point.noise / input / averages * real_share);
     return point;
 }
 

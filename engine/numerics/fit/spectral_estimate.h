@@ -11,8 +11,9 @@ namespace dynlab::inline numerics {
 struct SpectralEstimate {
     Vector w;                ///< rad per time unit, increasing, at most pi/Ts
     ComplexVector response;  ///< G(e^(j w Ts)) at each w
-    Vector std;              ///< of its real part, and of its imaginary one; empty when one value is all there is per w
-    Vector coherence;        ///< 0 to 1: part of the output's power that the input explains; empty like std
+    Vector std;        ///< of its real part; of its imaginary one as much, or near 0 and pi/Ts less; empty when one
+                       ///< value is all there is per w
+    Vector coherence;  ///< 0 to 1: part of the output's power that the input explains; empty like std
     Vector
         noise_spectrum;  ///< Phi_v(w), power per sample (its mean over -pi..pi is the noise variance); empty like std
     std::string message;
@@ -30,11 +31,13 @@ FrequencyData frequency_data_of(const SpectralEstimate& estimate, const IdData& 
 IdData nonparametric_data(const std::string& caller, const IdData& data, Index fewest, bool remove_means);
 
 /// Turns averaged (cross) spectra at one frequency into response, spread, coherence and noise. `averages` is the number
-/// of independent values that went into each of them; at w = 0 and pi/Ts the response is real and its variance double.
+/// of independent values that went into each of them, `real_share` the part of the response's variance that its real
+/// part has: one half where its neighbours are all different frequencies; more near 0 and pi/Ts, where the averages
+/// hold values and their conjugates; all of it at these two, where the response is real.
 struct SpectralPoint {
     Complex response;
     double std, coherence, noise;
 };
-SpectralPoint spectral_point(double input, double output, Complex cross, double averages, bool real);
+SpectralPoint spectral_point(double input, double output, Complex cross, double averages, double real_share);
 
 }  // namespace dynlab::inline numerics

@@ -23,7 +23,7 @@ TEST(spectral_estimate, one_point_is_a_regression) {  // oracle: complex least s
     }
     const double n = static_cast<double>(m), input = U.squaredNorm() / n, output = Y.squaredNorm() / n;
     const Complex cross = U.dot(Y) / n;
-    const SpectralPoint point = spectral_point(input, output, cross, n, false);
+    const SpectralPoint point = spectral_point(input, output, cross, n, 0.5);
     const Complex regression = U.dot(Y) / U.squaredNorm();
     const double rest = (Y - regression * U).squaredNorm();
     EXPECT_LT(std::abs(point.response - regression), 1e-14);
@@ -31,7 +31,7 @@ TEST(spectral_estimate, one_point_is_a_regression) {  // oracle: complex least s
     EXPECT_NEAR(point.coherence, 1 - rest / Y.squaredNorm(), 1e-12);
     EXPECT_NEAR(point.std, std::sqrt(rest / (n - 1) / U.squaredNorm() / 2), 1e-12);
     EXPECT_LT(std::abs(point.response - G), 5 * point.std);
-    EXPECT_NEAR(spectral_point(input, output, cross, n, true).std, std::sqrt(2.0) * point.std, 1e-14);
+    EXPECT_NEAR(spectral_point(input, output, cross, n, 1).std, std::sqrt(2.0) * point.std, 1e-14);
 }
 
 TEST(spectral_estimate, data_it_can_work_on) {  // oracle: the promises of the header

@@ -26,18 +26,22 @@ Vector hann_weights(Index m) {
 SpectralPoint smoothed_point(const ComplexVector& U, const ComplexVector& Y, Index k, const Vector& weights,
                              bool means_removed) {
     const Index N = U.size(), m = weights.size() / 2;
-    double input = 0, output = 0, sum = 0, squares = 0;
+    double input = 0, output = 0, sum = 0, squares = 0, conjugates = 0;
     Complex cross = 0;
     for (Index i = -m; i <= m; ++i) {
         const Index line = ((k + i) % N + N) % N;
         if (line == 0 && means_removed) continue;
+        // where the line -(k + i), whose values are the conjugates, lies in the window: beyond 0 or beyond pi/Ts
+        const Index twin = k < N / 4 ? -2 * k - i : N - 2 * k - i;
         const double weight = weights[i + m];
         input += weight * std::norm(U[line]);
         output += weight * std::norm(Y[line]);
         cross += weight * Y[line] * std::conj(U[line]);
         sum += weight, squares += weight * weight;
+        if (std::abs(twin) <= m) conjugates += weight * weights[twin + m];
     }
-    SpectralPoint point = spectral_point(input / sum, output / sum, cross / sum, sum * sum / squares, false);
+    SpectralPoint point =
+        spectral_point(input / sum, output / sum, cross / sum, sum * sum / squares, (1 + conjugates / squares) / 2);
     point.noise /= static_cast<double>(N);
     return point;
 }

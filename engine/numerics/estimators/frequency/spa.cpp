@@ -43,6 +43,11 @@ struct Covariances {
     Vector u, y, yu;  // lags -M..M
 };
 
+/// Hann's lag window, 1 at lag 0 and 0 at M.
+double lag_weight(Index lag, Index M) {
+    return 0.5 * (1 + std::cos(std::numbers::pi * static_cast<double>(lag) / static_cast<double>(M)));
+}
+
 Covariances covariances_of(const IdData& data, Index M) {
     Covariances R{Vector::Zero(2 * M + 1), Vector::Zero(2 * M + 1), Vector::Zero(2 * M + 1)};
     for (const Experiment& experiment : data.experiments) {
@@ -53,9 +58,7 @@ Covariances covariances_of(const IdData& data, Index M) {
     }
     const auto count = static_cast<double>(data.sample_count());
     Vector window(2 * M + 1);
-    for (Index lag = -M; lag <= M; ++lag)
-        window[lag + M] =
-            0.5 * (1 + std::cos(std::numbers::pi * static_cast<double>(lag) / static_cast<double>(M))) / count;
+    for (Index lag = -M; lag <= M; ++lag) window[lag + M] = lag_weight(lag, M) / count;
     for (Vector* r : {&R.u, &R.y, &R.yu}) *r = r->cwiseProduct(window);
     return R;
 }
@@ -69,6 +72,18 @@ Complex transform_at(const Vector& r, double angle) {
         sum += r[M + lag] * turn + r[M - lag] * std::conj(turn);
     }
     return sum;
+}
+
+/// Part of the variance that the response's real part has: (1 + r)/2 with r the spectral window's overlap with itself
+/// mirrored at 0, by Parseval the sum of the squared lag window times cos(2 angle tau) over the squared lag window's.
+double real_share(double angle, Index M) {
+    double squares = 1, turned = 1;
+    for (Index lag = 1; lag < M; ++lag) {
+        const double weight = lag_weight(lag, M);
+        squares += 2 * weight * weight;
+        turned += 2 * weight * weight * std::cos(2 * angle * static_cast<double>(lag));
+    }
+    return (1 + turned / squares) / 2;
 }
 
 void describe(SpectralEstimate& estimate, Index M, double averages, double Ts) {
@@ -109,10 +124,9 @@ SpectralEstimate spa(const IdData& data, const SpaOptions& options) {
     bool poor = false;
     for (Index i = 0; i < count; ++i) {
         const double angle = estimate.w[i] * data.Ts;
-        const bool real = angle < 1e-12 || std::numbers::pi - angle < 1e-9;
         poor = poor || input[i] < kPoorInput * most;
         const SpectralPoint point = spectral_point(std::max(input[i], floor), transform_at(R.y, angle).real(),
-                                                   transform_at(R.yu, angle), averages, real);
+                                                   transform_at(R.yu, angle), averages, real_share(angle, M));
         estimate.response[i] = point.response;
         estimate.std[i] = point.std;
         estimate.coherence[i] = point.coherence;

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -71,6 +72,22 @@ TEST(etfe, smoothing_brings_bands_that_hold_the_truth) {  // oracle: coverage ov
         }
     }
     EXPECT_NEAR(static_cast<double>(inside) / static_cast<double>(count), 0.95, 0.015);
+}
+
+TEST(etfe, smoothed_bands_widen_towards_the_ends_of_the_axis) {  // oracle: spread of the real part over 400 seeds
+    EtfeOptions options;
+    options.smooth = 25;
+    const std::array<Index, 4> lines{1, 4, 296, 300};  // of 300; half the values beside 1 and 300 are conjugates
+    Vector squares = Vector::Zero(4), stated = Vector::Zero(4);
+    for (std::uint32_t seed = 1; seed <= 400; ++seed) {
+        const SpectralEstimate estimate = etfe(periodic(600, 0.5, seed), options);
+        for (std::size_t i = 0; i < lines.size(); ++i) {
+            const Index k = lines[i] - 1, row = static_cast<Index>(i);
+            squares[row] += std::pow((estimate.response[k] - truth_at(estimate.w[k])).real(), 2);
+            stated[row] += std::pow(estimate.std[k], 2);
+        }
+    }
+    for (Index i = 0; i < 4; ++i) EXPECT_NEAR(squares[i] / stated[i], 1, 0.3) << i;  // four standard errors
 }
 
 TEST(etfe, frequencies_without_input_are_left_out) {  // oracle: the lines of a multisine

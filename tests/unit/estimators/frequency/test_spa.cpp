@@ -76,6 +76,21 @@ TEST(spa, bands_hold_the_truth_as_often_as_they_say) {  // oracle: statistics ov
     }
 }
 
+TEST(spa, bands_widen_towards_the_ends_of_the_axis) {  // oracle: spread of the real part over 400 seeds
+    SpaOptions options;
+    options.window = 40;
+    const double end = 2 * std::numbers::pi;
+    options.w = Vector{{0.02, 0.05, end - 0.05, end - 0.02}};
+    Vector squares = Vector::Zero(4), stated = Vector::Zero(4);
+    for (std::uint32_t seed = 1; seed <= 400; ++seed) {
+        const SpectralEstimate estimate = spa(record(2000, 0.5, seed), options);
+        for (Index i = 0; i < 4; ++i)
+            squares[i] += std::pow((estimate.response[i] - truth_at(options.w[i], 0.5)).real(), 2);
+        stated += estimate.std.cwiseAbs2();
+    }
+    for (Index i = 0; i < 4; ++i) EXPECT_NEAR(squares[i] / stated[i], 1, 0.3) << options.w[i];  // four standard errors
+}
+
 TEST(spa, noise_spectrum_is_that_of_the_noise) {  // oracle: white noise of known variance, statistics
     SpaOptions options;
     options.window = 100;  // long enough to leave no smoothing error
