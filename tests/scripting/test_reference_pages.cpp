@@ -75,5 +75,43 @@ TEST_P(reference_pages, example_runs_and_shows_something) {
     EXPECT_TRUE(shows);
 }
 
+/// Functions, by their signature, whose first argument is a model: "pole(G) -> ...".
+std::vector<std::string> functions_of_models() {
+    std::vector<std::string> names;
+    for (const FunctionEntry& function : catalogue_of_functions()) {
+        const std::string signature(function.signature), name(function.name);
+        for (const char* model : {"(G)", "(G,", "(G1", "(Gd", "(model"})
+            if (signature.compare(0, name.size(), name) == 0 && signature.find(model, name.size()) == name.size())
+                names.push_back(name);
+    }
+    return names;
+}
+
+TEST(reference_pages_of_models, tell_where_several_inputs_are_refused) {  // oracle: what the functions say to them
+    std::string code =
+        "local u = {rbs(400, 2), rbs(400, 3)}\n"
+        "local data = iddata(lsim(tf({1}, {1, 2}), u[1], 0.1) + lsim(tf({1}, {1, 3}), u[2], 0.1) + 0.1*randn(400),\n"
+        "                    matrix{u[1], u[2]}, 0.1)\n"
+        "local G = oe(data, {{1, 1}, {1, 1}, {1, 1}})\n"
+        "local calls = {{G}, {G, G}, {G, 1}, {G, u[1]}, {G, u[1], 0.1}, {G, data}, {G, G, u[1], 0.1}, {G, data, "
+        "'a1'}}\n"
+        "local function refuses(f)\n"
+        "  for _, arguments in ipairs(calls) do\n"
+        "    local ok, message = pcall(f, table.unpack(arguments))\n"
+        "    if not ok and tostring(message):find('one input and one output', 1, true) then return true end\n"
+        "  end\n"
+        "end\n";
+    for (const std::string& name : functions_of_models())
+        code += "if refuses(" + name + ") then print('refuses: " + name + ";') end\n";
+    const std::string told = printed(code);
+    int refusing = 0;
+    for (const HelpPage& page : help_pages()) {
+        if (told.find("refuses: " + std::string(page.name) + ";") == std::string::npos) continue;
+        ++refusing;
+        EXPECT_THAT(std::string(page.text), HasSubstr("several inputs")) << page.name;
+    }
+    EXPECT_GT(refusing, 15) << told;
+}
+
 }  // namespace test_reference_pages
 }  // namespace dynlab::test
