@@ -6,11 +6,11 @@
 #include <array>
 
 #include "data_io/tables/number_cell.h"
+#include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/text/foreign_text.h"
 #include "platform/text/read_number.h"
 #include "platform/text/small_letters.h"
-#include "platform/text_file.h"
 
 namespace dynlab::inline data_io {
 namespace {

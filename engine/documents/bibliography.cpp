@@ -2,8 +2,8 @@
 
 #include "documents/error.h"
 #include "documents/work_file.h"
+#include "platform/atomic_file.h"
 #include "platform/files/inside_folder.h"
-#include "platform/text_file.h"
 
 namespace dynlab::inline documents {
 namespace {

@@ -4,7 +4,7 @@
 #include <cctype>
 
 #include "documents/error.h"
-#include "platform/text_file.h"
+#include "platform/atomic_file.h"
 
 namespace dynlab::inline documents {
 

@@ -4,6 +4,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <deque>
+
 #include "platform/file_blocks.h"
 #include "platform/files/replacement_file.h"
 #include "platform/system_call.h"
@@ -47,6 +50,19 @@ void place_file_atomically(const fs::path& from, const fs::path& to) {
     fs::remove(from, ignored);
 }
 
+void write_files_atomically(const std::vector<NewFile>& files) {
+    constexpr std::size_t kOpenAtOnce = 64;
+    for (std::size_t from = 0; from < files.size(); from += kOpenAtOnce) {
+        std::deque<ReplacementFile> replacements;
+        for (std::size_t i = from; i < std::min(files.size(), from + kOpenAtOnce); ++i) {
+            replacements.emplace_back(files[i].file).append(files[i].content);
+            replacements.back().begin_to_sync();
+        }
+        // The file system writes down what is new in all of them when it does so for the first.
+        for (ReplacementFile& replacement : replacements) replacement.commit();
+    }
+}
+
 std::string read_file(const fs::path& file) {
     std::string content;
     std::error_code ignored;
@@ -54,6 +70,17 @@ std::string read_file(const fs::path& file) {
     if (!ignored) content.reserve(size);
     for_each_block(file, [&](std::string_view block) { content.append(block); });
     return content;
+}
+
+std::string read_text(const std::filesystem::path& file) {
+    std::string text = read_file(file);
+    text.erase(0, text.size() - without_byte_order_mark(text).size());
+    return text;
+}
+
+std::string_view without_byte_order_mark(std::string_view text) {
+    constexpr std::string_view kMark = "\xEF\xBB\xBF";
+    return text.starts_with(kMark) ? text.substr(kMark.size()) : text;
 }
 
 }  // namespace dynlab::inline platform

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "documents/text_lines.h"
+#include "platform/atomic_file.h"
 #include "platform/files/inside_folder.h"
-#include "platform/text_file.h"
 #include "scripting/runtime/errors.h"
 #include "scripting/runtime/output_path.h"
 

@@ -4,9 +4,9 @@
 
 #include "documents/error.h"
 #include "documents/text_lines.h"
+#include "platform/atomic_file.h"
 #include "platform/cache.h"
 #include "platform/text/read_number.h"
-#include "platform/text_file.h"
 
 namespace dynlab::inline workflow {
 namespace {

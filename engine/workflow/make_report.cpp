@@ -14,7 +14,6 @@
 #include "platform/program_lookup.h"
 #include "platform/stopwatch.h"
 #include "platform/temporary_folder.h"
-#include "platform/text_file.h"
 #include "scripting/memoized_calls/call_cache.h"
 #include "workflow/error_text.h"
 #include "workflow/given_script.h"

@@ -1,9 +1,9 @@
 #include "workflow/measures.h"
 
 #include "documents/text_lines.h"
+#include "platform/atomic_file.h"
 #include "platform/program_lookup.h"
 #include "platform/text/small_letters.h"
-#include "platform/text_file.h"
 #include "scripting/runtime/help.h"
 
 namespace dynlab::inline workflow {

@@ -9,7 +9,6 @@
 #include "platform/atomic_file.h"
 #include "platform/program_lookup.h"
 #include "platform/text/read_number.h"
-#include "platform/text_file.h"
 
 namespace dynlab::inline workflow {
 

@@ -8,7 +8,6 @@
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/program_lookup.h"
-#include "platform/text_file.h"
 #include "workflow/lesson_data.h"
 #include "workflow/specimen_record.h"
 

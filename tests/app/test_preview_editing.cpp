@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "platform/text_file.h"
+#include "platform/atomic_file.h"
 #include "support/preview.h"
 
 namespace test_preview_editing {

@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 
 #include "platform/atomic_file.h"
-#include "platform/text_file.h"
 #include "support/preview.h"
 
 namespace test_preview_hand_in {

@@ -2,7 +2,7 @@
 // and what a reader sees.
 #include <gtest/gtest.h>
 
-#include "platform/text_file.h"
+#include "platform/atomic_file.h"
 #include "support/preview.h"
 
 namespace test_preview_learning {

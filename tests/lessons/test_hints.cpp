@@ -6,7 +6,7 @@
 #include <set>
 
 #include "documents/error.h"
-#include "platform/text_file.h"
+#include "platform/atomic_file.h"
 #include "support/program.h"
 #include "workflow/hints.h"
 #include "workflow/lesson_catalogue.h"

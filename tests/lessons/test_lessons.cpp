@@ -19,7 +19,6 @@
 #include "numerics/rigs/thruster.h"
 #include "page_ends.h"
 #include "platform/atomic_file.h"
-#include "platform/text_file.h"
 #include "support/lesson_list.h"
 #include "support/program.h"
 #include "workflow/lesson_catalogue.h"

@@ -6,7 +6,7 @@
 #include <regex>
 #include <set>
 
-#include "platform/text_file.h"
+#include "platform/atomic_file.h"
 #include "support/program.h"
 #include "workflow/lesson_catalogue.h"
 #include "workflow/measures.h"

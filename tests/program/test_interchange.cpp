@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
-#include "platform/text_file.h"
+#include "platform/atomic_file.h"
 #include "support/program.h"
 
 namespace dynlab::test {

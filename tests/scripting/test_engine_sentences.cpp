@@ -10,7 +10,7 @@
 #include "documents/text_lines.h"
 #include "documents/words/sentence_catalogue.h"
 #include "numerics/validation/advice.h"
-#include "platform/text_file.h"
+#include "platform/atomic_file.h"
 #include "scripting/conversions/option_words.h"
 #include "scripting/script_run.h"
 #include "support/advice_corpus.h"

@@ -8,7 +8,7 @@
 #include <regex>
 
 #include "documents/text_lines.h"
-#include "platform/text_file.h"
+#include "platform/atomic_file.h"
 #include "scripting/lint/function_forms.h"
 #include "scripting/lint/lint.h"
 #include "scripting/runtime/help.h"

@@ -6,8 +6,8 @@
 #include <fstream>
 
 #include "documents/document.h"
+#include "platform/atomic_file.h"
 #include "platform/temporary_folder.h"
-#include "platform/text_file.h"
 #include "script_run.h"
 #include "scripting/objects/rig_drawing.h"
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "platform/atomic_file.h"
 #include "platform/temporary_folder.h"
-#include "platform/text_file.h"
 #include "support/browser.h"
 #include "support/preview_program.h"
 

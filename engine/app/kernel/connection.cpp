@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "platform/atomic_file.h"
 #include "platform/error.h"
-#include "platform/text_file.h"
 
 namespace dynlab::inline app {
 

@@ -5,7 +5,6 @@
 
 #include "platform/atomic_file.h"
 #include "platform/error.h"
-#include "platform/text_file.h"
 #include "workflow/notebooks/notebook.h"
 
 namespace dynlab::inline app {

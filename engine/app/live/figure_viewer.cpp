@@ -7,7 +7,7 @@
 
 #include "app/page/page_routes.h"
 #include "documents/html/plot_data.h"
-#include "platform/text_file.h"
+#include "platform/atomic_file.h"
 
 namespace dynlab::inline app {
 namespace {

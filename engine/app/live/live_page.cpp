@@ -8,9 +8,9 @@
 #include "data_io/values/json_values.h"
 #include "documents/html/web_page.h"
 #include "documents/record_description.h"
+#include "platform/atomic_file.h"
 #include "platform/hash.h"
 #include "platform/text/small_letters.h"
-#include "platform/text_file.h"
 
 namespace dynlab::inline app {
 namespace {

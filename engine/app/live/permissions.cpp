@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "platform/atomic_file.h"
 #include "platform/hash.h"
 #include "platform/program_lookup.h"
-#include "platform/text_file.h"
 
 namespace dynlab::inline app {
 namespace {

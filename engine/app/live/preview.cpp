@@ -11,11 +11,11 @@
 #include "app/page/page_routes.h"
 #include "app/server/web_server.h"
 #include "data_io/values/json_values.h"
+#include "platform/atomic_file.h"
 #include "platform/cache.h"
 #include "platform/error.h"
 #include "platform/hash.h"
 #include "platform/locks/file_lock.h"
-#include "platform/text_file.h"
 #include "workflow/lesson_catalogue.h"
 
 namespace dynlab::inline app {

@@ -6,7 +6,6 @@
 #include "documents/html/web_page.h"
 #include "platform/atomic_file.h"
 #include "platform/program_lookup.h"
-#include "platform/text_file.h"
 
 namespace dynlab::inline app {
 namespace {

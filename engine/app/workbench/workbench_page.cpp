@@ -19,7 +19,6 @@
 #include "platform/error.h"
 #include "platform/memory.h"
 #include "platform/system_call.h"
-#include "platform/text_file.h"
 #include "scripting/runtime/help.h"
 #include "workflow/lesson_catalogue.h"
 #include "workflow/recording.h"

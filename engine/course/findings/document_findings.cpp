@@ -15,8 +15,8 @@
 #include "course/names/name_findings.h"
 #include "documents/template_file.h"
 #include "numerics/number_text.h"
+#include "platform/atomic_file.h"
 #include "platform/program_lookup.h"
-#include "platform/text_file.h"
 
 namespace dynlab::inline course {
 namespace {

@@ -25,7 +25,6 @@
 #include "course/hand_ins/staging.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
-#include "platform/files/atomic_files.h"
 #include "platform/interrupt.h"
 #include "platform/locks/abandoned_folders.h"
 #include "platform/locks/file_lock.h"

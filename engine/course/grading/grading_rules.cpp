@@ -18,7 +18,6 @@
 #include "platform/hash.h"
 #include "platform/program_identity.h"
 #include "platform/program_lookup.h"
-#include "platform/text_file.h"
 #include "workflow/notebooks/notebook.h"
 
 namespace dynlab::inline course {

@@ -11,10 +11,10 @@
 #include "course/boxes/boxed_work.h"
 #include "course/boxes/job_descriptions.h"
 #include "course/hand_ins/owners.h"
+#include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/text/foreign_text.h"
 #include "platform/text/small_letters.h"
-#include "platform/text_file.h"
 
 namespace dynlab::inline course {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "platform/text_file.h"
+#include "platform/atomic_file.h"
 
 namespace dynlab::inline course {
 namespace {

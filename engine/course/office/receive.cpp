@@ -22,7 +22,6 @@
 #include "numerics/error.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
-#include "platform/files/atomic_files.h"
 #include "platform/hash.h"
 
 namespace dynlab::inline course {

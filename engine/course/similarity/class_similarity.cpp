@@ -10,7 +10,6 @@
 #include "documents/solutions.h"
 #include "platform/atomic_file.h"
 #include "platform/temporary_folder.h"
-#include "platform/text_file.h"
 
 namespace dynlab::inline course {
 namespace {

@@ -19,7 +19,6 @@
 #include "course/store/store_seal.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
-#include "platform/files/atomic_files.h"
 #include "platform/hash.h"
 #include "platform/system_call.h"
 

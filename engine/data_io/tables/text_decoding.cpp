@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 
+#include "platform/atomic_file.h"
 #include "platform/error.h"
-#include "platform/text_file.h"
 #include "platform/utf8.h"
 
 namespace dynlab::inline data_io {

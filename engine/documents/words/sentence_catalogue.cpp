@@ -6,10 +6,10 @@
 #include <regex>
 
 #include "documents/text_lines.h"
+#include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/program_lookup.h"
 #include "platform/text/regex_limit.h"
-#include "platform/text_file.h"
 
 namespace dynlab::inline documents {
 namespace {

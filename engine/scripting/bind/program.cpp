@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "documents/text_lines.h"
-#include "platform/text_file.h"
+#include "platform/atomic_file.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/conversions/boxed.h"
 #include "scripting/runtime/errors.h"

@@ -8,10 +8,10 @@
 #include <cstdlib>
 #include <iostream>
 
+#include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/interrupt.h"
 #include "platform/terminal/terminal_text.h"
-#include "platform/text_file.h"
 #include "scripting/prompt/line_editor.h"
 #include "scripting/prompt/prompt_session.h"
 #include "scripting/runtime/errors.h"

@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 
 #include "platform/atomic_file.h"
-#include "platform/text_file.h"
 #include "scripting/lint/type_stubs.h"
 
 namespace dynlab::inline workflow {

@@ -9,8 +9,8 @@
 
 #include "documents/text_lines.h"
 #include "numerics/estimators/catalogue.h"
+#include "platform/atomic_file.h"
 #include "platform/text/small_letters.h"
-#include "platform/text_file.h"
 #include "scripting/runtime/help.h"
 #include "workflow/demonstration.h"
 #include "workflow/lesson_catalogue.h"

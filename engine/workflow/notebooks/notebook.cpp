@@ -10,7 +10,7 @@
 #include "documents/cell_marker.h"
 #include "documents/error.h"
 #include "documents/text_lines.h"
-#include "platform/text_file.h"
+#include "platform/atomic_file.h"
 
 namespace dynlab::inline workflow {
 namespace {

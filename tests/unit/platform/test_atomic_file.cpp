@@ -1,5 +1,6 @@
 #include "platform/atomic_file.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -176,6 +177,46 @@ TEST(atomic_file, reading_names_the_reason) {
               "cannot read " + (folder.path() / "none").string() + ": no such file or directory");
     EXPECT_EQ(message_of([&] { read_file(folder.path()); }),
               "cannot read " + folder.path().string() + ": is a directory");
+}
+
+// oracle: what was written
+TEST(atomic_file, writes_several_in_their_order) {
+    const TemporaryFolder folder;
+    const fs::path kept = folder.path() / "000";
+    write_file_atomically(kept, "old");
+    std::vector<NewFile> files;
+    for (int i = 0; i < 150; ++i)
+        files.push_back({folder.path() / fmt::format("{:03}", i), std::string(static_cast<std::size_t>(100 * i), 'x')});
+    write_files_atomically(files);
+    for (const NewFile& file : files) EXPECT_EQ(read_file(file.file), file.content);
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 150);
+    // One that cannot be written: what stands before it may be new, the rest is as it was.
+    files[140].file = folder.path() / "no such folder" / "file";
+    for (NewFile& file : files) file.content = "new";
+    EXPECT_THROW(write_files_atomically(files), EnvironmentError);
+    bool old = false;
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        if (i == 140) continue;
+        const std::string content = read_file(files[i].file);
+        old = old || content != "new";
+        EXPECT_EQ(content, old ? std::string(100 * i, 'x') : "new") << i;
+    }
+    EXPECT_TRUE(old);
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 150);
+}
+
+// oracle: Unicode, 23.8: U+FEFF at the start of a text is no part of it, anywhere else it is
+TEST(atomic_file, only_a_mark_at_the_start_is_left_out) {
+    const TemporaryFolder folder;
+    const std::string mark = "\xEF\xBB\xBF";
+    for (const auto& [bytes, text] :
+         {std::pair(mark + "line\n", std::string("line\n")), std::pair(mark + mark + "x", mark + "x"),
+          std::pair("x" + mark, "x" + mark), std::pair(mark, std::string()),
+          std::pair(std::string("\xEF\xBB"), std::string("\xEF\xBB")), std::pair(std::string(), std::string())}) {
+        write_file_atomically(folder.path() / "text", bytes);
+        EXPECT_EQ(read_text(folder.path() / "text"), text);
+        EXPECT_EQ(without_byte_order_mark(bytes), text);
+    }
 }
 
 }  // namespace test_atomic_file
