@@ -11,7 +11,7 @@
 #include "numerics/error.h"
 #include "numerics/simulation/frequency_response.h"
 #include "numerics/simulation/sampled_response.h"
-#include "numerics/statistics/chi_squared.h"
+#include "numerics/statistics/distributions.h"
 
 namespace dynlab::inline figures {
 namespace {

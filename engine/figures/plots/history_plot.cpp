@@ -10,7 +10,7 @@
 #include "figures/figure_text.h"
 #include "figures/style.h"
 #include "numerics/error.h"
-#include "numerics/statistics/chi_squared.h"
+#include "numerics/statistics/distributions.h"
 
 namespace dynlab::inline figures {
 namespace {

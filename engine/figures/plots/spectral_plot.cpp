@@ -9,7 +9,7 @@
 #include "figures/style.h"
 #include "numerics/error.h"
 #include "numerics/simulation/frequency_response.h"
-#include "numerics/statistics/chi_squared.h"
+#include "numerics/statistics/distributions.h"
 
 namespace dynlab::inline figures {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "figures/confidence_band.h"
 #include "figures/plots/time_response_panel.h"
-#include "numerics/statistics/chi_squared.h"
+#include "numerics/statistics/distributions.h"
 
 namespace dynlab::inline figures {
 

@@ -8,7 +8,7 @@
 #include "numerics/number_text.h"
 #include "numerics/signals/correlation.h"
 #include "numerics/statistics/autoregression.h"
-#include "numerics/statistics/chi_squared.h"
+#include "numerics/statistics/distributions.h"
 
 namespace dynlab::inline numerics {
 

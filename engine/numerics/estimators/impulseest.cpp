@@ -6,7 +6,7 @@
 #include "numerics/fit/spectral_estimate.h"
 #include "numerics/linalg/least_squares.h"
 #include "numerics/signals/lagged_gram.h"
-#include "numerics/statistics/chi_squared.h"
+#include "numerics/statistics/distributions.h"
 
 namespace dynlab::inline numerics {
 

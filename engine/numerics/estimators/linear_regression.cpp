@@ -10,7 +10,7 @@
 #include "numerics/linalg/least_squares.h"
 #include "numerics/linalg/polynomial.h"
 #include "numerics/number_text.h"
-#include "numerics/statistics/student_t.h"
+#include "numerics/statistics/distributions.h"
 
 namespace dynlab::inline numerics {
 

@@ -7,7 +7,7 @@
 #include "numerics/signals/correlation.h"
 #include "numerics/signals/robust_statistics.h"
 #include "numerics/statistics/autoregression.h"
-#include "numerics/statistics/chi_squared.h"
+#include "numerics/statistics/distributions.h"
 #include "numerics/validation/model_findings.h"
 
 namespace dynlab::inline numerics {

@@ -6,7 +6,7 @@
 #include "numerics/linalg/least_squares.h"
 #include "numerics/simulation/lsim.h"
 #include "numerics/statistics/autoregression.h"
-#include "numerics/statistics/chi_squared.h"
+#include "numerics/statistics/distributions.h"
 #include "numerics/validation/model_findings.h"
 
 namespace dynlab::inline numerics {

@@ -11,7 +11,7 @@
 #include "numerics/linalg/decompositions.h"
 #include "numerics/number_text.h"
 #include "numerics/signals/correlation.h"
-#include "numerics/statistics/chi_squared.h"
+#include "numerics/statistics/distributions.h"
 #include "numerics/statistics/lagged_sums.h"
 #include "numerics/validation/prediction.h"
 

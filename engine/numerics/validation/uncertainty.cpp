@@ -9,7 +9,7 @@
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/polynomial.h"
 #include "numerics/simulation/time_response.h"
-#include "numerics/statistics/chi_squared.h"
+#include "numerics/statistics/distributions.h"
 
 namespace dynlab::inline numerics {
 

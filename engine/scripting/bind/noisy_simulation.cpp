@@ -5,7 +5,7 @@
 #include "figures/confidence_band.h"
 #include "numerics/simulation/frequency_response.h"
 #include "numerics/simulation/lsim.h"
-#include "numerics/statistics/chi_squared.h"
+#include "numerics/statistics/distributions.h"
 #include "numerics/validation/simulation_spread.h"
 #include "scripting/arguments/simulation_options.h"
 #include "scripting/bind/bindings.h"

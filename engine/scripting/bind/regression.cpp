@@ -3,7 +3,7 @@
 #include "figures/plots/regression_plot.h"
 #include "numerics/estimators/gradient_descent.h"
 #include "numerics/estimators/linear_regression.h"
-#include "numerics/statistics/student_t.h"
+#include "numerics/statistics/distributions.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/conversions/table_fields.h"
 #include "scripting/conversions/told_sentences.h"

@@ -12,7 +12,7 @@
 #include "numerics/signals/prbs.h"
 #include "numerics/signals/random.h"
 #include "numerics/simulation/lsim.h"
-#include "numerics/statistics/chi_squared.h"
+#include "numerics/statistics/distributions.h"
 
 namespace test_validation_plots {
 

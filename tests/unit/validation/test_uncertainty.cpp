@@ -9,7 +9,7 @@
 #include "numerics/signals/random.h"
 #include "numerics/simulation/frequency_response.h"
 #include "numerics/simulation/time_response.h"
-#include "numerics/statistics/chi_squared.h"
+#include "numerics/statistics/distributions.h"
 #include "numerics/validation/uncertainty.h"
 
 namespace test_uncertainty {

@@ -15,7 +15,7 @@
 #include "numerics/linalg/polynomial.h"
 #include "numerics/number_text.h"
 #include "numerics/simulation/sampled_response.h"
-#include "numerics/statistics/chi_squared.h"
+#include "numerics/statistics/distributions.h"
 
 namespace dynlab::inline numerics {
 

@@ -14,8 +14,8 @@
 #include "numerics/linalg/decompositions.h"
 #include "numerics/number_text.h"
 #include "numerics/simulation/sensitivity_solver.h"
+#include "numerics/statistics/distributions.h"
 #include "numerics/statistics/identifiability.h"
-#include "numerics/statistics/student_t.h"
 
 namespace dynlab::inline numerics {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "numerics/error.h"
 #include "numerics/number_text.h"
-#include "numerics/statistics/chi_squared.h"
+#include "numerics/statistics/distributions.h"
 #include "numerics/validation/residual_tests.h"
 
 namespace dynlab::inline numerics {

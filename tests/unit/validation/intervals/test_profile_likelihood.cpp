@@ -8,7 +8,7 @@
 #include "numerics/signals/prbs.h"
 #include "numerics/signals/random.h"
 #include "numerics/simulation/lsim.h"
-#include "numerics/statistics/chi_squared.h"
+#include "numerics/statistics/distributions.h"
 #include "support/thrown_message.h"
 
 namespace test_profile_likelihood {

@@ -1,13 +1,51 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "numerics/error.h"
-#include "numerics/statistics/student_t.h"
+#include "numerics/statistics/distributions.h"
 
-namespace test_student_t {
+namespace test_distributions {
 
 using namespace dynlab;
+
+TEST(distributions, chi_squared_tail_of_even_degrees_is_a_poisson_sum) {  // oracle: analytic
+    for (const int half : {1, 2, 5, 13, 40})
+        for (const double x : {0.3, 2.0, 9.0, 26.0, 60.0, 150.0}) {
+            double sum = 0;
+            for (int i = 0; i < half; ++i) sum += std::exp(i * std::log(x / 2) - x / 2 - std::lgamma(i + 1.0));
+            EXPECT_NEAR(chi_squared_upper_tail(x, 2 * half) / sum, 1, 1e-11) << half << ' ' << x;
+        }
+}
+
+TEST(distributions, chi_squared_tail_of_one_degree_is_the_error_function) {  // oracle: analytic
+    for (const double x : {1e-4, 0.1, 1.0, 3.0, 10.0, 100.0})
+        EXPECT_NEAR(chi_squared_upper_tail(x, 1) / std::erfc(std::sqrt(x / 2)), 1, 1e-11) << x;
+}
+
+TEST(distributions, chi_squared_quantile_inverts_the_tail) {  // oracle: residual of the definition
+    for (const double degrees : {1.0, 2.0, 7.5, 25.0, 200.0})
+        for (const double p : {0.01, 0.5, 0.95, 0.999})
+            EXPECT_NEAR(chi_squared_upper_tail(chi_squared_quantile(p, degrees), degrees), 1 - p, 1e-12);
+    EXPECT_NEAR(chi_squared_quantile(0.95, 2), -2 * std::log(0.05), 1e-12);
+}
+
+TEST(distributions, half_width_of_the_normal_distribution) {  // oracle: the error function
+    for (const double p : {0.5, 0.9, 0.99, 0.9999})
+        EXPECT_NEAR(std::erf(normal_half_width(p) / std::sqrt(2)), p, 1e-13);
+}
+
+TEST(distributions, chi_squared_refuses_what_has_no_meaning) {
+    EXPECT_THROW(chi_squared_upper_tail(1, 0), InvalidArgument);
+    EXPECT_THROW(chi_squared_upper_tail(std::nan(""), 3), InvalidArgument);
+    EXPECT_THROW(chi_squared_quantile(1, 3), InvalidArgument);
+    EXPECT_THROW(chi_squared_quantile(0.5, -1), InvalidArgument);
+    EXPECT_THROW(normal_half_width(0), InvalidArgument);
+    EXPECT_THROW(normal_half_width(1), InvalidArgument);
+    EXPECT_EQ(chi_squared_upper_tail(-1, 3), 1);
+    EXPECT_EQ(chi_squared_upper_tail(std::numeric_limits<double>::infinity(), 3), 0);
+}
 
 const double kPi = std::acos(-1.0);
 
@@ -24,12 +62,12 @@ double integrated_density(double x, double degrees) {
     return scale * sum * h / 3;
 }
 
-TEST(student_t, one_degree_is_cauchy) {  // oracle: analytic
+TEST(distributions, student_t_one_degree_is_cauchy) {  // oracle: analytic
     for (double p : {0.001, 0.2, 0.6, 0.95, 0.975, 0.9999})
         EXPECT_NEAR(student_t_quantile(p, 1) / std::tan(kPi * (p - 0.5)), 1, 1e-11) << p;
 }
 
-TEST(student_t, two_and_four_degrees_closed_form) {  // oracle: analytic (Shaw 2006)
+TEST(distributions, student_t_two_and_four_degrees_closed_form) {  // oracle: analytic (Shaw 2006)
     for (double p : {1e-8, 0.01, 0.55, 0.9, 0.975, 0.999}) {
         const double alpha = 4 * p * (1 - p);
         EXPECT_NEAR(student_t_quantile(p, 2) / ((2 * p - 1) * std::sqrt(2 / alpha)), 1, 1e-12) << p;
@@ -50,7 +88,8 @@ double within(double x, int degrees) {
     return std::sin(angle) * sum;
 }
 
-TEST(student_t, keeps_its_digits_near_one_half) {  // oracle: finite series (Abramowitz and Stegun 26.7.3 and 26.7.4)
+TEST(distributions,
+     student_t_keeps_its_digits_near_one_half) {  // oracle: finite series (Abramowitz and Stegun 26.7.3 and 26.7.4)
     for (double distance : {1e-15, 1e-9, 1e-6, 1e-3, 0.05, 0.0999999, 0.1000001, 0.3}) {
         const double p = 0.5 + distance, part = p - 0.5;
         EXPECT_NEAR(student_t_quantile(p, 1) / std::tan(kPi * part), 1, 1e-13) << p;
@@ -62,14 +101,14 @@ TEST(student_t, keeps_its_digits_near_one_half) {  // oracle: finite series (Abr
     EXPECT_EQ(student_t_quantile(0.5, 4), 0);
 }
 
-TEST(student_t, quantile_inverts_the_integral_of_the_density) {  // oracle: second route, Simpson's rule
+TEST(distributions, student_t_quantile_inverts_the_integral_of_the_density) {  // oracle: second route, Simpson's rule
     for (double degrees : {0.7, 1.0, 2.5, 3.0, 27.0, 100.0})
         for (double p : {0.01, 0.3, 0.5, 0.8, 0.975})
             EXPECT_NEAR(0.5 + integrated_density(student_t_quantile(p, degrees), degrees), p, 1e-11)
                 << degrees << " " << p;
 }
 
-TEST(student_t, many_degrees_are_normal) {  // oracle: Cornish-Fisher expansion about the normal law
+TEST(distributions, student_t_many_degrees_are_normal) {  // oracle: Cornish-Fisher expansion about the normal law
     const double nu = 1e6;
     for (double p : {0.6, 0.95, 0.975}) {
         double z = 1;
@@ -79,7 +118,7 @@ TEST(student_t, many_degrees_are_normal) {  // oracle: Cornish-Fisher expansion 
     }
 }
 
-TEST(student_t, refuses_what_has_no_answer) {
+TEST(distributions, student_t_refuses_what_has_no_answer) {
     EXPECT_THROW(student_t_quantile(0, 5), InvalidArgument);
     EXPECT_THROW(student_t_quantile(1, 5), InvalidArgument);
     EXPECT_THROW(student_t_quantile(0.3, 0.001), InvalidArgument);  // beyond the range of Boost
@@ -88,4 +127,4 @@ TEST(student_t, refuses_what_has_no_answer) {
     EXPECT_THROW(student_t_quantile(std::nan(""), 5), InvalidArgument);
 }
 
-}  // namespace test_student_t
+}  // namespace test_distributions
