@@ -4,7 +4,6 @@
 
 #include "numerics/error.h"
 #include "numerics/rigs/rig_record.h"
-#include "numerics/rigs/sensor.h"
 
 namespace dynlab::inline numerics {
 namespace {

@@ -5,8 +5,6 @@
 
 #include "numerics/linalg/side_by_side.h"
 #include "numerics/rigs/rig_record.h"
-#include "numerics/rigs/seeded_prbs.h"
-#include "numerics/rigs/sensor.h"
 
 namespace dynlab::inline numerics {
 namespace {

@@ -3,8 +3,7 @@
 #include <cmath>
 
 #include "numerics/error.h"
-#include "numerics/rigs/seeded_prbs.h"
-#include "numerics/rigs/sensor.h"
+#include "numerics/rigs/rig_record.h"
 #include "numerics/simulation/ode_solver.h"
 
 namespace dynlab::inline numerics {

@@ -5,7 +5,7 @@
 
 #include "numerics/error.h"
 #include "numerics/linalg/matrix_exponential.h"
-#include "numerics/rigs/seeded_prbs.h"
+#include "numerics/rigs/rig_record.h"
 
 namespace dynlab::inline numerics {
 namespace {

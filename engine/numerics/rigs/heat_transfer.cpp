@@ -4,10 +4,7 @@
 #include <numbers>
 
 #include "numerics/error.h"
-#include "numerics/rigs/delayed_input.h"
 #include "numerics/rigs/rig_record.h"
-#include "numerics/rigs/seeded_prbs.h"
-#include "numerics/rigs/sensor.h"
 #include "numerics/simulation/ode_solver.h"
 
 namespace dynlab::inline numerics {

@@ -1,8 +1,6 @@
 #include "numerics/rigs/linear_system.h"
 
 #include "numerics/rigs/rig_record.h"
-#include "numerics/rigs/seeded_prbs.h"
-#include "numerics/rigs/sensor.h"
 #include "numerics/simulation/lsim.h"
 
 namespace dynlab::inline numerics {

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "numerics/error.h"
+#include "numerics/signals/prbs.h"
 
 namespace dynlab::inline numerics {
 namespace {
@@ -28,6 +29,31 @@ void require_positive(const char* rig, const char* name, double value) {
 
 void require_not_negative(const char* rig, const char* name, double value) {
     if (!(value >= 0) || !std::isfinite(value)) refuse(rig, name, "not be negative", value);
+}
+
+Vector seeded_prbs(int stages, int hold, double low, double high, RandomStream& random) {
+    const Vector bits = prbs(stages, 1, 0, 1);
+    const Index count = bits.size();
+    const auto first = static_cast<Index>(std::floor(random.uniform() * static_cast<double>(count)));
+    const Index direction = random.uniform() < 0.5 ? 1 : count - 1;
+    const bool exchanged = random.uniform() < 0.5;
+    Vector u(count * hold);
+    for (Index k = 0; k < count; ++k) {
+        const bool one = bits[(first + direction * k) % count] > 0.5;
+        u.segment(k * hold, hold).setConstant(one != exchanged ? high : low);
+    }
+    return u;
+}
+
+Vector measure(const Vector& truth, double noise_std, double resolution, RandomStream& random) {
+    return measure(truth, noise_std, resolution, random.normal(truth.size()));
+}
+
+Vector measure(const Vector& truth, double noise_std, double resolution, const Vector& normals) {
+    Vector y = truth + noise_std * normals;
+    if (resolution > 0)
+        for (double& value : y) value = resolution * std::round(value / resolution);
+    return y;
 }
 
 }  // namespace dynlab::inline numerics

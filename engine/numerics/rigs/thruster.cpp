@@ -7,9 +7,7 @@
 #include "numerics/error.h"
 #include "numerics/linalg/side_by_side.h"
 #include "numerics/number_text.h"
-#include "numerics/rigs/delayed_input.h"
 #include "numerics/rigs/rig_record.h"
-#include "numerics/rigs/sensor.h"
 #include "numerics/signals/excitation.h"
 #include "numerics/simulation/ode_solver.h"
 

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "numerics/error.h"
-#include "numerics/rigs/sensor.h"
+#include "numerics/rigs/rig_record.h"
 #include "numerics/simulation/ode_solver.h"
 
 namespace dynlab::inline numerics {
