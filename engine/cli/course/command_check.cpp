@@ -2,7 +2,7 @@
 #include <iostream>
 
 #include "cli/commands.h"
-#include "cli/options/script_argument.h"
+#include "cli/options/script_options.h"
 #include "cli/terminal_colour.h"
 #include "course/findings/findings_report.h"
 #include "course/findings/french_sentences.h"

@@ -7,7 +7,7 @@
 #include <regex>
 
 #include "cli/commands.h"
-#include "cli/options/script_argument.h"
+#include "cli/options/script_options.h"
 #include "course/grading/hand_in.h"
 #include "course/hand_ins/roster.h"
 #include "documents/pdf/pdf_layout.h"

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
-#include "cli/options/script_argument.h"
+#include "cli/options/script_options.h"
 #include "course/checks/check_functions.h"
 #include "documents/text_lines.h"
 #include "platform/error.h"

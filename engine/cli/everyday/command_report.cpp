@@ -1,8 +1,6 @@
 #include "cli/commands.h"
 #include "cli/document_command.h"
-#include "cli/options/script_argument.h"
-#include "cli/options/seed_option.h"
-#include "cli/options/slider_option.h"
+#include "cli/options/script_options.h"
 
 namespace dynlab::inline cli {
 namespace {

@@ -6,10 +6,8 @@
 #include <regex>
 
 #include "cli/commands.h"
-#include "cli/options/script_argument.h"
-#include "cli/options/seed_option.h"
+#include "cli/options/script_options.h"
 #include "cli/options/share_options.h"
-#include "cli/options/slider_option.h"
 #include "figures/french_texts.h"
 #include "figures/gnuplot_script.h"
 #include "platform/atomic_file.h"

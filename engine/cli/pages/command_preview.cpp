@@ -2,7 +2,7 @@
 
 #include "app/live/preview.h"
 #include "cli/commands.h"
-#include "cli/options/script_argument.h"
+#include "cli/options/script_options.h"
 #include "cli/pages/browser.h"
 #include "platform/error.h"
 

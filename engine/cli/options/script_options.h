@@ -1,0 +1,32 @@
+#pragma once
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dynlab::inline cli {
+
+/// For what a command gets as its script: throws the parser's error, before anything is read or written, for a file
+/// whose ending tells that it is none (workflow/given_script.h).
+void refuse_other_files(const std::string& given, const std::string& command);
+
+/// The option `--seed N|random`.
+struct SeedOption {
+    std::string text;
+
+    void add_to(CLI::App& command);
+    /// The number asked for; with "random" one from the system, told on standard error. Nothing when not given.
+    std::optional<std::uint32_t> value() const;
+};
+
+/// The option `--set NAME=NUMBER`, which may be given for each slider of the script.
+struct SliderOption {
+    std::vector<std::string> texts;
+
+    void add_to(CLI::App& command);
+    std::map<std::string, double> values() const;
+};
+
+}  // namespace dynlab::inline cli
