@@ -13,7 +13,7 @@
 #include "platform/error.h"
 #include "platform/temporary_folder.h"
 #include "scripting/interpreter/runtime.h"
-#include "scripting/runtime/report_language.h"
+#include "scripting/runtime/services.h"
 
 namespace dynlab::inline workflow {
 

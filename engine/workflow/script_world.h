@@ -1,7 +1,6 @@
 #pragma once
 #include "scripting/interpreter/runtime.h"
-#include "scripting/runtime/report_language.h"
-#include "scripting/runtime/slider_values.h"
+#include "scripting/runtime/services.h"
 #include "workflow/run_script.h"
 
 namespace dynlab::inline workflow {

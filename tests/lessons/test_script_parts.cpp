@@ -7,7 +7,7 @@
 #include "figures/gnuplot_renderer.h"
 #include "platform/temporary_folder.h"
 #include "scripting/interpreter/runtime.h"
-#include "scripting/runtime/report_language.h"
+#include "scripting/runtime/services.h"
 #include "workflow/lesson_catalogue.h"
 
 namespace test_script_parts {

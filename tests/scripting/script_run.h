@@ -3,7 +3,7 @@
 
 #include "figures/gnuplot_renderer.h"
 #include "scripting/interpreter/runtime.h"
-#include "scripting/runtime/report_language.h"
+#include "scripting/runtime/services.h"
 
 namespace dynlab::test {
 

@@ -25,8 +25,7 @@
 #include "platform/terminal/progress.h"
 #include "scripting/interpreter/runtime.h"
 #include "scripting/memoized_calls/call_cache.h"
-#include "scripting/runtime/report_language.h"
-#include "scripting/runtime/slider_values.h"
+#include "scripting/runtime/services.h"
 #include "workflow/process_copy.h"
 #include "workflow/run_script.h"
 

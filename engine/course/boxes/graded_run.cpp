@@ -11,7 +11,7 @@
 #include "platform/confinement.h"
 #include "scripting/interpreter/runtime.h"
 #include "scripting/memoized_calls/call_cache.h"
-#include "scripting/runtime/report_language.h"
+#include "scripting/runtime/services.h"
 
 namespace dynlab::inline course {
 namespace {

@@ -5,8 +5,8 @@
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/model.h"
 #include "scripting/runtime/help.h"
+#include "scripting/runtime/services.h"
 #include "scripting/runtime/text_form.h"
-#include "scripting/runtime/value_listener.h"
 
 namespace dynlab::inline scripting {
 namespace {

@@ -5,9 +5,8 @@
 #include "scripting/bind/bindings.h"
 #include "scripting/conversions/arguments.h"
 #include "scripting/objects/figure_object.h"
-#include "scripting/runtime/report_language.h"
 #include "scripting/runtime/sandbox.h"
-#include "scripting/runtime/slider_values.h"
+#include "scripting/runtime/services.h"
 #include "scripting/runtime/text_form.h"
 
 namespace dynlab::inline scripting {

@@ -4,7 +4,7 @@
 
 #include "documents/words/sentence_catalogue.h"
 #include "scripting/conversions/option_words.h"
-#include "scripting/runtime/report_language.h"
+#include "scripting/runtime/services.h"
 
 namespace dynlab::inline scripting {
 namespace {

@@ -8,7 +8,7 @@
 #include "scripting/conversions/table_fields.h"
 #include "scripting/memoized_calls/value_archive.h"
 #include "scripting/objects/data_object.h"
-#include "scripting/runtime/report_language.h"
+#include "scripting/runtime/services.h"
 
 namespace dynlab::inline scripting {
 namespace {
