@@ -7,7 +7,7 @@
 
 #include "platform/temporary_folder.h"
 #include "script_run.h"
-#include "scripting/conversions/numeric_types.h"
+#include "scripting/conversions/numeric.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/runtime/shown_calls.h"
 #include "scripting/runtime/shown_expressions.h"

@@ -4,7 +4,7 @@
 #include "numerics/models/convert.h"
 #include "numerics/simulation/stability_margins.h"
 #include "scripting/bind/bindings.h"
-#include "scripting/conversions/numeric_tables.h"
+#include "scripting/conversions/numeric.h"
 #include "scripting/conversions/told_sentences.h"
 #include "scripting/objects/grey_object.h"
 #include "scripting/objects/model.h"

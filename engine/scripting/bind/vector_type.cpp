@@ -4,8 +4,8 @@
 #include <functional>
 
 #include "scripting/conversions/boxed.h"
+#include "scripting/conversions/numeric.h"
 #include "scripting/conversions/numeric_operators.h"
-#include "scripting/conversions/numeric_types.h"
 #include "scripting/runtime/text_form.h"
 
 namespace dynlab::inline scripting {

@@ -7,7 +7,7 @@
 #include "numerics/signals/interpolation.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/conversions/boxed.h"
-#include "scripting/conversions/numeric_tables.h"
+#include "scripting/conversions/numeric.h"
 
 namespace dynlab::inline scripting {
 namespace {

@@ -12,7 +12,7 @@
 #include "platform/error.h"
 #include "platform/interrupt.h"
 #include "scripting/conversions/boxed.h"
-#include "scripting/conversions/numeric_tables.h"
+#include "scripting/conversions/numeric.h"
 #include "scripting/conversions/option_words.h"
 #include "scripting/runtime/errors.h"
 #include "scripting/runtime/sandbox.h"

@@ -1,8 +1,11 @@
 #pragma once
 #include <cstdint>
 #include <lua.hpp>
+#include <string>
+#include <vector>
 
 #include "numerics/linalg/types.h"
+#include "scripting/conversions/object_type.h"
 
 namespace dynlab::inline scripting {
 
@@ -38,5 +41,20 @@ MaskBlock& push_mask(lua_State* L, Index size);
 NumericBlock* to_vector(lua_State* L, int index);
 NumericBlock* to_matrix(lua_State* L, int index);
 MaskBlock* to_mask(lua_State* L, int index);
+
+/// Pushes a vector whose values can be read by these names, too: v.k1.
+void push_named_vector(lua_State* L, const Vector& values, const std::vector<std::string>& names);
+
+/// What scripts can do with vectors, matrices and masks.
+const ObjectType& vector_type();
+const ObjectType& matrix_type();
+const ObjectType& mask_type();
+
+/// Replaces a table of numbers at stack index `index` by a vector; entries may also be vectors, which are joined.
+/// `label` names the table in messages.
+void make_vector_of_table(lua_State* L, int index, const std::string& label);
+
+/// Replaces a table at `index` by a matrix: plain tables of numbers are its rows, vectors its columns.
+void make_matrix_of_table(lua_State* L, int index, const std::string& label);
 
 }  // namespace dynlab::inline scripting

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "scripting/conversions/numeric_tables.h"
+#include "scripting/conversions/numeric.h"
 
 namespace dynlab::inline scripting {
 namespace {

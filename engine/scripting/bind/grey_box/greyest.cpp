@@ -3,7 +3,7 @@
 #include <array>
 
 #include "scripting/bind/bindings.h"
-#include "scripting/conversions/named_vector.h"
+#include "scripting/conversions/numeric.h"
 #include "scripting/conversions/table_fields.h"
 #include "scripting/conversions/told_sentences.h"
 #include "scripting/objects/data_object.h"
