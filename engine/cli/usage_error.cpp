@@ -8,7 +8,6 @@
 #include "platform/spelling.h"
 #include "platform/terminal/terminal_text.h"
 #include "platform/text/regex_limit.h"
-#include "platform/text/shell_word.h"
 
 namespace dynlab::inline cli {
 namespace {

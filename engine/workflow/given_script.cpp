@@ -8,7 +8,7 @@
 
 #include "platform/error.h"
 #include "platform/files/inside_folder.h"
-#include "platform/text/shell_word.h"
+#include "platform/terminal/terminal_text.h"
 #include "platform/text/small_letters.h"
 
 namespace dynlab::inline workflow {

@@ -15,7 +15,6 @@
 #include "platform/error.h"
 #include "platform/temporary_folder.h"
 #include "platform/terminal/terminal_text.h"
-#include "platform/text/shell_word.h"
 #include "workflow/script_folder.h"
 
 namespace dynlab::inline cli {

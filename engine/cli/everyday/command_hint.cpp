@@ -7,7 +7,7 @@
 #include "cli/terminal_width.h"
 #include "documents/template_file.h"
 #include "platform/error.h"
-#include "platform/text/shell_word.h"
+#include "platform/terminal/terminal_text.h"
 #include "scripting/runtime/help_layout.h"
 #include "workflow/hints.h"
 #include "workflow/lesson_catalogue.h"

@@ -4,7 +4,7 @@
 #include "cli/commands.h"
 #include "platform/error.h"
 #include "platform/terminal/activity_line.h"
-#include "platform/text/shell_word.h"
+#include "platform/terminal/terminal_text.h"
 #include "workflow/authoring/editor_files.h"
 #include "workflow/authoring/lesson_skeleton.h"
 #include "workflow/student_copy.h"

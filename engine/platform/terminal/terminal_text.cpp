@@ -1,8 +1,20 @@
 #include "platform/terminal/terminal_text.h"
 
+#include <algorithm>
+
 #include "platform/utf8.h"
 
 namespace dynlab::inline platform {
+namespace {
+
+/// Letters of other languages among them: a shell means nothing by their bytes.
+bool is_plain_to_a_shell(unsigned char c) {
+    constexpr std::string_view kSigns = "_-./:@%+=,";
+    return c >= 0x80 || (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||
+           kSigns.find(static_cast<char>(c)) != std::string_view::npos;
+}
+
+}  // namespace
 
 bool is_terminal_control(char32_t c) {
     return c < 0x20 || (c >= 0x7F && c < 0xA0) || c == 0x061C || (c >= 0x200B && c <= 0x200F) ||
@@ -20,6 +32,13 @@ std::string terminal_text(std::string_view utf8) {
             result += before.substr(0, before.size() - utf8.size());
     }
     return result;
+}
+
+std::string shell_word(const std::string& word) {
+    if (!word.empty() && std::all_of(word.begin(), word.end(), is_plain_to_a_shell)) return word;
+    std::string quoted = "'";
+    for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return quoted + "'";
 }
 
 }  // namespace dynlab::inline platform

@@ -12,4 +12,7 @@ bool is_terminal_control(char32_t c);
 /// excepted, and broken UTF-8 become '?'.
 std::string terminal_text(std::string_view utf8);
 
+/// A word of a command that is shown to be copied: as it is where a shell takes it so, else in single quotes.
+std::string shell_word(const std::string& word);
+
 }  // namespace dynlab::inline platform

@@ -1,6 +1,6 @@
-#include "platform/terminal/terminal_text.h"
-
 #include <gtest/gtest.h>
+
+#include "platform/terminal/terminal_text.h"
 
 namespace dynlab {
 namespace test_terminal_text {
@@ -17,6 +17,17 @@ TEST(terminal_text, keeps_all_else) {
     const std::string text = "Zoé \"œ\" 5 µm → ½\tline\nnext 日本 \U0001F408";
     EXPECT_EQ(terminal_text(text), text);
     EXPECT_EQ(terminal_text(""), "");
+}
+
+TEST(terminal_text, plain_words_of_a_command_stay_and_others_are_quoted) {
+    EXPECT_EQ(shell_word("my-work/a_1.lua"), "my-work/a_1.lua");
+    EXPECT_EQ(shell_word("Übung"), "Übung");
+    EXPECT_EQ(shell_word("Mein Ordner Übung é"), "'Mein Ordner Übung é'");
+    EXPECT_EQ(shell_word("it's"), "'it'\\''s'");
+    EXPECT_EQ(shell_word("$HOME"), "'$HOME'");
+    EXPECT_EQ(shell_word("a;b"), "'a;b'");
+    EXPECT_EQ(shell_word("~"), "'~'");
+    EXPECT_EQ(shell_word(""), "''");
 }
 
 }  // namespace test_terminal_text
