@@ -3,7 +3,6 @@
 
 #include "cli/commands.h"
 #include "cli/options/script_options.h"
-#include "cli/terminal_colour.h"
 #include "course/findings/findings_report.h"
 #include "course/findings/french_sentences.h"
 #include "course/grading/folder_check.h"
@@ -13,6 +12,7 @@
 #include "platform/error.h"
 #include "platform/program_lookup.h"
 #include "platform/temporary_folder.h"
+#include "platform/terminal/terminal_output.h"
 #include "platform/text/small_letters.h"
 #include "workflow/notebooks/notebook.h"
 #include "workflow/script_folder.h"

@@ -3,11 +3,11 @@
 #include <iostream>
 
 #include "cli/course/course_commands.h"
-#include "cli/terminal_colour.h"
 #include "course/findings/findings_report.h"
 #include "course/office/stored_findings.h"
 #include "course/review/review_pairs.h"
 #include "numerics/error.h"
+#include "platform/terminal/terminal_output.h"
 
 namespace dynlab::inline cli {
 namespace {

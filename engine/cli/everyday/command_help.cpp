@@ -3,7 +3,7 @@
 #include <iostream>
 
 #include "cli/commands.h"
-#include "cli/terminal_width.h"
+#include "platform/terminal/terminal_output.h"
 #include "scripting/runtime/help.h"
 #include "workflow/cheat_sheet.h"
 
@@ -37,7 +37,7 @@ void add_help(CLI::App& app, Action& action) {
             }
             std::vector<const FunctionEntry*> functions;
             for (const FunctionEntry& entry : catalogue_of_functions()) functions.push_back(&entry);
-            const std::size_t width = terminal_width();
+            const std::size_t width = columns_of_text(kHelpWidth);
             if (!word->empty())
                 std::cout << help_search(*word, functions, width);
             else

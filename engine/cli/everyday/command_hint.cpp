@@ -4,10 +4,11 @@
 #include <iostream>
 
 #include "cli/commands.h"
-#include "cli/terminal_width.h"
 #include "documents/template_file.h"
 #include "platform/error.h"
+#include "platform/terminal/terminal_output.h"
 #include "platform/terminal/terminal_text.h"
+#include "scripting/runtime/help.h"
 #include "scripting/runtime/help_layout.h"
 #include "workflow/hints.h"
 #include "workflow/lesson_catalogue.h"
@@ -83,7 +84,7 @@ int list_hints(const Lesson& lesson, const Hints& hints, const std::string& name
 }
 
 void show_stages(const std::vector<std::string>& stages, std::size_t shown, const HintWords& words) {
-    const std::size_t width = terminal_width();
+    const std::size_t width = columns_of_text(kHelpWidth);
     for (std::size_t i = 0; i < shown; ++i) {
         say(words.hint, i + 1, stages.size());
         std::cout << laid_out(stages[i], width);

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cstdio>
 #include <iostream>
 #include <regex>
 
@@ -13,6 +12,7 @@
 #include "platform/atomic_file.h"
 #include "platform/terminal/activity_line.h"
 #include "platform/terminal/aligned_table.h"
+#include "platform/terminal/terminal_output.h"
 #include "platform/terminal/terminal_text.h"
 #include "platform/written_files.h"
 #include "scripting/memoized_calls/call_cache.h"
@@ -47,14 +47,6 @@ SharedStudy::Request study_request(const RunArguments& words, const fs::path& ou
     request.key = out / ".spool.key";
     request.lease_seconds = words.lease;
     return request;
-}
-
-/// A terminal would obey what a script prints; a file gets it as it is.
-void print_now(const std::string& text) {
-    static const bool terminal = ::isatty(STDOUT_FILENO) == 1;
-    const std::string shown = terminal ? terminal_text(text) : text;
-    std::fwrite(shown.data(), 1, shown.size(), stdout);
-    std::fflush(stdout);
 }
 
 /// Where a script's files go: beside it, or where nothing may be written there (an installed lesson), here.
@@ -111,7 +103,7 @@ void show_reported(const PercentScript& script, const RunRecord& record) {
 
 RunRecord run_showing_activity(RunRequest& request, GnuplotRenderer& renderer) {
     ActivityLine activity;
-    request.print = [&activity](const std::string& text) { activity.print(text, print_now); };
+    request.print = [&activity](const std::string& text) { activity.print(text, print_shown); };
     request.enter_cell = [&activity](const std::string& cell) { activity.begin_part(cell); };
     return run_script(request, renderer);
 }

@@ -4,7 +4,7 @@
 #include <signal.h>
 #include <unistd.h>
 
-#include "platform/terminal/terminal_line.h"
+#include "platform/terminal/terminal_output.h"
 
 namespace dynlab::inline platform {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "platform/terminal/activity_line.h"
-#include "platform/terminal/terminal_line.h"
+#include "platform/terminal/terminal_output.h"
 
 namespace dynlab::inline platform {
 namespace {

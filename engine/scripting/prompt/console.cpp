@@ -1,16 +1,15 @@
 #include "scripting/prompt/console.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <iostream>
 
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/interrupt.h"
+#include "platform/terminal/terminal_output.h"
 #include "platform/terminal/terminal_text.h"
 #include "scripting/prompt/line_editor.h"
 #include "scripting/prompt/prompt_session.h"
@@ -24,17 +23,6 @@ constexpr const char* kContinuation = "   ...> ";
 constexpr const char* kPipeName = "standard input";
 constexpr int kInterruptsToExit =
     5;  // that many Ctrl-C during one statement end the program even if it does not listen
-
-void print_now(const std::string& text) {
-    std::fwrite(text.data(), 1, text.size(), stdout);
-    std::fflush(stdout);
-}
-
-/// What a statement prints may come from a file of others; a terminal would obey it.
-void print_shown(const std::string& text) {
-    static const bool terminal = ::isatty(STDOUT_FILENO) == 1;
-    print_now(terminal ? terminal_text(text) : text);
-}
 
 void show_figures(const StatementResult& result) {
     for (const auto& file : result.figures) print_now("figure: " + file.string() + '\n');

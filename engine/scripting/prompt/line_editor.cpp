@@ -3,7 +3,6 @@
 #include <histedit.h>
 #include <langinfo.h>
 #include <poll.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -15,6 +14,7 @@
 
 #include "numerics/error.h"
 #include "platform/system_call.h"
+#include "platform/terminal/terminal_output.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -28,16 +28,11 @@ void use_utf8() {
     if (std::string_view(nl_langinfo(CODESET)) != "UTF-8") std::setlocale(LC_CTYPE, "C.UTF-8");
 }
 
-std::size_t terminal_columns() {
-    winsize size{};
-    return ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
-}
-
 /// Words in columns from top to bottom, as ls shows them.
 void show_in_columns(const std::vector<std::string>& words) {
     std::size_t width = 0;
     for (const std::string& word : words) width = std::max(width, word.size() + 2);
-    const std::size_t columns = std::max<std::size_t>(1, terminal_columns() / width);
+    const std::size_t columns = std::max<std::size_t>(1, terminal_columns(STDOUT_FILENO, 80) / width);
     const std::size_t rows = (words.size() + columns - 1) / columns;
     for (std::size_t row = 0; row < rows; ++row) {
         for (std::size_t i = row; i < words.size(); i += rows)
