@@ -14,9 +14,7 @@
 
 #include "course/grading/class_owners.h"
 #include "course/grading/class_results.h"
-#include "course/grading/content_hash.h"
 #include "course/grading/deadlines.h"
-#include "course/grading/earlier_results.h"
 #include "course/grading/feedback.h"
 #include "course/grading/grading_memory.h"
 #include "course/grading/manual_marks.h"

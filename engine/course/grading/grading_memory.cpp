@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <vector>
 
 #include "course/checks/check_descriptions.h"
+#include "course/grading/grading.h"
 #include "data_io/values/cbor_values.h"
 #include "data_io/values/json_values.h"
 #include "platform/atomic_file.h"
@@ -13,8 +15,6 @@
 
 namespace dynlab::inline course {
 
-DYNLAB_DESCRIBE(RememberedInput, name, hash)
-DYNLAB_DESCRIBE(GradingMemory, lesson, lesson_checks, checks, secret, roster, owners, deadlines, keep, timezone)
 DYNLAB_DESCRIBE(KeptRuns, fingerprint, work, remark, language)
 
 namespace {
@@ -22,6 +22,61 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr char kMemoryFile[] = "grading.json";
+
+/// An input that marks depend on: as it was named, and a hash of what stood there; both empty where it was not given.
+struct RememberedInput {
+    std::string name, hash;
+};
+
+/// What a folder of results was made with.
+struct GradingMemory {
+    std::string lesson;
+    RememberedInput lesson_checks, checks, secret, roster, owners, deadlines;
+    std::string keep, timezone;
+};
+
+DYNLAB_DESCRIBE(RememberedInput, name, hash)
+DYNLAB_DESCRIBE(GradingMemory, lesson, lesson_checks, checks, secret, roster, owners, deadlines, keep, timezone)
+
+void add_named(Sha256& hash, const std::string& name, const fs::path& file) {
+    hash.add(fmt::format("{}:{}:{}:", name.size(), name, fs::file_size(file))).add_file(file);
+}
+
+/// Their names in `folder` and their contents, in the order of their names.
+std::string hash_of_files(std::vector<fs::path> files, const fs::path& folder) {
+    std::sort(files.begin(), files.end());
+    Sha256 hash;
+    for (const fs::path& file : files) add_named(hash, file.lexically_relative(folder).string(), file);
+    return hash.hex();
+}
+
+RememberedInput remembered_file(const std::optional<fs::path>& file) {
+    if (!file) return {};
+    return {file->string(), sha256_of_file(*file)};
+}
+
+/// Of all files in a folder and below it.
+RememberedInput remembered_folder(const std::optional<fs::path>& folder) {
+    if (!folder || !fs::is_directory(*folder)) return {};
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::recursive_directory_iterator(*folder))
+        if (entry.is_regular_file()) files.push_back(entry.path());
+    return {folder->string(), hash_of_files(std::move(files), *folder)};
+}
+
+RememberedInput remembered_text(const std::string& name, const std::string& text) {
+    return text.empty() ? RememberedInput{} : RememberedInput{name, sha256_of("dynlab grade:" + text)};
+}
+
+/// Nothing where there is none, or where it cannot be read.
+std::optional<GradingMemory> read_memory(const fs::path& out) {
+    if (!fs::exists(out / kMemoryFile)) return {};
+    try {
+        return from_json<GradingMemory>(read_file(out / kMemoryFile));
+    } catch (const EnvironmentError&) {
+        return {};
+    }
+}
 
 std::string shown_input(const RememberedInput& input) {
     return input.hash.empty() ? "none" : input.name;
@@ -33,44 +88,8 @@ std::string named_input(const RememberedInput& then, const RememberedInput& now)
     return fmt::format("({} then, {} now)", shown_input(then), shown_input(now));
 }
 
-}  // namespace
-
-RememberedInput remembered_file(const std::optional<fs::path>& file) {
-    if (!file) return {};
-    return {file->string(), sha256_of_file(*file)};
-}
-
-RememberedInput remembered_folder(const std::optional<fs::path>& folder) {
-    if (!folder || !fs::is_directory(*folder)) return {};
-    std::vector<fs::path> files;
-    for (const auto& entry : fs::recursive_directory_iterator(*folder))
-        if (entry.is_regular_file()) files.push_back(entry.path());
-    std::sort(files.begin(), files.end());
-    Sha256 hash;
-    for (const fs::path& file : files) {
-        const std::string name = file.lexically_relative(*folder).string();
-        hash.add(fmt::format("{}:{}:{}:", name.size(), name, fs::file_size(file))).add_file(file);
-    }
-    return {folder->string(), hash.hex()};
-}
-
-RememberedInput remembered_text(const std::string& name, const std::string& text) {
-    return text.empty() ? RememberedInput{} : RememberedInput{name, sha256_of("dynlab grade:" + text)};
-}
-
-std::optional<GradingMemory> read_grading_memory(const fs::path& out) {
-    if (!fs::exists(out / kMemoryFile)) return {};
-    try {
-        return from_json<GradingMemory>(read_file(out / kMemoryFile));
-    } catch (const EnvironmentError&) {
-        return {};
-    }
-}
-
-void write_grading_memory(const fs::path& out, const GradingMemory& memory) {
-    write_file_atomically(out / kMemoryFile, json_of(memory, 2) + "\n");
-}
-
+/// What differs so that marks of both kinds would stand side by side, a clause each: "the checks (own1 then, none
+/// now)".
 std::vector<std::string> differences_of(const GradingMemory& then, const GradingMemory& now, bool all_of_the_class) {
     std::vector<std::string> clauses;
     const auto compare = [&](const char* what, const RememberedInput& a, const RememberedInput& b, bool always) {
@@ -91,6 +110,80 @@ std::vector<std::string> differences_of(const GradingMemory& then, const Grading
                                       then.timezone.empty() ? "this machine's" : then.timezone,
                                       now.timezone.empty() ? "this machine's" : now.timezone));
     return clauses;
+}
+
+}  // namespace
+
+std::string hash_of_content(const Submission& submission) {
+    const SubmissionLimits limits;
+    const auto too_large = [](std::uintmax_t bytes) { return fmt::format("too large: {}", bytes); };
+    if (!submission.loose.empty()) {
+        Sha256 hash;
+        for (const LooseFile& file : submission.loose) {
+            const std::uintmax_t bytes = fs::file_size(file.path);
+            if (bytes > limits.bytes) return too_large(bytes);
+            add_named(hash, file.name, file.path);
+        }
+        return hash.hex();
+    }
+    if (submission.archive) {
+        const std::uintmax_t bytes = fs::file_size(submission.path);
+        return bytes > limits.bytes ? too_large(bytes) : sha256_of_file(submission.path);
+    }
+    std::vector<fs::path> files;
+    std::uintmax_t bytes = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(submission.path))
+        if (entry.symlink_status().type() == fs::file_type::regular) {
+            files.push_back(entry.path());
+            bytes += entry.file_size();
+        }
+    return bytes > limits.bytes ? too_large(bytes) : hash_of_files(std::move(files), submission.path);
+}
+
+std::optional<Grade> earlier_grade(const fs::path& folder) {
+    const fs::path file = folder / "results.json";
+    if (!fs::exists(file)) return {};
+    try {
+        return from_results_json(read_file(file));
+    } catch (const EnvironmentError&) {
+        return {};
+    }
+}
+
+void refuse_other_lessons(const GradingRequest& request) {
+    const fs::path results = request.out / "results";
+    fs::create_directories(results);
+    for (const auto& entry : fs::directory_iterator(results)) {
+        const std::optional<Grade> grade = earlier_grade(entry.path());
+        if (!grade) continue;
+        if (grade->lesson == request.setup.lesson.slug) return;  // as are all others, which were put beside it
+        throw EnvironmentError(fmt::format("{} holds the results of lesson {}; name another folder with --out",
+                                           request.out.string(), grade->lesson));
+    }
+}
+
+void remember_inputs(const GradingRequest& request) {
+    GradingMemory now;
+    now.lesson = request.setup.lesson.slug;
+    now.lesson_checks = remembered_file(request.setup.lesson.folder / "checks.lua");
+    now.lesson_checks.name = request.setup.lesson.slug + "/checks.lua";  // wherever it is installed
+    now.checks = remembered_folder(request.setup.more_checks);
+    now.secret = remembered_text("--secret", request.setup.secret);
+    now.roster = remembered_file(request.roster);
+    now.owners = remembered_file(request.owners);
+    now.deadlines = remembered_file(request.deadlines);
+    now.keep = request.newest_counts ? "newest" : "best";
+    now.timezone = request.timezone;
+    const std::optional<GradingMemory> then = read_memory(request.out);
+    if (request.again && !request.only.empty())
+        throw EnvironmentError("--again grades all of the class anew; leave --only out");
+    if (then && !request.again)
+        if (const auto differences = differences_of(*then, now, request.only.empty()); !differences.empty())
+            throw EnvironmentError(
+                fmt::format("the marks in {} were made with other inputs: {}. Give the same again{}, or another --out",
+                            request.out.string(), fmt::join(differences, ", "),
+                            request.only.empty() ? ", or --again to grade all with these" : ""));
+    write_file_atomically(request.out / kMemoryFile, json_of(now, 2) + "\n");
 }
 
 std::optional<KeptRuns> read_kept_runs(const fs::path& file, const std::string& fingerprint) {

@@ -2,39 +2,31 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "course/checks/check_run.h"
+#include "course/grading/grade.h"
+#include "course/hand_ins/submission.h"
 
 namespace dynlab::inline course {
 
-/// An input that marks depend on: as it was named, and a hash of what stood there; both empty where it was not given.
-struct RememberedInput {
-    std::string name, hash;
-};
+struct GradingRequest;
 
-/// What a folder of results was made with: it stands in it as grading.json, so that no later run mixes marks of two
-/// kinds.
-struct GradingMemory {
-    std::string lesson;
-    RememberedInput lesson_checks, checks, secret, roster, owners, deadlines;
-    std::string keep, timezone;
-};
+/// SHA-256 of all that was handed in, names and contents. Of what is too large to be graded its size alone: reading it
+/// may take for ever. Throws what the file system does where something cannot be looked into.
+std::string hash_of_content(const Submission& submission);
 
-RememberedInput remembered_file(const std::optional<std::filesystem::path>& file);
-/// Of the *.lua in a folder and the files below it.
-RememberedInput remembered_folder(const std::optional<std::filesystem::path>& folder);
-RememberedInput remembered_text(const std::string& name, const std::string& text);
+/// What an earlier run wrote into a submission's folder of results; nothing where there is none that can be read.
+std::optional<Grade> earlier_grade(const std::filesystem::path& folder);
 
-/// Nothing where there is none, or where it cannot be read.
-std::optional<GradingMemory> read_grading_memory(const std::filesystem::path& out);
-void write_grading_memory(const std::filesystem::path& out, const GradingMemory& memory);
+/// Throws EnvironmentError where the results in request.out are those of another lesson. Makes the folder.
+void refuse_other_lessons(const GradingRequest& request);
 
-/// What differs so that marks of both kinds would stand side by side, a clause each: "the checks (own1 then, none
-/// now)". A roster or a list of owners, which say whose work it is, may be given or mended when all of the class is
-/// graded, as the gradebook is then made anew from all of it; one that is missing now counts. Deadlines take points:
-/// other ones always count.
-std::vector<std::string> differences_of(const GradingMemory& then, const GradingMemory& now, bool all_of_the_class);
+/// Writes what the results in request.out are made with: it stands beside them as grading.json, so that no later run
+/// mixes marks of two kinds. Throws EnvironmentError that tells the differences where those that are there were made
+/// with something else and are not to be made again. A roster or a list of owners, which say whose work it is, may be
+/// given or mended when all of the class is graded, as the gradebook is then made anew from all of it; one that is
+/// missing now counts. Deadlines take points: other ones always count.
+void remember_inputs(const GradingRequest& request);
 
 /// What a script did when it was run, kept apart from what the checks say of it: with other checks it need not run
 /// again.
