@@ -13,6 +13,7 @@
 #include "course/findings/leftover_findings.h"
 #include "course/findings/section_findings.h"
 #include "course/names/name_findings.h"
+#include "documents/percent_script.h"
 #include "documents/template_file.h"
 #include "numerics/number_text.h"
 #include "platform/atomic_file.h"
@@ -150,6 +151,13 @@ DocumentStandard standard_of(const std::string& name) {
         guidance.insert(guidance.end(), more.begin(), more.end());
     }
     return {fs::path(name).stem(), document_rules(read_template(file)), guidance, std::nullopt};
+}
+
+DocumentStandard standard_of_lesson(const Lesson& lesson, const std::string& language) {
+    DocumentStandard named = standard_of(read_percent_script(lesson.script()).header.template_name);
+    const fs::path report = lesson.report(language);
+    const bool demands = named.rules.pages || !named.rules.sections.empty();
+    return demands || !fs::exists(report) ? named : standard_of(report.string());
 }
 
 CheckResult check_pdf(const fs::path& file, const CheckOptions& wishes, const PdfLimits& limits) {

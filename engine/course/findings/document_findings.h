@@ -9,6 +9,7 @@
 #include "course/names/sought_names.h"
 #include "documents/document_rules.h"
 #include "documents/pdf/pdf_layout.h"
+#include "workflow/lesson_catalogue.h"
 
 namespace dynlab::inline course {
 
@@ -23,6 +24,11 @@ struct DocumentStandard {
 /// The standard of an installed template ("lab_report") or of a template file ("mine.md"). Throws EnvironmentError that
 /// lists the templates when there is none of that name, DocumentError for one that cannot be read.
 DocumentStandard standard_of(const std::string& template_name_or_file);
+
+/// What a lesson asks of reports: its template where that demands something, else its own report in this language, else
+/// the template, which then leaves the form free. Throws EnvironmentError or DocumentError where one of them cannot
+/// be read.
+DocumentStandard standard_of_lesson(const Lesson& lesson, const std::string& language = "en");
 
 /// What is asked for instead of what the document's kind demands.
 struct CheckOptions {

@@ -8,7 +8,6 @@
 
 #include "course/checks/check_functions.h"
 #include "course/findings/document_findings.h"
-#include "course/findings/lesson_standard.h"
 #include "documents/document_rules.h"
 #include "documents/error.h"
 #include "documents/solutions.h"

@@ -2,8 +2,8 @@
 
 #include <set>
 
+#include "course/findings/document_findings.h"
 #include "course/findings/findings_report.h"
-#include "course/findings/lesson_standard.h"
 
 namespace dynlab::inline course {
 namespace {
