@@ -23,4 +23,14 @@ std::string feedback_markdown(const Grade& grade);
 void set_feedback(const Grade& grade, const std::filesystem::path& pdf, const std::filesystem::path& made,
                   const BoxedDocuments* documents);
 
+/// What feedback says around the words of the checks, which are their author's; {} stands for what is filled in.
+struct FeedbackWords {
+    const char *title, *result, *points, *colon, *of, *not_graded, *checks;
+    const char *ran, *silent, *unreadable, *not_begun, *not_ended;
+    const char *late, *better_counts, *newest_counts, *closing;
+};
+
+/// Of "fr"; English for all else.
+const FeedbackWords& feedback_words(const std::string& language);
+
 }  // namespace dynlab::inline course

@@ -9,7 +9,6 @@
 
 #include "course/findings/french_sentences.h"
 #include "course/grading/feedback.h"
-#include "course/grading/feedback_words.h"
 #include "course/grading/grade.h"
 #include "course/hand_ins/roster.h"
 #include "course/returns/mailing.h"
