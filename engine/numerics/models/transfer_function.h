@@ -69,5 +69,7 @@ double bandwidth(const TransferFunction& G);
 
 /// Three lines, numerator over denominator, as a terminal shows it: names the delay and Ts.
 std::string to_text(const TransferFunction& G, int significant_digits = 5);
+/// G as a formula of LaTeX, "G(s) = \frac{2}{s + 1} e^{-0.5 s}", without what sets it apart from text.
+std::string to_latex(const TransferFunction& G, int significant_digits = 5);
 
 }  // namespace dynlab::inline numerics

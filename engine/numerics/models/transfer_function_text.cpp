@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "numerics/models/transfer_function.h"
-#include "numerics/models/transfer_function_latex.h"
 #include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {

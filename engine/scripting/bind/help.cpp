@@ -1,6 +1,6 @@
 #include <array>
 
-#include "numerics/models/transfer_function_latex.h"
+#include "numerics/models/transfer_function.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/model.h"
