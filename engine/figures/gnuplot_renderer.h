@@ -2,11 +2,17 @@
 #include <filesystem>
 #include <memory>
 
-#include "figures/error.h"
 #include "figures/figure.h"
 #include "platform/cache.h"
+#include "platform/error.h"
 
 namespace dynlab::inline figures {
+
+/// A figure could not be drawn: names its file and says what gnuplot complained of.
+class FigureError : public EnvironmentError {
+  public:
+    using EnvironmentError::EnvironmentError;
+};
 
 enum class FigureFormat { kPdf, kSvg, kPng };
 FigureFormat figure_format(

@@ -8,7 +8,8 @@ namespace dynlab::inline platform {
 /// code 3.
 class MissingProgram : public std::runtime_error {
   public:
-    MissingProgram(const std::string& program, const std::string& package);
+    MissingProgram(const std::string& program, const std::string& package)
+        : std::runtime_error(program + " is not installed: sudo apt install " + package) {}
     explicit MissingProgram(const std::string& sentence) : std::runtime_error(sentence) {}  ///< as another dynlab said
 };
 
