@@ -16,7 +16,7 @@
 #include "platform/error.h"
 #include "platform/signature.h"
 #include "platform/temporary_folder.h"
-#include "workflow/shares/heartbeat_watch.h"
+#include "workflow/shares/heartbeat.h"
 
 namespace dynlab {
 namespace test_spool {

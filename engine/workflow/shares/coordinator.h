@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-#include "workflow/shares/heartbeat_watch.h"
+#include "workflow/shares/heartbeat.h"
 #include "workflow/shares/spool.h"
 #include "workflow/shares/worker_engine.h"
 

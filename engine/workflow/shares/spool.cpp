@@ -8,15 +8,23 @@
 #include <algorithm>
 #include <random>
 
+#include "data_io/values/cbor_values.h"
 #include "data_io/values/json_values.h"
 #include "platform/error.h"
 #include "platform/files/plain_file.h"
 #include "platform/files/replacement_file.h"
 #include "platform/signature.h"
 #include "platform/system_call.h"
-#include "workflow/shares/share_descriptions.h"
 
 namespace dynlab::inline workflow {
+
+/// What lies in a spool, as data_io/values/described.h stores it.
+DYNLAB_DESCRIBE(SpoolIdentity, id, purpose, program, isolation, lease_ms, grace_ms)
+DYNLAB_DESCRIBE(ShareJob, kind, common, title, bytes)
+DYNLAB_DESCRIBE(ShareResult, worker, node, signature, bytes, trouble)
+DYNLAB_DESCRIBE(WorkerStatus, node, isolation, hands, beat, done, trouble, refused, ended)
+DYNLAB_DESCRIBE(CoordinatorStatus, beat, wanted, done, given_up, lost, blamed)
+
 namespace {
 
 namespace fs = std::filesystem;

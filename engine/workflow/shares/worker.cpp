@@ -21,7 +21,7 @@
 #include "platform/locks/abandoned_folders.h"
 #include "platform/signature.h"
 #include "platform/system_call.h"
-#include "workflow/shares/heartbeat_watch.h"
+#include "workflow/shares/heartbeat.h"
 #include "workflow/shares/shared_identity.h"
 
 namespace dynlab::inline workflow {
