@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "numerics/linalg/decompositions.h"
-#include "numerics/linalg/tridiagonal_form.h"
 
 namespace dynlab::inline numerics {
 

@@ -43,6 +43,12 @@ Vector symmetric_eigenvalues(const MatrixView& A) {
     return Eigen::SelfAdjointEigenSolver<Matrix>(A, Eigen::EigenvaluesOnly).eigenvalues();
 }
 
+TridiagonalForm tridiagonal_form(const MatrixView& A, const VectorView& b) {
+    if (A.rows() == 1) return {A.diagonal(), Vector(), b};
+    const Eigen::Tridiagonalization<Matrix> form(A);
+    return {form.diagonal(), form.subDiagonal(), form.matrixQ().adjoint() * b};
+}
+
 Eigenvectors eigenvectors(const MatrixView& A) {
     const Eigen::EigenSolver<Matrix> eigen(A);
     return {eigen.eigenvalues(), eigen.eigenvectors()};

@@ -28,6 +28,13 @@ struct SymmetricEigen {
 SymmetricEigen symmetric_eigen(const MatrixView& A);
 Vector symmetric_eigenvalues(const MatrixView& A);
 
+/// A = Q T Q' for a symmetric A, T tridiagonal: its diagonal, what stands beside it, and Q'b. A quarter of the work of
+/// the eigenvalues.
+struct TridiagonalForm {
+    Vector diagonal, beside, rotated;
+};
+TridiagonalForm tridiagonal_form(const MatrixView& A, const VectorView& b);
+
 /// Replaces the square matrix A by D^-1 A D and returns the diagonal of D: powers of two, chosen so that the norms
 /// of each row and column of A nearly agree. No rounding error is made; eigenvalues and functions of badly scaled
 /// matrices (companion matrices above all) become accurate. (Parlett and Reinsch 1969.)

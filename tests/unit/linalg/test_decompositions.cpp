@@ -1,13 +1,13 @@
-#include "numerics/linalg/tridiagonal_form.h"
+#include "numerics/linalg/decompositions.h"
 
 #include <gtest/gtest.h>
 
-namespace test_tridiagonal_form {
+namespace test_decompositions {
 
 using namespace dynlab;
 
-TEST(tridiagonal_form,
-     keeps_traces_and_quadratic_forms) {  // oracle: tr A, |A|^2 and b'A b do not change with the basis
+// oracle: tr A, |A|^2 and b'A b do not change with the basis
+TEST(decompositions, tridiagonal_form_keeps_traces_and_quadratic_forms) {
     for (const Index n : {1, 2, 7, 30}) {
         Matrix A = Matrix::Random(n, n);
         A = (A + A.transpose()).eval();
@@ -23,4 +23,4 @@ TEST(tridiagonal_form,
     }
 }
 
-}  // namespace test_tridiagonal_form
+}  // namespace test_decompositions
