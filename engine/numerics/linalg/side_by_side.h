@@ -1,7 +1,9 @@
 #pragma once
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <cstddef>
 
 namespace dynlab::inline numerics {
@@ -16,6 +18,11 @@ void side_by_side(std::size_t count, const Work& work, bool long_enough = true) 
         return;
     }
     tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, count, work, tbb::simple_partitioner()); });
+}
+
+/// Threads of a task arena for a wish: all cores when it is 0, never more than there are.
+inline int thread_count(int wanted) {
+    return wanted > 0 ? std::min(wanted, tbb::info::default_concurrency()) : tbb::task_arena::automatic;
 }
 
 }  // namespace dynlab::inline numerics

@@ -10,8 +10,8 @@
 #include "numerics/error.h"
 #include "numerics/estimators/coe.h"
 #include "numerics/estimators/srivc.h"
-#include "numerics/filters/thread_count.h"
 #include "numerics/fit/transfer_refinement.h"
+#include "numerics/linalg/side_by_side.h"
 
 namespace dynlab::inline numerics {
 

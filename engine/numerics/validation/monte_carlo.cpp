@@ -11,7 +11,7 @@
 #include <mutex>
 
 #include "numerics/error.h"
-#include "numerics/filters/thread_count.h"
+#include "numerics/linalg/side_by_side.h"
 #include "numerics/number_text.h"
 #include "numerics/signals/random.h"
 #include "numerics/signals/robust_statistics.h"

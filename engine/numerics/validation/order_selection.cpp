@@ -11,9 +11,9 @@
 
 #include "numerics/error.h"
 #include "numerics/estimators/srivc.h"
-#include "numerics/filters/thread_count.h"
 #include "numerics/fit/integrated_input.h"
 #include "numerics/fit/search_starts.h"
+#include "numerics/linalg/side_by_side.h"
 #include "numerics/validation/compare.h"
 #include "numerics/validation/fit_measures.h"
 #include "numerics/validation/uncertainty.h"
