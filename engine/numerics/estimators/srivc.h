@@ -1,5 +1,5 @@
 #pragma once
-#include "numerics/fit/search_aids.h"
+#include "numerics/fit/transfer_search.h"
 
 namespace dynlab::inline numerics {
 

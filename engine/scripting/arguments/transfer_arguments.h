@@ -2,7 +2,7 @@
 #include <span>
 #include <vector>
 
-#include "numerics/fit/search_aids.h"
+#include "numerics/fit/transfer_search.h"
 #include "scripting/arguments/estimation.h"
 #include "scripting/arguments/order_vector.h"
 
