@@ -4,7 +4,6 @@
 #include <set>
 #include <sstream>
 
-#include "documents/cell_marker.h"
 #include "documents/error.h"
 #include "documents/script_header.h"
 #include "documents/solutions.h"
@@ -102,6 +101,10 @@ class CellReader {
     std::set<std::string> ids_;
 };
 
+std::string_view without_leading_blanks(std::string_view text) {
+    return text.substr(std::min(text.find_first_not_of(" \t"), text.size()));
+}
+
 }  // namespace
 
 int Cell::last_line() const {
@@ -134,6 +137,18 @@ std::filesystem::path bibliography_of(const PercentScript& script) {
 
 PercentScript read_percent_script(const std::filesystem::path& file) {
     return parse_percent_script(text_of_source(file), file);
+}
+
+bool is_cell_marker(std::string_view line) {
+    return line.starts_with("--") && without_leading_blanks(line.substr(2)).starts_with("%%");
+}
+
+std::string_view cell_marker_options(std::string_view line) {
+    return without_leading_blanks(without_leading_blanks(line.substr(2)).substr(2));
+}
+
+bool is_text_cell_marker(std::string_view line) {
+    return is_cell_marker(line) && cell_marker_options(line).starts_with("[markdown]");
 }
 
 }  // namespace dynlab::inline documents

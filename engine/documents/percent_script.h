@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace dynlab::inline documents {
@@ -55,5 +56,9 @@ PercentScript read_percent_script(const std::filesystem::path& file);
 /// The file that the header names, beside the script; empty where it names none.
 std::filesystem::path bibliography_of(const PercentScript& script);
 PercentScript parse_percent_script(const std::string& source, const std::filesystem::path& name);
+
+bool is_cell_marker(std::string_view line);                   ///< `-- %%` and its options
+bool is_text_cell_marker(std::string_view line);              ///< `-- %% [markdown]` and its options
+std::string_view cell_marker_options(std::string_view line);  ///< what follows `-- %%`
 
 }  // namespace dynlab::inline documents

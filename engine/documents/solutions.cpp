@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "documents/cell_marker.h"
 #include "documents/error.h"
+#include "documents/percent_script.h"
 #include "documents/text_lines.h"
 #include "platform/text/small_letters.h"
 

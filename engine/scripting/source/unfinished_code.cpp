@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "documents/cell_marker.h"
+#include "documents/percent_script.h"
 #include "documents/text_lines.h"
 #include "scripting/source/lua_tokens.h"
 

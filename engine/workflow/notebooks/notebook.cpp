@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "documents/cell_marker.h"
 #include "documents/error.h"
+#include "documents/percent_script.h"
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"
 
