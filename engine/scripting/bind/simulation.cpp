@@ -2,10 +2,9 @@
 
 #include "figures/histogram.h"
 #include "figures/plots/bode_plot.h"
-#include "figures/plots/impulse_plot.h"
 #include "figures/plots/nyquist_plot.h"
 #include "figures/plots/pole_zero_map.h"
-#include "figures/plots/step_plot.h"
+#include "figures/plots/time_response_plots.h"
 #include "numerics/simulation/frequency_response.h"
 #include "numerics/simulation/lsim.h"
 #include "numerics/simulation/time_response.h"

@@ -7,7 +7,7 @@
 #include "figures/plots/cross_validation_plot.h"
 #include "figures/plots/pole_zero_map.h"
 #include "figures/plots/residual_plot.h"
-#include "figures/plots/step_plot.h"
+#include "figures/plots/time_response_plots.h"
 #include "numerics/error.h"
 #include "numerics/signals/prbs.h"
 #include "numerics/signals/random.h"

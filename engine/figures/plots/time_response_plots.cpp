@@ -1,9 +1,13 @@
-#include "figures/plots/time_response_panel.h"
+#include "figures/plots/time_response_plots.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
+#include "figures/confidence_band.h"
 #include "numerics/error.h"
+#include "numerics/simulation/time_response.h"
+#include "numerics/statistics/distributions.h"
 
 namespace dynlab::inline figures {
 namespace {
@@ -26,8 +30,8 @@ Vector instants(const TransferFunction& G, const Vector& wanted, double end) {
     return Vector::LinSpaced(count, 0, static_cast<double>(count - 1) * G.Ts());
 }
 
-}  // namespace
-
+/// What step_plot and impulse_plot share: one curve per model over one window. `discrete_style` draws the samples of
+/// discrete models.
 Figure time_response_figure(const std::vector<NamedModel>& models, const Vector& t, CurveStyle discrete_style,
                             const std::function<TimeResponse(const TransferFunction&, const VectorView&)>& response) {
     if (models.empty()) throw InvalidArgument("there are no models to plot");
@@ -45,6 +49,25 @@ Figure time_response_figure(const std::vector<NamedModel>& models, const Vector&
         panel.curves.push_back(std::move(curve));
     }
     return Figure(std::move(panel));
+}
+
+}  // namespace
+
+Figure step_plot(const std::vector<NamedModel>& models, const Vector& t) {
+    Figure figure = time_response_figure(models, t, CurveStyle::kStairs, step_response);
+    Panel& panel = figure.panels.front();
+    fix_colours(panel);
+    for (std::size_t i = 0; i < models.size(); ++i) {
+        if (!models[i].confidence) continue;
+        const auto& [model, level] = *models[i].confidence;
+        const Vector width = normal_half_width(level) * step_response_std(model, panel.curves[i].x);
+        add_confidence_band(panel, i, width, level);
+    }
+    return figure;
+}
+
+Figure impulse_plot(const std::vector<NamedModel>& models, const Vector& t) {
+    return time_response_figure(models, t, CurveStyle::kStems, impulse_response);
 }
 
 }  // namespace dynlab::inline figures
