@@ -1,12 +1,9 @@
 #include <iostream>
 #include <memory>
-#include <thread>
 
 #include "cli/commands.h"
+#include "cli/course/grading_options.h"
 #include "course/grading/check_trial.h"
-#include "platform/atomic_file.h"
-#include "platform/cache.h"
-#include "platform/program_lookup.h"
 #include "platform/terminal/terminal_text.h"
 
 namespace dynlab::inline cli {
@@ -18,15 +15,8 @@ struct ChecksArguments {
 };
 
 int try_them(const ChecksArguments& words) {
-    GradingSetup setup;
-    setup.lesson = find_lesson(words.lesson);
+    GradingSetup setup = trial_setup(find_lesson(words.lesson), words.secret, words.timeout);
     if (!words.folder.empty()) setup.more_checks = words.folder;
-    setup.isolation = strongest_isolation();
-    setup.timeout = std::chrono::seconds(words.timeout);
-    setup.program = running_program();
-    setup.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-    if (!words.secret.empty()) setup.secret = read_file(words.secret);
-    if (const Cache cache; cache.lasting()) setup.call_memory = cache.root();
     const CheckTrial trial = try_checks_of(setup);
     std::cout << terminal_text(trial_in_words(trial));
     return trial.sound() ? kDone : kFailed;
@@ -43,13 +33,8 @@ void add_checks(CLI::App& app, Action& action) {
     command->add_option("FOLDER", words->folder, "Your own checks (*.lua); the lesson's alone unless given")
         ->type_name("FOLDER");
     command->add_option("--lesson", words->lesson, "The lesson")->type_name("NN")->required();
-    command->add_option("--secret", words->secret, "File whose content the hidden records are drawn from")
-        ->type_name("FILE")
-        ->check(CLI::ExistingFile);
-    command->add_option("--timeout", words->timeout, "Seconds for each run of a script")
-        ->type_name("S")
-        ->capture_default_str()
-        ->check(CLI::Range(1, 3600));
+    add_secret_option(*command, words->secret);
+    add_timeout_option(*command, words->timeout);
     command->footer(
         "Tried are the worked solution, the untouched starter, the lesson's wrong_*.lua and right_*.lua, your own\n"
         "scripts FOLDER/try/*.lua, and the worked solution with one answer 1.5 times as large, of the other sign, or\n"

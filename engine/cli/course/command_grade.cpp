@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "cli/commands.h"
+#include "cli/course/grading_options.h"
 #include "cli/document_command.h"
 #include "cli/options/share_options.h"
 #include "course/grading/grading.h"
@@ -98,9 +99,7 @@ void add_grade(CLI::App& app, Action& action) {
     command->add_option("--out", words->out, "Folder for the results; kept and added to")->type_name("OUT")->required();
     command->add_option("--checks", words->checks, "Folder with your own checks (*.lua), which students never see")
         ->type_name("FOLDER");
-    command->add_option("--secret", words->secret, "File whose content the hidden records are drawn from")
-        ->type_name("FILE")
-        ->check(CLI::ExistingFile);
+    add_secret_option(*command, words->secret);
     command
         ->add_option("--roster", words->roster,
                      "CSV with the columns id, name, group (also language: en or fr): a row of marks a student")
@@ -132,10 +131,7 @@ void add_grade(CLI::App& app, Action& action) {
         ->type_name("N")
         ->check(CLI::Range(1, 256));
     add_share_options(*command, words->on, words->spool, words->lease);
-    command->add_option("--timeout", words->timeout, "Seconds for each run of a script")
-        ->type_name("S")
-        ->capture_default_str()
-        ->check(CLI::Range(1, 3600));
+    add_timeout_option(*command, words->timeout);
     command->add_option("--isolation", words->isolation, "full: file system, network and processes of its own")
         ->type_name("full|process")
         ->capture_default_str()

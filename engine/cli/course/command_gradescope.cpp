@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cli/commands.h"
+#include "cli/course/grading_options.h"
 #include "course/returns/gradescope.h"
 #include "platform/atomic_file.h"
 #include "platform/program_lookup.h"
@@ -35,19 +36,13 @@ void add_gradescope(CLI::App& app, Action& action) {
     auto words = std::make_shared<GradescopeArguments>();
     CLI::App* command = app.add_subcommand("gradescope", "Make the autograder of a lesson for Gradescope, as one zip");
     command->add_option("LESSON", words->lesson, "The lesson's number or name, or its folder")->required();
-    command->add_option("--secret", words->secret, "File whose content the hidden records are drawn from")
-        ->type_name("FILE")
-        ->required()
-        ->check(CLI::ExistingFile);
+    add_secret_option(*command, words->secret)->required();
     command->add_option("-o,--output", words->output, "The zip to make; NN_name-autograder.zip here unless given")
         ->type_name("FILE.zip");
     command->add_option("--checks", words->checks, "Folder with your own checks (*.lua), which students never see")
         ->type_name("FOLDER")
         ->check(CLI::ExistingDirectory);
-    command->add_option("--timeout", words->timeout, "Seconds for each run of a script")
-        ->type_name("S")
-        ->capture_default_str()
-        ->check(CLI::Range(1, 3600));
+    add_timeout_option(*command, words->timeout);
     command->footer(
         "The zip holds setup.sh, run_autograder and all they need; upload it, and choose a base image that is at "
         "least\n"

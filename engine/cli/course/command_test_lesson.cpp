@@ -1,14 +1,11 @@
 #include <fmt/format.h>
 
 #include <iostream>
-#include <thread>
 
 #include "cli/commands.h"
+#include "cli/course/grading_options.h"
 #include "course/grading/lesson_trial.h"
 #include "numerics/number_text.h"
-#include "platform/atomic_file.h"
-#include "platform/cache.h"
-#include "platform/program_lookup.h"
 #include "platform/terminal/activity_line.h"
 #include "platform/terminal/terminal_text.h"
 
@@ -19,18 +16,6 @@ struct TestLessonArguments {
     std::string lesson, part, secret;
     int timeout = 60;
 };
-
-GradingSetup setup_of(const Lesson& lesson, const TestLessonArguments& words) {
-    GradingSetup setup;
-    setup.lesson = lesson;
-    setup.isolation = strongest_isolation();
-    setup.timeout = std::chrono::seconds(words.timeout);
-    setup.program = running_program();
-    setup.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-    if (!words.secret.empty()) setup.secret = read_file(words.secret);
-    if (const Cache cache; cache.lasting()) setup.call_memory = cache.root();
-    return setup;
-}
 
 int test_lesson(const TestLessonArguments& words) {
     const Lesson lesson = find_lesson(words.lesson);
@@ -48,7 +33,8 @@ int test_lesson(const TestLessonArguments& words) {
     const auto wanted = [&](const char* part) { return words.part.empty() || words.part == part; };
     bool readable = true;  // what cannot be read is not run
     if (wanted("texts")) readable = tell(faults_of_texts(lesson), "texts");
-    if (readable && wanted("checks")) tell(faults_of_checks(setup_of(lesson, words)), "checks");
+    if (readable && wanted("checks"))
+        tell(faults_of_checks(trial_setup(lesson, words.secret, words.timeout)), "checks");
     if (readable && wanted("documents")) {
         LessonFaults found;
         {
@@ -73,13 +59,8 @@ void add_test_lesson(CLI::App& app, Action& action) {
     command->add_option("--part", words->part, "Only a part of it")
         ->type_name("PART")
         ->check(CLI::IsMember({"texts", "checks", "documents"}));
-    command->add_option("--secret", words->secret, "File whose content the hidden records are drawn from")
-        ->type_name("FILE")
-        ->check(CLI::ExistingFile);
-    command->add_option("--timeout", words->timeout, "Seconds for each run of a script")
-        ->type_name("S")
-        ->capture_default_str()
-        ->check(CLI::Range(1, 3600));
+    add_secret_option(*command, words->secret);
+    add_timeout_option(*command, words->timeout);
     command->footer(
         "texts: headers, cells, Lua, names and options, hints, tasks in other languages; nothing is run.\n"
         "checks: the worked solution gets full marks, the untouched starter none, right_*.lua all; each wrong_*.lua\n"
