@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "data_io/variable.h"
 #include "numerics/rigs/catalogue.h"
 
 namespace dynlab::inline workflow {

@@ -1,7 +1,6 @@
 #pragma once
 #include <cmath>
 
-#include "numerics/fit/discrete/arma_noise.h"
 #include "support/transfer_cases.h"
 
 namespace dynlab::test {

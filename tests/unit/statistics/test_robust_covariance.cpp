@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "numerics/error.h"
-#include "numerics/linalg/least_squares.h"
 #include "numerics/signals/random.h"
 #include "numerics/statistics/robust_covariance.h"
 

@@ -5,7 +5,6 @@
 #include <Eigen/LU>
 
 #include "numerics/criteria/frequency_output.h"
-#include "numerics/linalg/polynomial.h"
 #include "numerics/simulation/frequency_response.h"
 
 namespace test_frequency_start {

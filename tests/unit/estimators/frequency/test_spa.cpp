@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "numerics/error.h"
-#include "numerics/signals/correlation.h"
 #include "numerics/signals/random.h"
 #include "support/difference_equation.h"
 #include "support/thrown_message.h"
