@@ -76,7 +76,7 @@ export function estimatePanel() {
 function trapsOf(step, form) {
   const predicts = form?.domain === "discrete" && /^A y = B u \+ (C )?e$|C\/D e/.test(form.structure);
   const shift = preparingSteps().find((one) => one.on && one.function === "shift"), delay = rowOf(step)?.delay;
-  return [...(predicts ? [say("predicts")] : []), ...(shift && delay > 0 ? [say("twoDelays").replace("%1", shift.arguments.at(-1)).replace("%2", shortNumber(delay))] : [])];
+  return [...(predicts ? [say("predicts")] : []), ...(shift && delay > 0 ? [say("twoDelays", shift.arguments.at(-1), shortNumber(delay))] : [])];
 }
 const rightSide = (step) => (step.function ? written({ ...step, names: [], local: false, on: true }) : step.arguments[0]);
 
@@ -187,7 +187,7 @@ export function modelsPanel() {
     return line;
   });
   const ticked = steps.filter((step) => step.on && !isHidden(step.names[0])).length, drawn = drawnModels().length;
-  const few = drawn < ticked ? [element("p", { className: "warning", textContent: say("fewDrawn").replace("%1", drawn).replace("%2", ticked) })] : [];
+  const few = drawn < ticked ? [element("p", { className: "warning", textContent: say("fewDrawn", drawn, ticked) })] : [];
   const legend = element("details", {}, element("summary", { textContent: say("columns") }), element("dl", {}, ...COLUMNS.flatMap(([key]) => [element("dt", { textContent: say(key) }), element("dd", { textContent: say(`${key}About`) })])));
   const node = element("section", { className: "models", tabIndex: -1, ariaLabel: say("models") }, element("h2", {}, say("models"), " ", chosen ? actionsOf(chosen) : ""),
     ...few, element("table", {}, element("thead", {}, head), element("tbody", {}, ...body)), legend);

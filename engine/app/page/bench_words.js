@@ -1,6 +1,8 @@
 // What the workbench says, in English and French.
-const WORDS = {
-  undo: ["Undo", "Annuler"], redo: ["Redo", "Rétablir"], stop: ["Stop", "Arrêter"], pdf: ["Report (PDF)", "Rapport (PDF)"],
+import { addWords, isFrench, withComma } from "/words.js";
+
+addWords({
+  undo: ["Undo", "Annuler"], redo: ["Redo", "Rétablir"], pdf: ["Report (PDF)", "Rapport (PDF)"],
   script: ["Script", "Script"], close: ["Close", "Fermer"], views: ["Views", "Vues"], why: ["why?", "pourquoi ?"],
   record: ["Record", "Enregistrement"], preparation: ["Preparation", "Préparation"], parts: ["Estimation and validation", "Estimation et validation"],
   estimate: ["Estimate", "Estimer"], models: ["Models", "Modèles"], known: ["Known system", "Système connu"], reading: ["Read by hand", "Lecture à la main"],
@@ -26,8 +28,8 @@ const WORDS = {
   independent: ["u in rest", "u dans reste"], yesWord: ["yes", "oui"], noWord: ["no", "non"], shown: ["shown", "montré"],
   copy: ["Copy", "Copier"], rename: ["Rename", "Renommer"], intoScript: ["+ report", "+ rapport"], failed: ["failed", "échec"],
   older: ["of the script before the mistake", "du script avant l'erreur"], ended: ["dynlab has ended; this is its last state", "dynlab est terminé ; voici son dernier état"],
-  noAnswer: ["no answer from dynlab; waiting for it", "pas de réponse de dynlab ; en attente"], running: ["computing", "calcul"],
-  ready: ["up to date", "à jour"], stopped: ["stopped; what stands before is shown", "arrêté ; ce qui précède est montré"], again: ["Run again", "Relancer"], mistake: ["stopped at a mistake", "arrêté par une erreur"], line: ["line", "ligne"],
+  running: ["computing", "calcul"],
+  ready: ["up to date", "à jour"], stopped: ["stopped; what stands before is shown", "arrêté ; ce qui précède est montré"], again: ["Run again", "Relancer"], line: ["line", "ligne"],
   system: ["system", "système"], inputSignal: ["input", "entrée"], noise: ["noise, sigma", "bruit, sigma"], runs: ["runs", "répétitions"],
   begin: ["Begin a study", "Commencer une étude"], parameter: ["parameter", "paramètre"], truth: ["truth", "vrai"], meanOf: ["mean", "moyenne"],
   scatter: ["std", "écart type"], bound: ["Cramér–Rao", "Cramér–Rao"], reported: ["reported std", "écart type annoncé"], value: ["estimate", "estimation"], error: ["std. error", "erreur type"],
@@ -37,7 +39,7 @@ const WORDS = {
   estimateHere: ["Estimate from here", "Estimer à partir d'ici"],
   tooFew: ["There are no two signals in this file.", "Ce fichier n'a pas deux signaux."],
   asked: ["This script runs programs. Run it? Say yes only if you know where it comes from.", "Ce script exécute des programmes. L'exécuter ? Dites oui seulement si vous savez d'où il vient."],
-  allow: ["Run it", "L'exécuter"], shapeFirst: ["First order", "Premier ordre"], shapeSecond: ["Second order", "Second ordre"], shapeDelayed: ["First order with dead time", "Premier ordre avec retard pur"],
+  shapeFirst: ["First order", "Premier ordre"], shapeSecond: ["Second order", "Second ordre"], shapeDelayed: ["First order with dead time", "Premier ordre avec retard pur"],
   argument: ["argument", "argument"], slider: ["slider", "curseur"], methodOf: ["Method of", "Méthode de"], colon: [":", "\u202f:"],
   controls: ["Controls", "Commandes"], bar: ["Session", "Session"], language: ["Language", "Langue"], giveUp: ["Cancel", "Annuler"], newName: ["new name", "nouveau nom"],
   invitation: ["Open a record at the left, or begin a study of a known system there: pictures and models stand here then.",
@@ -74,7 +76,7 @@ const WORDS = {
   outliersStep: ["Outliers", "Valeurs aberrantes"], rangeStep: ["Range", "Étendue"],
   noStep: ["The input of this record is no single step, or the response has not settled.", "L'entrée n'est pas un échelon unique, ou la réponse n'est pas établie."],
   exports: ["Exports", "Exportations"], exportModels: ["Models", "Modèles"], exportData: ["Prepared record", "Enregistrement préparé"], exportScript: ["Script", "Script"],
-};
+});
 const VIEWS = {
   record: ["Record", "Enregistrement"], second: ["Second record", "Second enregistrement"], spectrum: ["Spectrum", "Spectre"], compare: ["Simulation and record", "Simulation et mesure"],
   residuals: ["Simulation residuals", "Résidus de simulation"], step: ["Step response", "Réponse indicielle"], impulse: ["Impulse response", "Réponse impulsionnelle"],
@@ -82,16 +84,11 @@ const VIEWS = {
   correlation: ["Impulse response by correlation", "Réponse par corrélation"], delay: ["Loss over the delay", "Critère selon le retard"],
   reading: ["Read by hand", "Lecture à la main"], orders: ["Orders", "Ordres"], study: ["Monte Carlo study", "Étude de Monte Carlo"],
 };
-let place = navigator.language?.startsWith("fr") ? 1 : 0;
-
-export const useLanguage = (code) => { place = code === "fr" ? 1 : 0; document.documentElement.lang = code; };
-export const isFrench = () => place === 1;
-export const say = (key) => WORDS[key]?.[place] ?? key;
-export const viewName = (key) => VIEWS[key]?.[place] ?? key;
+export { isFrench, label, say, useLanguage } from "/words.js";
+export const viewName = (key) => VIEWS[key]?.[isFrench() ? 1 : 0] ?? key;
 export const viewNames = () => Object.keys(VIEWS);
 /// A number as a table shows it.
 export function shortNumber(value, digits = 4) {
   if (value === null || value === undefined || typeof value !== "number") return "";
-  const text = String(Number(value.toPrecision(digits))).replace("-", "−");
-  return place === 1 ? text.replace(".", ",") : text;
+  return withComma(String(Number(value.toPrecision(digits))).replace("-", "−"));
 }

@@ -10,7 +10,7 @@ import { exportsPanel } from "/bench_exports.js";
 import { closeScript, openScript, showMistake, showScript } from "/bench_script.js";
 import { reportIn } from "/bench_report.js";
 import { modelSteps, roles } from "/bench_steps.js";
-import { isFrench, say, useLanguage } from "/bench_words.js";
+import { isFrench, label, say, useLanguage } from "/bench_words.js";
 
 const $ = (id) => document.getElementById(id);
 let connection = "here", opened = false, making = false, viewsBefore = "";
@@ -18,13 +18,10 @@ let connection = "here", opened = false, making = false, viewsBefore = "";
 /// The script's header says the language, in which its run tells everything; the browser's is that of a new session.
 let languageBefore = null;
 const languageOfScript = () => /^-- language:\s*(\w+)/m.exec(session.source)?.[1];
-function label() {
+function speak() {
   useLanguage(languageOfScript() ?? "en");
-  const { lang } = document.documentElement, words = { undo: "undo", redo: "redo", stop: "stop", again: "again", "make-pdf": "pdf", "show-script": "script", "close-help": "close",
-                                                       asked: "asked", allow: "allow", invitation: "invitation", "take-name": "rename", "give-up": "giveUp" };
-  for (const [id, key] of Object.entries(words)) $(id).textContent = say(key);
-  const names = { steps: "controls", views: "views", script: "script", language: "language", "bench-bar": "bar", "help-text": "help" };
-  for (const [id, key] of Object.entries(names)) $(id).setAttribute("aria-label", say(key));
+  label();
+  const { lang } = document.documentElement;
   $("language").value = isFrench() ? "fr" : "en";
   if (languageBefore && languageBefore !== lang) { renewTiles(); viewsBefore = ""; }
   languageBefore = lang;
@@ -138,7 +135,7 @@ function placeOf(root, node) {
 const nodeAt = (root, path) => path.reduce((node, i) => node?.children[i], root);
 
 function draw(changed) {
-  if (changed.source) label();
+  if (changed.source) speak();
   showState();
   if (changed.source || changed.whole || changed.error || changed.views.some((name) => ["variables", "models", "advice"].includes(name))) drawPanels();
   const names = shownViews().join();
