@@ -3,12 +3,13 @@
 const dynlabMotion = (() => {
   "use strict";
   const { Painter, palette, clamp } = dynlabDrawing;
-  const french = document.documentElement.lang.startsWith("fr");
-  const WORDS = french
-    ? { play: "Lecture", pause: "Pause", time: "Instant", speed: "Vitesse", real: "temps réel", times: (part) => `${part} fois plus lent`,
-        measured: "mesuré", simulated: "simulé", stage: "Le montage en mouvement" }
-    : { play: "Play", pause: "Pause", time: "Instant", speed: "Speed", real: "real time", times: (part) => `${part} times slower`,
-        measured: "measured", simulated: "simulated", stage: "The rig in motion" };
+  const LANGUAGES = {
+    fr: { play: "Lecture", pause: "Pause", time: "Instant", speed: "Vitesse", real: "temps réel", times: (part) => `${part} fois plus lent`,
+          measured: "mesuré", simulated: "simulé", stage: "Le montage en mouvement" },
+    en: { play: "Play", pause: "Pause", time: "Instant", speed: "Speed", real: "real time", times: (part) => `${part} times slower`,
+          measured: "measured", simulated: "simulated", stage: "The rig in motion" },
+  };
+  const say = () => LANGUAGES[document.documentElement.lang.startsWith("fr") ? "fr" : "en"];  // a page may change it
   const RIM = 0.3, LARGER = 1.5, STEP = 0.02, SLOWER = [2, 5, 10];
 
   const moving = new Set();
@@ -39,7 +40,7 @@ const dynlabMotion = (() => {
       const controls = make("div", "controls");
       this.button = make("button", "", { onclick: () => this.toggle() });
       this.scrubber = make("input", "", { type: "range", min: this.first, max: this.last, step: STEP });
-      this.scrubber.setAttribute("aria-label", WORDS.time);
+      this.scrubber.setAttribute("aria-label", say().time);
       this.scrubber.oninput = () => { this.pause(); this.show(Number(this.scrubber.value)); };
       this.scrubber.onkeydown = (event) => {
         if (event.key !== " ") return;
@@ -48,9 +49,9 @@ const dynlabMotion = (() => {
       };
       this.time = make("output", "time");
       this.select = make("select");
-      this.select.setAttribute("aria-label", WORDS.speed);
+      this.select.setAttribute("aria-label", say().speed);
       for (const slower of [1, ...SLOWER])
-        this.select.append(make("option", "", { value: 1 / slower, textContent: slower === 1 ? WORDS.real : WORDS.times(slower) }));
+        this.select.append(make("option", "", { value: 1 / slower, textContent: slower === 1 ? say().real : say().times(slower) }));
       this.select.onchange = () => { this.speed = Number(this.select.value); };
       controls.append(this.button, this.scrubber, this.time, this.select);
       this.values = make("div", "values");
@@ -62,7 +63,7 @@ const dynlabMotion = (() => {
     }
 
     get playing() { return moving.has(this); }
-    tellState() { this.button.textContent = this.playing ? WORDS.pause : WORDS.play; }
+    tellState() { this.button.textContent = this.playing ? say().pause : say().play; }
     toggle() { if (this.playing) this.pause(); else this.play(); }
     pause() {
       if (!moving.delete(this)) return;
@@ -104,7 +105,7 @@ const dynlabMotion = (() => {
       const colours = palette(), spoken = [this.time.textContent];
       this.values.replaceChildren(...this.signals.map((panel, k) => {
         const line = document.createElement("div"), words = this.actors.map(({ kind, curves }) =>
-          `${WORDS[kind]} ${panel.y.text(curves[k].at(this.now), comma)}`);
+          `${say()[kind]} ${panel.y.text(curves[k].at(this.now), comma)}`);
         spoken.push(`${panel.y.name}: ${words.join(", ")}`);
         line.append(`${panel.y.name}: `);
         this.actors.forEach(({ curves }, i) => {
@@ -118,7 +119,7 @@ const dynlabMotion = (() => {
       if (this.playing) return;  // nobody can listen so fast
       const text = spoken.join("; ");
       this.scrubber.setAttribute("aria-valuetext", text);
-      this.stage.setAttribute("aria-label", `${WORDS.stage}. ${text}`);
+      this.stage.setAttribute("aria-label", `${say().stage}. ${text}`);
     }
 
     /// Where a point of a part stands while the signals have these values.

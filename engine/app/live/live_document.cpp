@@ -179,6 +179,7 @@ void LiveDocument::read_again(const std::set<fs::path>& changed) {
     remember_.reset();
     or_complain([&] {
         request_ = read_();
+        page_.speak(request_->script.header.language, request_->script.header.lesson);
         std::set<fs::path> data;
         for (const fs::path& file : changed)
             if (data_.contains(file)) data.insert(file);

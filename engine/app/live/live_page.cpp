@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "course/findings/french_sentences.h"
 #include "data_io/values/json_values.h"
 #include "documents/html/web_page.h"
 #include "documents/record_description.h"
+#include "documents/text_lines.h"
 #include "platform/atomic_file.h"
 #include "platform/hash.h"
 #include "platform/text/small_letters.h"
@@ -30,6 +32,23 @@ json sliders_json(const std::map<std::string, RecordedSlider>& sliders) {
     }
     std::sort(list.begin(), list.end(), [](const json& a, const json& b) { return a["order"] < b["order"]; });
     return list;
+}
+
+/// Where the sentence of a command's line begins.
+std::size_t behind_program_name(const std::string& line) {
+    for (const std::string_view begin : {"dynlab: note: ", "dynlab: "})
+        if (line.starts_with(begin)) return begin.size();
+    return 0;
+}
+
+/// What `dynlab check --json` prints, told in French. What was looked at stays as it is: the page reads points in it.
+void put_into_french(json& checked, const std::string& lesson) {
+    if (!checked.is_object() || !checked.contains("findings")) return;
+    const SentenceCatalogue sentences = french_sentences(lesson);
+    for (json& finding : checked["findings"])
+        for (const char* part : {"what", "remedy"})
+            if (finding.is_object() && finding.contains(part) && finding[part].is_string())
+                finding[part] = sentences.translated(finding[part].get<std::string>());
 }
 
 }  // namespace
@@ -74,7 +93,8 @@ void LivePage::show(const SetDocument& document, const PercentScript& script, co
     content_.name = script.file.filename().string();
     content_.head = document.head;
     content_.notes = document.notes;
-    content_.complaints = document.complaints;
+    content_.complaints.clear();
+    for (const std::string& sentence : document.complaints) content_.complaints.push_back(in_language(sentence));
     content_.sliders = record.sliders;
     content_.pieces.clear();
     fresh_.clear();
@@ -139,9 +159,35 @@ PageContent LivePage::content() const {
 
 void LivePage::complain(const std::vector<std::string>& sentences) {
     const std::lock_guard lock(mutex_);
-    if (content_.complaints == sentences) return;
-    content_.complaints = sentences;
+    std::vector<std::string> complaints;
+    for (const std::string& sentence : sentences) complaints.push_back(in_language(sentence));
+    if (content_.complaints == complaints) return;
+    content_.complaints = std::move(complaints);
     changed_ = true;
+}
+
+void LivePage::speak(const std::string& language, const std::string& lesson) {
+    const std::lock_guard lock(mutex_);
+    if (language_ == language && lesson_ == lesson) return;
+    changed_ = findings_changed_ = true;
+    language_ = language;
+    lesson_ = lesson;
+}
+
+std::string LivePage::in_language(const std::string& sentences) const {
+    if (language_ != "fr") return sentences;
+    const SentenceCatalogue french = french_sentences(lesson_);
+    std::string told;
+    for (const std::string& line : lines_of(sentences)) {
+        const std::size_t sentence = behind_program_name(line);
+        told += (told.empty() ? "" : "\n") + line.substr(0, sentence) + french.translated(line.substr(sentence));
+    }
+    return told;
+}
+
+std::string LivePage::told(const std::string& sentences) const {
+    const std::lock_guard lock(mutex_);
+    return in_language(sentences);
 }
 
 void LivePage::set_states(std::map<std::string, CellState> states, bool running) {
@@ -195,6 +241,7 @@ std::string LivePage::json(bool all) const {
                              {"running", running_},
                              {"recalled", recalled_},
                              {"asking", asking_},
+                             {"language", language_},
                              {"name", content_.name},
                              {"complaints", content_.complaints},
                              {"open_answers", content_.open_answers},
@@ -204,9 +251,11 @@ std::string LivePage::json(bool all) const {
                              {"states", ::nlohmann::json::object()}};
     for (const auto& [cell, state] : content_.states)
         page["states"][cell] = {{"state", state.state}, {"seconds", state.seconds}, {"progress", state.progress}};
-    if (all || findings_changed_)
-        page["findings"] =
-            ::nlohmann::json::accept(findings_) ? ::nlohmann::json::parse(findings_) : ::nlohmann::json();
+    if (all || findings_changed_) {
+        ::nlohmann::json& findings = page["findings"];
+        if (::nlohmann::json::accept(findings_)) findings = ::nlohmann::json::parse(findings_);
+        if (language_ == "fr") put_into_french(findings, lesson_);
+    }
     if (all || text_changed_) {
         ::nlohmann::json& pieces = page["pieces"] = ::nlohmann::json::array();
         for (const PagePiece& piece : content_.pieces) pieces.push_back({piece.id, piece.cell, piece.file, piece.line});

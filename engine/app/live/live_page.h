@@ -21,6 +21,9 @@ class LivePage {
     void show(PageContent remembered);
     /// Makes the next version of a document that was set. Figures are read from their files now.
     void show(const SetDocument& document, const PercentScript& script, const RunRecord& record);
+    /// In which the page speaks, and what is told from now on of the document; the sentences of its lesson's checks are
+    /// told in it, too.
+    void speak(const std::string& language, const std::string& lesson);
     /// Text above the page: what is wrong. The document stays as it is.
     void complain(const std::vector<std::string>& sentences);
     void set_states(std::map<std::string, CellState> states, bool running);
@@ -30,7 +33,9 @@ class LivePage {
     void set_open_answers(std::string answers);
     void set_sources(std::map<std::string, std::string> digests);  ///< of the files that the page may change
     void set_hands_in(bool hands_in);                              ///< whether report and zip can be asked for
-    void set_work(std::string findings, bool pdf_is_ready);        ///< findings: JSON, or empty
+    void set_work(std::string findings, bool pdf_is_ready);        ///< findings: JSON, in English, or empty
+    /// What the program says, in the page's language as far as it is known there; line by line.
+    std::string told(const std::string& sentences) const;
 
     PageContent content() const;  ///< of the last version alone
     bool settled() const;  ///< the run came to its end, or to a mistake; not one that was stopped, nor one of before
@@ -46,6 +51,7 @@ class LivePage {
     void add_unseen_cells(const PercentScript& script, std::map<std::string, std::string>& html);
     std::string with_pictures(const SetChunk& chunk, const RunRecord& record);
     std::string keep_picture(const std::filesystem::path& file);
+    std::string in_language(const std::string& sentences) const;
     std::string json(bool all) const;
 
     mutable std::mutex mutex_;
@@ -53,6 +59,7 @@ class LivePage {
     std::vector<std::string> fresh_;  ///< ids that the last version did not have
     std::map<std::string, std::string> sources_;
     std::string findings_;
+    std::string language_ = "en", lesson_;
     bool pdf_is_ready_ = false, hands_in_ = false;
     bool running_ = false, recalled_ = false, asking_ = false;
     bool changed_ = false, text_changed_ = false, findings_changed_ = false;

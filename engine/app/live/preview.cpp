@@ -82,24 +82,25 @@ struct MadeReply {
 };
 DYNLAB_DESCRIBE(MadeReply, done, words)
 
-PageReply not_allowed() {
+PageReply not_allowed(const LivePage& page) {
     constexpr int kForbidden = 403;
-    return {"This document has not been allowed to run: say so on the page.", kPlainText, kForbidden};
+    return {page.told("This document has not been allowed to run: say so on the page."), kPlainText, kForbidden};
 }
 
 /// What was made in the background, and what is made now to hand in.
-void serve_work(WebServer& server, BackgroundWork& background, const Permissions& permissions) {
+void serve_work(WebServer& server, BackgroundWork& background, const Permissions& permissions, const LivePage& page) {
     server.on_get("/document.pdf", [&](const PageRequest&) {
-        if (!permissions.granted()) return not_allowed();
+        if (!permissions.granted()) return not_allowed(page);
         const BackgroundWork::Pdf pdf = background.pdf();
-        return pdf.bytes.empty() ? PageReply{pdf.error, kPlainText, 500} : PageReply{pdf.bytes, "application/pdf"};
+        return pdf.bytes.empty() ? PageReply{page.told(pdf.error), kPlainText, 500}
+                                 : PageReply{pdf.bytes, "application/pdf"};
     });
     if (!background.hands_in()) return;
     const auto makes = [&](BackgroundWork::Made (BackgroundWork::*make)()) {
         return [&, make](const PageRequest&) {
-            if (!permissions.granted()) return not_allowed();
+            if (!permissions.granted()) return not_allowed(page);
             const auto [done, words] = (background.*make)();
-            return PageReply{json_of(MadeReply{done, words}), "application/json"};
+            return PageReply{json_of(MadeReply{done, page.told(words)}), "application/json"};
         };
     };
     server.on_post("/report", makes(&BackgroundWork::make_report));
@@ -110,10 +111,14 @@ void serve_sources(WebServer& server, SourceFiles& sources, LivePage& page) {
     constexpr const char* kJson = "application/json";
     server.on_get("/sources", [&](const PageRequest&) { return PageReply{json_of(sources.read()), kJson}; });
     server.on_post("/save", [&, kJson](const PageRequest& asked) {
-        constexpr int kConflict = 409;
-        const SourceFiles::Outcome outcome = sources.save(from_json<SourceText>(asked.body));
-        page.set_sources(sources.digests());
-        return PageReply{json_of(outcome.now), kJson, outcome.written ? 200 : kConflict};
+        constexpr int kConflict = 409, kFailure = 500;
+        try {
+            const SourceFiles::Outcome outcome = sources.save(from_json<SourceText>(asked.body));
+            page.set_sources(sources.digests());
+            return PageReply{json_of(outcome.now), kJson, outcome.written ? 200 : kConflict};
+        } catch (const EnvironmentError& error) {
+            return PageReply{page.told(error.what()), kPlainText, kFailure};
+        }
     });
 }
 
@@ -184,7 +189,7 @@ void preview(const PreviewOptions& options) {
         page.set_work(background.findings(), background.pdf_is_ready());
         send_changes();
     });
-    serve_work(server, background, permissions);
+    serve_work(server, background, permissions, page);
     page.set_hands_in(background.hands_in());
     server.on_stream([&] { return look_for_readers(), page.whole(); });
     document.on_reading([&](const std::map<std::string, double>& slider_values) {

@@ -146,7 +146,7 @@ function processField(now, act) {
   for (const letter of "DIZU") {
     const box = element("input", { type: "checkbox", checked: letters.has(letter), disabled: letter === "U" && poles === "1" });
     box.onchange = () => { if (box.checked) letters.add(letter); else letters.delete(letter); tell(); };
-    row.append(labelled(letter, box, { D: "delay", I: "integrator", Z: "zero", U: "under-damped pair" }[letter]));
+    row.append(labelled(letter, box, say("letter" + letter)));
   }
   return row;
 }

@@ -1,5 +1,7 @@
 // The document's files beside the page, where it may change them. What is saved says what it was made from: a file that
 // was changed elsewhere meanwhile is not written over, both texts are shown.
+import { say } from "/page_words.js";
+
 const $ = (id) => document.getElementById(id);
 const sources = new Map();  // number -> {number, name, digest, saved, doc, tab, theirs}
 let open = null;            // the one that is shown
@@ -34,8 +36,6 @@ class PlainDoc {
     field.scrollTop = (line / lines.length) * field.scrollHeight - field.clientHeight / 2;
   }
 }
-
-export const kNoAnswer = "dynlab does not answer: start it again and open its new address; your text is still here";
 
 /// Where two texts differ: how many lines are the same at the beginning and at the end.
 function commonLines(a, b) {
@@ -82,7 +82,7 @@ function otherLines(text, own) {
   }
   if (lines.length > 0) return lines.join("\n");
   const { first } = commonLines(theirs, mine);
-  return `  ${first}  ${theirs[first - 1] ?? ""}\n› (lines of yours are not in it)`;
+  return `  ${first}  ${theirs[first - 1] ?? ""}\n› ${say("notInIt")}`;
 }
 
 /// CodeMirror knows one line end only; a file keeps its own.
@@ -93,7 +93,7 @@ function showMarks() {
   for (const source of sources.values()) {
     const dirty = isChanged(source);
     source.tab.textContent = source.name + (dirty ? " •" : "");
-    source.tab.title = dirty ? "not saved yet (Ctrl-S)" : "";
+    source.tab.title = dirty ? say("notYet") : "";
     source.tab.setAttribute("aria-selected", String(source === open));
   }
   $("save").disabled = !open || !isChanged(open);
@@ -156,7 +156,7 @@ async function save(source) {
   try {
     const reply = await fetch("/save", {
       method: "POST", body: JSON.stringify({ number: source.number, name: source.name, text: written, digest: source.digest }) });
-    if (reply.status === 403) throw new TypeError(kNoAnswer);
+    if (reply.status === 403) throw new TypeError(say("lost"));
     if (reply.status !== 200 && reply.status !== 409) throw new Error(await reply.text());
     const now = await reply.json();
     if (reply.status === 409) {
@@ -169,7 +169,7 @@ async function save(source) {
     }
     $("trouble").textContent = "";
   } catch (error) {
-    $("trouble").textContent = `not saved: ${error instanceof TypeError ? kNoAnswer : error.message}`;
+    $("trouble").textContent = say("notSaved", error instanceof TypeError ? say("lost") : error.message);
     source.again = false;
   }
   source.saving = false;

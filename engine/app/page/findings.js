@@ -1,6 +1,8 @@
 // What `dynlab check` finds in the folder, and which answers are open, in a panel beside the document. What is said of
 // one thing is counted once: an answer that is not given stands among the open ones only, and what the lesson's checks
 // take points for stands with the points.
+import { isFrench, say, withComma } from "/page_words.js";
+
 const $ = (id) => document.getElementById(id);
 const make = (name, text = "", kind = "") => Object.assign(document.createElement(name), { textContent: text, className: kind });
 
@@ -13,7 +15,7 @@ function placeOf({ place, page }, { goTo, goToPage }) {
   const line = /([^\s/:]+):(\d+)$/.exec(place ?? "");
   if (line) return button(place, () => goTo(line[1], Number(line[2])));
   if (/^[^\s/:]+\.(lua|md|toml)$/.test(place ?? "")) return button(place, () => goTo(place, 1));
-  if (page || /\.pdf$/.test(place ?? "")) return button(place || `page ${page}`, () => goToPage(page || 1));
+  if (page || /\.pdf$/.test(place ?? "")) return button(place || say("onPage", page), () => goToPage(page || 1));
   return place ? make("span", place, "faint") : null;
 }
 
@@ -27,18 +29,18 @@ function item(finding, ways) {
 
 /// "gain (number)": the name is a button that leads to where the document speaks of it.
 function answer(text, { goToName }) {
-  const node = make("li"), [name] = text.split(" ");
-  node.append(button(name, () => goToName(name)), text.slice(name.length));
+  const node = make("li"), [, name, kind] = /^(\S+) \((.*)\)$/.exec(text);
+  node.append(button(name, () => goToName(name)), ` (${say(kind)})`);
   return node;
 }
 
-const counted = (number, one, many) => `${number} ${number === 1 ? one : many}`;
+const counted = (number, one, many) => say(number === 1 ? one : many, number);
 
 /// "3 of 20 points", where the lesson has checks.
 function pointsIn(checked) {
   for (const text of checked ?? []) {
-    const found = /^checks of lesson .*: ([\d.]+ of [\d.]+ points)$/.exec(text);
-    if (found) return found[1];
+    const found = /^checks of lesson .*: ([\d.]+) of ([\d.]+) points$/.exec(text);
+    if (found) return say("points", withComma(found[1]), withComma(found[2]));
   }
   return "";
 }
@@ -47,30 +49,31 @@ function pointsIn(checked) {
 /// goToPage(number), goToName(name of an answer).
 export function showFindings(result, openAnswers, older, ways) {
   const answers = openAnswers ? openAnswers.split(", ") : [];
-  const isOpen = ({ id, what }) => id === "answer-missing" && answers.some((text) => what.includes(`"${text.split(" ")[0]}"`));
+  const quoted = (what) => /["«]\s*([^\s"»]+)/.exec(what)?.[1];
+  const isOpen = ({ id, what }) => id === "answer-missing" && answers.some((text) => text.split(" ")[0] === quoted(what));
   const findings = (result?.findings ?? []).filter((finding) => !isOpen(finding));
   const rules = findings.filter(({ severity }) => severity === "rule");
   const lost = findings.filter(({ id }) => id === "check-failed");
   const hints = findings.filter((finding) => !rules.includes(finding) && !lost.includes(finding));
   const points = pointsIn(result?.checked);
   const words = [];
-  if (answers.length > 0) words.push(counted(answers.length, "answer open", "answers open"));
-  if (rules.length > 0) words.push(counted(rules.length, "rule broken", "rules broken"));
+  if (answers.length > 0) words.push(counted(answers.length, "answerOpen", "answersOpen"));
+  if (rules.length > 0) words.push(counted(rules.length, "ruleBroken", "rulesBroken"));
   if (hints.length > 0) words.push(counted(hints.length, "hint", "hints"));
   if (points) words.push(points);
-  if (words.length === 0 && result) words.push("checked");
+  if (words.length === 0 && result) words.push(say("checked"));
   const told = words.join(", "), shown = $("show-findings");
   if (shown.textContent !== told) shown.textContent = told;
   shown.hidden = words.length === 0;
   shown.classList.toggle("broken", rules.length > 0);
   shown.classList.toggle("older", older);
-  shown.title = older ? "of the files before the last change; they are being checked again" : "";
+  shown.title = older ? say("older") : "";
   fill($("findings"), { answers, rules, lost, hints, points }, ways);
 }
 
 let filled = "";  // what the panel shows: who reads in it is not disturbed by what is the same
 function fill(panel, content, ways) {
-  const text = JSON.stringify(content);
+  const text = JSON.stringify([isFrench(), content]);
   if (text === filled) return;
   filled = text;
   const { answers, rules, lost, hints, points } = content, parts = [];
@@ -80,16 +83,16 @@ function fill(panel, content, ways) {
     list.append(...nodes);
     parts.push(make("h2", title), list);
   };
-  add("Answers that are not given yet", answers.map((one) => answer(one, ways)));
-  add("To be mended", rules.map((one) => item(one, ways)));
-  add("Hints", hints.map((one) => item(one, ways)));
-  if (points) parts.push(make("h2", `Checks of the lesson: ${points}`));
+  add(say("notGiven"), answers.map((one) => answer(one, ways)));
+  add(say("toMend"), rules.map((one) => item(one, ways)));
+  add(say("remarks"), hints.map((one) => item(one, ways)));
+  if (points) parts.push(make("h2", say("checksOfLesson", points)));
   if (lost.length > 0) {
     const list = make("ul");
     list.append(...lost.map((one) => item(one, ways)));
     parts.push(list);
   }
-  if (answers.length + rules.length + lost.length + hints.length === 0) parts.push(make("p", "dynlab check finds nothing to mend."));
+  if (answers.length + rules.length + lost.length + hints.length === 0) parts.push(make("p", say("nothingToMend")));
   panel.replaceChildren(...parts);
 }
 

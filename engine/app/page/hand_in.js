@@ -1,25 +1,27 @@
 // What is handed in: the report and the zip of the folder, made when somebody asks for them.
 import * as editor from "/editor.js";
+import { say } from "/page_words.js";
 
 const $ = (id) => document.getElementById(id);
-const kTasks = { "make-report": ["report", "the report is being made …"], "make-pack": ["pack", "the folder is being packed …"] };
+const kTasks = { "make-report": ["report", () => say("makingReport")], "make-pack": ["pack", () => say("makingPack")] };
 
 function tell(words, failed = false) {
+  delete $("made").dataset.say;
   $("made").textContent = words;
   $("made").classList.toggle("broken", failed);
 }
 
 async function make(command, meanwhile) {
-  if (editor.hasUnsaved() && !await editor.saveAll()) return tell("not made: the text in the editor is not saved yet", true);
+  if (editor.hasUnsaved() && !await editor.saveAll()) return tell(say("notMade"), true);
   for (const id of Object.keys(kTasks)) $(id).disabled = true;
-  tell(meanwhile);
+  tell(meanwhile());
   try {
     const reply = await fetch(`/${command}`, { method: "POST" });
     if (!reply.ok) throw new Error(await reply.text());
     const { done, words } = await reply.json();
     tell(words.trim(), !done);
   } catch (error) {
-    tell(error instanceof TypeError ? editor.kNoAnswer : error.message, true);
+    tell(error instanceof TypeError ? say("lost") : error.message, true);
   }
   for (const id of Object.keys(kTasks)) $(id).disabled = false;
 }

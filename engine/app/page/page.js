@@ -2,6 +2,7 @@
 import { controlsByCell } from "/sliders.js";
 import * as editor from "/editor.js";
 import { showFindings } from "/findings.js";
+import { label, say, useLanguage, withComma } from "/page_words.js";
 import "/hand_in.js";
 
 const $ = (id) => document.getElementById(id);
@@ -10,6 +11,15 @@ let version = -1;
 let source = null;
 let sliders = [];
 let findings = null;
+let language = null;
+
+/// The page speaks as its document does.
+function speak(code) {
+  if (code === language) return;
+  language = code;
+  useLanguage(code);
+  label();
+}
 
 /// The piece at the top of the window, and how far from there: what must not move.
 function anchor() {
@@ -29,14 +39,14 @@ function hold(held) {
   if (node) window.scrollBy(0, node.getBoundingClientRect().top - held.top);
 }
 
-function element(id, html, cell) {
+function element(id, html) {
   const node = document.createElement("div");
   node.className = "piece";
   node.id = id;
   node.innerHTML = html;
   if (html === "") {  // code that is not printed; shown where it can be changed
     node.classList.add("unseen");
-    const button = Object.assign(document.createElement("button"), { textContent: `${cell}: code that is not printed` });
+    const button = document.createElement("button");
     button.onclick = () => goTo(node.dataset.file, Number(node.dataset.line));
     node.append(button);
   }
@@ -58,7 +68,7 @@ function place(pieces, html) {
     let node = nodes.get(id);
     if (!node) {
       if (!(id in html)) return false;
-      node = element(id, html[id], cell);
+      node = element(id, html[id]);
       if (!first) node.classList.add("fresh");
       if (!first) added.push(node);
       nodes.set(id, node);
@@ -66,6 +76,7 @@ function place(pieces, html) {
     node.dataset.cell = cell;
     node.dataset.line = line;
     node.dataset.file = file;
+    if (node.classList.contains("unseen")) node.firstChild.textContent = say("notPrinted", cell);
     if (node === before) before = before.nextElementSibling;
     else main.insertBefore(node, before);
     while (before?.classList.contains("slider")) before = before.nextElementSibling;
@@ -113,10 +124,10 @@ function showStates(page) {
     node.style.setProperty("--done", page.states[node.dataset.cell]?.progress || 1);
     node.classList.toggle("older", failed > 0 && state === "waiting");
   }
-  const words = page.recalled ? `of the run before${page.running ? "; running again" : ""}`
-    : page.running ? `cell ${Math.min(done + 1, total)} of ${total}${running ? ", " + running : ""}${share > 0 ? `, ${Math.floor(100 * share)} %` : ""}`
-    : failed > 0 ? "stopped at a mistake" : done < total ? `stopped: ${done} of ${total} cells were run` : total > 0 ? `${total} ${total === 1 ? "cell" : "cells"}, ${seconds.toFixed(1)} s` : "";
-  $("state").textContent = words;
+  $("state").textContent = page.recalled ? say(page.running ? "ofBeforeRunning" : "ofBefore")
+    : page.running ? [say("cellOf", Math.min(done + 1, total), total), running, share > 0 ? `${Math.floor(100 * share)} %` : ""].filter(Boolean).join(", ")
+    : failed > 0 ? say("mistake") : done < total ? say("stoppedAfter", done, total)
+    : total > 0 ? say(total === 1 ? "cellDone" : "cellsDone", total, withComma(seconds.toFixed(1))) : "";
   $("stop").hidden = !page.running;
   $("to-mistake").hidden = failed === 0;
 }
@@ -154,6 +165,7 @@ function showComplaints(complaints) {
 function show(page) {
   if (!page.all && version < 0) return;
   if (page.version < version) return;
+  speak(page.language);
   const held = anchor();
   if (page.pieces) {
     if (!page.all && page.version > version + 1 || !place(page.pieces, page.html)) return connect();
@@ -250,7 +262,7 @@ function showPdf(ready, page = 0) {
   if (!pdfShown) return $("page:pdf").replaceChildren();
   if (!anew && !page && $("page:pdf").firstChild) return;
   const frame = document.createElement("iframe");
-  frame.title = "The document as it is printed";
+  frame.title = say("asPrinted");
   frame.src = `/document.pdf?version=${version}#${page ? `page=${page}&` : ""}navpanes=0&view=FitH`;
   $("page:pdf").replaceChildren(frame);
 }
@@ -274,9 +286,9 @@ function connect() {
   source.addEventListener("page", (event) => show(JSON.parse(event.data)));
   source.addEventListener("over", () => {
     source.close();
-    $("state").textContent = "dynlab has ended; this is the last page";
+    $("state").textContent = say("ended");
   });
-  source.onerror = () => { $("state").textContent = "no answer from dynlab; waiting for it"; version = -1; };
+  source.onerror = () => { $("state").textContent = say("noAnswer"); version = -1; };
 }
 
 /// Browsers open six connections to one server, whatever the number of tabs: those that nobody sees let theirs go.
@@ -288,7 +300,7 @@ document.addEventListener("visibilitychange", () => {
 
 async function order(path) {
   const reply = await fetch(path, { method: "POST" }).catch(() => null);
-  if (!reply?.ok) $("state").textContent = editor.kNoAnswer;
+  if (!reply?.ok) $("state").textContent = say("lost");
   $("document").focus({ preventScroll: true });
 }
 $("stop").onclick = () => order("/stop");

@@ -1,5 +1,7 @@
 // Sliders of a document: a control behind the cell that asks for it. What was chosen goes to the server; while a run is
 // under way only the newest choice waits, so that dragging shows every result that there was time for.
+import { say, withComma } from "/page_words.js";
+
 const kPlaces = 1000;  // of a slider without steps
 const controls = new Map();  // name -> {node, input, output, slider}
 const waiting = new Map();   // name -> value that is to be sent
@@ -25,7 +27,7 @@ function placeOf(slider, value) {
   return Math.round(part * kPlaces);
 }
 
-const written = (slider, value) => `${slider.step ? exact(value) : digits(value)}${slider.unit ? "\u202f" + slider.unit : ""}`;
+const written = (slider, value) => withComma(String(slider.step ? exact(value) : digits(value))) + (slider.unit ? "\u202f" + slider.unit : "");
 
 function send() {
   if (sent && performance.now() - sent.at < kLongestWait || waiting.size === 0) return;
@@ -78,7 +80,6 @@ function make(slider) {
   input.type = "range";
   input.id = "slider-" + slider.name;
   label.htmlFor = input.id;
-  reset.textContent = "as in the script";
   const control = { node, label, input, output, reset, slider };
   input.oninput = () => choose(control, valueAt(control.slider, Number(input.value)));
   reset.onclick = () => {
@@ -93,6 +94,7 @@ function make(slider) {
 function update(control, slider) {
   control.slider = slider;
   control.label.textContent = slider.label;
+  control.reset.textContent = say("asInScript");
   control.input.min = 0;
   control.input.max = slider.step ? Math.round((slider.to - slider.from) / slider.step) : kPlaces;
   if (waiting.has(slider.name) || sent && slider.name in sent.values) return;  // the hand is ahead of the page
