@@ -25,7 +25,7 @@ SourceFiles::SourceFiles(const std::vector<fs::path>& files) {
 std::optional<SourceText> SourceFiles::read(std::size_t number) const {
     if (number >= files_.size()) throw EnvironmentError("this document has no such file");
     try {
-        SourceText source{number, files_[number].filename(), read_file(files_[number]), {}};
+        SourceText source{number, files_[number].filename(), read_file(files_[number]), {}, files_[number]};
         if (in_utf8(source.text) != source.text) return {};
         source.digest = digest_of(source.text).hex();
         return source;

@@ -14,10 +14,16 @@ namespace dynlab::inline app {
 struct SourceText {
     std::size_t number = 0;
     std::string name, text;
-    std::string digest;  ///< of the text: who saves says what it was made from
+    std::string digest;      ///< of the text: who saves says what it was made from
+    std::string place = {};  ///< the file, where the text is given
 };
 
-DYNLAB_DESCRIBE(SourceText, number, name, text, digest)
+template <Is<SourceText> T, class V>
+void describe(T& object, V& member) {
+    auto& [number, name, text, digest, place] = object;
+    member("number", number), member("name", name), member("text", text), member("digest", digest);
+    member.unless_empty("place", place);
+}
 
 /// The texts of a document as an editor on the page reads and writes them. For any thread.
 class SourceFiles {

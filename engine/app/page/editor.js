@@ -1,9 +1,10 @@
 // The document's files beside the page, where it may change them. What is saved says what it was made from: a file that
 // was changed elsewhere meanwhile is not written over, both texts are shown.
+import { draftOf, keepDraft, keepDraftSoon, wordsOf } from "/drafts.js";
 import { say } from "/page_words.js";
 
 const $ = (id) => document.getElementById(id);
-const sources = new Map();  // number -> {number, name, digest, saved, doc, tab, theirs}
+const sources = new Map();  // number -> {number, name, place, digest, saved, doc, tab, theirs, draft}
 let open = null;            // the one that is shown
 let mirror = null;          // CodeMirror, where it is installed
 let followCursor = () => {};
@@ -92,11 +93,13 @@ const isChanged = (source) => source.doc.getValue() !== source.saved;
 function showMarks() {
   for (const source of sources.values()) {
     const dirty = isChanged(source);
-    source.tab.textContent = source.name + (dirty ? " •" : "");
-    source.tab.title = dirty ? say("notYet") : "";
+    source.tab.textContent = source.name + (dirty || source.draft ? " •" : "");
+    source.tab.title = dirty ? say("notYet") : source.draft ? wordsOf(source.draft) : "";
     source.tab.setAttribute("aria-selected", String(source === open));
   }
   $("save").disabled = !open || !isChanged(open);
+  $("draft").hidden = !open?.draft;
+  if (open?.draft) $("draft-text").textContent = wordsOf(open.draft);
   const theirs = open?.theirs;
   $("conflict").hidden = !theirs;
   if (theirs) {
@@ -112,13 +115,14 @@ function show(source) {
   showMarks();
 }
 
-function add({ number, name, text, digest }) {
+function add({ number, name, place, text, digest }) {
   const tab = document.createElement("button");
   tab.setAttribute("role", "tab");
   const mode = name.endsWith(".lua") ? "lua" : name.endsWith(".md") ? "markdown" : null;
   const plain = unix(text);
   const doc = mirror ? window.CodeMirror.Doc(plain, mode) : new PlainDoc(plain);
-  const source = { number, name, digest, saved: plain, crlf: text.includes("\r\n"), doc, tab, theirs: null, saves: 0 };
+  const source = { number, name, place, digest, saved: plain, crlf: text.includes("\r\n"), doc, tab, theirs: null, saves: 0 };
+  source.draft = draftOf(source);
   tab.onclick = () => show(source);
   $("tabs").append(tab);
   sources.set(number, source);
@@ -137,9 +141,26 @@ function meet(source, theirs) {
       source.doc.setValue(theirs.text);
       if (source === open && mirror) source.doc.setCursor(line);
     }
+    keepDraft(source);
   } else {
     source.theirs = theirs;
   }
+  showMarks();
+}
+
+/// The draft takes the text's place. Where it was made from another text than the file's, both are shown.
+function takeDraft(source) {
+  const { text, digest } = source.draft;
+  source.draft = null;
+  if (digest !== source.digest) Object.assign(source, { digest, theirs: source.theirs ?? { digest: source.digest, text: source.saved } });
+  source.doc.setValue(text);
+  keepDraft(source);
+  showMarks();
+}
+
+function dropDraft(source) {
+  source.draft = null;
+  keepDraft(source);
   showMarks();
 }
 
@@ -166,6 +187,7 @@ async function save(source) {
       source.digest = now.digest;
       source.saved = text;
       source.theirs = null;
+      keepDraft(source);
     }
     $("trouble").textContent = "";
   } catch (error) {
@@ -182,6 +204,7 @@ function onChange() {
   showMarks();
   const source = open;
   if (!source) return;
+  keepDraftSoon(source);
   clearTimeout(source.timer);
   if ($("at-once").checked) source.timer = setTimeout(() => save(source), 300);
 }
@@ -235,12 +258,15 @@ async function begin() {
     open.doc.setValue(theirs.text);
     open.doc.setCursor(line - 1, 0);
     Object.assign(open, { digest: theirs.digest, saved: theirs.text, theirs: null });
+    keepDraft(open);
     showMarks();
   };
   $("keep-mine").onclick = () => {
     Object.assign(open, { digest: open.theirs.digest, saved: open.theirs.text, theirs: null });
     save(open);
   };
+  $("take-draft").onclick = () => takeDraft(open);
+  $("drop-draft").onclick = () => dropDraft(open);
   $("at-once").checked = localStorage.getItem("dynlab-at-once") === "yes";
   $("at-once").onchange = () => {
     localStorage.setItem("dynlab-at-once", $("at-once").checked ? "yes" : "no");
@@ -279,7 +305,8 @@ export async function follow(digests, onCursor) {
     if (source) meet(source, text);
     else add(text);
   }
-  if (!open && sources.size > 0) show(sources.values().next().value);
+  const all = [...sources.values()];
+  if (!open && all.length > 0) show(all.find(({ draft }) => draft) ?? all[0]);
 }
 
 /// Puts the cursor on a line of a file, where the page may change it.

@@ -23,6 +23,7 @@ addWords({
   conflict: ["was changed elsewhere as well. Yours stands in the editor; of the file these lines are others:",
              "a aussi été modifié ailleurs. Votre texte est dans l'éditeur ; ces lignes du fichier en diffèrent :"],
   takeTheirs: ["Take the file's text", "Prendre le texte du fichier"], keepMine: ["Save mine over it", "Enregistrer le mien par-dessus"],
+  draft: ["A draft of %1 was not saved.", "Un brouillon (%1) n'a pas été enregistré."], takeDraft: ["Take it", "Le reprendre"], dropDraft: ["Throw it away", "Le jeter"],
   notInIt: ["(lines of yours are not in it)", "(des lignes de votre texte n'y sont pas)"],
 
   // What is handed in
