@@ -1,5 +1,8 @@
 #include "app/live/preview.h"
 
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include <fstream>
 #include <mutex>
 #include <thread>
@@ -148,6 +151,13 @@ class OnlyPreview {
     FileLock lock_;
 };
 
+/// The same for a document each time: what the browser keeps for its page, it keeps by address.
+int wished_port(const fs::path& script) {
+    constexpr std::uint64_t kFirst = 20000, kCount = 12000;  // below those that systems give to whoever asks for any
+    const std::string place = fs::weakly_canonical(fs::absolute(script)).string();
+    return static_cast<int>(kFirst + digest_of(fmt::format("{} {}", ::getuid(), place)).low % kCount);
+}
+
 /// Replies that wait for the work must come while the server still is; what the work tells needs the server.
 struct StopsBeforeServer {
     BackgroundWork& work;
@@ -172,7 +182,7 @@ void preview(const PreviewOptions& options) {
     BackgroundWork background(options.document);
     std::mutex sending;  // news come from two threads, and the later must not go first
     std::function<void()> send_changes, look_for_readers;
-    WebServer server({.port = options.port});
+    WebServer server({.port = options.port, .wished_port = wished_port(request.script.file)});
     const StopsBeforeServer stops{background};
     send_changes = [&] {
         const std::lock_guard lock(sending);

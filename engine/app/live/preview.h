@@ -6,7 +6,7 @@ namespace dynlab::inline app {
 
 struct PreviewOptions {
     std::string document;  ///< a script, a folder with analysis.lua and report.md, or a lesson
-    int port = 0;          ///< any free one
+    int port = 0;          ///< the document's own where it is free, else any
     bool run_at_once = false;
     bool edit = false;  ///< the page changes the document's files, too
     /// Gets the page's address once it answers; `elsewhere`: another program shows this document there already.

@@ -91,7 +91,7 @@ class WebServer::Work {
         server_.set_pre_routing_handler(
             [this](const httplib::Request& asked, httplib::Response& reply) { return let_in(asked, reply); });
         server_.Get("/events", [this](const httplib::Request&, httplib::Response& reply) { stream(reply); });
-        bind(options.port);
+        bind(options.port, options.wished_port);
     }
 
     ~Work() {
@@ -129,8 +129,10 @@ class WebServer::Work {
   private:
     using Response = httplib::Server::HandlerResponse;
 
-    void bind(int port) {
-        if (port == 0) {
+    void bind(int port, int wished_port) {
+        if (port == 0 && wished_port > 0 && server_.bind_to_port("127.0.0.1", wished_port)) {
+            port_ = wished_port;
+        } else if (port == 0) {
             port_ = server_.bind_to_any_port("127.0.0.1");
         } else if (server_.bind_to_port("127.0.0.1", port)) {
             port_ = port;

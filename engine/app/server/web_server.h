@@ -31,7 +31,8 @@ struct PageReply {
 class WebServer {
   public:
     struct Options {
-        int port = 0;  ///< any free one
+        int port = 0;         ///< any free one
+        int wished_port = 0;  ///< taken where it is free, where no `port` is given
         std::size_t largest_body = std::size_t{8} << 20;
         int most_streams = 24;
     };
