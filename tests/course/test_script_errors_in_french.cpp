@@ -3,7 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <regex>
+
+#include "documents/text_lines.h"
 #include "documents/weave.h"
+#include "platform/atomic_file.h"
 #include "scripting/script_run.h"
 #include "told_in_french.h"
 
@@ -70,6 +75,58 @@ TEST(script_errors_in_french, leave_no_english_word) {
         expect_told_in_french(message);
         expect_told_in_french("From a clean copy of the folder no report comes out: " + message);
     }
+}
+
+TEST(script_errors_in_french, of_orders_and_arguments_leave_no_english_word) {
+    const std::string record = "local u = randn(50)\nlocal d = iddata(u, u, 1)\n";
+    for (const char* call :
+         {"srivc(d, {2, 0, 0})", "srivc(d, {0, 1, 0})", "srivc(d, {2, 1.5, 0})", "srivc(d, {2, 'a', 0})",
+          "srivc(d, {2, {}, 0})", "srivc(d, {2, {true}, 0})", "srivc(d, {2, 1})", "srivc(d, {2, 1, 0, 0, 0})",
+          "srivc(d, 'P1')", "srivc(d)", "bj(d, {2, 1})", "armax(d, {2, 1})", "det(matrix{{1, 2}})", "rng(-1)",
+          "detrend(d, 'nosuch')"}) {
+        const std::string message = error_of(record + call);
+        EXPECT_NE(message, "(no error)") << call;
+        expect_told_in_french(message);
+    }
+    EXPECT_EQ(
+        in_french("analysis.lua:7: lssvf: argument 2 (orders) must be {na, nb, nk} (na: poles; nb: coefficients of "
+                  "B; nk: samples of delay), but nb is 0, and with na = 2 must lie between 1 and 3"),
+        "analysis.lua:7: lssvf: l'argument 2 (ordres) doit être {na, nb, nk} (na\u00A0: pôles\u00A0; nb\u00A0: "
+        "coefficients de B\u00A0; nk\u00A0: échantillons de retard), mais nb vaut 0 et, avec na = 2, doit être "
+        "entre 1 et 3");
+}
+
+/// What InvalidArgument is given in a source, with a number in each place for a value.
+std::vector<std::string> refusals_in(const std::filesystem::path& source) {
+    std::string text = std::regex_replace(read_text(source), std::regex("(^|[^:\"])//[^\n]*"), "$1");
+    text = std::regex_replace(text, std::regex("\"\\s*\n\\s*\""), "");
+    static const std::regex refusal(R"re(InvalidArgument\(\s*(?:fmt::format\(\s*)?"((?:[^"\\]|\\.)*)"\s*[,)])re"),
+        value(R"(\{[^{}]*\})");
+    std::vector<std::string> sentences;
+    for (std::sregex_iterator found(text.begin(), text.end(), refusal), end; found != end; ++found) {
+        std::string sentence = replaced((*found)[1].str(), "\\\"", "\"");
+        sentence = replaced(replaced(sentence, "{{", "\x01"), "}}", "\x02");
+        sentence = std::regex_replace(sentence, value, "7");
+        sentences.push_back(replaced(replaced(replaced(sentence, "\x01", "{"), "\x02", "}"), "`", ""));
+    }
+    return sentences;
+}
+
+/// A sentence whose frame has an entry and whose pieces have none would be half in each language.
+TEST(script_errors_in_french, are_told_whole_or_not_at_all) {
+    int told = 0;
+    for (const char* layer : {"engine/figures", "engine/numerics", "engine/scripting"})
+        for (const auto& entry :
+             std::filesystem::recursive_directory_iterator(std::filesystem::path(DYNLAB_SOURCE_DIR) / layer)) {
+            if (entry.path().extension() != ".cpp" && entry.path().extension() != ".h") continue;
+            for (const std::string& sentence : refusals_in(entry.path())) {
+                const std::string message = "analysis.lua:1: f: " + sentence;
+                if (in_french(message) == message) continue;
+                ++told;
+                expect_told_in_french(message);
+            }
+        }
+    EXPECT_GT(told, 40);
 }
 
 TEST(script_errors_in_french, keep_file_line_and_function) {
