@@ -38,5 +38,6 @@ window.addEventListener("pagehide", () => { for (const source of [...waiting.key
 export function wordsOf({ at }) {
   const then = new Date(at), today = then.toDateString() === new Date().toDateString();
   const time = { hour: "2-digit", minute: "2-digit", hourCycle: "h23" }, day = { day: "numeric", month: "long" };
-  return say("draft", then.toLocaleString(isFrench() ? "fr" : "en", today ? time : { ...day, ...time }));
+  const when = then.toLocaleString(isFrench() ? "fr" : "en", today ? time : { ...day, ...time });
+  return say("draft", when);
 }
