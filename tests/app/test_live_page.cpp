@@ -63,4 +63,33 @@ TEST_F(live_page, content_has_what_is_wrong_and_the_pictures_that_are_shown_now)
     EXPECT_TRUE(again.picture(content.pictures.begin()->first));
 }
 
+/// Findings are made in English, as programs read them.
+TEST_F(live_page, tells_in_the_document_s_language_what_is_wrong_and_found) {
+    const std::string wrong = "analysis.lua:3: there is no function or variable 'y'";
+    const json findings = json::parse(R"({"checked": ["checks of lesson a: 0 of 3 points"], "findings": [{
+        "id": "answer-missing", "severity": "rule", "place": null, "what": "The answer \"gain\" (number) is not given.",
+        "remedy": "Give it: answer(\"gain\", ...)."}]})");
+    page.complain({wrong});
+    page.set_work(findings.dump(), false);
+    EXPECT_EQ(whole()["language"], "en");
+    EXPECT_EQ(whole()["complaints"], json({wrong}));
+    EXPECT_EQ(whole()["findings"], findings);
+    EXPECT_EQ(page.told(wrong), wrong);
+
+    page.changes();
+    page.speak("fr", "");
+    page.complain({wrong});
+    const json changed = json::parse(page.changes().value());
+    EXPECT_EQ(changed["language"], "fr");
+    EXPECT_EQ(changed["complaints"], json({"analysis.lua:3: il n'y a ni fonction ni variable «\u00A0y\u00A0»"}));
+    EXPECT_EQ(changed["findings"]["checked"], findings["checked"]);
+    const json finding = changed["findings"]["findings"][0];
+    EXPECT_EQ(finding["what"], "La réponse «\u00A0gain\u00A0» (nombre) n'est pas donnée.");
+    EXPECT_EQ(finding["remedy"], "Donnez-la\u00A0: answer(\"gain\", ...).");
+    EXPECT_EQ(page.told("dynlab: note: " + wrong + "\n/tmp/a.pdf (up to date)"),
+              "dynlab: note: " + changed["complaints"][0].get<std::string>() + "\n/tmp/a.pdf (à jour)");
+    page.set_work("no JSON", false);
+    EXPECT_TRUE(whole()["findings"].is_null());
+}
+
 }  // namespace test_live_page
