@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <httplib.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <thread>
@@ -205,6 +206,16 @@ TEST_F(web_server, a_port_that_is_taken_is_told) {
     } catch (const EnvironmentError& error) {
         EXPECT_THAT(error.what(), HasSubstr("the port " + std::to_string(server.port()) + " cannot be used"));
     }
+}
+
+TEST_F(web_server, a_port_that_is_wished_is_taken_where_it_is_free) {
+    const int wished = 20000 + static_cast<int>(::getpid() % 12000);
+    WebServer first({.wished_port = wished}), second({.wished_port = wished});
+    first.start();
+    second.start();
+    EXPECT_EQ(first.port(), wished);
+    EXPECT_NE(second.port(), wished);
+    EXPECT_GT(second.port(), 0);
 }
 
 /// Reads a stream in a thread of its own until it has seen `wanted`.
