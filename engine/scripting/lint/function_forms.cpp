@@ -29,7 +29,7 @@ std::vector<std::string> argument_items(std::string_view page) {
 
 /// "`MaxIter`, `Tol`: words; `NumTd`: words" as names with their words.
 void add_described(const std::string& item, std::vector<std::pair<std::string, std::string>>& described) {
-    static const std::regex kNames(R"((^|[;.] |or )((`\w+`(, | and )?)+):)"), kName(R"(`(\w+)`)");
+    static const std::regex kNames(R"((^|[;.] |\bor )((`\w+`(, | and )?)+):)"), kName(R"(`(\w+)`)");
     std::vector<std::smatch> heads(std::sregex_iterator(item.begin(), item.end(), kNames), {});
     for (std::size_t i = 0; i < heads.size(); ++i) {
         const auto begin = heads[i][0].second;
