@@ -5,9 +5,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <regex>
+#include <set>
 
+#include "documents/text_lines.h"
+#include "documents/words/sentence_catalogue.h"
 #include "figures/gnuplot_renderer.h"
+#include "platform/atomic_file.h"
 #include "scripting/interpreter/runtime.h"
 #include "scripting/runtime/function_entry.h"
 
@@ -88,6 +93,8 @@ TEST(estimator_forms, choices_flags_and_numbers_are_told_apart) {
                 testing::ElementsAre("\"zero\"", "\"steady\"", "\"estimate\"", "\"auto\""));
     EXPECT_EQ(option("srivc", "InitialState").initial, "\"zero\"");
     EXPECT_EQ(option("tfsrivc", "hold_y").kind, "choice") << "said on the page of srivc";
+    EXPECT_EQ(option("rivsvf", "hold_y").kind, "choice") << "said on the page of lssvf";
+    EXPECT_EQ(option("hammerstein", "TdMax").words, option("tfsrivc", "TdMax").words) << "more is said behind a colon";
     EXPECT_EQ(option("srivc", "Stable").kind, "flag");
     EXPECT_EQ(option("srivc", "lambda").kind, "number");
     EXPECT_EQ(option("tfsrivc", "TdMax").kind, "number");
@@ -109,6 +116,29 @@ TEST(estimator_forms, are_french_for_french_sessions) {
         EXPECT_NE(french[i].noise, forms[i].noise);
         for (const std::string& text : {french[i].summary, french[i].structure, french[i].noise})
             EXPECT_FALSE(std::regex_search(text, english)) << text;
+    }
+}
+
+/// What help pages say of arguments and options. Oracle: the pages, which say it in English.
+TEST(estimator_forms, words_of_all_fields_are_french_and_no_others_are_kept) {
+    std::set<std::string> said;
+    const std::vector<EstimatorForm>& forms = estimator_forms();
+    const std::vector<EstimatorForm> french = estimator_forms_in_french();
+    for (std::size_t i = 0; i < forms.size(); ++i)
+        for (const auto fields : {&EstimatorForm::arguments, &EstimatorForm::options})
+            for (std::size_t k = 0; k < (forms[i].*fields).size(); ++k) {
+                const FormField &field = (forms[i].*fields)[k], &there = (french[i].*fields)[k];
+                EXPECT_EQ(there.kind, field.kind);
+                if (field.words.empty()) continue;
+                said.insert(field.words);
+                EXPECT_TRUE(french_option_words().knows(field.words)) << forms[i].name << ": " << field.words;
+                EXPECT_NE(there.words, field.words);
+            }
+    EXPECT_GT(said.size(), 50u);
+    const auto file = std::filesystem::path(DYNLAB_SOURCE_DIR) / "report_templates/option_words.fr.txt";
+    for (const std::string& line : lines_of(read_text(file))) {
+        if (line.empty() || line.starts_with(' ') || line.starts_with('#')) continue;
+        EXPECT_TRUE(said.contains(line)) << "said of no field: " << line;
     }
 }
 

@@ -40,7 +40,7 @@ function labelled(words, control, title = "") {
 }
 /// The beginning of what a help page says of an option, and what is taken where it is not given.
 function shortWords(words) {
-  const [begin] = words.split(/[;.](?:\s|$)/), initial = /[^;.(]*\bdefault\b(?:[^;.]|\.\d)*/.exec(words.slice(begin.length))?.[0].trim();
+  const [begin] = words.split(/[;.](?:\s|$)/), initial = /[^;.(]*\b(?:default|défaut)\b(?:[^;.]|\.\d)*/.exec(words.slice(begin.length))?.[0].trim();
   return inline(begin + (initial ? `; ${initial}` : ""));
 }
 const option = (key, field, now) => element("div", { className: "option" }, labelled(field.name, optionControl(key, field, now), field.words), element("small", {}, ...shortWords(field.words)));

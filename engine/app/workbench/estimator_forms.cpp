@@ -131,9 +131,12 @@ const std::vector<EstimatorForm>& estimator_forms() {
 
 std::vector<EstimatorForm> estimator_forms_in_french() {
     std::vector<EstimatorForm> forms = estimator_forms();
-    for (EstimatorForm& form : forms)
+    for (EstimatorForm& form : forms) {
         for (std::string* const text : {&form.summary, &form.structure, &form.noise})
             *text = french_engine_sentences().translated(*text);
+        for (std::vector<FormField>* const fields : {&form.arguments, &form.options})
+            for (FormField& field : *fields) field.words = french_option_words().translated(field.words);
+    }
     return forms;
 }
 

@@ -196,6 +196,11 @@ SentenceCatalogue shared_french_sentences() {
     return sentences_of({"sentences.fr.txt", "script_errors.fr.txt"});
 }
 
+const SentenceCatalogue& french_option_words() {
+    static const SentenceCatalogue words = sentences_of({"option_words.fr.txt"});
+    return words;
+}
+
 namespace {
 
 std::filesystem::path& given_engine_sentences() {

@@ -47,6 +47,9 @@ class SentenceCatalogue {
 /// French: report_templates/sentences.fr.txt and script_errors.fr.txt.
 SentenceCatalogue shared_french_sentences();
 
+/// What help pages say of the arguments and options of methods: report_templates/option_words.fr.txt, read once.
+const SentenceCatalogue& french_option_words();
+
 /// What numerics says of records, models and errors: report_templates/engine_sentences.fr.txt, read once.
 const SentenceCatalogue& french_engine_sentences();
 /// Where french_engine_sentences() reads them in a process that does not see report_templates; before their first use.
