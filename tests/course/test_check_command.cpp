@@ -79,6 +79,16 @@ TEST(check_command, a_file_outside_the_folder_is_told_with_its_line) {
     EXPECT_THAT(bench.dynlab({"report", "mine", "-o", "own.pdf"}).error_output, HasSubstr("424242"));
 }
 
+TEST(check_command, of_whom_no_number_is_looked_for_is_told) {
+    const Workbench bench;
+    make_folder(bench);
+    bench.write("short.csv", "id,name\ns1,Ada King\n20214711,Bo Ek\n7,Cy Orr\n");
+    EXPECT_THAT(bench.dynlab({"check", "mine", "--roster", "short.csv"}).error_output,
+                HasSubstr("short.csv: ids of fewer than 3 letters and digits (2, such as s1) are not looked for"));
+    bench.write("long.csv", "id,name\n20214711,Bo Ek\n");
+    EXPECT_THAT(bench.dynlab({"check", "mine", "--roster", "long.csv"}).error_output, Not(HasSubstr("long.csv")));
+}
+
 // oracle: the folder for temporary files after the signal
 TEST(check_command, leaves_nothing_behind_when_it_is_terminated) {
     const Workbench bench;

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <cstdlib>
 #include <iostream>
 
@@ -13,6 +15,7 @@
 #include "platform/program_lookup.h"
 #include "platform/temporary_folder.h"
 #include "platform/terminal/terminal_output.h"
+#include "platform/terminal/terminal_text.h"
 #include "platform/text/small_letters.h"
 #include "workflow/notebooks/notebook.h"
 #include "workflow/script_folder.h"
@@ -31,7 +34,12 @@ struct CheckArguments {
 /// The people of the roster, and whoever's account this is.
 std::shared_ptr<const SoughtNames> sought_by(const CheckArguments& words) {
     auto names = std::make_shared<SoughtNames>();
-    if (!words.roster.empty()) *names = SoughtNames(Roster(words.roster));
+    if (!words.roster.empty()) {
+        const Roster roster(words.roster);
+        if (const std::string unsought = unsought_numbers_sentence(roster.students()); !unsought.empty())
+            std::cerr << terminal_text(fmt::format("dynlab: {}: {}\n", words.roster, unsought));
+        *names = SoughtNames(roster);
+    }
     if (const char* home = std::getenv("HOME")) names->add_account(home);
     return names;
 }

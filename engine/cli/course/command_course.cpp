@@ -69,10 +69,7 @@ void add_roster(CLI::App& course, CourseArguments& where, Action& action) {
         std::cerr << terminal_text(fmt::format("dynlab: {}: not read: the unknown columns {}\n", *file,
                                                fmt::join(change.unknown_columns, ", ")));
     if (!change.unsought_ids.empty())
-        std::cerr << terminal_text(
-            fmt::format("dynlab: {}: ids of fewer than 3 letters and digits ({}, such as {}) are not looked for in "
-                        "anonymous copies\n",
-                        *file, change.unsought_ids.size(), change.unsought_ids.front()));
+        std::cerr << terminal_text(fmt::format("dynlab: {}: {}\n", *file, change.unsought_ids));
     std::cout << fmt::format("{} students: {} new, {} changed, {} moved to another group; {} new groups.\n",
                              change.students, change.new_students, change.changed, change.moved, change.new_groups);
     if (!change.absent.empty())

@@ -1,5 +1,7 @@
 #include "course/names/name_patterns.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "platform/utf8.h"
@@ -265,6 +267,14 @@ bool is_sought_number(const std::string& id) {
     std::size_t letters = 0;
     for (const NameToken& token : name_tokens(id)) letters += token.letters.size();
     return letters >= kShortestSought;
+}
+
+std::string unsought_numbers_sentence(const std::vector<Student>& students) {
+    const auto unsought = [](const Student& student) { return !is_sought_number(student.id); };
+    const auto first = std::ranges::find_if(students, unsought);
+    if (first == students.end()) return {};
+    return fmt::format("ids of fewer than {} letters and digits ({}, such as {}) are not looked for in documents",
+                       kShortestSought, std::ranges::count_if(students, unsought), first->id);
 }
 
 std::vector<NamePattern> patterns_of_pair(const Student& one, const Student& other) {

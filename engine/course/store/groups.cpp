@@ -174,8 +174,7 @@ RosterChange import_roster(Course& course, const std::filesystem::path& file, bo
             file.string(), fmt::join(roster.columns(), ", ")));
     RosterChange change = Import(course, roster).run();
     change.unknown_columns = roster.unknown_columns();
-    for (const Student& student : roster.students())
-        if (!is_sought_number(student.id)) change.unsought_ids.push_back(student.id);
+    change.unsought_ids = unsought_numbers_sentence(roster.students());
     change.converted = roster.converted();
     return change;
 }
