@@ -193,7 +193,8 @@ PandocResult run_pandoc(const PandocJob& job, Complaints& complaints) {
     ChildResult run = finished_pandoc(job);
     if (run.timed_out)
         throw DocumentError(job.template_file.string() + ": Pandoc did not finish this document within " +
-                            std::to_string(kMostTime.count()) + " s of processor time, or ten times as long by the clock");
+                            std::to_string(kMostTime.count()) +
+                            " s of processor time, or ten times as long by the clock");
     if (run.output_exceeded)
         throw DocumentError(job.template_file.string() + ": Pandoc wrote more than a document can hold");
     Complaints found;
