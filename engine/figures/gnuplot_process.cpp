@@ -23,6 +23,7 @@ namespace dynlab::inline figures {
 namespace {
 
 constexpr auto kDrawingTimeout = std::chrono::minutes(2);
+constexpr auto kLastWordsTimeout = std::chrono::seconds(1);
 
 /// The inherited environment without what steers gnuplot.
 std::vector<std::string> gnuplot_environment() {
@@ -133,8 +134,9 @@ std::optional<std::string> GnuplotProcess::wait_for_report(unsigned number) {
     }
 }
 
-std::string GnuplotProcess::complaints() const {
-    const std::lock_guard lock(mutex_);
+std::string GnuplotProcess::last_complaints() {
+    std::unique_lock lock(mutex_);
+    heard_.wait_for(lock, kLastWordsTimeout, [this] { return ended_; });  // a broken pipe is known before what was said
     return text_;
 }
 

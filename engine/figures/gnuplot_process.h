@@ -29,7 +29,9 @@ class GnuplotProcess {
     /// Waits for that report; returns what gnuplot complained of since the report before. Nothing when gnuplot ended
     /// instead or is stuck for two minutes. Throws Interrupted.
     std::optional<std::string> wait_for_report(unsigned number);
-    std::string complaints() const;  ///< not yet taken by wait_for_report()
+    /// What gnuplot, which ends, complained of and wait_for_report() has not taken: all of it, unless its end takes
+    /// longer than a second.
+    std::string last_complaints();
 
   private:
     void start(const std::string& program);
@@ -38,7 +40,7 @@ class GnuplotProcess {
     pid_t pid_ = -1;
     FileDescriptor commands_, complaints_;
     std::thread reader_;
-    mutable std::mutex mutex_;
+    std::mutex mutex_;
     std::condition_variable heard_;
     std::string text_;    ///< guarded by mutex_
     bool ended_ = false;  ///< guarded by mutex_

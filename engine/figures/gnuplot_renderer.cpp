@@ -156,7 +156,7 @@ class GnuplotRenderer::Work {
 
     /// gnuplot ends at its first error; what it had in hand then is lost.
     [[noreturn]] void fail_as_ended(const fs::path& target) const {
-        const std::string complaints = running_->child.complaints();
+        const std::string complaints = running_->child.last_complaints();
         if (const auto error = first_error(complaints))
             throw FigureError(fmt::format("gnuplot could not draw \"{}\": {}", target.string(), *error));
         throw FigureError(fmt::format("gnuplot ended or no longer answered while it drew \"{}\"; {}", target.string(),

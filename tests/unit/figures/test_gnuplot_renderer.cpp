@@ -191,10 +191,10 @@ class WithGnuplotReplaced : public testing::Test {
         std::ofstream(program) << "#!/bin/sh\n" << script;
         std::filesystem::permissions(program, std::filesystem::perms::owner_all);
     }
-    std::string failure() {
+    std::string failure(const Figure& figure = sine()) {
         GnuplotRenderer renderer;
         try {
-            renderer.draw(sine(), out_.path() / "a.pdf", FigureFormat::kPdf);
+            renderer.draw(figure, out_.path() / "a.pdf", FigureFormat::kPdf);
             renderer.finish();
         } catch (const FigureError& error) {
             EXPECT_EQ(file_count(out_.path()), 0u);
@@ -237,6 +237,16 @@ TEST_F(gnuplot_renderer_replaced, an_error_that_ends_gnuplot_is_told) {
         "read -r line; echo '\"/dev/stdin\" line 1: warning: odd' >&2\n"
         "echo '\"/dev/stdin\" line 7: undefined variable: x' >&2; exit 1\n");
     EXPECT_THAT(failure(), testing::EndsWith("a.pdf\": undefined variable: x"));
+}
+
+TEST_F(gnuplot_renderer_replaced, an_error_is_told_that_comes_after_the_pipe_has_broken) {
+    replace_by("exec 0<&-; sleep 0.2; echo '\"/dev/stdin\" line 7: undefined variable: x' >&2\n");
+    Figure large = sine();  // more than a pipe holds: writing it fails before anything is said
+    Curve& curve = large.panels.front().curves.front();
+    curve.x = Vector::LinSpaced(1000, 0, 10);
+    curve.y = Vector::Random(1000);
+    large.panels.front().curves.assign(60, curve);
+    EXPECT_THAT(failure(large), testing::EndsWith("a.pdf\": undefined variable: x"));
 }
 
 TEST_F(gnuplot_renderer_replaced, files_that_are_not_whole_are_not_delivered) {
