@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -90,6 +92,53 @@ TEST_F(live_page, tells_in_the_document_s_language_what_is_wrong_and_found) {
               "dynlab: note: " + changed["complaints"][0].get<std::string>() + "\n/tmp/a.pdf (à jour)");
     page.set_work("no JSON", false);
     EXPECT_TRUE(whole()["findings"].is_null());
+}
+
+/// A header that turns to another language takes along what was told before it.
+TEST_F(live_page, tells_again_in_a_new_language_what_was_wrong_before) {
+    const std::string wrong = "analysis.lua:3: there is no function or variable 'y'";
+    const json english = json::array({wrong}),
+               french = json::array({"analysis.lua:3: il n'y a ni fonction ni variable «\u00A0y\u00A0»"});
+    const auto changed = [&] { return json::parse(page.changes().value())["complaints"]; };
+    page.complain({wrong});
+    EXPECT_EQ(changed(), english);
+    page.speak("fr", "");
+    EXPECT_EQ(changed(), french);
+    page.complain({wrong});
+    EXPECT_FALSE(page.changes()) << "it is the same complaint";
+    page.speak("en", "");
+    EXPECT_EQ(changed(), english);
+    SetDocument set = document("<svg>1</svg>");
+    set.complaints = {wrong};
+    page.speak("fr", "");
+    page.show(set, script, {});
+    EXPECT_EQ(changed(), french);
+    EXPECT_EQ(page.content().complaints, std::vector{wrong}) << "remembered for a page in any language";
+    page.speak("en", "");
+    EXPECT_EQ(changed(), english);
+}
+
+/// A lesson's sentences are read when they are asked for first, and anew for another lesson. Oracle: the files, which
+/// the test changes meanwhile.
+TEST_F(live_page, reads_the_french_of_a_lesson_once) {
+    const auto add_lesson = [&](const std::string& slug, const std::string& french) {
+        const auto place = folder.path() / "lessons" / slug;
+        std::filesystem::create_directories(place);
+        std::ofstream(place / "lesson.lua") << "-- ---\n-- title: A lesson\n-- ---\n\nprint(1)\n";
+        std::ofstream(place / "checks.fr.txt") << "quuxes abound here\n  " << french << "\n";
+    };
+    add_lesson("91_first", "c'est deux");
+    add_lesson("92_second", "il y en a deux");
+    ::setenv("DYNLAB_LESSONS", (folder.path() / "lessons").c_str(), 1);
+    page.speak("fr", "91_first");
+    EXPECT_EQ(page.told("quuxes abound here"), "c'est deux");
+    add_lesson("91_first", "changed");
+    EXPECT_EQ(page.told("quuxes abound here"), "c'est deux");
+    page.speak("fr", "92_second");
+    EXPECT_EQ(page.told("quuxes abound here"), "il y en a deux");
+    page.speak("fr", "");
+    EXPECT_EQ(page.told("quuxes abound here"), "quuxes abound here");
+    ::unsetenv("DYNLAB_LESSONS");
 }
 
 }  // namespace test_live_page

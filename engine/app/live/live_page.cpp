@@ -42,9 +42,8 @@ std::size_t behind_program_name(const std::string& line) {
 }
 
 /// What `dynlab check --json` prints, told in French. What was looked at stays as it is: the page reads points in it.
-void put_into_french(json& checked, const std::string& lesson) {
+void put_into_french(json& checked, const SentenceCatalogue& sentences) {
     if (!checked.is_object() || !checked.contains("findings")) return;
-    const SentenceCatalogue sentences = french_sentences(lesson);
     for (json& finding : checked["findings"])
         for (const char* part : {"what", "remedy"})
             if (finding.is_object() && finding.contains(part) && finding[part].is_string())
@@ -93,8 +92,7 @@ void LivePage::show(const SetDocument& document, const PercentScript& script, co
     content_.name = script.file.filename().string();
     content_.head = document.head;
     content_.notes = document.notes;
-    content_.complaints.clear();
-    for (const std::string& sentence : document.complaints) content_.complaints.push_back(in_language(sentence));
+    content_.complaints = document.complaints;
     content_.sliders = record.sliders;
     content_.pieces.clear();
     fresh_.clear();
@@ -159,10 +157,8 @@ PageContent LivePage::content() const {
 
 void LivePage::complain(const std::vector<std::string>& sentences) {
     const std::lock_guard lock(mutex_);
-    std::vector<std::string> complaints;
-    for (const std::string& sentence : sentences) complaints.push_back(in_language(sentence));
-    if (content_.complaints == complaints) return;
-    content_.complaints = std::move(complaints);
+    if (content_.complaints == sentences) return;
+    content_.complaints = sentences;
     changed_ = true;
 }
 
@@ -171,16 +167,21 @@ void LivePage::speak(const std::string& language, const std::string& lesson) {
     if (language_ == language && lesson_ == lesson) return;
     changed_ = findings_changed_ = true;
     language_ = language;
+    if (lesson_ != lesson) french_.reset();
     lesson_ = lesson;
+}
+
+const SentenceCatalogue& LivePage::french() const {
+    if (!french_) french_ = french_sentences(lesson_);
+    return *french_;
 }
 
 std::string LivePage::in_language(const std::string& sentences) const {
     if (language_ != "fr") return sentences;
-    const SentenceCatalogue french = french_sentences(lesson_);
     std::string told;
     for (const std::string& line : lines_of(sentences)) {
         const std::size_t sentence = behind_program_name(line);
-        told += (told.empty() ? "" : "\n") + line.substr(0, sentence) + french.translated(line.substr(sentence));
+        told += (told.empty() ? "" : "\n") + line.substr(0, sentence) + french().translated(line.substr(sentence));
     }
     return told;
 }
@@ -243,18 +244,19 @@ std::string LivePage::json(bool all) const {
                              {"asking", asking_},
                              {"language", language_},
                              {"name", content_.name},
-                             {"complaints", content_.complaints},
+                             {"complaints", ::nlohmann::json::array()},
                              {"open_answers", content_.open_answers},
                              {"sources", sources_},
                              {"pdf_is_ready", pdf_is_ready_},
                              {"hands_in", hands_in_},
                              {"states", ::nlohmann::json::object()}};
+    for (const std::string& sentence : content_.complaints) page["complaints"].push_back(in_language(sentence));
     for (const auto& [cell, state] : content_.states)
         page["states"][cell] = {{"state", state.state}, {"seconds", state.seconds}, {"progress", state.progress}};
     if (all || findings_changed_) {
         ::nlohmann::json& findings = page["findings"];
         if (::nlohmann::json::accept(findings_)) findings = ::nlohmann::json::parse(findings_);
-        if (language_ == "fr") put_into_french(findings, lesson_);
+        if (language_ == "fr") put_into_french(findings, french());
     }
     if (all || text_changed_) {
         ::nlohmann::json& pieces = page["pieces"] = ::nlohmann::json::array();

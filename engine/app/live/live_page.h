@@ -10,6 +10,7 @@
 #include "documents/chunks/chunk_setter.h"
 #include "documents/percent_script.h"
 #include "documents/run_record.h"
+#include "documents/words/sentence_catalogue.h"
 
 namespace dynlab::inline app {
 
@@ -21,10 +22,10 @@ class LivePage {
     void show(PageContent remembered);
     /// Makes the next version of a document that was set. Figures are read from their files now.
     void show(const SetDocument& document, const PercentScript& script, const RunRecord& record);
-    /// In which the page speaks, and what is told from now on of the document; the sentences of its lesson's checks are
-    /// told in it, too.
+    /// In which the page speaks, and all that is told of the document, what is wrong with it by now, too; the sentences
+    /// of its lesson's checks are told in it, as the lesson has them when they are first asked for.
     void speak(const std::string& language, const std::string& lesson);
-    /// Text above the page: what is wrong. The document stays as it is.
+    /// Text above the page, in English: what is wrong. The document stays as it is.
     void complain(const std::vector<std::string>& sentences);
     void set_states(std::map<std::string, CellState> states, bool running);
     void set_running(bool running);
@@ -51,6 +52,7 @@ class LivePage {
     void add_unseen_cells(const PercentScript& script, std::map<std::string, std::string>& html);
     std::string with_pictures(const SetChunk& chunk, const RunRecord& record);
     std::string keep_picture(const std::filesystem::path& file);
+    const SentenceCatalogue& french() const;
     std::string in_language(const std::string& sentences) const;
     std::string json(bool all) const;
 
@@ -60,6 +62,7 @@ class LivePage {
     std::map<std::string, std::string> sources_;
     std::string findings_;
     std::string language_ = "en", lesson_;
+    mutable std::optional<SentenceCatalogue> french_;  ///< the lesson's, once it was asked for
     bool pdf_is_ready_ = false, hands_in_ = false;
     bool running_ = false, recalled_ = false, asking_ = false;
     bool changed_ = false, text_changed_ = false, findings_changed_ = false;

@@ -40,7 +40,7 @@ struct PageContent {
     std::map<std::string, CellState> states;
     std::map<std::string, RecordedSlider> sliders;
     std::string open_answers;             ///< "G1 (model), gain (number)"
-    std::vector<std::string> complaints;  ///< what is wrong
+    std::vector<std::string> complaints;  ///< what is wrong, in English
 };
 DYNLAB_DESCRIBE(PageContent, name, head, notes, pieces, html, pictures, states, sliders, open_answers, complaints)
 

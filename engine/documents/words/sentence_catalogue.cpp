@@ -192,8 +192,9 @@ std::string SentenceCatalogue::translated(std::string_view text) const {
     return result;
 }
 
-SentenceCatalogue shared_french_sentences() {
-    return sentences_of({"sentences.fr.txt", "script_errors.fr.txt"});
+const SentenceCatalogue& shared_french_sentences() {
+    static const SentenceCatalogue sentences = sentences_of({"sentences.fr.txt", "script_errors.fr.txt"});
+    return sentences;
 }
 
 const SentenceCatalogue& french_option_words() {

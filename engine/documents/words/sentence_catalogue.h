@@ -44,8 +44,8 @@ class SentenceCatalogue {
     std::vector<Entry> entries_;
 };
 
-/// French: report_templates/sentences.fr.txt and script_errors.fr.txt.
-SentenceCatalogue shared_french_sentences();
+/// French: report_templates/sentences.fr.txt and script_errors.fr.txt, read once.
+const SentenceCatalogue& shared_french_sentences();
 
 /// What help pages say of the arguments and options of methods: report_templates/option_words.fr.txt, read once.
 const SentenceCatalogue& french_option_words();
