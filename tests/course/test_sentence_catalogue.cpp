@@ -63,6 +63,15 @@ TEST(sentence_catalogue, tells_sentence_by_sentence_and_keeps_what_it_does_not_k
     EXPECT_FALSE(known.knows("It is 1 away. Hz is wanted."));
 }
 
+TEST(sentence_catalogue, tells_what_a_program_prints_line_by_line) {
+    const Workbench bench;
+    const SentenceCatalogue known = catalogue(bench, "there is no {}\n  il n'y a pas de {}\nup to date\n  à jour\n");
+    EXPECT_EQ(
+        known.translated_lines("dynlab: note: there is no a.lua\nup to date\ndynlab: there is no b.lua\n  else\n"),
+        "dynlab: note: il n'y a pas de a.lua\nà jour\ndynlab: il n'y a pas de b.lua\n  else");
+    EXPECT_EQ(known.translated_lines(""), "");
+}
+
 TEST(sentence_catalogue, refuses_what_is_no_pair) {
     const Workbench bench;
     for (const auto& [text, words] :

@@ -9,7 +9,6 @@
 #include "data_io/values/json_values.h"
 #include "documents/html/web_page.h"
 #include "documents/record_description.h"
-#include "documents/text_lines.h"
 #include "platform/atomic_file.h"
 #include "platform/hash.h"
 #include "platform/text/small_letters.h"
@@ -32,13 +31,6 @@ json sliders_json(const std::map<std::string, RecordedSlider>& sliders) {
     }
     std::sort(list.begin(), list.end(), [](const json& a, const json& b) { return a["order"] < b["order"]; });
     return list;
-}
-
-/// Where the sentence of a command's line begins.
-std::size_t behind_program_name(const std::string& line) {
-    for (const std::string_view begin : {"dynlab: note: ", "dynlab: "})
-        if (line.starts_with(begin)) return begin.size();
-    return 0;
 }
 
 /// What `dynlab check --json` prints, told in French. What was looked at stays as it is: the page reads points in it.
@@ -177,13 +169,7 @@ const SentenceCatalogue& LivePage::french() const {
 }
 
 std::string LivePage::in_language(const std::string& sentences) const {
-    if (language_ != "fr") return sentences;
-    std::string told;
-    for (const std::string& line : lines_of(sentences)) {
-        const std::size_t sentence = behind_program_name(line);
-        told += (told.empty() ? "" : "\n") + line.substr(0, sentence) + french().translated(line.substr(sentence));
-    }
-    return told;
+    return language_ == "fr" ? french().translated_lines(sentences) : sentences;
 }
 
 std::string LivePage::told(const std::string& sentences) const {

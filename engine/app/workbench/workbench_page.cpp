@@ -194,12 +194,14 @@ void serve_documents(WebServer& server, WorkbenchSession& bench, BackgroundWork&
     server.on_get("/document.pdf", [&](const PageRequest&) {
         constexpr int kFailed = 500, kForbidden = 403, kConflict = 409;
         if (!permissions.granted())
-            return PageReply{"This script has not been allowed to run.", kPlainText, kForbidden};
+            return PageReply{bench.told("This script has not been allowed to run."), kPlainText, kForbidden};
         if (const auto mistake = bench.mistake())
-            return PageReply{"There is no report of a script with a mistake: " + *mistake, kPlainText, kConflict};
+            return PageReply{bench.told("There is no report of a script with a mistake: " + *mistake), kPlainText,
+                             kConflict};
         background.document_changed({});
         const BackgroundWork::Pdf pdf = background.pdf();
-        return pdf.bytes.empty() ? PageReply{pdf.error, kPlainText, kFailed} : PageReply{pdf.bytes, "application/pdf"};
+        return pdf.bytes.empty() ? PageReply{bench.told(pdf.error), kPlainText, kFailed}
+                                 : PageReply{pdf.bytes, "application/pdf"};
     });
     server.on_get("/saved/*", [&](const PageRequest& asked) {
         return PageReply{bench.saved(fs::path(asked.path).filename().string()), "application/octet-stream"};

@@ -13,6 +13,7 @@
 #include "documents/error.h"
 #include "documents/text_lines.h"
 #include "documents/weave.h"
+#include "documents/words/sentence_catalogue.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/interrupt.h"
@@ -291,6 +292,11 @@ bool WorkbenchSession::ends_early(const std::string& text) const {
 std::optional<std::string> WorkbenchSession::mistake() const {
     const std::lock_guard lock(mutex_);
     return error_ ? std::optional(error_->message) : std::nullopt;
+}
+
+std::string WorkbenchSession::told(const std::string& sentences) const {
+    const std::lock_guard lock(mutex_);
+    return language() == "fr" ? shared_french_sentences().translated_lines(sentences) : sentences;
 }
 
 /// From now on only what stands before this part is run and looked at, until the script changes.

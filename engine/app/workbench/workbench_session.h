@@ -39,7 +39,8 @@ class WorkbenchSession {
     /// What a run saved (workbench.show "saved"), by its name. Throws EnvironmentError where there is none.
     std::string saved(const std::string& name) const;
 
-    std::optional<std::string> mistake() const;  ///< at which the script stops, as the last run told it
+    std::optional<std::string> mistake() const;            ///< at which the script stops, as the last run told it
+    std::string told(const std::string& sentences) const;  ///< in the script's language as far as they are known there
     std::string script() const;
     std::filesystem::path file() const;
     std::string whole() const;             ///< what a page shows, JSON

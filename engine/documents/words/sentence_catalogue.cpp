@@ -71,6 +71,13 @@ std::string with_comma(std::string text) {
     return text;
 }
 
+/// Where the sentence of a program's line begins.
+std::size_t behind_program_name(std::string_view line) {
+    for (const std::string_view begin : {"dynlab: note: ", "dynlab: "})
+        if (line.starts_with(begin)) return begin.size();
+    return 0;
+}
+
 SentenceCatalogue sentences_of(std::initializer_list<const char*> files) {
     SentenceCatalogue sentences;
     for (const char* file : files) sentences.add(shared_folder() / "report_templates" / file);
@@ -190,6 +197,15 @@ std::string SentenceCatalogue::translated(std::string_view text) const {
         text.remove_prefix(end);
     }
     return result;
+}
+
+std::string SentenceCatalogue::translated_lines(std::string_view printed) const {
+    std::string told;
+    for (const std::string& line : lines_of(printed)) {
+        const std::size_t sentence = behind_program_name(line);
+        told += (told.empty() ? "" : "\n") + line.substr(0, sentence) + translated(line.substr(sentence));
+    }
+    return told;
 }
 
 const SentenceCatalogue& shared_french_sentences() {

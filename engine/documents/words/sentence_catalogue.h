@@ -22,6 +22,9 @@ class SentenceCatalogue {
     /// and line before the message of a script, and the function that says it, stay: "analysis.lua:3: fit: ...".
     std::string translated(std::string_view text) const;
 
+    /// What a program prints, line by line; its name before a line ("dynlab: note: ...") stays.
+    std::string translated_lines(std::string_view printed) const;
+
     /// Whether an entry is this sentence.
     bool knows(std::string_view sentence) const;
 
