@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+
 #include "platform/child_process.h"
 #include "platform/error.h"
 #include "support/browser.h"
@@ -50,6 +52,24 @@ TEST(figure_viewer, figures_can_be_read_off_as_in_documents) {
     EXPECT_EQ(browser.evaluate("return document.querySelectorAll('.samples tbody tr').length"), "5");
     viewer.show("figure-2.pdf", figure_titled("Second"));
     EXPECT_TRUE(browser.comes("document.querySelectorAll('figure .plot').length === 2"));
+}
+
+/// A prompt has no document whose language the page could take.
+TEST(figure_viewer, speaks_the_language_of_the_browser) {
+    auto viewer = std::make_unique<FigureViewer>();
+    Browser browser;
+    browser.devtools("Network.setUserAgentOverride", R"({"userAgent": "Chromium", "acceptLanguage": "fr-FR"})");
+    browser.open(viewer->address());
+    const auto state_is = [&](const std::string& pattern) {
+        return browser.comes("/" + pattern + "/.test(document.getElementById('state').innerText)");
+    };
+    EXPECT_TRUE(state_is("^aucune encore.: tapez, par exemple, step\\(tf\\("));
+    EXPECT_EQ(browser.evaluate("return [document.documentElement.lang, document.getElementById('name').innerText]"),
+              "[\"fr\",\"Figures\"]");
+    viewer->show("figure-1.pdf", figure_titled("First"));
+    EXPECT_TRUE(state_is("^1$"));
+    viewer.reset();
+    EXPECT_TRUE(state_is("^dynlab est terminé.; voici ses dernières figures$"));
 }
 
 TEST(figure_viewer, forgets_the_oldest) {

@@ -72,8 +72,9 @@ std::set<std::string> keys_shown(const std::string& text) {
     return keys;
 }
 
-const std::vector<std::string> kPreview = {"index.html",  "page.js",    "editor.js", "drafts.js",
-                                           "findings.js", "hand_in.js", "sliders.js"};
+/// The pages whose words stand in page_words.js: of live documents, and of a prompt's figures.
+const std::vector<std::string> kPreview = {"index.html", "page.js",    "editor.js", "drafts.js", "findings.js",
+                                           "hand_in.js", "sliders.js", "view.html", "view.js"};
 
 std::vector<std::string> workbench_files() {
     std::vector<std::string> files = {"workbench.html", "workbench.js"};
@@ -137,7 +138,7 @@ TEST(page_words, are_written_in_the_tables_alone) {
                 EXPECT_FALSE(std::regex_search(found->str(), words)) << file << ": " << found->str();
         }
     }
-    for (const char* file : {"index.html", "workbench.html"}) {
+    for (const char* file : {"index.html", "workbench.html", "view.html"}) {
         const std::string body = std::regex_replace(
             source_of(file), std::regex(R"(<title>[^<]*</title>|<option [^>]*lang=[^>]*>[^<]*</option>)"), "");
         std::smatch text;
@@ -145,6 +146,30 @@ TEST(page_words, are_written_in_the_tables_alone) {
         EXPECT_FALSE(std::regex_search(body, text, std::regex(R"re((aria-label|\stitle)="(?!Ctrl-S"))re")))
             << file << text.str();
     }
+}
+
+/// What the first group of a pattern finds.
+std::set<std::string> all_found(const std::string& text, const std::string& pattern) {
+    const std::regex wanted(pattern);
+    std::set<std::string> found;
+    for (std::sregex_iterator one(text.begin(), text.end(), wanted), end; one != end; ++one) found.insert((*one)[1]);
+    return found;
+}
+
+/// The editor's own words are looked up by their English. Oracle: the sources of CodeMirror that our pages load.
+TEST(page_words, tell_all_that_the_editor_s_search_says) {
+    const fs::path package = "/usr/share/javascript/codemirror";
+    if (!fs::exists(package)) GTEST_SKIP() << "libjs-codemirror is not installed";
+    std::set<std::string> said, told;
+    for (const std::string& file :
+         all_found(source_of("page_routes.cpp"), R"re(\{"/codemirror[^"]*", "([^"]*\.js)"\})re"))
+        said.merge(all_found(read_text(package / file), R"re(\bphrase\("([^"]*)"\))re"));
+    const std::set<std::string> lists = all_found(source_of("editor.js"), R"re(const kPhrases = \[([^\]]*)\])re");
+    ASSERT_EQ(lists.size(), 1u);
+    const Rows rows = rows_of("page_words.js");
+    for (const std::string& key : all_found(*lists.begin(), R"re("(\w+)")re")) told.insert(rows.at(key).english);
+    EXPECT_GT(said.size(), 5u);
+    EXPECT_EQ(told, said);
 }
 
 /// How many %1, %2, ... a text has.

@@ -79,6 +79,47 @@ TEST_F(preview_french, the_page_speaks_its_document_s_language) {
     EXPECT_TRUE(says(browser, "anew", "^Run all$"));
 }
 
+/// What the editor itself says is in the page's language as well, and follows it.
+TEST_F(preview_french, the_editor_s_search_speaks_it_too) {
+    write(kFrench + kSome);
+    const Preview preview(file(), true, {"--edit"});
+    Browser browser;
+    browser.open(preview.address());
+    ASSERT_TRUE(shows(browser, "k vaut 2.5"));
+    ASSERT_TRUE(
+        browser.comes("document.querySelector('.editing .CodeMirror')?.CodeMirror.getValue().includes('k vaut')"));
+    const auto key_in_field = [](int code) {
+        return "field?.dispatchEvent(new KeyboardEvent('keydown', {keyCode: " + std::to_string(code) +
+               ", bubbles: true, cancelable: true}));";
+    };
+    const std::string field = "const field = document.querySelector('.CodeMirror-dialog input'); ";
+    const auto asked = [&](const std::string& command) {  // what is open is closed before
+        browser.evaluate(field + key_in_field(27) +
+                         "[...document.querySelectorAll('.CodeMirror-dialog button')].pop()?.click();"
+                         "document.querySelector('.CodeMirror').CodeMirror.execCommand('" +
+                         command + "')");
+        return all_words(browser, ".CodeMirror-dialog");
+    };
+    const auto answer = [&](const std::string& words) {
+        browser.evaluate(field + "field.value = '" + words + "'; " + key_in_field(13));
+        return all_words(browser, ".CodeMirror-dialog");
+    };
+    const std::string search = asked("find");
+    EXPECT_THAT(search, testing::AllOf(HasSubstr("Chercher\u202F:"), HasSubstr("expression rationnelle")));
+    EXPECT_THAT(asked("replaceAll"), HasSubstr("Tout remplacer\u202F:"));
+    EXPECT_THAT(asked("replace"), HasSubstr("Remplacer\u202F:"));
+    EXPECT_THAT(answer("vaut"), HasSubstr("Par\u202F:"));
+    const std::string question = answer("est");
+    EXPECT_THAT(question, testing::AllOf(HasSubstr("Remplacer\u202F?"), HasSubstr("Oui"), HasSubstr("Non"),
+                                         HasSubstr("Tout"), HasSubstr("Arrêter")));
+    for (const std::string& words : {search, question}) expect_no_english(words);
+
+    write(kHead + kFirst);  // English from here on
+    EXPECT_TRUE(shows(browser, "x is 20"));
+    EXPECT_TRUE(browser.comes("document.documentElement.lang === 'en'"));
+    EXPECT_THAT(asked("find"), testing::AllOf(HasSubstr("Search:"), HasSubstr("(Use /re/ syntax for regexp search)")));
+}
+
 TEST_F(preview_french, a_stranger_s_document_asks_in_french) {
     write(kFrench + kSome);
     const Preview preview(file(), false);

@@ -1,10 +1,11 @@
 // The document's files beside the page, where it may change them. What is saved says what it was made from: a file that
 // was changed elsewhere meanwhile is not written over, both texts are shown.
 import { draftOf, keepDraft, keepDraftSoon, wordsOf } from "/drafts.js";
-import { say } from "/page_words.js";
+import { inEnglish, say } from "/page_words.js";
 
 const $ = (id) => document.getElementById(id);
 const sources = new Map();  // number -> {number, name, place, digest, saved, doc, tab, theirs, draft}
+const kPhrases = ["search", "asPattern", "replace", "replaceAll", "replaceWith", "replaceBy", "replaceIt", "yes", "no", "all", "stop"];  // CodeMirror's
 let open = null;            // the one that is shown
 let mirror = null;          // CodeMirror, where it is installed
 let followCursor = () => {};
@@ -106,6 +107,13 @@ function showMarks() {
     $("conflict-name").textContent = open.name;
     $("theirs").textContent = otherLines(theirs.text, open.doc.getValue());
   }
+}
+
+const phrases = () => Object.fromEntries(kPhrases.map((key) => [inEnglish(key), say(key)]));
+/// The page's language is another now.
+export function speak() {
+  mirror?.setOption("phrases", phrases());
+  showMarks();
 }
 
 function show(source) {
@@ -232,7 +240,7 @@ async function begin() {
     const typing = { ...keys, Tab: (cm) => cm.execCommand("insertSoftTab"), "Shift-Tab": "indentLess" };
     const passing = { ...keys, Tab: false, "Shift-Tab": false };  // who comes by the keyboard goes on by it
     mirror = window.CodeMirror($("code"), { lineNumbers: true, lineWrapping: true, indentUnit: 2, tabSize: 2, extraKeys: passing,
-      continueComments: { key: "Enter", continueLineComment: true } });
+      phrases: phrases(), continueComments: { key: "Enter", continueLineComment: true } });
     $("field").remove();
     mirror.on("changes", (cm, changes) => {
       if (changes.some(({ origin }) => origin !== "setValue")) mirror.setOption("extraKeys", typing);

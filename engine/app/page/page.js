@@ -19,6 +19,7 @@ function speak(code) {
   language = code;
   useLanguage(code);
   label();
+  editor.speak();
 }
 
 /// The piece at the top of the window, and how far from there: what must not move.

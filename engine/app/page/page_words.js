@@ -1,4 +1,4 @@
-// What the page of a live document says, in English and French.
+// What the page of a live document says, and that of a prompt's figures, in English and French.
 import { addWords } from "/words.js";
 
 addWords({
@@ -25,6 +25,10 @@ addWords({
   takeTheirs: ["Take the file's text", "Prendre le texte du fichier"], keepMine: ["Save mine over it", "Enregistrer le mien par-dessus"],
   draft: ["A draft of %1 was not saved.", "Un brouillon (%1) n'a pas été enregistré."], takeDraft: ["Take it", "Le reprendre"], dropDraft: ["Throw it away", "Le jeter"],
   notInIt: ["(lines of yours are not in it)", "(des lignes de votre texte n'y sont pas)"],
+  // What CodeMirror's search says, in its own English
+  search: ["Search:", "Chercher :"], asPattern: ["(Use /re/ syntax for regexp search)", "(expression rationnelle : /exp/)"],
+  replace: ["Replace:", "Remplacer :"], replaceAll: ["Replace all:", "Tout remplacer :"], replaceWith: ["Replace with:", "Remplacer par :"],
+  replaceBy: ["With:", "Par :"], replaceIt: ["Replace?", "Remplacer ?"], yes: ["Yes", "Oui"], no: ["No", "Non"], all: ["All", "Tout"],
 
   // What is handed in
   handIn: ["Hand in", "Rendre"], makeReport: ["Make report.pdf", "Faire report.pdf"], makePack: ["Pack the folder", "Empaqueter le dossier"],
@@ -44,5 +48,9 @@ addWords({
   // The kinds of answers, as a script's header names them
   number: ["number", "nombre"], text: ["text", "texte"], truth: ["truth", "vrai ou faux"], vector: ["vector", "vecteur"], matrix: ["matrix", "matrice"],
   data: ["data", "données"], model: ["model", "modèle"], response: ["response", "réponse"], table: ["table", "table"],
+
+  // The page of a prompt's figures
+  figures: ["Figures", "Figures"], noFigures: ["none yet: type, say, step(tf({1}, {1, 1}))", "aucune encore : tapez, par exemple, step(tf({1}, {1, 1}))"],
+  lastFigures: ["dynlab has ended; these are its last figures", "dynlab est terminé ; voici ses dernières figures"],
 });
-export { isFrench, label, say, useLanguage, withComma } from "/words.js";
+export { inEnglish, isFrench, label, say, useLanguage, withComma } from "/words.js";

@@ -1,4 +1,6 @@
-// The figures of a prompt as they are made, the newest first.
+// The figures of a prompt as they are made, the newest first. The page speaks the browser's language.
+import { isFrench, label, say, useLanguage } from "/page_words.js";
+
 const $ = (id) => document.getElementById(id);
 const shown = new Map();  // number -> element
 
@@ -35,13 +37,15 @@ function show({ figures }) {
     shown.set(figure.number, make(figure));
     $("figures").prepend(shown.get(figure.number));
   }
-  $("state").textContent = figures.length === 0 ? "none yet: type, say, step(tf({1}, {1, 1}))" : `${figures.length}`;
+  $("state").textContent = figures.length === 0 ? say("noFigures") : String(figures.length);
 }
 
+useLanguage(isFrench() ? "fr" : "en");
+label();
 const source = new EventSource("/events");
 source.addEventListener("page", (event) => show(JSON.parse(event.data)));
 source.addEventListener("over", () => {
   source.close();
-  $("state").textContent = "dynlab has ended; these are its last figures";
+  $("state").textContent = say("lastFigures");
 });
-source.onerror = () => { $("state").textContent = "no answer from dynlab; waiting for it"; };
+source.onerror = () => { $("state").textContent = say("noAnswer"); };

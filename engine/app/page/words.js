@@ -14,6 +14,7 @@ export function useLanguage(code) {
   document.documentElement.lang = code;
 }
 export const isFrench = () => place === 1;
+export const inEnglish = (key) => words[key][0];
 /// The values stand for %1, %2, ...
 export const say = (key, ...values) => (words[key]?.[place] ?? key).replace(/%(\d)/g, (_, number) => values[number - 1]);
 /// A number that is written with a point, as the language writes it.
