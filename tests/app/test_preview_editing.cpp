@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "platform/atomic_file.h"
@@ -307,71 +306,6 @@ TEST_F(preview_editing, choices_follow_the_script) {
     EXPECT_TRUE(browser.comes("document.getElementById('view').classList.contains('ready')", 60));
     browser.evaluate("fetch('/document.pdf').then(r => { window.pdf = r.status })");
     EXPECT_TRUE(browser.comes("window.pdf === 200", 60));
-}
-
-/// What was typed and not saved outlives its tab, and the program: the page's address is the same again. Clicks are
-/// made by scripts here, since a page that a hand has touched asks before it is left.
-TEST_F(preview_editing, what_was_not_saved_is_kept_and_offered) {
-    write(kHead + kFirst);
-    const auto begun = [&] { return std::make_unique<Preview>(file(), true, std::vector<std::string>{"--edit"}); };
-    std::unique_ptr<Preview> preview = begun();
-    Browser browser;
-    const auto open = [&] {
-        browser.open(preview->address());
-        ASSERT_TRUE(editor_has(browser, "local x = 20"));
-    };
-    const auto press = [&](const std::string& id) {
-        browser.evaluate("document.getElementById('" + id + "').click()");
-    };
-    const auto kept = [&](int count) {
-        return browser.comes("Object.keys(localStorage).filter((key) => key.startsWith('dynlab-draft')).length === " +
-                             std::to_string(count));
-    };
-    const std::string offered = "!document.getElementById('draft').hidden",
-                      has_typed = "document.querySelector('.CodeMirror').CodeMirror.getValue().includes('-- typed')";
-    open();
-    EXPECT_EQ(browser.evaluate("return " + offered), "false");
-    type(browser, "\\n-- typed\\n");
-    ASSERT_TRUE(kept(1));
-    open();
-    EXPECT_TRUE(browser.comes(offered));
-    EXPECT_TRUE(browser.comes(
-        "/^A draft of .*\\d\\d:\\d\\d was not saved\\.$/.test(document.getElementById('draft-text').innerText)"));
-    EXPECT_EQ(browser.evaluate("return " + has_typed), "false");
-    press("take-draft");
-    EXPECT_EQ(
-        browser.evaluate("return [" + has_typed + ", " + offered +
-                         ", document.getElementById('conflict').hidden, document.getElementById('save').disabled]"),
-        "[true,false,true,false]");
-    press("save");
-    EXPECT_TRUE(kept(0));
-    EXPECT_THAT(text_of(), HasSubstr("-- typed"));
-    open();
-    EXPECT_EQ(browser.evaluate("return " + offered), "false") << "the file has it";
-
-    type(browser, "\\n-- more\\n");
-    ASSERT_TRUE(kept(1));
-    preview.reset();
-    write(kHead + kFirst + "-- theirs\n");
-    preview = begun();
-    open();
-    EXPECT_TRUE(browser.comes(offered));
-    press("take-draft");
-    EXPECT_TRUE(editor_has(browser, "-- more"));
-    EXPECT_TRUE(browser.comes("document.getElementById('theirs').innerText.includes('-- theirs')"))
-        << "it was made from another text";
-    EXPECT_THAT(text_of(), testing::EndsWith("-- theirs\n"));
-    press("take-theirs");
-    EXPECT_TRUE(kept(0));
-
-    type(browser, "\\n-- third\\n");
-    ASSERT_TRUE(kept(1));
-    open();
-    EXPECT_TRUE(browser.comes(offered));
-    press("drop-draft");
-    EXPECT_TRUE(kept(0));
-    EXPECT_EQ(browser.evaluate("return " + offered), "false");
-    EXPECT_THAT(text_of(), testing::EndsWith("-- theirs\n"));
 }
 
 TEST_F(preview_editing, nothing_is_written_without_the_option) {

@@ -1,38 +1,68 @@
-// What was typed in the editor and is not saved yet, as the browser keeps it: by the file's place, until it is saved. It is offered
-// when the page is opened again and the file is another text.
+// What was typed in the editor and is not saved yet, as the browser keeps it until it is saved: by the file's place, and for each
+// opening of the file apart, so that none writes over another's. What an earlier one left is offered when the page is opened
+// again and the file is another text.
 import { isFrench, say } from "/page_words.js";
 
 const kDelay = 400;  // ms behind the last letter
-const nameOf = (source) => `dynlab-draft ${source.place}`;
 const waiting = new Map();  // source -> timer
 
-/// {text, digest, at} of a draft that is no longer the file's text; `digest`: of the text from which it was made.
-export function draftOf(source) {
-  try {
-    const draft = JSON.parse(localStorage.getItem(nameOf(source)));
-    if (typeof draft?.text === "string" && draft.text !== source.saved) return draft;
-    localStorage.removeItem(nameOf(source));
-  } catch { /* a browser that keeps nothing, or not this */ }
-  return null;
+const nameOf = (source) => `dynlab-draft ${source.place}`;
+const newKey = (source) => `${nameOf(source)} ${Date.now()}-${Math.floor(1e9 * Math.random())}`;
+function isOf(source, key) {
+  const name = nameOf(source);
+  return key === name || (key.startsWith(`${name} `) && /^\d+-\d+$/.test(key.slice(name.length + 1)));
 }
 
-/// What stands in the editor; nothing where the file has it. A draft that is offered stays until it is taken or thrown away.
+export function forget(draft) {
+  try { localStorage.removeItem(draft.key); } catch { /* a browser that keeps nothing */ }
+}
+
+/// Without those that are the file's text by now.
+function stillDrafts(source, drafts) {
+  drafts.filter(({ text }) => text === source.saved).forEach(forget);
+  return drafts.filter(({ text }) => text !== source.saved);
+}
+
+/// The drafts that were left, the newest first: [{key, text, digest, at}]; `digest`: of the text from which it was made.
+export function draftsOf(source) {
+  const drafts = [];
+  try {
+    for (const key of Object.keys(localStorage).filter((one) => isOf(source, one))) {
+      let draft = null;
+      try { draft = JSON.parse(localStorage.getItem(key)); } catch { /* not ours */ }
+      if (typeof draft?.text === "string") drafts.push({ ...draft, key });
+    }
+  } catch { /* a browser that keeps nothing */ }
+  return stillDrafts(source, drafts.sort((a, b) => b.at - a.at));
+}
+
+/// What stands in the editor; nothing where the file has it. Whether either is so. Drafts that are offered stay until they
+/// are taken or thrown away.
 export function keepDraft(source) {
   clearTimeout(waiting.get(source));
   waiting.delete(source);
-  if (source.draft && source.draft.text !== source.saved) return;
-  source.draft = null;
+  source.drafts = stillDrafts(source, source.drafts);
   const text = source.doc.getValue();
   try {
-    if (text === source.saved) localStorage.removeItem(nameOf(source));
-    else localStorage.setItem(nameOf(source), JSON.stringify({ text, digest: source.digest, at: Date.now() }));
-  } catch { /* a browser that keeps nothing, or not so much */ }
+    if (text !== source.saved) localStorage.setItem(source.key ??= newKey(source), JSON.stringify({ text, digest: source.digest, at: Date.now() }));
+    else if (source.key) localStorage.removeItem(source.key);
+    return true;
+  } catch {  // a browser that keeps nothing, or not so much
+    return false;
+  }
 }
 export function keepDraftSoon(source) {
   clearTimeout(waiting.get(source));
   waiting.set(source, setTimeout(() => keepDraft(source), kDelay));
 }
 window.addEventListener("pagehide", () => { for (const source of [...waiting.keys()]) keepDraft(source); });
+
+/// What stands in the editor becomes a draft that is offered; what comes after it is kept apart.
+export function setAside(source) {
+  keepDraft(source);
+  source.drafts.push({ key: source.key, text: source.doc.getValue(), digest: source.digest, at: Date.now() });
+  source.key = null;
+}
 
 /// "A draft of 14:03 was not saved": with the day where that is another one.
 export function wordsOf({ at }) {

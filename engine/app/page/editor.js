@@ -1,10 +1,10 @@
 // The document's files beside the page, where it may change them. What is saved says what it was made from: a file that
 // was changed elsewhere meanwhile is not written over, both texts are shown.
-import { draftOf, keepDraft, keepDraftSoon, wordsOf } from "/drafts.js";
+import { draftsOf, forget, keepDraft, keepDraftSoon, setAside, wordsOf } from "/drafts.js";
 import { inEnglish, say } from "/page_words.js";
 
 const $ = (id) => document.getElementById(id);
-const sources = new Map();  // number -> {number, name, place, digest, saved, doc, tab, theirs, draft}
+const sources = new Map();  // number -> {number, name, place, digest, saved, doc, tab, theirs, drafts, key}
 const kPhrases = ["search", "asPattern", "replace", "replaceAll", "replaceWith", "replaceBy", "replaceIt", "yes", "no", "all", "stop"];  // CodeMirror's
 let open = null;            // the one that is shown
 let mirror = null;          // CodeMirror, where it is installed
@@ -93,14 +93,15 @@ const isChanged = (source) => source.doc.getValue() !== source.saved;
 
 function showMarks() {
   for (const source of sources.values()) {
-    const dirty = isChanged(source);
-    source.tab.textContent = source.name + (dirty || source.draft ? " •" : "");
-    source.tab.title = dirty ? say("notYet") : source.draft ? wordsOf(source.draft) : "";
+    const dirty = isChanged(source), [draft] = source.drafts;
+    source.tab.textContent = source.name + (dirty || draft ? " •" : "");
+    source.tab.title = dirty ? say("notYet") : draft ? wordsOf(draft) : "";
     source.tab.setAttribute("aria-selected", String(source === open));
   }
   $("save").disabled = !open || !isChanged(open);
-  $("draft").hidden = !open?.draft;
-  if (open?.draft) $("draft-text").textContent = wordsOf(open.draft);
+  const offered = open?.drafts[0];
+  $("draft").hidden = !offered;
+  if (offered) $("draft-text").textContent = wordsOf(offered);
   const theirs = open?.theirs;
   $("conflict").hidden = !theirs;
   if (theirs) {
@@ -130,7 +131,7 @@ function add({ number, name, place, text, digest }) {
   const plain = unix(text);
   const doc = mirror ? window.CodeMirror.Doc(plain, mode) : new PlainDoc(plain);
   const source = { number, name, place, digest, saved: plain, crlf: text.includes("\r\n"), doc, tab, theirs: null, saves: 0 };
-  source.draft = draftOf(source);
+  source.drafts = draftsOf(source);
   tab.onclick = () => show(source);
   $("tabs").append(tab);
   sources.set(number, source);
@@ -156,19 +157,20 @@ function meet(source, theirs) {
   showMarks();
 }
 
-/// The draft takes the text's place. Where it was made from another text than the file's, both are shown.
+/// The draft takes the text's place; what was typed there is offered in its turn. Where the draft was made from another text
+/// than the file's, both are shown.
 function takeDraft(source) {
-  const { text, digest } = source.draft;
-  source.draft = null;
-  if (digest !== source.digest) Object.assign(source, { digest, theirs: source.theirs ?? { digest: source.digest, text: source.saved } });
+  const draft = source.drafts.shift(), { text, digest } = draft, file = source.theirs ?? { digest: source.digest, text: source.saved };
+  if (isChanged(source)) setAside(source);
+  const clean = file.digest === digest || file.text === text;
+  Object.assign(source, { digest: clean ? file.digest : digest, saved: file.text, theirs: clean ? null : file });
   source.doc.setValue(text);
-  keepDraft(source);
+  if (keepDraft(source)) forget(draft);
   showMarks();
 }
 
 function dropDraft(source) {
-  source.draft = null;
-  keepDraft(source);
+  forget(source.drafts.shift());
   showMarks();
 }
 
@@ -314,7 +316,7 @@ export async function follow(digests, onCursor) {
     else add(text);
   }
   const all = [...sources.values()];
-  if (!open && all.length > 0) show(all.find(({ draft }) => draft) ?? all[0]);
+  if (!open && all.length > 0) show(all.find(({ drafts }) => drafts.length > 0) ?? all[0]);
 }
 
 /// Puts the cursor on a line of a file, where the page may change it.
