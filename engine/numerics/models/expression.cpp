@@ -1,7 +1,10 @@
 #include "numerics/models/expression.h"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
+#include <deque>
 #include <utility>
 
 namespace dynlab::inline numerics {
@@ -24,57 +27,66 @@ int operand_count(Operation operation) {
     return operation <= Operation::kMinimum || operation == Operation::kPowerOrZero ? 2 : 1;
 }
 
+/// Calls use(f) with the function f(a, b, c) that an operation stands for. Variables have their value already: their f
+/// is a.
+template <class Use>
+void with_function_of(Operation operation, const Use& use) {
+    switch (operation) {
+        case Operation::kAdd:
+            return use([](double a, double b, double) { return a + b; });
+        case Operation::kSubtract:
+            return use([](double a, double b, double) { return a - b; });
+        case Operation::kMultiply:
+            return use([](double a, double b, double) { return a * b; });
+        case Operation::kDivide:
+            return use([](double a, double b, double) { return a / b; });
+        case Operation::kPower:
+            return use([](double a, double b, double) { return std::pow(a, b); });
+        case Operation::kMaximum:
+            return use([](double a, double b, double) { return b > a ? b : a; });
+        case Operation::kMinimum:
+            return use([](double a, double b, double) { return b < a ? b : a; });
+        case Operation::kNegate:
+            return use([](double a, double, double) { return -a; });
+        case Operation::kSin:
+            return use([](double a, double, double) { return std::sin(a); });
+        case Operation::kCos:
+            return use([](double a, double, double) { return std::cos(a); });
+        case Operation::kTan:
+            return use([](double a, double, double) { return std::tan(a); });
+        case Operation::kTanh:
+            return use([](double a, double, double) { return std::tanh(a); });
+        case Operation::kArcTangent:
+            return use([](double a, double, double) { return std::atan(a); });
+        case Operation::kExp:
+            return use([](double a, double, double) { return std::exp(a); });
+        case Operation::kLog:
+            return use([](double a, double, double) { return std::log(a); });
+        case Operation::kSqrt:
+            return use([](double a, double, double) { return std::sqrt(a); });
+        case Operation::kAbs:
+            return use([](double a, double, double) { return std::abs(a); });
+        case Operation::kSign:
+            return use([](double a, double, double) { return a > 0 ? 1 : a < 0 ? -1 : a; });
+        case Operation::kWhere:
+            return use([](double a, double b, double c) { return a > 0 ? b : c; });
+        case Operation::kReciprocalOrZero:
+            return use([](double a, double, double) { return a == 0 ? 0 : 1 / a; });
+        case Operation::kPowerOrZero:
+            return use([](double a, double b, double) { return a == 0 && b < 0 ? 0 : std::pow(a, b); });
+        case Operation::kLogOrZero:
+            return use([](double a, double, double) { return a > 0 ? std::log(a) : 0; });
+        default:
+            return use([](double a, double, double) { return a; });
+    }
+}
+
 }  // namespace
 
 double value_of(Operation operation, double a, double b, double c) {
-    switch (operation) {
-        case Operation::kAdd:
-            return a + b;
-        case Operation::kSubtract:
-            return a - b;
-        case Operation::kMultiply:
-            return a * b;
-        case Operation::kDivide:
-            return a / b;
-        case Operation::kPower:
-            return std::pow(a, b);
-        case Operation::kMaximum:
-            return b > a ? b : a;
-        case Operation::kMinimum:
-            return b < a ? b : a;
-        case Operation::kNegate:
-            return -a;
-        case Operation::kSin:
-            return std::sin(a);
-        case Operation::kCos:
-            return std::cos(a);
-        case Operation::kTan:
-            return std::tan(a);
-        case Operation::kTanh:
-            return std::tanh(a);
-        case Operation::kArcTangent:
-            return std::atan(a);
-        case Operation::kExp:
-            return std::exp(a);
-        case Operation::kLog:
-            return std::log(a);
-        case Operation::kSqrt:
-            return std::sqrt(a);
-        case Operation::kAbs:
-            return std::abs(a);
-        case Operation::kSign:
-            return a > 0 ? 1 : a < 0 ? -1 : a;
-        case Operation::kWhere:
-            return a > 0 ? b : c;
-        case Operation::kReciprocalOrZero:
-            return a == 0 ? 0 : 1 / a;
-        case Operation::kPowerOrZero:
-            return a == 0 && b < 0 ? 0 : std::pow(a, b);
-        case Operation::kLogOrZero:
-            return a > 0 ? std::log(a) : 0;
-        default:
-            return a;  // variables have their value already
-    }
+    double value = 0;
+    with_function_of(operation, [&](auto function) { value = function(a, b, c); });
+    return value;
 }
 
 Node ExpressionTape::add(const Line& line) {
@@ -262,6 +274,7 @@ ExpressionProgram::ExpressionProgram(const ExpressionTape& tape, const std::vect
         for (const Node operand : {line.a, line.b, line.c})
             if (operand >= 0) needed[static_cast<std::size_t>(operand)] = true;
     }
+    std::vector<Step> of_parameters, others;
     std::vector<std::uint32_t> places(static_cast<std::size_t>(tape.size()));
     const auto place = [&](Node node) { return node < 0 ? 0 : places[static_cast<std::size_t>(node)]; };
     for (Node node = 0; node < tape.size(); ++node) {
@@ -289,16 +302,57 @@ ExpressionProgram::ExpressionProgram(const ExpressionTape& tape, const std::vect
                 parameters_.push_back(variable);
                 break;
             default:
-                (varies ? others_ : of_parameters_)
-                    .push_back({line.operation, place(line.a), place(line.b), place(line.c), target});
+                (varies ? others : of_parameters)
+                    .push_back({line.operation, {place(line.a), place(line.b), place(line.c), target}});
         }
     }
+    of_parameters_ = in_runs(of_parameters);
+    others_ = in_runs(others);
     for (const Node node : results) results_.push_back(place(node));
 }
 
-void ExpressionProgram::execute(const std::vector<Instruction>& instructions, double* registers) {
-    for (const Instruction& one : instructions)
-        registers[one.target] = value_of(one.operation, registers[one.a], registers[one.b], registers[one.c]);
+// Always the operation that most steps are ready for, as long as one is.
+ExpressionProgram::Schedule ExpressionProgram::in_runs(const std::vector<Step>& steps) const {
+    constexpr std::size_t kOperations = static_cast<std::size_t>(Operation::kLogOrZero) + 1;
+    std::vector<std::vector<std::size_t>> readers(registers_.size());
+    std::vector<bool> is_computed(registers_.size());
+    for (const Step& step : steps) is_computed[step.instruction.target] = true;
+    std::vector<int> missing(steps.size());
+    std::array<std::deque<std::size_t>, kOperations> ready;
+    const auto make_ready = [&](std::size_t i) { ready[static_cast<std::size_t>(steps[i].operation)].push_back(i); };
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        const Instruction& one = steps[i].instruction;
+        const std::uint32_t operands[] = {one.a, one.b, one.c};
+        for (int k = 0; k < operand_count(steps[i].operation); ++k) {
+            if (!is_computed[operands[k]]) continue;
+            readers[operands[k]].push_back(i);
+            ++missing[i];
+        }
+        if (missing[i] == 0) make_ready(i);
+    }
+    Schedule schedule;
+    while (schedule.instructions.size() < steps.size()) {
+        const auto most = std::max_element(ready.begin(), ready.end(),
+                                           [](const auto& a, const auto& b) { return a.size() < b.size(); });
+        const std::size_t begin = schedule.instructions.size();
+        for (; !most->empty(); most->pop_front()) {
+            const Instruction& one = steps[most->front()].instruction;
+            schedule.instructions.push_back(one);
+            for (const std::size_t reader : readers[one.target])
+                if (--missing[reader] == 0) make_ready(reader);
+        }
+        schedule.runs.push_back({static_cast<Operation>(most - ready.begin()), schedule.instructions.size() - begin});
+    }
+    return schedule;
+}
+
+void ExpressionProgram::execute(const Schedule& schedule, double* registers) {
+    const Instruction* one = schedule.instructions.data();
+    for (const Run& run : schedule.runs)
+        with_function_of(run.operation, [&](auto function) {
+            for (const Instruction* const end = one + run.length; one != end; ++one)
+                registers[one->target] = function(registers[one->a], registers[one->b], registers[one->c]);
+        });
 }
 
 void ExpressionProgram::set_parameters(const double* parameters) {

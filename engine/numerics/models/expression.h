@@ -104,16 +104,30 @@ class ExpressionProgram {
 
   private:
     struct Instruction {
+        std::uint32_t a, b, c, target;
+    };
+    struct Step {
         Operation operation;
-        std::uint32_t a = 0, b = 0, c = 0, target = 0;
+        Instruction instruction;
+    };
+    struct Run {
+        Operation operation;
+        std::size_t length;
+    };
+    /// Instructions in an order that has few runs of one operation, each of which is chosen once for its whole run: a
+    /// choice for each instruction costs more than what it computes.
+    struct Schedule {
+        std::vector<Run> runs;
+        std::vector<Instruction> instructions;
     };
     struct Variable {
         std::size_t place;
         std::uint32_t target;
     };
-    static void execute(const std::vector<Instruction>& instructions, double* registers);
+    Schedule in_runs(const std::vector<Step>& steps) const;
+    static void execute(const Schedule& schedule, double* registers);
 
-    std::vector<Instruction> of_parameters_, others_;
+    Schedule of_parameters_, others_;
     std::vector<Variable> parameters_, states_, inputs_;
     std::vector<std::uint32_t> times_, results_;
     std::vector<double> registers_;
