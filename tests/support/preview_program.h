@@ -13,13 +13,15 @@
 #include <vector>
 
 #include "platform/temporary_folder.h"
+#include "support/program.h"
 
 namespace dynlab::test {
 
 /// The program that serves a page, as a user starts it.
 class PageProgram {
   public:
-    /// `words`: the command and what follows it. A cache of its own unless one is named.
+    /// `words`: the command and what follows it. A cache of its own unless one is named, with the formats of LaTeX that
+    /// tests have made.
     explicit PageProgram(std::vector<std::string> words, const std::filesystem::path& cache = {},
                          const std::filesystem::path& folder = {}) {
         const std::filesystem::path address = out.path() / "address";
@@ -28,6 +30,7 @@ class PageProgram {
         std::vector<char*> pointers;
         for (std::string& word : words) pointers.push_back(word.data());
         pointers.push_back(nullptr);
+        if (cache.empty()) lend_formats(out.path());
         process_ = ::fork();
         if (process_ == 0) {
             ::setenv("XDG_CACHE_HOME", cache.empty() ? out.path().c_str() : cache.c_str(), 1);
@@ -51,6 +54,7 @@ class PageProgram {
         ::kill(process_, SIGINT);
         ::waitpid(process_, nullptr, 0);
         process_ = 0;
+        keep_formats(out.path());
     }
     /// The processes that run scripts stand still until `go_on`, however long a browser takes meanwhile.
     void hold() const {

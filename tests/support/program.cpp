@@ -19,7 +19,8 @@ fs::path memory_of_tests() {
     return fs::path(DYNLAB_PROGRAM).parent_path().parent_path() / "memory_of_tests";
 }
 
-/// The formats that tests of this build have made, as links in a cache that is empty.
+}  // namespace
+
 void lend_formats(const fs::path& cache) {
     std::error_code error;
     fs::create_directories(cache / kFormats);
@@ -28,7 +29,6 @@ void lend_formats(const fs::path& cache) {
         fs::create_directory_symlink(format->path(), cache / kFormats / format->path().filename());
 }
 
-/// Those that were made in a cache of its own, for later tests; the first of two wins.
 void keep_formats(const fs::path& cache) {
     const fs::path memory = memory_of_tests() / "dynlab", unfinished = memory / (".new-" + std::to_string(::getpid()));
     std::error_code error;
@@ -42,8 +42,6 @@ void keep_formats(const fs::path& cache) {
         fs::remove_all(unfinished, failed);
     }
 }
-
-}  // namespace
 
 Workbench::Workbench(Memory memory)
     : path_variable_(std::getenv("PATH")),

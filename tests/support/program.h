@@ -8,6 +8,11 @@
 
 namespace dynlab::test {
 
+/// The formats of LaTeX that tests of this build have made, as links in a cache that is empty.
+void lend_formats(const std::filesystem::path& cache);
+/// Those that were made in such a cache, for later tests; the first of two wins.
+void keep_formats(const std::filesystem::path& cache);
+
 /// An empty folder in which the built program is run as a user would run it, with a cache of its own.
 class Workbench {
   public:
