@@ -1,6 +1,5 @@
 #include "numerics/signals/correlation.h"
 
-#include <array>
 #include <complex>
 #include <string>
 #include <unsupported/Eigen/FFT>
@@ -14,38 +13,57 @@ namespace {
 
 constexpr Index kDirectLags = 100;  // about where the transforms become the faster way
 
-constexpr Index kLanes = 8, kLagsAtOnce = 4;
+using Packet = Eigen::internal::packet_traits<double>::type;  // as many values as the processor takes at once
+constexpr Index kLanes = sizeof(Packet) / sizeof(double), kShifts = 4;
 constexpr Index kCachedSamples = 2048;  // samples that stay in the processor's cache while all lags pass over them
 
-/// sum over k of x(k + lag) y(k) for four neighbouring lags from that of x's first sample on; x holds three more.
-Eigen::Array4d four_lags(const double* x, const double* y, Index count) {
-    using Lanes = Eigen::Array<double, kLanes, 1>;
-    std::array<Lanes, kLagsAtOnce> sums;
-    sums.fill(Lanes::Zero());
+/// Values that stay in a register: compilers read them again for each product, and reading is what takes the time.
+Packet read(const double* values) {
+    Packet packet = Eigen::internal::ploadu<Packet>(values);
+    EIGEN_OPTIMIZATION_BARRIER(packet)
+    return packet;
+}
+
+/// sum over k of x(k + j) y(k - 4 w) for j = 0..3, the shifts of x, and w = 0, 1, ..., the windows of y: what is read
+/// serves several lags. Entry 4 w + j; x holds three more samples, y those before its first that the windows ask for.
+template <Index kWindows>
+Eigen::Array<double, kShifts * kWindows, 1> shifted_products(const double* x, const double* y, Index count) {
+    constexpr Index kLags = kShifts * kWindows;
+    Packet sums[kLags];
+    for (Packet& sum : sums) sum = Eigen::internal::pset1<Packet>(0);
     Index k = 0;
     for (; k + kLanes <= count; k += kLanes) {
-        const Lanes now = Eigen::Map<const Lanes>(y + k);
-        for (Index j = 0; j < kLagsAtOnce; ++j)
-            sums[static_cast<std::size_t>(j)] += Eigen::Map<const Lanes>(x + k + j) * now;
+        Packet windows[kWindows];
+        for (Index w = 0; w < kWindows; ++w) windows[w] = read(y + k - kShifts * w);
+        for (Index j = 0; j < kShifts; ++j) {
+            const Packet shifted = read(x + k + j);
+            for (Index w = 0; w < kWindows; ++w)
+                sums[kShifts * w + j] = Eigen::internal::pmadd(shifted, windows[w], sums[kShifts * w + j]);
+        }
     }
-    Eigen::Array4d totals;
-    for (Index j = 0; j < kLagsAtOnce; ++j) totals[j] = sums[static_cast<std::size_t>(j)].sum();
+    Eigen::Array<double, kLags, 1> totals;
+    for (Index i = 0; i < kLags; ++i) totals[i] = Eigen::internal::predux(sums[i]);
     for (; k < count; ++k)
-        for (Index j = 0; j < kLagsAtOnce; ++j) totals[j] += x[k + j] * y[k];
+        for (Index i = 0; i < kLags; ++i) totals[i] += x[k + i % kShifts] * y[k - i / kShifts * kShifts];
     return totals;
 }
 
 /// sum_k x(k + lag) y(k), lags 0..last, over all k for which both exist.
 Vector products_ahead(const VectorView& x, const VectorView& y, Index last) {
+    constexpr Index kWindows = 2, kLagsAtOnce = kShifts * kWindows, kBefore = kLagsAtOnce - kShifts;
     const Index N = x.size(), groups = last / kLagsAtOnce + 1;
-    const Index inner = std::max<Index>(0, N - groups * kLagsAtOnce);  // where x has a sample at every lag
+    const Index end = std::max(kBefore, N - groups * kLagsAtOnce);  // until there x has a sample at every lag
     Vector sums = Vector::Zero(groups * kLagsAtOnce);
-    for (Index k = 0; k < inner; k += kCachedSamples)
+    for (Index k = kBefore; k < end; k += kCachedSamples)
         for (Index lag = 0; lag <= last; lag += kLagsAtOnce)
             sums.segment<kLagsAtOnce>(lag).array() +=
-                four_lags(x.data() + k + lag, y.data() + k, std::min(kCachedSamples, inner - k));
-    for (Index lag = 0; lag <= std::min(last, N - 1); ++lag)
-        if (const Index rest = N - lag - inner; rest > 0) sums[lag] += x.tail(rest).dot(y.segment(inner, rest));
+                shifted_products<kWindows>(x.data() + k + lag, y.data() + k, std::min(kCachedSamples, end - k));
+    // At a lag of the w-th window these were the samples kBefore - 4 w to end - 4 w of y.
+    for (Index lag = 0; lag <= std::min(last, N - 1); ++lag) {
+        const Index behind = lag % kLagsAtOnce / kShifts * kShifts, pairs = N - lag;
+        const Index begin = std::min(pairs, kBefore - behind), rest = std::max<Index>(0, pairs - (end - behind));
+        sums[lag] += x.segment(lag, begin).dot(y.head(begin)) + x.tail(rest).dot(y.segment(pairs - rest, rest));
+    }
     return sums.head(last + 1);
 }
 
@@ -99,9 +117,9 @@ Vector products_behind(const VectorView& x, const double* y, Index last) {
     for (Index k = 0; k < N; k += kCachedSamples) {
         const Index count = std::min(kCachedSamples, N - k);
         Index lag = 0;
-        for (; lag + kLagsAtOnce <= last + 1; lag += kLagsAtOnce)
-            sums.segment<kLagsAtOnce>(lag).array() +=
-                four_lags(y + k - lag - (kLagsAtOnce - 1), x.data() + k, count).reverse();
+        for (; lag + kShifts <= last + 1; lag += kShifts)
+            sums.segment<kShifts>(lag).array() +=
+                shifted_products<1>(y + k - lag - (kShifts - 1), x.data() + k, count).reverse();
         for (; lag <= last; ++lag) sums[lag] += Eigen::Map<const Vector>(y + k - lag, count).dot(x.segment(k, count));
     }
     return sums;
