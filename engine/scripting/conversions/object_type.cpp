@@ -72,10 +72,11 @@ int read_member(lua_State* L) {
         lua_settop(L, 2);
     }
     if (lua_type(L, 2) != LUA_TSTRING)
-        raise_error(L, fmt::format("a {0} has no elements; help(\"{0}\") tells what it has{1}", type.name,
-                                   std::string_view(type.name) == "figure"
-                                       ? ", and bode_values(G, w), freqresp(G, w) and lsim(G, u, t) give numbers"
-                                       : ""));
+        raise_error(L,
+                    fmt::format("{} has no elements; help(\"{}\") tells what it has{}", article(type.name), type.name,
+                                std::string_view(type.name) == "figure"
+                                    ? ", and bode_values(G, w), freqresp(G, w) and lsim(G, u, t) give numbers"
+                                    : ""));
     raise_error(L, unknown_member_message(L, type, lua_tostring(L, 2)));
 }
 
