@@ -3,12 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <regex>
 
 #include "documents/text_lines.h"
 #include "documents/weave.h"
 #include "platform/atomic_file.h"
+#include "scripting/conversions/option_words.h"
 #include "scripting/script_run.h"
 #include "told_in_french.h"
 
@@ -96,37 +98,132 @@ TEST(script_errors_in_french, of_orders_and_arguments_leave_no_english_word) {
         "entre 1 et 3");
 }
 
-/// What InvalidArgument is given in a source, with a number in each place for a value.
-std::vector<std::string> refusals_in(const std::filesystem::path& source) {
+struct Refusal {
+    std::string sentence;  ///< with a number in each place for a value
+    bool of_values = false;
+};
+
+/// What InvalidArgument is given in a source, as a script reads it behind the function that says it.
+std::vector<Refusal> refusals_in(const std::filesystem::path& source) {
     std::string text = std::regex_replace(read_text(source), std::regex("(^|[^:\"])//[^\n]*"), "$1");
     text = std::regex_replace(text, std::regex("\"\\s*\n\\s*\""), "");
-    static const std::regex refusal(R"re(InvalidArgument\(\s*(?:fmt::format\(\s*)?"((?:[^"\\]|\\.)*)"\s*[,)])re"),
-        value(R"(\{[^{}]*\})");
-    std::vector<std::string> sentences;
+    static const std::regex refusal(R"re(InvalidArgument\(\s*(fmt::format\(\s*)?"((?:[^"\\]|\\.)*)"\s*[,)])re"),
+        value(R"(\{[^{}]*\})"), own_name("^(?!roots)[a-z0-9]+: "), in_capitals("^(All|At|Each|Irregular|The|With) ");
+    std::vector<Refusal> refusals;
     for (std::sregex_iterator found(text.begin(), text.end(), refusal), end; found != end; ++found) {
-        std::string sentence = replaced((*found)[1].str(), "\\\"", "\"");
-        sentence = replaced(replaced(sentence, "{{", "\x01"), "}}", "\x02");
-        sentence = std::regex_replace(sentence, value, "7");
-        sentences.push_back(replaced(replaced(replaced(sentence, "\x01", "{"), "\x02", "}"), "`", ""));
+        std::string sentence = replaced(replaced((*found)[2].str(), "\\\"", "\""), "\\\\", "\\");
+        const bool formatted = (*found)[1].matched;
+        if (formatted) {
+            sentence = replaced(replaced(sentence, "{{", "\x01"), "}}", "\x02");
+            sentence = std::regex_replace(sentence, value, "7");
+            sentence = replaced(replaced(sentence, "\x01", "{"), "\x02", "}");
+        }
+        sentence = std::regex_replace(in_lua_words(sentence), own_name, "");
+        if (std::regex_search(sentence, in_capitals)) sentence[0] += 'a' - 'A';
+        refusals.push_back({"analysis.lua:1: f: " + sentence, formatted});
     }
-    return sentences;
+    return refusals;
+}
+
+std::vector<Refusal> all_refusals() {
+    std::vector<Refusal> all;
+    for (const char* layer : {"engine/figures", "engine/numerics", "engine/scripting"})
+        for (const auto& entry :
+             std::filesystem::recursive_directory_iterator(std::filesystem::path(DYNLAB_SOURCE_DIR) / layer)) {
+            if (entry.path().extension() != ".cpp" && entry.path().extension() != ".h") continue;
+            const std::vector<Refusal> refusals = refusals_in(entry.path());
+            all.insert(all.end(), refusals.begin(), refusals.end());
+        }
+    return all;
 }
 
 /// A sentence whose frame has an entry and whose pieces have none would be half in each language.
 TEST(script_errors_in_french, are_told_whole_or_not_at_all) {
     int told = 0;
-    for (const char* layer : {"engine/figures", "engine/numerics", "engine/scripting"})
-        for (const auto& entry :
-             std::filesystem::recursive_directory_iterator(std::filesystem::path(DYNLAB_SOURCE_DIR) / layer)) {
-            if (entry.path().extension() != ".cpp" && entry.path().extension() != ".h") continue;
-            for (const std::string& sentence : refusals_in(entry.path())) {
-                const std::string message = "analysis.lua:1: f: " + sentence;
-                if (in_french(message) == message) continue;
-                ++told;
-                expect_told_in_french(message);
-            }
-        }
-    EXPECT_GT(told, 40);
+    for (const Refusal& refusal : all_refusals()) {
+        if (in_french(refusal.sentence) == refusal.sentence) continue;
+        ++told;
+        expect_told_in_french(refusal.sentence);
+    }
+    EXPECT_GT(told, 380);
+}
+
+/// Where a place stands for words, a number finds no entry though the words would; no more sentences may join these.
+constexpr int kOfWords = 39;
+
+/// What no script brings about, and a sentence that begins like a remark of the catalogue.
+const char* const kStayEnglish[] = {"a rig's part must be carried by one before it",
+                                    "a piece of a rig must have as many x as y and parts",
+                                    "a piece of a rig belongs to a part that is not there",
+                                    "irregular sampling wants companion matrices",
+                                    "irregular sampling wants inputs that drive the first state alone",
+                                    "its parameters, their names, standard errors and covariance differ in number",
+                                    "its channels do not make whole outputs",
+                                    "# counts the elements of a vector; a matrix has A.rows and A.columns"};
+
+TEST(script_errors_in_french, are_told_for_all_that_scripts_are_refused) {
+    int of_words = 0;
+    std::vector<std::string> missing;
+    for (const Refusal& refusal : all_refusals()) {
+        if (in_french(refusal.sentence) != refusal.sentence) continue;
+        const bool stays =
+            std::ranges::any_of(kStayEnglish, [&](const char* english) { return refusal.sentence.ends_with(english); });
+        if (refusal.of_values)
+            ++of_words;
+        else if (!stays)
+            missing.push_back(refusal.sentence);
+    }
+    EXPECT_THAT(missing, testing::IsEmpty()) << "these want an entry in report_templates/script_errors.fr.txt";
+    EXPECT_LE(of_words, kOfWords);
+}
+
+TEST(script_errors_in_french, of_calls_leave_no_english_word) {
+    const std::string record = "local u = prbs(6, 2)\nlocal d = iddata(u, u, 1)\n";
+    for (const char* call : {"local y = vector{1, 2} + vector{1}",
+                             "local y = matrix{{1, 2}} * matrix{{1, 2}}",
+                             "solve(matrix{{1}, {1, 2}}, 1)",
+                             "sum{1, 'a'}",
+                             "local y = u[0]",
+                             "local y = u[1.5]",
+                             "u[200] = 1",
+                             "local y = u < u",
+                             "local y = d[1]",
+                             "local n = u.length",
+                             "print(d.Fs)",
+                             "d.y2 = 1",
+                             "local t = 'a' .. d",
+                             "sqrt(-2)",
+                             "inv(matrix{{1, 1}, {1, 1}})",
+                             "report.value('a b', 1)",
+                             "slider('k', {from = 2, to = 1})",
+                             "load('nosuch')",
+                             "save_csv('a.txt', {t = u})",
+                             "plot({1, 2}, {1, 2, 3})",
+                             "plot({1, 2}, {1, 2}, 'LineWidth', 2)",
+                             "plot()",
+                             "histogram{}",
+                             "subplot(1, 1, 2)",
+                             "d:experiment(2)",
+                             "d:range(1, 200)",
+                             "d:split(2)",
+                             "iddata({1, 0/0}, {1, 2}, 1)",
+                             "iddata({1, 2}, {1}, 1)",
+                             "tf({1}, {0})",
+                             "tf({1}, {1, 1}, 0.1) + tf({1}, {1, 1}, 0.2)",
+                             "c2d(tf({1}, {1, 1}, 1), 1)",
+                             "lsim(tf({1, 0, 0}, {1, 1}), u, 1)",
+                             "procsrivc(d, 'P4')",
+                             "lssvf(d, {1, 1, 0}, -1)",
+                             "n4sid(d, 0)",
+                             "polyfit({1, 2}, {1, 2, 3}, 1)",
+                             "step_first_order(d)",
+                             "local x = 2 # 3",
+                             "local v = x += 1",
+                             "ode45(1)"}) {
+        const std::string message = error_of(record + call);
+        EXPECT_NE(message, "(no error)") << call;
+        expect_told_in_french(message);
+    }
 }
 
 TEST(script_errors_in_french, keep_file_line_and_function) {
