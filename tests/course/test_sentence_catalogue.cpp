@@ -72,6 +72,26 @@ TEST(sentence_catalogue, tells_what_a_program_prints_line_by_line) {
     EXPECT_EQ(known.translated_lines(""), "");
 }
 
+TEST(sentence_catalogue, places_for_numbers_and_for_sentences_hold_nothing_else) {
+    const Workbench bench;
+    const SentenceCatalogue known =
+        catalogue(bench,
+                  "{n} pole\n  {n} pôle\n{n} GB\n  {n} Go\nit has {}\n  il a {}\nall failed; the first says: {s}\n  "
+                  "tout a échoué ; le premier dit : {s}\n");
+    EXPECT_EQ(known.translated("it has 1 pole"), "il a 1 pôle");
+    EXPECT_EQ(known.translated("it has 2.15 GB"), "il a 2,15 Go");
+    EXPECT_EQ(known.translated("it has 8e+03 GB"), "il a 8e+03 Go");
+    for (const char* unknown : {"there is 1 pole", "no pole", "all failed; the first says: nothing"})
+        EXPECT_EQ(known.translated(unknown), unknown);
+    EXPECT_EQ(known.translated("all failed; the first says: it has 1 pole"),
+              "tout a échoué ; le premier dit : il a 1 pôle");
+    EXPECT_EQ(known.translated("a.lua:1: f: g: all failed; the first says: h: it has 1 pole"),
+              "a.lua:1: f: g: tout a échoué ; le premier dit : h: il a 1 pôle");
+    std::string deep = "all failed; the first says: ";
+    for (int k = 0; k < 12; ++k) deep += deep;
+    EXPECT_EQ(known.translated(deep), deep);
+}
+
 TEST(sentence_catalogue, refuses_what_is_no_pair) {
     const Workbench bench;
     for (const auto& [text, words] :

@@ -14,13 +14,33 @@
 namespace dynlab::inline documents {
 namespace {
 
-std::vector<std::string> pieces_between_slots(const std::string& sentence) {
-    std::vector<std::string> pieces;
+constexpr std::size_t kLongestWithin = 1000;  // of a sentence within another
+constexpr std::size_t kMostNames = 3;         // of functions in front of a sentence
+
+/// A sentence between its places, which are {}, {n} or {s}.
+struct Pieces {
+    std::vector<std::string> words;
+    std::string places;  ///< ' ', 'n' or 's'
+};
+
+Pieces pieces_of(const std::string& sentence) {
+    Pieces pieces;
     std::size_t start = 0;
-    for (std::size_t slot; (slot = sentence.find("{}", start)) != sentence.npos; start = slot + 2)
-        pieces.push_back(sentence.substr(start, slot - start));
-    pieces.push_back(sentence.substr(start));
+    for (std::size_t at = 0; (at = sentence.find('{', at)) != sentence.npos; ++at) {
+        const std::string_view rest = std::string_view(sentence).substr(at);
+        const bool of_kind = rest.starts_with("{n}") || rest.starts_with("{s}");
+        if (!of_kind && !rest.starts_with("{}")) continue;
+        pieces.words.push_back(sentence.substr(start, at - start));
+        pieces.places += of_kind ? rest[1] : ' ';
+        start = at + (of_kind ? 3 : 2);
+    }
+    pieces.words.push_back(sentence.substr(start));
     return pieces;
+}
+
+/// "7", "-2", "2.15", "8e+03".
+bool is_number(std::string_view text) {
+    return text.find_first_of("0123456789") <= 1 && text.find_first_not_of("0123456789.e+-") == text.npos;
 }
 
 /// A name in quotation marks is the script's, even where a word of the program is the same.
@@ -49,13 +69,21 @@ bool ends_sentence(std::string_view text, std::size_t at) {
     return at == text.size() || text[at] == ' ';
 }
 
-/// How much of a text is file, line and function of a script's message; 0 for other texts.
+/// How much of a text is file and line of a script's message; 0 for other texts.
 std::size_t place_in_script(std::string_view text) {
-    static const std::regex place(R"(^[^\s:]+(?::\d+|, cell \d+, line \d+): (?:[A-Za-z_][\w.]*: )?)");
+    static const std::regex place(R"(^[^\s:]+(?::\d+|, cell \d+, line \d+): )");
     std::cmatch found;
     return std::regex_search(text.data(), text.data() + std::min(text.size(), kLongestForRegex), found, place)
                ? static_cast<std::size_t>(found.length())
                : 0;
+}
+
+/// How much of a text is the name of the function that says the rest: "fit: ..."; 0 where it begins with none.
+std::size_t function_name(std::string_view text) {
+    constexpr const char* kOfNames = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_.0123456789";
+    const std::size_t end = std::min(text.find_first_not_of(kOfNames), text.size());
+    const bool begins = end > 0 && text[0] != '.' && (text[0] < '0' || text[0] > '9');
+    return begins && text.substr(end).starts_with(": ") ? end + 2 : 0;
 }
 
 /// The number that a text begins with gets a comma; what follows it, a unit or an exponent, stays.
@@ -102,7 +130,8 @@ void SentenceCatalogue::add(const std::filesystem::path& file) {
             sentence = trimmed(line);
             continue;
         }
-        Entry entry{pieces_between_slots(sentence), pieces_between_slots(trimmed(line)), 0};
+        Pieces from = pieces_of(sentence);
+        Entry entry{std::move(from.words), pieces_of(trimmed(line)).words, std::move(from.places), 0};
         if (entry.from.size() != entry.to.size()) fail("as many {} are wanted as in the sentence above");
         for (const std::string& piece : entry.from) entry.letters += piece.size();
         entries_.push_back(std::move(entry));
@@ -111,7 +140,13 @@ void SentenceCatalogue::add(const std::filesystem::path& file) {
     if (!sentence.empty()) fail("the last sentence has no other language's below it");
 }
 
-std::optional<SentenceCatalogue::Fit> SentenceCatalogue::fit(const Entry& entry, std::string_view text) {
+bool SentenceCatalogue::may_stand_for(char place, std::string_view text) const {
+    if (place == 'n') return is_number(text);
+    return place != 's' ||
+           (text.size() <= kLongestWithin && behind_names(text.substr(place_in_script(text))).sentence.has_value());
+}
+
+std::optional<SentenceCatalogue::Fit> SentenceCatalogue::fit(const Entry& entry, std::string_view text) const {
     if (!text.starts_with(entry.from.front())) return {};
     Fit found{&entry, {}, entry.from.front().size()};
     for (std::size_t i = 1; i < entry.from.size(); ++i) {
@@ -123,6 +158,7 @@ std::optional<SentenceCatalogue::Fit> SentenceCatalogue::fit(const Entry& entry,
         const std::string_view between = text.substr(found.end, at - found.end);
         const bool open_end = last && piece.empty();
         if (!open_end && !is_quoted(entry.from[i - 1]) && holds_sentence_end(between)) return {};
+        if (!may_stand_for(entry.places[i - 1], between)) return {};
         found.between.push_back(between);
         found.end = at + piece.size();
     }
@@ -147,16 +183,28 @@ bool SentenceCatalogue::knows(std::string_view sentence) const {
     return fitting(sentence, Extent::kAll).has_value();
 }
 
+/// The sentence behind the names of functions that say it, of which the first is never a part of it: behind all of
+/// them, or else fewer, as "roots: ..." is an entry.
+SentenceCatalogue::Named SentenceCatalogue::behind_names(std::string_view text) const {
+    std::vector<std::size_t> ends;
+    for (std::size_t end = 0, name; ends.size() < kMostNames && (name = function_name(text.substr(end))) > 0;)
+        ends.push_back(end += name);
+    if (ends.empty()) return {0, fitting(text, Extent::kAll)};
+    for (; !ends.empty(); ends.pop_back())
+        if (std::optional<Fit> found = fitting(text.substr(ends.back()), Extent::kAll)) return {ends.back(), found};
+    return {};
+}
+
 std::string SentenceCatalogue::told_line(std::string_view message) const {
     const std::size_t place = place_in_script(message);
-    const std::string_view sentence = message.substr(place);
-    const std::optional<Fit> found = fitting(sentence, Extent::kAll);
+    const std::string_view said = message.substr(place);
+    const auto [names, found] = behind_names(said);
     std::string told(message.substr(0, place));
     static const std::regex kCell(R"(cell \d+, line \d+)");  // of a notebook
     if (std::smatch cell; std::regex_search(told, cell, kCell))
         if (const std::string words = cell.str(); const std::optional<Fit> known = fitting(words, Extent::kAll))
             told.replace(static_cast<std::size_t>(cell.position()), words.size(), written(*known));
-    return told + (found ? written(*found) : std::string(sentence));
+    return told + std::string(said.substr(0, names)) + (found ? written(*found) : std::string(said.substr(names)));
 }
 
 std::string SentenceCatalogue::written(const Fit& found) const {
@@ -166,9 +214,10 @@ std::string SentenceCatalogue::written(const Fit& found) const {
         const std::string& before = found.entry->from[i];
         const bool quoted = is_quoted(before);
         const bool of_script = place_in_script(between) > 0;
-        const std::optional<Fit> known = of_script ? std::nullopt : fitting(between, Extent::kAll);
-        if (of_script)
-            text += translated(between);
+        const bool sentence = found.entry->places[i] == 's';
+        const std::optional<Fit> known = of_script || sentence ? std::nullopt : fitting(between, Extent::kAll);
+        if (of_script || sentence)
+            text += of_script ? translated(between) : told_line(between);
         else if (known && !(quoted && is_script_name(between)))
             text += written(*known);
         else
