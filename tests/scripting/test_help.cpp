@@ -3,10 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <regex>
 #include <sstream>
 
 #include "numerics/error.h"
+#include "platform/atomic_file.h"
 #include "platform/utf8.h"
 #include "script_run.h"
 #include "scripting/runtime/help.h"
@@ -150,6 +152,50 @@ TEST(help, finds_pages_by_words) {
     EXPECT_THROW(help_search("zzzz", all), InvalidArgument);
     EXPECT_THROW(help_search("", all), InvalidArgument);
     EXPECT_THROW(help_text("", all), InvalidArgument);
+}
+
+/// The names in calls of help that a text advises.
+std::vector<std::string> advised_in(const std::string& text) {
+    static const std::regex advice(R"re(help\(\\?"([^"\\]+)\\?"\))re");
+    std::vector<std::string> names;
+    for (std::sregex_iterator found(text.begin(), text.end(), advice), end; found != end; ++found)
+        names.push_back((*found)[1].str());
+    return names;
+}
+
+TEST(help, is_there_for_every_object_that_has_no_elements) {
+    const std::string objects = R"(rng(1)
+local u = prbs(6, 4)
+local d = iddata(lsim(tf({1}, {1, 1}), u, 0.1) + 0.01*randn(#u), u, 0.1)
+local m = idgrey(function(t, x, u, p) return {-p.k*x[1] + u[1]} end, {k = 1}, {states = 1})
+local lssvf_of = function(d) return lssvf(d, {1, 1, 0}, 1) end
+for _, object in ipairs{tf({1}, {1, 1}), pole(tf({1}, {1, 1}))[1], m, greyest(d, m), idproc("P1"),
+    ss({{-1}}, {{1}}, {{1}}, {{0}}), lsq(matrix{{1}, {2}}, {1, 2}), idfrd(freqresp(tf({1}, {1, 1}), {1, 2}), {1, 2}),
+    plot(u, u), narx(d, {1, 1, 1}), arxstruc(d, {na = {1, 1}, nb = {1, 1}, nk = {1, 1}}),
+    srivcstruc(d, {poles = {1, 1}, zeros = {0, 0}}),
+    montecarlo{system = tf({1}, {1, 1}), input = u, Ts = 0.1, sigma = 0.1, runs = 3, estimators = {a = lssvf_of}}} do
+    print(select(2, pcall(function() return object[1] end)))
+end
+)";
+    const std::string said = printed(objects);
+    const std::vector<std::string> names = advised_in(said);
+    EXPECT_EQ(names.size(), 13u) << said;
+    for (const std::string& name : names) EXPECT_TRUE(find_help_page(name)) << name;
+}
+
+TEST(help, is_there_wherever_sources_advise_it) {
+    int count = 0;
+    const std::filesystem::path engine = std::filesystem::path(DYNLAB_SOURCE_DIR) / "engine";
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(engine)) {
+        const std::string extension = entry.path().extension().string();
+        if (extension != ".cpp" && extension != ".md" && extension != ".js") continue;
+        for (const std::string& name : advised_in(read_text(entry.path()))) {
+            if (name == "{}" || name == "delay") continue;  // put together; a word that pages speak of
+            ++count;
+            EXPECT_TRUE(find_help_page(name)) << name << " in " << entry.path();
+        }
+    }
+    EXPECT_GT(count, 5);
 }
 
 }  // namespace test_help

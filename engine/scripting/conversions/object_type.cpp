@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "platform/spelling.h"
@@ -50,6 +54,24 @@ std::string unknown_member_message(lua_State* L, const ObjectType& type, const s
     return names.empty() ? message : message + fmt::format("; it has {}", fmt::join(names, ", "));
 }
 
+/// The help page that tells what an object of this kind has.
+std::string_view page_of(std::string_view kind) {
+    using KindPage = std::pair<std::string_view, std::string_view>;
+    static constexpr std::array kPages = {KindPage{"complex number", "pole"},
+                                          KindPage{"grey-box estimate", "greyest"},
+                                          KindPage{"grey-box model", "idgrey"},
+                                          KindPage{"model", "tf"},
+                                          KindPage{"Monte Carlo study", "montecarlo"},
+                                          KindPage{"process structure", "idproc"},
+                                          KindPage{"regression", "lsq"},
+                                          KindPage{"simulated model", "narx"},
+                                          KindPage{"state-space model", "ss"},
+                                          KindPage{"table of ARX orders", "arxstruc"},
+                                          KindPage{"table of orders", "srivcstruc"}};
+    const auto found = std::ranges::find(kPages, kind, &KindPage::first);
+    return found == kPages.end() ? kind : found->second;
+}
+
 /// __index; upvalues: methods, fields, the type.
 int read_member(lua_State* L) {
     const auto& type = *static_cast<const ObjectType*>(lua_touserdata(L, lua_upvalueindex(3)));
@@ -63,6 +85,12 @@ int read_member(lua_State* L) {
         return 1;
     }
     lua_settop(L, 2);
+    if (lua_type(L, 2) != LUA_TSTRING)
+        raise_error(L, fmt::format("{} has no elements; help(\"{}\") tells what it has{}", article(type.name),
+                                   page_of(type.name),
+                                   std::string_view(type.name) == "figure"
+                                       ? ", and bode_values(G, w), freqresp(G, w) and lsim(G, u, t) give numbers"
+                                       : ""));
     if (luaL_getmetafield(L, 1, "__named") !=
         LUA_TNIL) {  // names that only the object knows; raises for others, or nil
         lua_pushvalue(L, 1);
@@ -71,12 +99,6 @@ int read_member(lua_State* L) {
         if (!lua_isnil(L, -1)) return 1;
         lua_settop(L, 2);
     }
-    if (lua_type(L, 2) != LUA_TSTRING)
-        raise_error(L,
-                    fmt::format("{} has no elements; help(\"{}\") tells what it has{}", article(type.name), type.name,
-                                std::string_view(type.name) == "figure"
-                                    ? ", and bode_values(G, w), freqresp(G, w) and lsim(G, u, t) give numbers"
-                                    : ""));
     raise_error(L, unknown_member_message(L, type, lua_tostring(L, 2)));
 }
 
