@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "numerics/error.h"
+#include "numerics/number_text.h"
 #include "numerics/rigs/rig_record.h"
 
 namespace dynlab::inline numerics {
@@ -18,8 +19,8 @@ void CraneRun::validate(const CraneParameters& parameters) const {
     require_positive("crane", "duration of a run", duration);
     if (!std::isfinite(angle)) throw InvalidArgument("The crane's angle at the start must be finite");
     if (!(std::abs(position) <= parameters.rail))
-        throw InvalidArgument("The crane must start on its rail, between -" + std::to_string(parameters.rail) +
-                              " m and " + std::to_string(parameters.rail) + " m");
+        throw InvalidArgument("The crane must start on its rail, between -" + number_text(parameters.rail) + " m and " +
+                              number_text(parameters.rail) + " m");
 }
 
 CraneRecord control_crane(const CraneParameters& parameters, const CraneExperiments& plan, const CraneRun& run,
@@ -39,7 +40,7 @@ CraneRecord control_crane(const CraneParameters& parameters, const CraneExperime
         record.theta[k] = reading(state.angle, plan.angle_noise_std, plan.angle_resolution, random);
         record.u[k] = controller(t[k], record.x[k], record.theta[k]);
         if (!std::isfinite(record.u[k]))
-            throw InvalidArgument("the controller gave a voltage that is not finite at " + std::to_string(t[k]) + " s");
+            throw InvalidArgument("the controller gave a voltage that is not finite at " + number_text(t[k]) + " s");
         crane.advance(record.u[k], plan.Ts);
     }
     return record;

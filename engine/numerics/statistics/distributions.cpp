@@ -22,12 +22,12 @@ using ChiSquared = boost::math::chi_squared_distribution<double, Policy>;
 void check_arguments(double x, double degrees) {
     if (!(degrees > 0) || !std::isfinite(degrees) || std::isnan(x))
         throw InvalidArgument("The chi-squared distribution needs a number and positive degrees of freedom, and got " +
-                              std::to_string(x) + " and " + std::to_string(degrees));
+                              number_text(x) + " and " + number_text(degrees));
 }
 
 void check_probability(double probability) {
     if (!(probability > 0 && probability < 1))
-        throw InvalidArgument("A probability must lie between 0 and 1, but it is " + std::to_string(probability));
+        throw InvalidArgument("A probability must lie between 0 and 1, but it is " + number_text(probability));
 }
 
 constexpr double kNearCentre = 0.1;
@@ -71,9 +71,8 @@ double normal_half_width(double probability) {
 double student_t_quantile(double probability, double degrees) {
     if (!(degrees > 0) || !std::isfinite(degrees))
         throw InvalidArgument("Student's t needs a positive number of degrees of freedom, and got " +
-                              std::to_string(degrees) + ": use more samples than parameters");
-    if (!(probability > 0 && probability < 1))
-        throw InvalidArgument("A probability must lie between 0 and 1, but it is " + number_text(probability));
+                              number_text(degrees) + ": use more samples than parameters");
+    check_probability(probability);
     try {
         const double off_centre = probability - 0.5;  // exact, for a probability near one half
         if (off_centre == 0) return 0;

@@ -50,10 +50,10 @@ TEST(crane_control, sensors_round_and_equal_seeds_give_equal_records) {
 TEST(crane_control, refuses_a_start_off_the_rail_and_a_voltage_that_is_none) {
     const auto off = [](double, double, double) { return 0.; };
     const auto broken = [](double t, double, double) { return t > 0.5 ? std::nan("") : 0.; };
-    EXPECT_NE(thrown_message([&] { control_crane({}, {}, {.position = 0.6}, off, 1); }).find("rail"),
-              std::string::npos);
+    EXPECT_EQ(thrown_message([&] { control_crane({.rail = 0.5}, {}, {.position = 0.6}, off, 1); }),
+              "The crane must start on its rail, between -0.5 m and 0.5 m");
     EXPECT_THROW(control_crane({}, {}, {.duration = 0}, off, 1), InvalidArgument);
-    EXPECT_NE(thrown_message([&] { control_crane({}, {}, {}, broken, 1); }).find("0.52"), std::string::npos);
+    EXPECT_NE(thrown_message([&] { control_crane({}, {}, {}, broken, 1); }).find("at 0.52 s"), std::string::npos);
 }
 
 }  // namespace test_crane_control
