@@ -135,18 +135,22 @@ std::optional<fs::path> file_beside(const fs::path& script_folder, const std::st
     return std::nullopt;
 }
 
+/// In full, without the /. or / that names the folder a script runs in.
+std::string shown(const fs::path& folder) {
+    const fs::path whole = fs::absolute(folder).lexically_normal();
+    return (whole.has_filename() ? whole : whole.parent_path()).string();
+}
+
 [[noreturn]] void fail_unknown(const std::string& name, const fs::path& script_folder) {
     std::vector<std::string> known = dataset_names();
     std::string message = fmt::format("there is no data set \"{}\"", name);
     if (const auto nearest = nearest_word(fs::path(name).stem().string(), known)) {
-        message += fmt::format(", did you mean \"{}\"?", *nearest);
+        message += fmt::format("; did you mean \"{}\"? The data sets are {}", *nearest, fmt::join(known, ", "));
     } else {
-        message += ";";
+        message += known.empty() ? "; no data sets are installed"
+                                 : fmt::format("; the data sets are {}", fmt::join(known, ", "));
     }
-    message +=
-        known.empty() ? " no data sets are installed" : fmt::format(" the data sets are {}", fmt::join(known, ", "));
-    throw EnvironmentError(
-        fmt::format("{}; files of your own are looked for in {}", message, fs::absolute(script_folder).string()));
+    throw EnvironmentError(fmt::format("{}; files of your own are looked for in {}", message, shown(script_folder)));
 }
 
 /// A data set of the installed data, by its name, a course file's, or a path that ends in one of its files.
@@ -158,7 +162,7 @@ Source find_source(const std::string& name_or_path, const fs::path& script_folde
     const fs::path path = name_or_path;
     if (path.has_parent_path()) {
         const fs::path file = script_folder / path;
-        if (!is_file(file)) throw EnvironmentError(fmt::format("there is no file {}", fs::absolute(file).string()));
+        if (!is_file(file)) throw EnvironmentError(fmt::format("there is no file {}", shown(file)));
         return {file};
     }
     if (const auto file = file_beside(script_folder, name_or_path)) return {*file};
@@ -176,7 +180,7 @@ Source find_graded_source(const std::string& name_or_path, const fs::path& scrip
     if (!lies_in(script_folder, source.file))
         throw EnvironmentError(
             fmt::format("{} {}; where scripts are graded, files of {} itself and installed data are read",
-                        source.file.string(), kLeadsOutside, fs::absolute(script_folder).string()));
+                        source.file.string(), kLeadsOutside, shown(script_folder)));
     return source;
 }
 

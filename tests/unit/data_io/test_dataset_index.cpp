@@ -17,6 +17,7 @@ namespace test_dataset_index {
 
 namespace fs = std::filesystem;
 using testing::ElementsAre;
+using testing::EndsWith;
 using testing::HasSubstr;
 
 /// An installation with two data sets, and a folder of scripts.
@@ -49,8 +50,11 @@ class dataset_index : public testing::Test {
     }
     LoadedData load(const std::string& name, bool graded = false) { return load_data(name, scripts_.path(), graded); }
     std::string complaint(const std::string& name, bool graded = false) {
+        return complaint_in(scripts_.path(), name, graded);
+    }
+    static std::string complaint_in(const fs::path& folder, const std::string& name, bool graded = false) {
         try {
-            load(name, graded);
+            load_data(name, folder, graded);
         } catch (const EnvironmentError& error) {
             return error.what();
         }
@@ -119,9 +123,10 @@ TEST_F(dataset_index, loads_files_by_path) {
 
 TEST_F(dataset_index, unknown_names_list_the_known_ones) {
     EXPECT_EQ(complaint("heat_exchangr"),
-              "there is no data set \"heat_exchangr\", did you mean \"heat_exchanger\"? the data sets are "
+              "there is no data set \"heat_exchangr\"; did you mean \"heat_exchanger\"? The data sets are "
               "heat_exchanger, step_response; files of your own are looked for in " +
                   scripts_.path().string());
+    EXPECT_THAT(complaint_in(scripts_.path() / ".", "heat_exchangr"), EndsWith("in " + scripts_.path().string()));
     EXPECT_THAT(complaint("pendulum"), HasSubstr("\"pendulum\"; the data sets are heat_exchanger, step_response"));
     EXPECT_THAT(complaint("step_respose.csv"), HasSubstr("did you mean \"step_response\"?"));
     EXPECT_EQ(complaint("records/none.csv"), "there is no file " + (scripts_.path() / "records/none.csv").string());
