@@ -86,14 +86,14 @@ double natural_duration(const TransferFunction& G) {
 }  // namespace
 
 TimeResponse step_response(const TransferFunction& G, const VectorView& t) {
-    check_response_times("step response", t);
-    if (!G.continuous()) return {t, discrete_response("step response", G, t, 1, 1)};
+    check_response_times("step", t);
+    if (!G.continuous()) return {t, discrete_response("step", G, t, 1, 1)};
     return {t, response_from_zero(G, t, 1, Vector())};
 }
 
 TimeResponse impulse_response(const TransferFunction& G, const VectorView& t) {
-    check_response_times("impulse response", t);
-    if (!G.continuous()) return {t, discrete_response("impulse response", G, t, 1 / G.Ts(), 0)};
+    check_response_times("impulse", t);
+    if (!G.continuous()) return {t, discrete_response("impulse", G, t, 1 / G.Ts(), 0)};
     // The impulse moves the state of the canonical form from zero to its first unit vector.
     const Index before = (t.array() < G.delay()).count(), after = t.size() - before;
     Vector y = Vector::Zero(t.size());

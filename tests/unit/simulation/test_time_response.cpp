@@ -52,11 +52,11 @@ TEST(time_response, natural_window_of_models_that_do_not_settle) {
 
 TEST(time_response, refusals) {
     EXPECT_EQ(thrown_message([] { step_response(kLag, Eigen::Vector2d(-1, 0)); }),
-              "step response: the response begins at time 0, but the first instant is -1");
-    EXPECT_EQ(thrown_message([] { impulse_response(kLag, Vector()); }), "impulse response: the time vector is empty");
+              "step: the response begins at time 0, but the first instant is -1");
+    EXPECT_EQ(thrown_message([] { impulse_response(kLag, Vector()); }), "impulse: the time vector is empty");
     const TransferFunction discrete(Vector::Ones(1), Eigen::Vector2d(1, -0.9), 0.1);
     EXPECT_EQ(thrown_message([&] { step_response(discrete, Eigen::Vector2d(0, 0.15)); }),
-              "step response: the model is discrete, so the instants must be multiples of Ts = 0.1 s, but instant 2 is "
+              "step: the model is discrete, so the instants must be multiples of Ts = 0.1 s, but instant 2 is "
               "0.15 s");
 }
 
