@@ -8,6 +8,7 @@
 
 #include "data_io/dataset_index.h"
 #include "figures/plots/id_plot.h"
+#include "numerics/number_text.h"
 #include "platform/terminal/terminal_text.h"
 #include "platform/utf8.h"
 
@@ -122,7 +123,7 @@ class DataLooker {
         if (const auto* number = std::get_if<double>(&variable.value)) {
             row.push_back("the number " + short_number(*number));
         } else if (const auto* vector = std::get_if<Vector>(&variable.value)) {
-            row.push_back(fmt::format("{} numbers", vector->size()));
+            row.push_back(counted(vector->size(), "number"));
             add_range(row, *vector);
         } else if (const auto* matrix = std::get_if<Matrix>(&variable.value)) {
             row.push_back(fmt::format("{} x {} numbers", matrix->rows(), matrix->cols()));

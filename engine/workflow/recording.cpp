@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "data_io/tables/unit_text.h"
+#include "numerics/number_text.h"
 #include "platform/error.h"
 #include "platform/spelling.h"
 #include "scripting/source/lua_text.h"
@@ -43,8 +44,8 @@ Recording::Recording(const std::string& name, const std::vector<std::string>& in
         for (const std::string& other : *names) {
             const Index others = signal(other).numbers.size();
             if (others != samples)
-                throw EnvironmentError(fmt::format("{}: the {} '{}' has {} samples, but the input '{}' has {}", name_,
-                                                   kind, other, others, inputs.front(), samples));
+                throw EnvironmentError(fmt::format("{}: the {} '{}' has {}, but the input '{}' has {}", name_, kind,
+                                                   other, counted(others, "sample"), inputs.front(), samples));
         }
     find_sampling(Ts, time);
 }
@@ -61,8 +62,8 @@ void Recording::find_sampling(std::optional<double> given, const std::string& ti
     } else {
         const Signal instants = signal(time);
         if (instants.numbers.size() != samples)
-            throw EnvironmentError(fmt::format("{}: the time '{}' has {} samples, but the input '{}' has {}", name_,
-                                               time, instants.numbers.size(), inputs_.front(), samples));
+            throw EnvironmentError(fmt::format("{}: the time '{}' has {}, but the input '{}' has {}", name_, time,
+                                               counted(instants.numbers.size(), "sample"), inputs_.front(), samples));
         const auto unit = loaded_.units.find(instants.name);
         time_ = {instants.name, unit == loaded_.units.end() ? 1 : seconds_of(unit->second).value_or(1)};
     }

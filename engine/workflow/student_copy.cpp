@@ -5,6 +5,7 @@
 #include "documents/error.h"
 #include "documents/solutions.h"
 #include "documents/text_lines.h"
+#include "numerics/number_text.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/program_lookup.h"
@@ -131,8 +132,8 @@ PercentScript lesson_script(const Lesson& lesson, const std::string& language) {
     std::vector<std::string> lines = lines_of(source);
     const std::vector<const Cell*> texts = text_cells(script), translated = text_cells(tasks);
     if (texts.size() != translated.size())
-        throw DocumentError(file.string() + " has " + std::to_string(translated.size()) +
-                            " cells, but the lesson has " + std::to_string(texts.size()) + " cells of text");
+        throw DocumentError(file.string() + " has " + counted(translated.size(), "cell") + ", but the lesson has " +
+                            counted(texts.size(), "cell") + " of text");
     for (std::size_t i = texts.size(); i-- > 0;) {
         const auto first = lines.begin() + texts[i]->first_line - 1;
         const auto after = lines.erase(first, lines.begin() + texts[i]->last_line());

@@ -221,7 +221,7 @@ TEST(peer_review, keeps_two_writers_apart) {
         "$DYNLAB course --course k receive even --at '2026-03-01 10:00' & "
         "$DYNLAB course --course k receive odd --at '2026-03-01 10:00'; a=$?; wait $!; echo $a $?");
     EXPECT_THAT(both.output, HasSubstr("\n0 0\n"));
-    EXPECT_THAT(bench.course({"verify"}).output, HasSubstr("1 files, 8 versions: all there"));
+    EXPECT_THAT(bench.course({"verify"}).output, HasSubstr("1 file, 8 versions: all there"));
     const ChildResult blocked = bench.bench().shell(
         "(echo 'BEGIN IMMEDIATE;'; sleep 8) | sqlite3 k/course.db & sleep 0.5; "
         "$DYNLAB course --course k roster drop group-01; code=$?; kill $!; exit $code");

@@ -146,7 +146,7 @@ TEST_F(receipts, of_courses_of_before_are_still_known_to_the_course) {
         "DROP TABLE student_scores; DROP TABLE oral_comments; DROP INDEX "
         "versions_of_pair; DROP INDEX versions_of_hash; DROP INDEX sendings_of_pair; ALTER TABLE assignments DROP "
         "COLUMN costs; ALTER TABLE assignments DROP COLUMN final_weight; PRAGMA user_version = 2\""));
-    EXPECT_THAT(course_.course({"verify"}).output, HasSubstr("1 files, 1 versions: all there and unaltered"));
+    EXPECT_THAT(course_.course({"verify"}).output, HasSubstr("1 file, 1 version: all there and unaltered"));
     EXPECT_THAT(course_.course({"verify", "old.txt"}).output, HasSubstr("old.txt: genuine"));
     const ChildResult alone = verify({"old.txt", "--key", "mine/course.pub"});
     EXPECT_EQ(alone.exit_code, 1);

@@ -10,6 +10,7 @@
 
 #include "data_io/values/value_limits.h"
 #include "documents/text_lines.h"
+#include "numerics/number_text.h"
 #include "platform/text/regex_limit.h"
 #include "scripting/source/lua_tokens.h"
 
@@ -341,8 +342,8 @@ std::string with_edits(const std::string& source, std::vector<LineEdit> edits) {
     };
     for (const LineEdit& edit : edits) {
         if (edit.first < next || edit.first > count + 1 || edit.last > count || edit.last < edit.first - 1)
-            throw ValueError(
-                fmt::format("lines {} to {} cannot be changed in a script of {} lines", edit.first, edit.last, count));
+            throw ValueError(fmt::format("lines {} to {} cannot be changed in a script of {}", edit.first, edit.last,
+                                         counted(count, "line")));
         copy_until(edit.first);
         if (!edit.text.empty()) text += edit.text + "\n";
         next = edit.last + 1;

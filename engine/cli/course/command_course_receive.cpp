@@ -154,7 +154,7 @@ int verify_course(const CourseArguments& where, const std::vector<std::string>& 
     if (receipts.empty()) {
         const StoreCheck check = check_store(course);
         for (const std::string& trouble : check.troubles) std::cerr << "dynlab: " << terminal_text(trouble) << '\n';
-        std::cout << fmt::format("{} files, {} versions: {}\n", check.files, check.versions,
+        std::cout << fmt::format("{}, {}: {}\n", counted(check.files, "file"), counted(check.versions, "version"),
                                  check.troubles.empty() ? "all there and unaltered" : "see above");
         well = check.troubles.empty();
     }

@@ -20,6 +20,7 @@
 #include "course/store/side_by_side.h"
 #include "documents/pdf/pdf_layout.h"
 #include "numerics/error.h"
+#include "numerics/number_text.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/hash.h"
@@ -81,8 +82,8 @@ class HandInReceiver {
         outcome_.assignment = assignment_named(course, request.assignment);
         due_for(course, outcome_.assignment, 0, request.stage);  // a presentation has no reviews
         if (request.of.size() > 1 && request.of.size() != request.files.size())
-            throw InvalidArgument(fmt::format("{} files and {} times --of: say --of once for each file, in their order",
-                                              request.files.size(), request.of.size()));
+            throw InvalidArgument(fmt::format("{} and {} times --of: say --of once for each file, in their order",
+                                              counted(request.files.size(), "file"), request.of.size()));
         if (!request.from.empty()) from_ = group_named(course, request.from);
         if (request.stage != "final") pairs_ = review_pairs(course, outcome_.assignment);
     }

@@ -8,6 +8,7 @@
 #include "course/returns/mailing.h"
 #include "course/store/groups.h"
 #include "numerics/error.h"
+#include "numerics/number_text.h"
 #include "platform/atomic_file.h"
 #include "platform/hash.h"
 
@@ -115,7 +116,8 @@ class Returner {
                                        group.id, assignment_.name + "/" + file.place, file.hash, request_.now);
                 ++count;
             }
-        course_.note(fmt::format("{}: {} files returned to {} groups", assignment_.name, count, groups_.size()),
+        course_.note(fmt::format("{}: {} returned to {}", assignment_.name, counted(count, "file"),
+                                 counted(groups_.size(), "group")),
                      request_.now);
         transaction.commit();
     }

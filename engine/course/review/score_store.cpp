@@ -62,7 +62,7 @@ int import_scores(Course& course, const Assignment& a, const ScoreSheet& sheet,
             ++fresh;
         }
     }
-    if (fresh > 0) course.note(fmt::format("{}: {} scores read", a.name, fresh));
+    if (fresh > 0) course.note(fmt::format("{}: {} read", a.name, counted(fresh, "score")));
     transaction.commit();
     return fresh;
 }
