@@ -12,6 +12,7 @@
 #include "data_io/tables/table_layout.h"
 #include "data_io/tables/text_decoding.h"
 #include "data_io/tables/unit_text.h"
+#include "numerics/number_text.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 
@@ -62,7 +63,7 @@ class CsvReader {
 
     void skip_lines() {
         for (std::size_t i = 0; i < options_.skip; ++i) {
-            if (at_end()) fail(fmt::format("{} lines are to be skipped, but it has only {}", options_.skip, i));
+            if (at_end()) fail(fmt::format("{} cannot be skipped, it has only {}", counted(options_.skip, "line"), i));
             skip_line();
         }
     }
@@ -115,8 +116,8 @@ class CsvReader {
         std::vector<std::string> units(columns());
         if (!options_.names.empty()) {
             if (options_.names.size() != columns())
-                fail(fmt::format("option names has {} names, but the table has {} columns", options_.names.size(),
-                                 columns()));
+                fail(fmt::format("option names has {}, but the table has {}", counted(options_.names.size(), "name"),
+                                 counted(columns(), "column")));
             table_.names = options_.names;
         } else {
             take_units_of_headers(headers, units);
@@ -248,7 +249,7 @@ class CsvReader {
         } while (!scanner.record_ended());
         if (cells == columns.size() || (cells > columns.size() && rest_is_empty)) return;
         fail_in_line(scanner.line(),
-                     fmt::format("wanted {} cells as in the header line, given {}", columns.size(), cells));
+                     fmt::format("wanted {} as in the header line, given {}", counted(columns.size(), "cell"), cells));
     }
 
     void take_cell(Column& column, std::size_t index, std::string_view cell, const CellScanner& scanner) {

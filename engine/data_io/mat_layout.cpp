@@ -8,6 +8,7 @@
 #include <fstream>
 #include <optional>
 
+#include "numerics/number_text.h"
 #include "platform/error.h"
 #include "platform/file_blocks.h"
 
@@ -80,7 +81,7 @@ class MatFileSkeleton {
         }
         if (version != 0x0200) fail(fmt::format("is of the unknown MAT version {:#06x}", version));
         constexpr std::array<char, 8> kHdf5Signature = {'\x89', 'H', 'D', 'F', '\r', '\n', '\x1a', '\n'};
-        if (size_ < kHdf5Start + 8) fail(fmt::format("is cut off: it has only {} bytes", size_));
+        if (size_ < kHdf5Start + 8) fail(fmt::format("is cut off: it has only {}", counted(size_, "byte")));
         if (read_at<std::array<char, 8>>(kHdf5Start) != kHdf5Signature) fail("is damaged: its HDF5 part is missing");
         return MatVersion::k73;
     }

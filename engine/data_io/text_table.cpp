@@ -6,6 +6,7 @@
 #include <array>
 
 #include "data_io/tables/number_cell.h"
+#include "numerics/number_text.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/text/foreign_text.h"
@@ -40,7 +41,8 @@ class Reader {
                 continue;
             }
             if (row.size() > table.names.size())
-                fail(line, fmt::format("{} cells, but the header has {} columns", row.size(), table.names.size()));
+                fail(line, fmt::format("{}, but the header has {}", counted(row.size(), "cell"),
+                                       counted(table.names.size(), "column")));
             row.resize(table.names.size());
             table.rows.push_back(row);
             table.lines.push_back(line);

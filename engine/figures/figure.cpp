@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "numerics/error.h"
+#include "numerics/number_text.h"
 
 namespace dynlab::inline figures {
 namespace {
@@ -31,8 +32,8 @@ bool drawable(double value, bool log) {
 
 void check_curve(const Curve& curve, const Panel& panel, const std::string& where) {
     if (curve.x.size() != curve.y.size())
-        throw InvalidArgument(fmt::format("{}: x and y must have the same length, but x has {} values and y has {}",
-                                          where, curve.x.size(), curve.y.size()));
+        throw InvalidArgument(fmt::format("{}: x and y must have the same length, but x has {} and y has {}", where,
+                                          counted(curve.x.size(), "value"), curve.y.size()));
     if (curve.style == CurveStyle::kBand && curve.y_upper.size() != curve.y.size())
         throw InvalidArgument(
             fmt::format("{}: the upper edge of a band needs as many values as the lower one, {}, not {}", where,
@@ -42,8 +43,8 @@ void check_curve(const Curve& curve, const Panel& panel, const std::string& wher
             fmt::format("{}: the line width must be a positive number of points, not {}", where, curve.line_width));
     for (Index i = 0; i < curve.x.size(); ++i)
         if (drawable(curve.x[i], panel.log_x) && drawable(curve.y[i], panel.log_y)) return;
-    throw InvalidArgument(fmt::format("{}: there is nothing to draw, none of its {} samples is finite{}", where,
-                                      curve.x.size(),
+    throw InvalidArgument(fmt::format("{}: there is nothing to draw: of {} none is finite{}", where,
+                                      counted(curve.x.size(), "sample"),
                                       panel.log_x || panel.log_y ? " and positive on the logarithmic axis" : ""));
 }
 

@@ -103,21 +103,52 @@ struct Refusal {
     bool of_values = false;
 };
 
+/// What is written behind a text within brackets, from `at` to where they close, at each of its commas.
+std::vector<std::string> arguments_at(const std::string& text, std::size_t at) {
+    std::vector<std::string> arguments(1);
+    bool quoted = false;
+    for (int depth = 0; at < text.size() && depth >= 0; ++at) {
+        if (text[at] == '"' && text[at - 1] != '\\') quoted = !quoted;
+        if (!quoted) depth += (text[at] == '(' || text[at] == '{') - (text[at] == ')' || text[at] == '}');
+        if (!quoted && depth == 0 && text[at] == ',')
+            arguments.emplace_back();
+        else
+            arguments.back() += text[at];
+    }
+    return arguments;
+}
+
+/// A number for a value, with its noun where the source counts something: counted(n, "value").
+std::string example_of(const std::string& argument) {
+    static const std::regex count(R"re(^\s*counted\([^"]*"([a-z ]+)"(?:, "([a-z ]+)")?\)+\s*$)re");
+    std::smatch found;
+    if (!std::regex_match(argument, found, count)) return "7";
+    return "7 " + (found[2].matched ? found[2].str() : found[1].str() + "s");
+}
+
+/// The sentence of fmt::format with examples of its values.
+std::string with_examples(const std::string& format, const std::vector<std::string>& arguments) {
+    static const std::regex value(R"(\{[^{}]*\})");
+    std::string sentence = replaced(replaced(format, "{{", "\x01"), "}}", "\x02"), filled;
+    std::size_t place = 0;
+    for (std::smatch found; std::regex_search(sentence, found, value); sentence = found.suffix().str(), ++place)
+        filled += found.prefix().str() + (place < arguments.size() ? example_of(arguments[place]) : "7");
+    return replaced(replaced(filled + sentence, "\x01", "{"), "\x02", "}");
+}
+
 /// What InvalidArgument is given in a source, as a script reads it behind the function that says it.
 std::vector<Refusal> refusals_in(const std::filesystem::path& source) {
     std::string text = std::regex_replace(read_text(source), std::regex("(^|[^:\"])//[^\n]*"), "$1");
     text = std::regex_replace(text, std::regex("\"\\s*\n\\s*\""), "");
     static const std::regex refusal(R"re(InvalidArgument\(\s*(fmt::format\(\s*)?"((?:[^"\\]|\\.)*)"\s*[,)])re"),
-        value(R"(\{[^{}]*\})"), own_name("^(?!roots)[a-z0-9]+: "), in_capitals("^(All|At|Each|Irregular|The|With) ");
+        own_name("^(?!roots)[a-z0-9]+: "), in_capitals("^(All|At|Each|Irregular|The|With) ");
     std::vector<Refusal> refusals;
     for (std::sregex_iterator found(text.begin(), text.end(), refusal), end; found != end; ++found) {
         std::string sentence = replaced(replaced((*found)[2].str(), "\\\"", "\""), "\\\\", "\\");
         const bool formatted = (*found)[1].matched;
-        if (formatted) {
-            sentence = replaced(replaced(sentence, "{{", "\x01"), "}}", "\x02");
-            sentence = std::regex_replace(sentence, value, "7");
-            sentence = replaced(replaced(sentence, "\x01", "{"), "\x02", "}");
-        }
+        if (formatted)
+            sentence = with_examples(sentence,
+                                     arguments_at(text, static_cast<std::size_t>(found->position() + found->length())));
         sentence = std::regex_replace(in_lua_words(sentence), own_name, "");
         if (std::regex_search(sentence, in_capitals)) sentence[0] += 'a' - 'A';
         refusals.push_back({"analysis.lua:1: f: " + sentence, formatted});
@@ -149,17 +180,16 @@ TEST(script_errors_in_french, are_told_whole_or_not_at_all) {
 }
 
 /// Where a place stands for words, a number finds no entry though the words would; no more sentences may join these.
-constexpr int kOfWords = 39;
+constexpr int kOfWords = 31;
 
-/// What no script brings about, and a sentence that begins like a remark of the catalogue.
+/// What no script brings about.
 const char* const kStayEnglish[] = {"a rig's part must be carried by one before it",
                                     "a piece of a rig must have as many x as y and parts",
                                     "a piece of a rig belongs to a part that is not there",
                                     "irregular sampling wants companion matrices",
                                     "irregular sampling wants inputs that drive the first state alone",
                                     "its parameters, their names, standard errors and covariance differ in number",
-                                    "its channels do not make whole outputs",
-                                    "# counts the elements of a vector; a matrix has A.rows and A.columns"};
+                                    "its channels do not make whole outputs"};
 
 TEST(script_errors_in_french, are_told_for_all_that_scripts_are_refused) {
     int of_words = 0;
@@ -231,6 +261,39 @@ TEST(script_errors_in_french, keep_file_line_and_function) {
               "analysis.lua:7: fit: l'argument 1 (data) doit être un objet iddata, mais 0,5 a été donné");
     EXPECT_EQ(in_french("analysis.lua:7: something of the author's own: 0.5"),
               "analysis.lua:7: something of the author's own: 0.5");
+}
+
+TEST(script_errors_in_french, keep_all_functions_that_say_them) {
+    const std::string zero =
+        "lssvf: the input u is zero throughout: it does not excite the system, and its effect cannot be estimated";
+    const std::string nul =
+        "lssvf: l'entrée u est nulle d'un bout à l'autre\u00A0: elle n'excite pas le système, et son effet ne peut "
+        "être "
+        "estimé";
+    EXPECT_EQ(in_french("analysis.lua:7: montecarlo: " + zero), "analysis.lua:7: montecarlo: " + nul);
+    EXPECT_EQ(in_french("analysis.lua:7: pole: roots: every number is a root of the zero polynomial"),
+              "analysis.lua:7: pole: roots\u00A0: tout nombre est racine du polynôme nul");
+    const std::string every = "analysis.lua:7: montecarlo: every run of 'a' failed; the first one says: ";
+    const std::string toutes =
+        "analysis.lua:7: montecarlo: toutes les répétitions de «\u00A0a\u00A0» ont échoué\u00A0; la première "
+        "dit\u00A0: ";
+    EXPECT_EQ(in_french(every + zero), toutes + nul);
+    EXPECT_EQ(in_french(every + "analysis.lua:3: " + zero), toutes + "analysis.lua:3: " + nul);
+    EXPECT_EQ(in_french(every + "lssvf: the author's own"), every + "lssvf: the author's own") << "whole or not at all";
+}
+
+TEST(script_errors_in_french, count_one_and_more) {
+    EXPECT_EQ(in_french("analysis.lua:7: dot: a has 1 value, but b has 2"),
+              "analysis.lua:7: dot: a contient 1 valeur, mais b en contient 2");
+    EXPECT_EQ(in_french("analysis.lua:7: lsim: the system has 2 inputs but the data have 1 input channel"),
+              "analysis.lua:7: lsim: le système a 2 entrées mais les données ont 1 voie d'entrée");
+    EXPECT_EQ(
+        in_french("analysis.lua:7: zeros: a vector of 9 values needs 8.5 GB, but the script may use 67.1 MB in all "
+                  "and holds 0.04 MB already"),
+        "analysis.lua:7: zeros: un vecteur de 9 valeurs demande 8,5 Go, mais le script a droit à 67,1 Mo en tout et "
+        "en tient déjà 0,04 Mo");
+    EXPECT_EQ(in_french("analysis.lua:7: my own sentence about 3 values"),
+              "analysis.lua:7: my own sentence about 3 values");
 }
 
 TEST(script_errors_in_french, words_for_kinds_are_french_and_names_stay) {

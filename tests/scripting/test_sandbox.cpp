@@ -44,9 +44,9 @@ TEST(sandbox, ends_scripts_that_take_too_much_memory) {
     RunOptions options;
     options.memory_limit_bytes = 64 << 20;
     EXPECT_EQ(error_of("local t = {}\nfor i = 1, 1e9 do\n  t[i] = {i}\nend", options),
-              "lesson.lua:3: the script needs more memory than the 0.067 GB it may use");
+              "lesson.lua:3: the script needs more memory than the 67.1 MB it may use");
     EXPECT_EQ(error_of("local s = string.rep('x', 1e12)", options),
-              "lesson.lua:1: rep: the text would take 1e+03 GB, but the script may use 0.1 GB");
+              "lesson.lua:1: rep: the text would take 1e+03 GB, but the script may use 67.1 MB");
     EXPECT_NE(error_of("zeros(1e12)", options)
                   .find("zeros: a vector of 1000000000000 values needs 8e+03 GB, but the script may use 67.1 MB"),
               std::string::npos);

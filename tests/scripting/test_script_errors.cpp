@@ -245,12 +245,34 @@ TEST(script_errors, name_argument_wanted_and_given) {
         {"sum({1, 'a'})",
          "lesson.lua:1: sum: argument 1 (v) must be a vector of numbers, but its element 2 is the text \"a\""},
         {"mean({})", "lesson.lua:1: mean: argument 1 (v) has no elements"},
-        {"dot({1}, {1, 2})", "lesson.lua:1: dot: a has 1 values, but b has 2"},
+        {"dot({1}, {1, 2})", "lesson.lua:1: dot: a has 1 value, but b has 2"},
         {"rng(-1)", "lesson.lua:1: rng: the seed must be a whole number from 0 to 4294967295, but -1 was given"},
         {"sqrt(-2)", "lesson.lua:1: sqrt: it is not defined for the negative number -2"},
         {"norm({1}, {2})",
          "lesson.lua:1: norm: takes at most 1 argument, but 2 were given; options are written as one table {name = "
          "value}"},
+    });
+}
+
+TEST(script_errors, count_one_in_the_singular) {
+    const std::string record = "local d = iddata({1, 2, 4}, {1, 0, 1}, 1)\n";
+    check({
+        {"lsim(tf({1, 0}, {2}), {1, 2}, 1)",
+         "lesson.lua:1: lsim: the transfer function has 1 zero but only 0 poles; an improper model cannot be "
+         "simulated, it needs at least as many poles as zeros"},
+        {"lsq(matrix{{1}, {2}}, {1})",
+         "lesson.lua:1: lsq: least squares: the matrix has 2 rows but the right-hand side has 1 value"},
+        {"local y = vector{1} + vector{1, 2}",
+         "lesson.lua:1: x + y needs equal sizes, but x is a vector of 1 value and y is a vector of 2 values"},
+        {"report.table('t', {{'a', 'b'}, {1}})", "lesson.lua:1: report.table: row 2 has 1 cell, but the header has 2"},
+        {"local v = vector{5}\nprint(v[2])", "lesson.lua:2: v[2] does not exist: v has the element 1 only"},
+        {"zeros(1, 2):row(2)", "lesson.lua:1: row 2 does not exist: there is 1 only"},
+        {record + "d:experiment(2)", "lesson.lua:2: experiment 2 does not exist: there is 1 only"},
+        {record + "srivc(d, {2})",
+         "lesson.lua:2: srivc: argument 2 (orders) must be {nb, nf, nk} (nb: coefficients of B; nf: poles; nk: samples "
+         "of delay), but it has 1 entry"},
+        {record + "merge(d, iddata({1, 2}, matrix{{1, 2}, {2, 1}}, 1))",
+         "lesson.lua:2: merge: part 2 has 1 output and 2 inputs, but the first has 1 and 1"},
     });
 }
 

@@ -87,7 +87,7 @@ TEST(script_frequency, drawings_take_responses_and_models_in_any_order) {
         said("local V = idfrd(F.H, w, {variance = 0.01})\n"
              "bode(V, G0) bode(G0, V, {labels = {'model', 'measured'}}) bode(F) bode(F, V, w, {confidence = false})\n"),
         "");
-    EXPECT_THAT(said("bode(F, G0, {labels = 'one'})"), HasSubstr("option 'labels' has 1 texts, but there are 2"));
+    EXPECT_THAT(said("bode(F, G0, {labels = 'one'})"), HasSubstr("option 'labels' has 1 text for 2 models"));
 }
 
 TEST(script_frequency, approximations_come_with_their_levels) {
@@ -121,7 +121,7 @@ TEST(script_frequency, mistakes_are_told_in_sentences) {
         {"idfrd(F.H, -1*w)", "frequencies must be above zero"},
         {"idfrd(F.H, w, {variance = 0})", "variances must be positive"},
         {"idfrd(F.H, w, {Ts = 1})", "frequencies end at pi/Ts"},
-        {"idfrd(F.H, w:range(1, 9))", "each of the 9 frequencies, and has 50"},
+        {"idfrd(F.H, w:range(1, 9))", "each frequency (9), and has 50"},
         {"idfrd(w, w)", "must be a complex vector"},
         {"coe(F, {1, 2, 3})", "nk counts samples of delay, which a response without Ts does not have"},
         {"coe(F, {1, 40, 0})", "poles"},

@@ -93,7 +93,7 @@ TEST(script_learning, bad_input_is_refused_in_words) {
     const auto expect = [](const std::string& code, const std::string& words) {
         EXPECT_THAT(printed(code), HasSubstr(words)) << code;
     };
-    expect(kNarxRecord + "narx(data, {2, 2})", "2 entries were given");
+    expect(kNarxRecord + "narx(data, {2, 2})", "but it has 2 entries");
     expect(kNarxRecord + "narx(data, {2, 2, 1}, {terms = 40})", "there are only 15 candidates");
     expect(kSindyRecord + "sindy(data, {library = 3})", "'library' must be a function(x, u)");
     expect(kSindyRecord + "sindy(data, {library = function(x) return 3 end})", "must return a list of vectors");
@@ -150,7 +150,7 @@ end
                       .size() > 100,
               true);
     EXPECT_THAT(printed("impulseest(iddata(randn(50), randn(50), 1), 30)"),
-                HasSubstr("30 lags need at least 90 samples"));
+                HasSubstr("over 30 lags at least 90 samples are needed"));
     EXPECT_THAT(printed("impulseest(iddata(randn(50), randn(50), 1), {Kernel = 'AB'})"), HasSubstr("Kernel"));
 }
 

@@ -85,7 +85,7 @@ TEST(script_motion, says_what_is_missing) {
     EXPECT_THAT(told("rig = 'crane', t = t, measured = {angle = s.angle}"),
                 HasSubstr("option 'measured' lacks the position (m), which moves the rig"));
     EXPECT_THAT(told("rig = 'thruster', t = t, simulated = {force = {1, 2}}"),
-                HasSubstr("the simulated force has 2 values, but there are 201 instants"));
+                HasSubstr("the simulated force has 2 values for 201 instants"));
     EXPECT_THAT(told("rig = 'thruster', t = t, simulated = {force = 'much'}"),
                 HasSubstr("the simulated force must be a vector, but it is"));
     EXPECT_THAT(told("rig = 'crane', t = t, measured = 3"), HasSubstr("must be a table such as {position = y}"));

@@ -65,7 +65,8 @@ TEST(script_preprocess, misuse_is_told_with_the_remedy) {
     EXPECT_THAT(refused("detrend(d, 'mean', {samples = 3})"), HasSubstr("belongs to the kind \"start\""));
     EXPECT_THAT(refused("detrend(y, 'start')"), HasSubstr("say how many samples"));
     EXPECT_THAT(refused("resample(d, 1, 0)"), HasSubstr("between 1 and 1000"));
-    EXPECT_THAT(refused("merge(d, d:resample(1, 2))"), HasSubstr("has the sampling time 0.2 but the first has 0.1"));
+    EXPECT_THAT(refused("merge(d, d:resample(1, 2))"),
+                HasSubstr("has the sampling time 0.2 s but the first has 0.1 s"));
 }
 
 }  // namespace test_script_preprocess

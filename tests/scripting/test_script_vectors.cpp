@@ -15,7 +15,7 @@ TEST(script_vectors, calculate_element_by_element) {
               "[2 3]\t[0 -1]\t[2 4]\t[0.5 1]\t[2 4]\t[1 0.5]\n");
     EXPECT_EQ(printed("local v = vector{1, 2}\nprint(v + {10, 20}, {10, 20} - v)"), "[11 22]\t[9 18]\n");
     EXPECT_EQ(error_of("local v = vector{1, 2} + vector{1, 2, 3}"),
-              "lesson.lua:1: x + y needs equal sizes, but x is a vector of 2 and y is a vector of 3");
+              "lesson.lua:1: x + y needs equal sizes, but x is a vector of 2 values and y is a vector of 3 values");
     EXPECT_EQ(error_of("local v = vector{1, 2} + 'a'"), "lesson.lua:1: x + y cannot work with the text \"a\"");
 }
 
@@ -163,7 +163,7 @@ TEST(script_vectors, form_matrices) {
         error_of("local B = eye(2)*ones(3, 3)"),
         "lesson.lua:1: A * B needs as many columns in A as rows in B, but A is a 2 x 2 matrix and B is a 3 x 3 matrix");
     EXPECT_EQ(error_of("matrix{{1, 2}, {3}}"),
-              "lesson.lua:1: matrix: argument 1 (rows or columns): row 2 has 1 values, but row 1 has 2");
+              "lesson.lua:1: matrix: argument 1 (rows or columns): row 2 has 1 value, but row 1 has 2");
     EXPECT_EQ(error_of("local x = eye(2)[1]"),
               "lesson.lua:1: an element of a matrix is A[{i, j}], a row A:row(i), a column A:col(j), but 1 was given "
               "in the brackets");

@@ -10,6 +10,7 @@
 #include "data_io/tables/cell_scanner.h"
 #include "data_io/tables/number_cell.h"
 #include "data_io/tables/unit_text.h"
+#include "numerics/number_text.h"
 #include "platform/error.h"
 
 namespace dynlab::inline data_io {
@@ -223,9 +224,9 @@ class LayoutFinder {
     [[noreturn]] void fail_mismatch() const {
         const TableRecord& above = records_[first_row_ - 1];
         throw EnvironmentError(fmt::format(
-            "{}, line {}: {} names, but the rows below have {} cells; where that line does not belong to the table, "
+            "{}, line {}: {}, but the rows below have {}; where that line does not belong to the table, "
             "write load(file, {{skip = {}}})",
-            file_.string(), above.line, above.cells.size(), columns(), above.line));
+            file_.string(), above.line, counted(above.cells.size(), "name"), counted(columns(), "cell"), above.line));
     }
 
     const std::filesystem::path& file_;

@@ -6,6 +6,7 @@
 
 #include "figures/style.h"
 #include "numerics/error.h"
+#include "numerics/number_text.h"
 
 namespace dynlab::inline figures {
 namespace {
@@ -32,11 +33,11 @@ void check_channels(const std::vector<const IdData*>& data, const std::vector<st
     for (const IdData* object : data)
         if (object->output_count() != data.front()->output_count() ||
             object->input_count() != data.front()->input_count())
-            throw InvalidArgument(
-                fmt::format("data drawn over one another need the same channels, but one object has {} outputs and {} "
-                            "inputs and another has {} and {}",
-                            data.front()->output_count(), data.front()->input_count(), object->output_count(),
-                            object->input_count()));
+            throw InvalidArgument(fmt::format(
+                "data drawn over one another need the same channels, but one object has {} and {} and "
+                "another has {} and {}",
+                counted(data.front()->output_count(), "output"), counted(data.front()->input_count(), "input"),
+                object->output_count(), object->input_count()));
 }
 
 bool draws_the_same(const Curve& a, const Curve& b) {

@@ -6,6 +6,7 @@
 
 #include "figures/style.h"
 #include "numerics/error.h"
+#include "numerics/number_text.h"
 
 namespace dynlab::inline figures {
 namespace {
@@ -57,8 +58,8 @@ Panel correlation_panel(const Vector& correlation, Index first, double bound, do
 
 Figure residual_plot(const ResidualTests& tests, const IdData& data, double confidence) {
     if (static_cast<Index>(tests.outputs.size()) != data.output_count())
-        throw InvalidArgument(fmt::format("the tests are of {} outputs, but the data have {}", tests.outputs.size(),
-                                          data.output_count()));
+        throw InvalidArgument(fmt::format("the tests are of {}, but the data have {}",
+                                          counted(tests.outputs.size(), "output"), data.output_count()));
     std::vector<std::vector<Panel>> columns;
     for (std::size_t i = 0; i < tests.outputs.size(); ++i) {
         const OutputResiduals& output = tests.outputs[i];

@@ -6,6 +6,7 @@
 
 #include "numerics/error.h"
 #include "numerics/linalg/decompositions.h"
+#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 namespace {
@@ -107,7 +108,7 @@ StateFeedback pole_placement(const MatrixView& A, const MatrixView& B, const Com
         throw InvalidArgument("pole placement needs a system with one input, B has " + std::to_string(B.cols()) +
                               " columns");
     if (poles.size() != n || !poles.allFinite())
-        throw InvalidArgument("there are " + std::to_string(n) + " states, so as many finite poles are needed, not " +
+        throw InvalidArgument("the system has " + counted(n, "state") + ", so as many finite poles are needed, not " +
                               std::to_string(poles.size()));
     const Vector c = monic_coefficients(poles);
 

@@ -24,9 +24,9 @@ FunctionLibrary polynomial_library(const std::vector<std::string>& states, const
 Matrix library_values(const FunctionLibrary& library, const Matrix& X, const Matrix& U) {
     Matrix values = library.values(X, U);
     if (values.rows() != X.rows() || values.cols() != library.count())
-        throw InvalidArgument("sindy: the library must give " + std::to_string(library.count()) + " functions of " +
-                              std::to_string(X.rows()) + " values each, and gave " + std::to_string(values.cols()) +
-                              " of " + std::to_string(values.rows()));
+        throw InvalidArgument("sindy: the library must give " + counted(library.count(), "function") + " of " +
+                              counted(X.rows(), "value") + " each, and gave " + std::to_string(values.cols()) + " of " +
+                              std::to_string(values.rows()));
     if (values.allFinite()) return values;
     for (Index j = 0; j < values.cols(); ++j)
         for (Index k = 0; k < values.rows(); ++k) {

@@ -72,7 +72,7 @@ CorrelationAnalysis cra(const IdData& data, const CraOptions& options) {
     impulse.noise_variance = std::max(output - impulse.response.squaredNorm() * input[0], 0.0) / count;
     impulse.null_std = Vector::Constant(lags + 1, std::sqrt(output / (count * input[0])));
     impulse.std = impulse.null_std;
-    impulse.message = "Impulse response over " + std::to_string(lags) + " lags by correlation analysis.";
+    impulse.message = "Impulse response over " + counted(lags, "lag") + " by correlation analysis.";
     read_dead_time(impulse, data.Ts, data.hold, normal_half_width(options.confidence));
     const double limit = normal_half_width(options.confidence) / std::sqrt(count);
     const double worst = input.tail(lags).cwiseAbs().maxCoeff() / input[0];

@@ -19,11 +19,11 @@ void check(const MatrixView& Phi, const VectorView& y, const GradientDescentOpti
     if (Phi.rows() != y.size() || Phi.cols() == 0 || Phi.rows() == 0)
         throw InvalidArgument("Phi must have one row per value of y and at least one column, and is " +
                               std::to_string(Phi.rows()) + " x " + std::to_string(Phi.cols()) + " for " +
-                              std::to_string(y.size()) + " values");
+                              counted(y.size(), "value"));
     if (!Phi.allFinite() || !y.allFinite()) throw InvalidArgument("Phi and y must hold finite numbers only");
     if (Phi.isZero(0)) throw InvalidArgument("All regressors are zero, so there is no slope to descend");
     if (options.start.size() != 0 && options.start.size() != Phi.cols())
-        throw InvalidArgument("The start must hold " + std::to_string(Phi.cols()) + " values, and holds " +
+        throw InvalidArgument("The start must hold " + counted(Phi.cols(), "value") + ", and holds " +
                               std::to_string(options.start.size()));
 }
 

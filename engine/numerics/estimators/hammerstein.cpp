@@ -62,8 +62,8 @@ Vector visited_edges(const IdData& data, const HammersteinOptions& options, std:
                               " of the edges of the bins, and two are wanted: excite the system with more levels, or "
                               "give `breakpoints` where the input is");
     if (static_cast<Index>(kept.size()) < edges.size())
-        warnings.push_back(std::to_string(edges.size() - static_cast<Index>(kept.size())) +
-                           " edges of bins were left out, because the input is hardly ever near them.");
+        warnings.push_back("Left out: " + counted(edges.size() - static_cast<Index>(kept.size()), "edge") +
+                           " of bins that the input is hardly ever near.");
     return Vector::Map(kept.data(), static_cast<Index>(kept.size()));
 }
 

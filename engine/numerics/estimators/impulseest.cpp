@@ -5,6 +5,7 @@
 #include "numerics/error.h"
 #include "numerics/fit/spectral_estimate.h"
 #include "numerics/linalg/least_squares.h"
+#include "numerics/number_text.h"
 #include "numerics/signals/lagged_gram.h"
 #include "numerics/statistics/distributions.h"
 
@@ -124,12 +125,12 @@ RegressedResponse impulseest(const IdData& data, const ImpulseestOptions& option
     const Index n = lags_or_default("impulseest", options.lags, shortest);
     const ResponseSums sums = sums_of(record, n);
     if (!(sums.gram.diagonal().maxCoeff() > 0) || !(sums.energy > 0))
-        throw InvalidArgument("impulseest: after the first " + std::to_string(n) +
-                              " samples nothing changes any more; use fewer lags");
+        throw InvalidArgument("impulseest: after " + counted(n, "sample") +
+                              " nothing changes any more; use fewer lags");
     RegressedResponse estimate;
     estimate.t = Vector::LinSpaced(n + 1, 0, static_cast<double>(n)) * data.Ts;
     options.smooth ? fit_smoothly(sums, options.kernel, estimate) : fit_plainly(record, n, sums.count, estimate);
-    estimate.message = "Impulse response over " + std::to_string(n) + " lags by " +
+    estimate.message = "Impulse response over " + counted(n, "lag") + " by " +
                        (options.smooth ? "regularised" : "plain") + " least squares.";
     read_dead_time(estimate, data.Ts, data.hold, normal_half_width(options.confidence));
     const Index tail = std::max<Index>(n / 10, 1);

@@ -90,8 +90,8 @@ LinearRegression lsq(const MatrixView& Phi, const VectorView& y, RegressionMetho
     fit.condition_number = condition_of(Phi);
     add_statistics(fit, solution.inverse_gram);
     fit.message = fit.rank == Phi.cols()
-                      ? "Least squares with " + std::to_string(Phi.rows()) + " equations and " +
-                            std::to_string(Phi.cols()) + " parameters: RMSE " + number_text(fit.rmse) + "."
+                      ? "Least squares with " + counted(Phi.rows(), "equation") + " and " +
+                            counted(Phi.cols(), "parameter") + ": RMSE " + number_text(fit.rmse) + "."
                       : "The columns of Phi depend on each other (rank " + std::to_string(fit.rank) + " of " +
                             std::to_string(Phi.cols()) + "), so this is only the smallest of many solutions.";
     return fit;
@@ -118,7 +118,7 @@ PolynomialFit fit_polynomial(const VectorView& x, const VectorView& y, int degre
 
 Forecast forecast(const LinearRegression& regression, const VectorView& phi, double level) {
     if (phi.size() != regression.theta.size())
-        throw InvalidArgument("The forecast needs " + std::to_string(regression.theta.size()) + " regressors, and " +
+        throw InvalidArgument("The forecast needs " + counted(regression.theta.size(), "regressor") + ", and " +
                               std::to_string(phi.size()) + " were given");
     if (!(level > 0 && level < 1))
         throw InvalidArgument("The level of an interval lies between 0 and 1, and " + number_text(level) +

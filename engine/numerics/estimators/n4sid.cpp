@@ -229,8 +229,8 @@ void describe(SubspaceFit& found, bool reflected) {
     Fit& fit = found.fit;
     const auto seen = (found.singular_values.array() > kNoSignal * found.singular_values[0]).count();
     if (seen < found.system.order())
-        fit.warnings.push_back("The data show " + std::to_string(seen) +
-                               " states only: the others are rounding, so a lower order suffices.");
+        fit.warnings.push_back("The data show " + counted(seen, "state") +
+                               " only: the others are rounding, so a lower order suffices.");
     if (reflected) fit.warnings.push_back("Eigenvalues outside the unit circle were mirrored into it.");
     if (fit.condition_number > kAmbiguousCondition)
         fit.warnings.push_back("The data do not determine all entries of B separately (condition number " +
@@ -279,8 +279,8 @@ SubspaceFit n4sid(const IdData& data, int order, const SubspaceOptions& options)
 
     const InputEquations equations(scaled, sizes, A, C, options.feedthrough);
     if (data.sample_count() * sizes.ny <= equations.unknowns())
-        throw InvalidArgument("n4sid needs more samples than the " + std::to_string(equations.unknowns()) +
-                              " values it estimates, and the record holds " + std::to_string(data.sample_count()));
+        throw InvalidArgument("n4sid needs more samples than the " + counted(equations.unknowns(), "value") +
+                              " it estimates, and the record holds " + std::to_string(data.sample_count()));
     const LeastSquares solution = equations.solve();
     SubspaceFit found;
     found.system = equations.system(solution.solution);

@@ -90,8 +90,8 @@ void check_sampled_data(const std::string& method, const IdData& data) {
 
 void check_sample_count(const std::string& method, Index samples, Index values) {
     if (samples > values) return;
-    throw InvalidArgument(method + " needs more samples than the " + std::to_string(values) +
-                          " values it estimates, and the record holds " + std::to_string(samples));
+    throw InvalidArgument(method + " needs more samples than the " + counted(values, "value") +
+                          " it estimates, and the record holds " + std::to_string(samples));
 }
 
 void check_transient(const std::string& method, const IdData& data, const Fit& fit, Index values) {

@@ -19,8 +19,8 @@ void require_rich_inputs(const std::string& method, const MatrixView& R, const P
         if (solve_least_squares(columns, Vector::Zero(R.rows())).condition_number < kAmbiguousCondition) continue;
         throw InvalidArgument(
             method + ": the input " + data.input_names[input] +
-            " is not persistently exciting enough to determine nb = " + std::to_string(orders.nb[input]) +
-            " coefficients (a constant or a single sine is not): excite the system with an input "
+            " is not persistently exciting enough to determine nb = " + counted(orders.nb[input], "coefficient") +
+            " (a constant or a single sine is not): excite the system with an input "
             "that changes more, or lower nb");
     }
 }
@@ -53,10 +53,10 @@ void check_equation_error(const std::string& method, const IdData& data, const P
     check_polynomial_data(method, data, orders);
     const Index d = orders.parameter_count(), equations = ArxEquations(data, orders).count();
     if (equations > d) return;
-    throw InvalidArgument(method + " needs more equations than its " + std::to_string(d) +
-                          " parameters, and the record gives " + std::to_string(equations) + ": of its " +
-                          std::to_string(data.sample_count()) + " samples the first " + std::to_string(orders.past()) +
-                          " of each experiment are needed as the past");
+    throw InvalidArgument(method + " needs more equations than its " + counted(d, "parameter") +
+                          ", and the record gives " + std::to_string(equations) + ": it has " +
+                          counted(data.sample_count(), "sample") + ", and the past takes the first " +
+                          std::to_string(orders.past()) + " of each experiment");
 }
 
 ArxSolution solve_rich_arx(const std::string& method, const IdData& data, const PolynomialOrders& orders) {

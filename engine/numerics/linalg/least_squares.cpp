@@ -5,6 +5,7 @@
 
 #include "numerics/error.h"
 #include "numerics/linalg/decompositions.h"
+#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
@@ -12,12 +13,12 @@ namespace {
 
 void check_sizes(const MatrixView& A, const VectorView& b) {
     if (A.rows() != b.size())
-        throw InvalidArgument("least squares: the matrix has " + std::to_string(A.rows()) +
-                              " rows but the right-hand side has " + std::to_string(b.size()) + " values");
+        throw InvalidArgument("least squares: the matrix has " + counted(A.rows(), "row") +
+                              " but the right-hand side has " + counted(b.size(), "value"));
     if (A.cols() == 0) throw InvalidArgument("least squares: the matrix has no columns");
     if (A.rows() < A.cols())
-        throw InvalidArgument("least squares: " + std::to_string(A.rows()) + " equations cannot determine " +
-                              std::to_string(A.cols()) + " parameters; more data are needed");
+        throw InvalidArgument("least squares: " + counted(A.rows(), "equation") + " cannot determine " +
+                              counted(A.cols(), "parameter") + "; more data are needed");
     if (!A.allFinite()) throw InvalidArgument("least squares: the matrix holds a value that is not finite");
     if (!b.allFinite()) throw InvalidArgument("least squares: the right-hand side holds a value that is not finite");
 }

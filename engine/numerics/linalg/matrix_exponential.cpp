@@ -8,13 +8,14 @@
 #include "numerics/error.h"
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/short_step.h"
+#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
 Matrix matrix_exponential(const MatrixView& A) {
     if (A.rows() != A.cols())
-        throw InvalidArgument("matrix exponential: the matrix must be square, but it has " + std::to_string(A.rows()) +
-                              " rows and " + std::to_string(A.cols()) + " columns");
+        throw InvalidArgument("matrix exponential: the matrix must be square, but it has " + counted(A.rows(), "row") +
+                              " and " + counted(A.cols(), "column"));
     if (!A.allFinite()) throw InvalidArgument("matrix exponential: the matrix holds a value that is not finite");
     if (A.size() == 0) return A;
     Matrix balanced = A;

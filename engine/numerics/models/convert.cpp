@@ -17,9 +17,8 @@ namespace {
 
 void check_convertible(const std::string& caller, const TransferFunction& G) {
     if (G.proper()) return;
-    throw InvalidArgument(caller + ": the transfer function has " + std::to_string(G.zero_count()) +
-                          " zeros but only " + std::to_string(G.pole_count()) +
-                          " poles; it needs at least as many poles as zeros");
+    throw InvalidArgument(caller + ": the transfer function has " + counted(G.zero_count(), "zero") + " but only " +
+                          counted(G.pole_count(), "pole") + "; it needs at least as many poles as zeros");
 }
 
 Hold hold_of(Discretisation method) {

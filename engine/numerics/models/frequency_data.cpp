@@ -21,13 +21,11 @@ std::string place_of(Index k) {
 void check_sizes(const std::string& caller, const FrequencyData& data) {
     if (data.w.size() == 0) throw InvalidArgument(caller + ": there is no frequency, so no response is known");
     if (data.response.size() != data.w.size())
-        throw InvalidArgument(caller + ": the response needs one value for each of the " +
-                              std::to_string(data.w.size()) + " frequencies, and has " +
-                              std::to_string(data.response.size()));
+        throw InvalidArgument(caller + ": the response needs one value for each frequency (" +
+                              std::to_string(data.w.size()) + "), and has " + std::to_string(data.response.size()));
     if (data.variance.size() != 0 && data.variance.size() != data.w.size())
-        throw InvalidArgument(caller + ": the variance needs one value, or one for each of the " +
-                              std::to_string(data.w.size()) + " frequencies, and has " +
-                              std::to_string(data.variance.size()));
+        throw InvalidArgument(caller + ": the variance needs one value, or one for each frequency (" +
+                              std::to_string(data.w.size()) + "), and has " + std::to_string(data.variance.size()));
 }
 
 void check_frequencies(const std::string& caller, const FrequencyData& data) {

@@ -37,9 +37,9 @@ Index lags_or_default(const std::string& caller, Index lags, Index shortest) {
         throw InvalidArgument(caller + ": the number of lags must be positive, but it is " + std::to_string(lags));
     if (lags == 0) lags = std::max<Index>(1, std::min(kDefaultLags, shortest / 5));
     if (kSamplesPerLag * lags > shortest)
-        throw InvalidArgument(caller + ": " + std::to_string(lags) + " lags need at least " +
-                              std::to_string(kSamplesPerLag * lags) + " samples, but the shortest experiment has " +
-                              std::to_string(shortest));
+        throw InvalidArgument(caller + ": over " + counted(lags, "lag") + " at least " +
+                              std::to_string(kSamplesPerLag * lags) +
+                              " samples are needed, but the shortest experiment has " + std::to_string(shortest));
     return lags;
 }
 

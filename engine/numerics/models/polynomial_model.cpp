@@ -5,6 +5,7 @@
 
 #include "numerics/error.h"
 #include "numerics/linalg/polynomial.h"
+#include "numerics/number_text.h"
 #include "numerics/signals/checks.h"
 
 namespace dynlab::inline numerics {
@@ -118,8 +119,8 @@ PolynomialModel::PolynomialModel(const PolynomialOrders& orders, const VectorVie
     orders.validate();
     check_sampling_time("polynomial model", Ts);
     if (theta.size() != orders.parameter_count())
-        throw InvalidArgument("The polynomial model has " + std::to_string(orders.parameter_count()) +
-                              " parameters, and " + std::to_string(theta.size()) + " values were given");
+        throw InvalidArgument("The polynomial model has " + counted(orders.parameter_count(), "parameter") + ", and " +
+                              std::to_string(theta.size()) + " were given");
     A = monic(theta.head(orders.na));
     C = monic(theta.segment(orders.c_start(), orders.nc));
     D = monic(theta.segment(orders.d_start(), orders.nd));

@@ -74,10 +74,9 @@ StateSpace::StateSpace(Matrix A_, Matrix B_, Matrix C_, Matrix D_, double Ts_)
 
 StateSpace to_state_space(const TransferFunction& G) {
     if (!G.proper())
-        throw InvalidArgument(
-            "a transfer function with " + std::to_string(G.zero_count()) + " zeros and " +
-            std::to_string(G.pole_count()) +
-            " poles is improper and has no state space form; it needs at least as many poles as zeros");
+        throw InvalidArgument("a transfer function with " + counted(G.zero_count(), "zero") + " and " +
+                              counted(G.pole_count(), "pole") +
+                              " is improper and has no state space form; it needs at least as many poles as zeros");
     const Index n = G.pole_count();
     Vector num = Vector::Zero(n + 1);
     num.tail(G.num().size()) = G.num();
@@ -90,8 +89,8 @@ StateSpace to_state_space(const TransferFunction& G) {
 TransferFunction to_transfer_function(const StateSpace& system, Index output, Index input) {
     if (output < 0 || output >= system.C.rows() || input < 0 || input >= system.B.cols())
         throw InvalidArgument("state space: there is no output " + std::to_string(output + 1) + " from input " +
-                              std::to_string(input + 1) + "; the system has " + std::to_string(system.C.rows()) +
-                              " outputs and " + std::to_string(system.B.cols()) + " inputs");
+                              std::to_string(input + 1) + "; the system has " + counted(system.C.rows(), "output") +
+                              " and " + counted(system.B.cols(), "input"));
     const Vector den = polynomial_from_roots(balanced_eigenvalues(system.A));
     const auto [zeros, gain] =
         zeros_and_gain(system.A, system.B.col(input), system.C.row(output), system.D(output, input));

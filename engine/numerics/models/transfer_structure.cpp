@@ -16,7 +16,7 @@ template <class Value>
 Value entry(const std::vector<Value>& list, std::size_t channel, std::size_t channels, const char* what) {
     if (list.size() == 1) return list.front();
     if (list.size() == channels) return list[channel];
-    throw InvalidArgument("The model has " + std::to_string(channels) + " channels, so " + what +
+    throw InvalidArgument("The model has " + counted(channels, "channel") + ", so " + what +
                           " needs one value or one for each, and " + std::to_string(list.size()) + " were given");
 }
 

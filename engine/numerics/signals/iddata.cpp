@@ -104,8 +104,8 @@ IdData::IdData(Matrix y, Matrix u, double sampling_time) : Ts(sampling_time) {
 IdData::IdData(Matrix y, Matrix u, const VectorView& t) : IdData(std::move(y), std::move(u), 1.0) {
     Experiment& experiment = experiments.front();
     if (t.size() != experiment.y.rows())
-        throw InvalidArgument("iddata: the output has " + std::to_string(experiment.y.rows()) +
-                              " samples but the time vector has " + std::to_string(t.size()));
+        throw InvalidArgument("iddata: the output has " + counted(experiment.y.rows(), "sample") +
+                              " but the time vector has " + std::to_string(t.size()));
     check_instants("iddata", t);
     Ts = 0;
     experiment.t = t;
@@ -195,8 +195,8 @@ IdData IdData::shifted(Index samples) const {
     for (Experiment& experiment : result.experiments) {
         const Index lost = std::abs(samples), kept = experiment.y.rows() - lost;
         if (kept < 1)
-            throw InvalidArgument("shift: a shift by " + std::to_string(samples) + " samples leaves nothing of " +
-                                  std::to_string(experiment.y.rows()) + " samples");
+            throw InvalidArgument("shift: a shift by " + counted(samples, "sample") + " leaves nothing of " +
+                                  counted(experiment.y.rows(), "sample"));
         const Matrix u = experiment.u.middleRows(samples >= 0 ? 0 : lost, kept);
         experiment = cut(*this, experiment, samples >= 0 ? lost : 0, kept);
         experiment.u = u;
@@ -211,16 +211,16 @@ IdData IdData::merge(const std::vector<IdData>& parts) {
         const IdData& part = parts[i];
         if (part.output_count() != merged.output_count() || part.input_count() != merged.input_count())
             throw InvalidArgument(
-                "merge: part " + std::to_string(i + 1) + " has " + std::to_string(part.output_count()) +
-                " outputs and " + std::to_string(part.input_count()) + " inputs, but the first has " +
-                std::to_string(merged.output_count()) + " and " + std::to_string(merged.input_count()));
+                "merge: part " + std::to_string(i + 1) + " has " + counted(part.output_count(), "output") + " and " +
+                counted(part.input_count(), "input") + ", but the first has " + std::to_string(merged.output_count()) +
+                " and " + std::to_string(merged.input_count()));
         if (part.reference_count() != merged.reference_count())
             throw InvalidArgument("merge: part " + std::to_string(i + 1) + " has " +
                                   counted(part.reference_count(), "reference") + ", but the first has " +
                                   std::to_string(merged.reference_count()));
         if (part.Ts != merged.Ts)
             throw InvalidArgument("merge: part " + std::to_string(i + 1) + " has the sampling time " +
-                                  number_text(part.Ts) + " but the first has " + number_text(merged.Ts));
+                                  number_text(part.Ts) + " s but the first has " + number_text(merged.Ts) + " s");
         if (part.time_unit != merged.time_unit)
             throw InvalidArgument("merge: part " + std::to_string(i + 1) + " counts time in " + part.time_unit +
                                   " but the first in " + merged.time_unit);

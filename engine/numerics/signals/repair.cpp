@@ -87,8 +87,8 @@ class MovingMedian {
 
 RepairedSignal fill_missing(const VectorView& x, const VectorView& t, Index longest) {
     if (t.size() > 0 && t.size() != x.size())
-        throw InvalidArgument("fillmissing: there are " + std::to_string(x.size()) + " samples but " +
-                              std::to_string(t.size()) + " instants");
+        throw InvalidArgument("fillmissing: the signal has " + counted(x.size(), "sample") + " but the time has " +
+                              counted(t.size(), "instant"));
     check_instants("fillmissing", t);
     std::vector<bool> good(static_cast<std::size_t>(x.size()));
     for (Index k = 0; k < x.size(); ++k) good[static_cast<std::size_t>(k)] = std::isfinite(x[k]);
@@ -98,8 +98,8 @@ RepairedSignal fill_missing(const VectorView& x, const VectorView& t, Index long
     for (const auto& [first, last] : result.stretches)
         if (last - first + 1 > longest)
             throw InvalidArgument("fillmissing: samples " + std::to_string(first) + " to " + std::to_string(last) +
-                                  " are missing, and a straight line over more than " + std::to_string(longest) +
-                                  " samples would be invention; use the parts before and after the gap as two "
+                                  " are missing, and a straight line over more than " + counted(longest, "sample") +
+                                  " would be invention; use the parts before and after the gap as two "
                                   "experiments, or allow it with {longest = " +
                                   std::to_string(last - first + 1) + "}");
     return result;

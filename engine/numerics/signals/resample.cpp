@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "numerics/error.h"
+#include "numerics/number_text.h"
 #include "numerics/signals/extension.h"
 
 namespace dynlab::inline numerics {
@@ -84,8 +85,8 @@ IdData resample(const IdData& data, Index up, Index down) {
     for (Experiment& experiment : result.experiments) {
         const Index count = resampled_count(experiment.y.rows(), up, down);
         if (count < 2)
-            throw InvalidArgument("resample: of " + std::to_string(experiment.y.rows()) +
-                                  " samples fewer than 2 would be left");
+            throw InvalidArgument("resample: of " + counted(experiment.y.rows(), "sample") +
+                                  " fewer than 2 would be left");
         for (Matrix* signals : {&experiment.y, &experiment.u, &experiment.r}) {
             Matrix resampled(count, signals->cols());
             for (Index i = 0; i < signals->cols(); ++i) resampled.col(i) = resample_signal(signals->col(i), up, down);

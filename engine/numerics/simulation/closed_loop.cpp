@@ -214,8 +214,8 @@ Matrix ClosedLoop::sensitivities(const VectorView& r, int zeros) const {
 
 IdData ClosedLoop::record(const VectorView& r, const VectorView& v) const {
     if (r.size() != v.size())
-        throw InvalidArgument("closed loop: the reference has " + std::to_string(r.size()) +
-                              " samples but the noise has " + std::to_string(v.size()));
+        throw InvalidArgument("closed loop: the reference has " + counted(r.size(), "sample") + " but the noise has " +
+                              std::to_string(v.size()));
     if (!stable())
         throw InvalidArgument(
             "closed loop: the loop is unstable, so that its signals grow without bound; lower the controller's gain, "

@@ -20,16 +20,16 @@ constexpr double kGridRounding = 1e-9;  // relative difference of two sampling t
 
 void check_model(const TransferFunction& G) {
     if (G.proper()) return;
-    throw InvalidArgument("lsim: the transfer function has " + std::to_string(G.zero_count()) + " zeros but only " +
-                          std::to_string(G.pole_count()) +
-                          " poles; an improper model cannot be simulated, it needs at least as many poles as zeros");
+    throw InvalidArgument("lsim: the transfer function has " + counted(G.zero_count(), "zero") + " but only " +
+                          counted(G.pole_count(), "pole") +
+                          "; an improper model cannot be simulated, it needs at least as many poles as zeros");
 }
 
 Vector initial_state(const VectorView& x0, Index order) {
     if (x0.size() == 0) return Vector::Zero(order);
     if (x0.size() != order)
-        throw InvalidArgument("lsim: the initial state x0 must have " + std::to_string(order) +
-                              " values, one for each state, but it has " + std::to_string(x0.size()));
+        throw InvalidArgument("lsim: the initial state x0 must have " + counted(order, "value") +
+                              ", one for each state, but it has " + std::to_string(x0.size()));
     if (!x0.allFinite()) throw InvalidArgument("lsim: the initial state x0 holds a value that is not finite");
     return x0;
 }
@@ -74,7 +74,7 @@ Vector lsim(const TransferFunction& G, const VectorView& u, double Ts, Hold hold
 
 Vector lsim(const TransferFunction& G, const VectorView& u, const VectorView& t, Hold hold, const VectorView& x0) {
     if (u.size() != t.size())
-        throw InvalidArgument("lsim: the input has " + std::to_string(u.size()) + " samples but the time vector has " +
+        throw InvalidArgument("lsim: the input has " + counted(u.size(), "sample") + " but the time vector has " +
                               std::to_string(t.size()));
     check_samples("lsim", "the input", u);
     check_instants("lsim", t);
@@ -92,8 +92,8 @@ Matrix lsim(const StateSpace& system, const MatrixView& u, double Ts, Hold hold,
     check_sampling_time("lsim", Ts);
     check_samples("lsim", "the input", u);
     if (u.cols() != system.B.cols())
-        throw InvalidArgument("lsim: the system has " + std::to_string(system.B.cols()) + " inputs but the data have " +
-                              std::to_string(u.cols()) + " input channels");
+        throw InvalidArgument("lsim: the system has " + counted(system.B.cols(), "input") + " but the data have " +
+                              counted(u.cols(), "input channel"));
     if (system.Ts > 0) check_discrete_sampling(system.Ts, Ts);
     Vector state = initial_state(x0, system.order());
     Matrix y = Matrix::Zero(u.rows(), system.C.rows()), share(u.rows(), system.C.rows());

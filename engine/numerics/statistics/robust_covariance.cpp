@@ -7,6 +7,7 @@
 
 #include "numerics/error.h"
 #include "numerics/linalg/least_squares.h"
+#include "numerics/number_text.h"
 #include "numerics/statistics/autoregression.h"
 
 namespace dynlab::inline numerics {
@@ -17,11 +18,11 @@ void check_sizes(const MatrixView& H, const MatrixView& Z, const VectorView& e, 
                  Index outputs) {
     const Index N = Z.rows(), d = Z.cols();
     if (e.size() != N || H.rows() != d || H.cols() != d)
-        throw InvalidArgument("A robust covariance of " + std::to_string(N) + " samples and " + std::to_string(d) +
-                              " parameters needs as many residuals, and got " + std::to_string(e.size()));
+        throw InvalidArgument("A robust covariance of " + counted(N, "sample") + " and " + counted(d, "parameter") +
+                              " needs as many residuals, and got " + std::to_string(e.size()));
     if (N <= d)
-        throw InvalidArgument("A robust covariance needs more samples than parameters, and got " + std::to_string(N) +
-                              " samples and " + std::to_string(d) + " parameters");
+        throw InvalidArgument("A robust covariance needs more samples than parameters, and got " +
+                              counted(N, "sample") + " and " + counted(d, "parameter"));
     if (outputs * std::accumulate(lengths.begin(), lengths.end(), Index{0}) != N)
         throw InvalidArgument("The lengths of the records of " + std::to_string(outputs) +
                               " output(s) must add up to the " + std::to_string(N) + " samples");
@@ -108,8 +109,7 @@ RobustCovariance robust_covariance(const MatrixView& Psi, const VectorView& e, c
                                    Index outputs) {
     if (Psi.rows() <= Psi.cols())
         throw InvalidArgument("A robust covariance needs more samples than parameters, and got " +
-                              std::to_string(Psi.rows()) + " samples and " + std::to_string(Psi.cols()) +
-                              " parameters");
+                              counted(Psi.rows(), "sample") + " and " + counted(Psi.cols(), "parameter"));
     return robust_covariance(solve_least_squares(Psi, e).inverse_gram, Psi, e, lengths, outputs);
 }
 

@@ -14,11 +14,16 @@ namespace {
 constexpr double kMostArxStructures = 2000;
 constexpr double kHardlyLarger = 1.01;  // of a loss: not worth parameters
 
+/// As a script writes it: a number, or {from, to}.
+std::string range_text(std::pair<int, int> range) {
+    const std::string first = std::to_string(range.first);
+    return range.first == range.second ? first : "{" + first + ", " + std::to_string(range.second) + "}";
+}
+
 void check_range(const char* name, std::pair<int, int> range, int least) {
     if (range.first < least || range.second < range.first)
         throw InvalidArgument(std::string(name) + " must be a number or a range {from, to} from at least " +
-                              std::to_string(least) + " upwards, but it is {" + std::to_string(range.first) + ", " +
-                              std::to_string(range.second) + "}");
+                              std::to_string(least) + " upwards, but it is " + range_text(range));
 }
 
 void check_ranges(const ArxRanges& ranges) {
@@ -83,7 +88,7 @@ std::string simpler_arx(const ArxSelection& selection, std::size_t chosen) {
             one.judged_loss() <= kHardlyLarger * taken->judged_loss())
             simplest = &one;
     if (simplest == taken) return "";
-    return " With " + std::to_string(simplest->parameters()) + " parameters instead of " +
+    return " With " + counted(simplest->parameters(), "parameter") + " instead of " +
            std::to_string(taken->parameters()) + ", " + orders_text(*simplest) + " comes within 1 % of it.";
 }
 

@@ -226,8 +226,8 @@ CompareResult compare_centred(const ComparedRecord& record, Channels channels, c
         return (condition.state == InitialState::kEstimate ? order : 0) + (condition.offset ? 1 : 0);
     };
     if (const Index d = values(conditions.front()); d > 0 && N <= d)
-        throw InvalidArgument("compare needs more samples than the " + std::to_string(d) +
-                              " values it estimates, and the record holds " + std::to_string(N));
+        throw InvalidArgument("compare needs more samples than the " + counted(d, "value") +
+                              " it estimates, and the record holds " + std::to_string(N));
     StartSearch search = start_search(record, channels, conditions);
     StartCandidate best = candidate(search, conditions.front());
     for (std::size_t i = 1; i < conditions.size(); ++i) {

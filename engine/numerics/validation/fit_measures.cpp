@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "numerics/error.h"
+#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
@@ -11,8 +12,8 @@ namespace {
 
 void require_pair(const VectorView& y, const VectorView& y_sim) {
     if (y.size() != y_sim.size())
-        throw InvalidArgument("The simulated output must be as long as the measured one: " + std::to_string(y.size()) +
-                              " values are wanted, and " + std::to_string(y_sim.size()) + " were given");
+        throw InvalidArgument("The simulated output must be as long as the measured one, and has " +
+                              counted(y_sim.size(), "value") + " instead of " + std::to_string(y.size()));
     if (y.size() < 2)
         throw InvalidArgument("A fit needs at least two samples, and " + std::to_string(y.size()) + " were given");
 }
@@ -64,8 +65,7 @@ InformationCriteria information_criteria(double mean_square, Index samples, Inde
         throw InvalidArgument(
             "Information criteria need a mean square that is not negative and more samples than "
             "parameters plus one, and got " +
-            std::to_string(mean_square) + ", " + std::to_string(samples) + " samples and " +
-            std::to_string(parameters) + " parameters");
+            number_text(mean_square) + ", " + counted(samples, "sample") + " and " + counted(parameters, "parameter"));
     const double N = static_cast<double>(samples), d = static_cast<double>(parameters);
     InformationCriteria criteria;
     criteria.fpe = mean_square * (1 + d / N) / (1 - d / N);

@@ -208,7 +208,7 @@ void fill_runs(MonteCarloResult& result, const std::vector<Outcome>& outcomes, I
         const MonteCarloEstimate& estimate = outcome.estimate;
         std::string failure = outcome.failure;
         if (failure.empty() && estimate.theta.size() != d)
-            failure = "it gave " + std::to_string(estimate.theta.size()) + " parameters, but " + std::to_string(d) +
+            failure = "it gave " + counted(estimate.theta.size(), "parameter") + ", but " + std::to_string(d) +
                       " in an earlier run";
         if (!failure.empty()) {
             if (result.failed++ == 0) result.first_failure = failure;

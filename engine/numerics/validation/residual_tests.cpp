@@ -98,7 +98,7 @@ WhitenessTest test_whiteness(const Signals& e, const VectorView& R, double confi
     test.white = test.p_value >= 1 - confidence;
     const std::string subject = std::string("The ") + error_name(kind);
     test.verdict = test.white ? subject + " is white (Ljung-Box " + probability_text(test.p_value) + " over " +
-                                    std::to_string(lags) + " lags)."
+                                    counted(lags, "lag") + ")."
                               : subject + " is not white (Ljung-Box " + probability_text(test.p_value) + "; " +
                                     std::to_string(test.outside) + " of " + std::to_string(lags) +
                                     " lags lie beyond the " + percent_text(confidence) + " bound).";
@@ -306,7 +306,7 @@ ResidualTests tests_of(const IdData& data, std::vector<Matrix> errors, ErrorKind
     Index most = 0;
     for (const Matrix& own : tests.residuals) most = std::max(most, own.rows());
     if (most < 2 * options.lags)
-        throw InvalidArgument("Tests over " + std::to_string(options.lags) + " lags need at least " +
+        throw InvalidArgument("Tests over " + counted(options.lags, "lag") + " need at least " +
                               std::to_string(2 * options.lags) + " samples in one record, and the longest has " +
                               std::to_string(most) + ": ask for fewer lags");
     for (Index i = 0; i < data.output_count(); ++i) {

@@ -8,6 +8,7 @@
 #include "numerics/error.h"
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/polynomial.h"
+#include "numerics/number_text.h"
 #include "numerics/simulation/time_response.h"
 #include "numerics/statistics/distributions.h"
 
@@ -22,10 +23,10 @@ void check_model(const TransferFunction& G, const Matrix& covariance) {
                               std::to_string(G.pole_count()) + " and " + std::to_string(G.zero_count()));
     const Index d = G.pole_count() + G.num().size();
     if (covariance.rows() != covariance.cols() || (covariance.rows() != d && covariance.rows() != d + 1))
-        throw InvalidArgument("The covariance of a model with " + std::to_string(G.pole_count()) + " poles and " +
-                              std::to_string(G.zero_count()) + " zeros is " + std::to_string(d) + " x " +
-                              std::to_string(d) + ", with an estimated delay one more, and not " +
-                              std::to_string(covariance.rows()) + " x " + std::to_string(covariance.cols()));
+        throw InvalidArgument("The covariance of a model with " + counted(G.pole_count(), "pole") + " and " +
+                              counted(G.zero_count(), "zero") + " is " + std::to_string(d) + " x " + std::to_string(d) +
+                              ", with an estimated delay one more, and not " + std::to_string(covariance.rows()) +
+                              " x " + std::to_string(covariance.cols()));
 }
 
 // gain s^power

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "numerics/number_text.h"
+
 namespace dynlab::inline scripting {
 namespace {
 
@@ -52,7 +54,7 @@ std::vector<std::vector<int>> order_lists(const Call& call, int index, std::span
         const bool many = count > static_cast<Index>(entries.size()) + 1;
         refuse_orders(
             index, entries,
-            fmt::format("{} entries were given{}", count,
+            fmt::format("it has {}{}", counted(count, "entry", "entries"),
                         many ? "; with several inputs an entry is a list of one value for each, such as {1, 1}" : ""));
     };
     std::vector<std::vector<int>> lists;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "numerics/number_text.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/traced_value.h"
 
@@ -85,7 +86,7 @@ int extreme(Call& call) {
         }
         const VectorMap w = call.vector(other, "y");
         if (v.size() != w.size())
-            throw InvalidArgument(fmt::format("x has {} values, but y has {}", v.size(), w.size()));
+            throw InvalidArgument(fmt::format("x has {}, but y has {}", counted(v.size(), "value"), w.size()));
         return call.give_vector(v.binaryExpr(w, better));
     }
     if (to_matrix(call.state(), 1) != nullptr) {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 
+#include "numerics/number_text.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/traced_value.h"
 
@@ -31,7 +32,8 @@ int compare_elements(Call& call) {
     const VectorMap v = call.vector(1, "v");
     const bool number = call.type(2) == LUA_TNUMBER;
     const VectorMap x = number ? v : call.vector(2, "x");
-    if (x.size() != v.size()) throw InvalidArgument(fmt::format("v has {} values, but x has {}", v.size(), x.size()));
+    if (x.size() != v.size())
+        throw InvalidArgument(fmt::format("v has {}, but x has {}", counted(v.size(), "value"), x.size()));
     const double bound = number ? call.number(2, "x") : 0;
     MaskBlock& mask = push_mask(call.state(), v.size());
     for (Index i = 0; i < v.size(); ++i) mask.data()[i] = Relation()(v[i], number ? bound : x[i]);

@@ -6,6 +6,7 @@
 
 #include "data_io/dataset_index.h"
 #include "figures/plots/id_plot.h"
+#include "numerics/number_text.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/conversions/table_fields.h"
 #include "scripting/objects/data_object.h"
@@ -142,8 +143,8 @@ void set_texts(const Options& options, const char* name, std::vector<std::string
     if (!options.has(name)) return;
     texts = options.texts(name);
     if (static_cast<Index>(texts.size()) != channels)
-        throw InvalidArgument(
-            fmt::format("option '{}' has {} texts, but there are {} channels", name, texts.size(), channels));
+        throw InvalidArgument(fmt::format("option '{}' has {} for {}", name, counted(texts.size(), "text"),
+                                          counted(channels, "channel")));
 }
 
 /// The same for units; a column that load() gave brings its own.

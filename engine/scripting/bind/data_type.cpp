@@ -62,7 +62,7 @@ int part_by_table(Call& call) {
     const VectorMap bounds = call.vector(2, "{first, last}");
     if (bounds.size() != 2)
         throw InvalidArgument(
-            fmt::format("the samples i to j are data[{{i, j}}], but {} numbers were given", bounds.size()));
+            fmt::format("the samples i to j are data[{{i, j}}], not {}", counted(bounds.size(), "number")));
     return give_data(call, data_self(call).range(whole_index(bounds[0]), whole_index(bounds[1])));
 }
 
@@ -72,7 +72,7 @@ int experiment(Call& call) {
     const Index number = call.integer(2, "experiment");
     if (number < 1 || number > static_cast<Index>(data.experiments.size()))
         throw InvalidArgument(
-            fmt::format("experiment {} does not exist: there are 1 to {}", number, data.experiments.size()));
+            fmt::format("experiment {} does not exist: {}", number, numbered_from_one(data.experiments.size())));
     data.experiments = {data.experiments[static_cast<std::size_t>(number - 1)]};
     return give_data(call, std::move(data));
 }

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <optional>
 
+#include "numerics/number_text.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/model.h"
 #include "scripting/objects/traced_value.h"
@@ -70,7 +71,7 @@ double element_of(const Call& call, int index, Index i, Index size) {
     const VectorMap v = call.vector(index, index == 2 ? "a" : "b");
     if (v.size() != size)
         throw InvalidArgument(
-            fmt::format("the mask has {} values, but {} has {}", size, index == 2 ? "a" : "b", v.size()));
+            fmt::format("the mask has {}, but {} has {}", counted(size, "value"), index == 2 ? "a" : "b", v.size()));
     return v[i];
 }
 

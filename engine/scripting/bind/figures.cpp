@@ -47,7 +47,7 @@ const T* value_for(const std::vector<T>& values, std::size_t i, std::size_t coun
     if (values.size() == 1) return &values.front();
     if (values.size() != count)
         throw InvalidArgument(
-            fmt::format("option '{}' has {} values, but there are {} curves", name, values.size(), count));
+            fmt::format("option '{}' has {} for {}", name, counted(values.size(), "value"), counted(count, "curve")));
     return &values[i];
 }
 
@@ -55,8 +55,8 @@ void read_curve_lists(const Options& options, std::vector<Curve>& curves) {
     const CurveLists lists{options.texts("label"), options.texts("style"), numbers(options, "dash"),
                            numbers(options, "marker"), colours_of(options)};
     if (lists.labels.size() > curves.size())
-        throw InvalidArgument(
-            fmt::format("option 'label' has {} texts, but there are {} curves", lists.labels.size(), curves.size()));
+        throw InvalidArgument(fmt::format("option 'label' has {} for {}", counted(lists.labels.size(), "text"),
+                                          counted(curves.size(), "curve")));
     for (std::size_t i = 0; i < curves.size(); ++i) {
         Curve& curve = curves[i];
         if (i < lists.labels.size()) curve.label = with_marked_indices(lists.labels[i]);
@@ -229,8 +229,8 @@ Matrix signals_of_parts(const Options& options, const char* name, const RigDrawi
                                               given_text(call.state(), with_signal.count())));
         const VectorMap signal = with_signal.vector(with_signal.count(), part.signal.c_str());
         if (signal.size() != count)
-            throw InvalidArgument(fmt::format("the {} {} has {} values, but there are {} instants", name, part.signal,
-                                              signal.size(), count));
+            throw InvalidArgument(fmt::format("the {} {} has {} for {}", name, part.signal,
+                                              counted(signal.size(), "value"), counted(count, "instant")));
         signals.col(static_cast<Index>(k)) = signal;
     }
     return signals;

@@ -17,7 +17,7 @@ NumericBlock& matrix_self(Call& call) {
 Index index_argument(Call& call, int index, const char* what, Index size) {
     const Index value = call.integer(index, what);
     if (value < 1 || value > size)
-        throw InvalidArgument(fmt::format("{} {} does not exist: there are 1 to {}", what, value, size));
+        throw InvalidArgument(fmt::format("{} {} does not exist: {}", what, value, numbered_from_one(size)));
     return value - 1;
 }
 
@@ -96,7 +96,7 @@ int write_matrix_element(Call& call) {
 }
 
 int refuse_length(Call&) {
-    throw InvalidArgument("# counts the elements of a vector; a matrix has A.rows and A.columns");
+    throw InvalidArgument("the operator # counts the elements of a vector; a matrix has A.rows and A.columns");
 }
 
 constexpr std::array kMatrixTypeFields = {Member{"rows", guarded<matrix_rows>},

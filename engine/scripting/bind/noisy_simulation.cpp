@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "figures/confidence_band.h"
+#include "numerics/number_text.h"
 #include "numerics/simulation/frequency_response.h"
 #include "numerics/simulation/lsim.h"
 #include "numerics/statistics/distributions.h"
@@ -48,8 +49,8 @@ Hold hold_of(const Options& options, Hold fallback) {
 Matrix simulated_outputs(const std::vector<TransferFunction>& channels, const InputSignals& input, Hold hold) {
     const auto inputs = static_cast<std::size_t>(input.u.cols());
     if (inputs == 0 || channels.size() % inputs != 0)
-        throw InvalidArgument(
-            fmt::format("the model has {} channels, which do not fit the {} inputs", channels.size(), inputs));
+        throw InvalidArgument(fmt::format("the model has {}, which cannot belong to {}",
+                                          counted(channels.size(), "channel"), counted(inputs, "input")));
     Matrix y = Matrix::Zero(input.u.rows(), static_cast<Index>(channels.size() / inputs));
     for (std::size_t i = 0; i < channels.size(); ++i) {
         const auto u = input.u.col(static_cast<Index>(i % inputs));

@@ -6,6 +6,7 @@
 #include "numerics/estimators/frequency/etfe.h"
 #include "numerics/estimators/frequency/spa.h"
 #include "numerics/estimators/impulseest.h"
+#include "numerics/number_text.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/conversions/table_fields.h"
 #include "scripting/conversions/told_sentences.h"
@@ -40,8 +41,8 @@ void name_models(const Options& options, std::vector<NamedModel>& models) {
     const std::vector<std::string> labels = options.texts("labels");
     if (labels.empty()) return;
     if (labels.size() != models.size())
-        throw InvalidArgument(
-            fmt::format("option 'labels' has {} texts, but there are {} models", labels.size(), models.size()));
+        throw InvalidArgument(fmt::format("option 'labels' has {} for {}", counted(labels.size(), "text"),
+                                          counted(models.size(), "model")));
     for (std::size_t i = 0; i < models.size(); ++i) models[i].name = labels[i];
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 
+#include "numerics/number_text.h"
 #include "numerics/signals/butterworth.h"
 #include "numerics/signals/preprocess.h"
 #include "numerics/signals/repair.h"
@@ -44,9 +45,8 @@ PassBand band_argument(const Call& call) {
     const VectorMap edges = call.vector(2, "{lower, upper}");
     if (edges.size() != 2)
         throw InvalidArgument(
-            fmt::format("the band is {{lower, upper}} in rad/s ({{0, w}} is a low-pass filter), but {} numbers were "
-                        "given",
-                        edges.size()));
+            fmt::format("the band is {{lower, upper}} in rad/s ({{0, w}} is a low-pass filter), not {}",
+                        counted(edges.size(), "number")));
     return {edges[0], edges[1]};
 }
 

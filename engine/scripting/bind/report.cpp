@@ -2,6 +2,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "numerics/number_text.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/conversions/arguments.h"
 #include "scripting/objects/figure_object.h"
@@ -93,8 +94,8 @@ int report_table(Call& call) {
         std::vector<std::string> cells = read_cells(call, lua_gettop(L), i);
         if (i == 1) table.header = cells;
         if (cells.size() != table.header.size())
-            throw InvalidArgument(
-                fmt::format("row {} has {} cells, but the header has {}", i, cells.size(), table.header.size()));
+            throw InvalidArgument(fmt::format("row {} has {}, but the header has {}", i, counted(cells.size(), "cell"),
+                                              table.header.size()));
         if (i > 1) table.rows.push_back(std::move(cells));
     }
     if (table.header.empty()) throw InvalidArgument("the table has no header; its first row holds the column titles");

@@ -1,5 +1,6 @@
 #include <array>
 
+#include "numerics/number_text.h"
 #include "numerics/signals/excitation.h"
 #include "numerics/signals/prbs.h"
 #include "numerics/signals/random_phase_multisine.h"
@@ -16,7 +17,7 @@ std::pair<double, double> levels(const Call& call, int index, double low, double
     const VectorMap values = call.vector(index, "{low, high}");
     if (values.size() != 2)
         throw InvalidArgument(
-            fmt::format("the levels are written {{low, high}}, but {} numbers were given", values.size()));
+            fmt::format("the levels are written {{low, high}}, not {}", counted(values.size(), "number")));
     return {values[0], values[1]};
 }
 

@@ -5,6 +5,7 @@
 #include "figures/plots/nyquist_plot.h"
 #include "figures/plots/pole_zero_map.h"
 #include "figures/plots/time_response_plots.h"
+#include "numerics/number_text.h"
 #include "numerics/simulation/frequency_response.h"
 #include "numerics/simulation/lsim.h"
 #include "numerics/simulation/time_response.h"
@@ -91,11 +92,11 @@ std::vector<NamedModel> models_to_draw(const Call& call, int& next) {
 }
 
 /// Option labels: none, or one for each of the curves.
-std::vector<std::string> given_labels(const Options& options, std::size_t count, const char* what) {
+std::vector<std::string> given_labels(const Options& options, std::size_t count) {
     std::vector<std::string> labels = options.texts("labels");
     if (!labels.empty() && labels.size() != count)
         throw InvalidArgument(
-            fmt::format("option 'labels' has {} texts, but there are {} {}", labels.size(), count, what));
+            fmt::format("option 'labels' has {} for {}", counted(labels.size(), "text"), counted(count, "model")));
     return labels;
 }
 
@@ -105,7 +106,7 @@ std::string usual_name(const Call& call, int index) {
 }
 
 void name_models(const Call& call, const Options& options, std::vector<NamedModel>& models) {
-    const std::vector<std::string> labels = given_labels(options, models.size(), "models");
+    const std::vector<std::string> labels = given_labels(options, models.size());
     for (std::size_t i = 0; i < models.size(); ++i) {
         if (!labels.empty())
             models[i].name = labels[i];
@@ -171,7 +172,7 @@ int draw_bode(Call& call) {
     refuse_option_texts(call, next);
     call.at_most(next);
     const Options options(call, next, {"labels", "confidence"});
-    const std::vector<std::string> labels = given_labels(options, static_cast<std::size_t>(count), "models");
+    const std::vector<std::string> labels = given_labels(options, static_cast<std::size_t>(count));
     const std::optional<double> level = confidence_level(options);
     std::vector<NamedModel> models;
     std::vector<NamedResponse> responses;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 
+#include "numerics/number_text.h"
 #include "scripting/conversions/boxed.h"
 #include "scripting/conversions/numeric.h"
 #include "scripting/conversions/numeric_operators.h"
@@ -11,9 +12,13 @@
 namespace dynlab::inline scripting {
 namespace {
 
+std::string elements_of(Index size) {
+    return size == 0 ? "no elements" : size == 1 ? "the element 1 only" : fmt::format("the elements 1 to {}", size);
+}
+
 [[noreturn]] void refuse_element(const char* what, double number, Index size) {
-    throw InvalidArgument(fmt::format("{0}[{1:.10g}] does not exist: {0} has the elements 1 to {2}{3}", what, number,
-                                      size, number < 0 ? fmt::format("; the last one is {0}[#{0}]", what) : ""));
+    throw InvalidArgument(fmt::format("{0}[{1:.10g}] does not exist: {0} has {2}{3}", what, number, elements_of(size),
+                                      number < 0 ? fmt::format("; the last one is {0}[#{0}]", what) : ""));
 }
 
 /// Reads an element number from 1 to `size`, 0-based. `what` is "v" or "row" for messages.
@@ -71,13 +76,14 @@ int vector_range(Call& call) {
     const Index first = call.integer(2, "first"), last = call.integer(3, "last");
     if (first < 1 || last > v.rows || first > last + 1)
         throw InvalidArgument(
-            fmt::format("the elements {} to {} do not exist: v has the elements 1 to {}", first, last, v.rows));
+            fmt::format("the elements {} to {} do not exist: v has {}", first, last, elements_of(v.rows)));
     return call.give_vector(v.vector().segment(first - 1, last - first + 1));
 }
 
 int select_by_mask(Call& call, NumericBlock& v, MaskBlock& mask) {
     if (mask.size != v.rows)
-        throw InvalidArgument(fmt::format("the mask has {} values, but the vector has {}", mask.size, v.rows));
+        throw InvalidArgument(
+            fmt::format("the mask has {}, but the vector has {}", counted(mask.size, "value"), v.rows));
     const Index count = std::count(mask.data(), mask.data() + mask.size, true);
     double* target = push_vector(call.state(), count).data();
     for (Index i = 0; i < v.rows; ++i)
@@ -95,7 +101,7 @@ int vector_select(Call& call) {
         const double number = numbers[i];
         if (std::floor(number) != number || number < 1 || number > static_cast<double>(v.rows))
             throw InvalidArgument(
-                fmt::format("the element {:.10g} does not exist: v has the elements 1 to {}", number, v.rows));
+                fmt::format("the element {:.10g} does not exist: v has {}", number, elements_of(v.rows)));
         result.data()[i] = v.data()[static_cast<Index>(number) - 1];
     }
     return 1;

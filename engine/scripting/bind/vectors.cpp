@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "numerics/linalg/polynomial.h"
+#include "numerics/number_text.h"
 #include "numerics/signals/interpolation.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/conversions/boxed.h"
@@ -89,7 +90,8 @@ int norm(Call& call) {
 int dot(Call& call) {
     call.at_most(2);
     const VectorMap a = call.vector(1, "a"), b = call.vector(2, "b");
-    if (a.size() != b.size()) throw InvalidArgument(fmt::format("a has {} values, but b has {}", a.size(), b.size()));
+    if (a.size() != b.size())
+        throw InvalidArgument(fmt::format("a has {}, but b has {}", counted(a.size(), "value"), b.size()));
     return call.give(a.dot(b));
 }
 

@@ -131,7 +131,7 @@ std::string given_text(lua_State* L, int index) {
         default:
             return article(luaL_typename(L, index));
     }
-    if (NumericBlock* v = to_vector(L, index)) return fmt::format("a vector of {} values", v->rows);
+    if (NumericBlock* v = to_vector(L, index)) return "a vector of " + counted(v->rows, "value");
     if (NumericBlock* m = to_matrix(L, index)) return fmt::format("a {} x {} matrix", m->rows, m->columns);
     return article(object_name(L, index));
 }
@@ -390,7 +390,7 @@ std::optional<std::pair<double, double>> Options::range(const char* name) const 
     const VectorMap bounds = vector(name);
     if (bounds.size() != 2)
         throw InvalidArgument(
-            fmt::format("{} must be {{low, high}}, but it has {} values", label(name), bounds.size()));
+            fmt::format("{} must be {{low, high}}, but it has {}", label(name), counted(bounds.size(), "value")));
     return std::pair(bounds[0], bounds[1]);
 }
 

@@ -5,16 +5,13 @@
 #include <algorithm>
 
 #include "numerics/error.h"
+#include "numerics/number_text.h"
 #include "scripting/conversions/arguments.h"
 #include "scripting/conversions/boxed.h"
 #include "scripting/runtime/context.h"
 
 namespace dynlab::inline scripting {
 namespace {
-
-std::string size_text(double bytes) {
-    return bytes >= 1e9 ? fmt::format("{:.3g} GB", bytes / 1e9) : fmt::format("{:.3g} MB", bytes / 1e6);
-}
 
 /// Throws InvalidArgument, naming size and limit, when `bytes` cannot be had.
 void need_memory(lua_State* L, double bytes, const char* what) {
@@ -84,8 +81,8 @@ std::string without_entries(lua_State* L, int index) {
 /// Checks that entry `i` on top has the length of the first.
 void check_length(Index length, Index first_length, Index i, const char* kind, const std::string& label) {
     if (length != first_length)
-        throw InvalidArgument(
-            fmt::format("{}: {} {} has {} values, but {} 1 has {}", label, kind, i, length, kind, first_length));
+        throw InvalidArgument(fmt::format("{}: {} {} has {}, but {} 1 has {}", label, kind, i, counted(length, "value"),
+                                          kind, first_length));
 }
 
 }  // namespace
@@ -93,6 +90,10 @@ void check_length(Index length, Index first_length, Index i, const char* kind, c
 void charge_outside_bytes(lua_State* L, std::size_t bytes, const char* what) {
     need_memory(L, static_cast<double>(bytes), what);
     if (bytes >= 1024) lua_gc(L, LUA_GCSTEP, static_cast<int>(std::min<std::size_t>(bytes / 1024, 1 << 20)));
+}
+
+std::string numbered_from_one(Index count) {
+    return count == 0 ? "there is none" : count == 1 ? "there is 1 only" : fmt::format("there are 1 to {}", count);
 }
 
 NumericBlock& push_vector(lua_State* L, Index size) {

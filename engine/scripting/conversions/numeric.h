@@ -42,6 +42,9 @@ NumericBlock* to_vector(lua_State* L, int index);
 NumericBlock* to_matrix(lua_State* L, int index);
 MaskBlock* to_mask(lua_State* L, int index);
 
+/// Which numbers of elements, rows or the like there are: "there are 1 to 3", "there is 1 only".
+std::string numbered_from_one(Index count);
+
 /// Pushes a vector whose values can be read by these names, too: v.k1.
 void push_named_vector(lua_State* L, const Vector& values, const std::vector<std::string>& names);
 

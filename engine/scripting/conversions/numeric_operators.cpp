@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "numerics/number_text.h"
 #include "scripting/conversions/numeric.h"
 
 namespace dynlab::inline scripting {
@@ -16,7 +17,7 @@ struct Operand {
 
 std::string shape_text(const Operand& operand) {
     if (operand.block == nullptr) return "a number";
-    return operand.is_vector ? fmt::format("a vector of {}", operand.block->rows)
+    return operand.is_vector ? "a vector of " + counted(operand.block->rows, "value")
                              : fmt::format("a {} x {} matrix", operand.block->rows, operand.block->columns);
 }
 

@@ -59,8 +59,8 @@ int repeat_string(lua_State* L) {
     const double bytes = static_cast<double>(length + separator) * static_cast<double>(count);
     const MemoryAccount& memory = context_of(L).memory;
     if (bytes > static_cast<double>(memory.limit()))
-        raise_error(L, fmt::format("rep: the text would take {:.3g} GB, but the script may use {:.1f} GB", bytes / 1e9,
-                                   static_cast<double>(memory.limit()) / 1e9));
+        raise_error(L, fmt::format("rep: the text would take {}, but the script may use {}", size_text(bytes),
+                                   size_text(static_cast<double>(memory.limit()))));
     return call_original(L);
 }
 

@@ -298,8 +298,8 @@ int translate_error(lua_State* L) {
 }
 
 std::string memory_message(const RuntimeContext& context) {
-    const std::string text = fmt::format("the script needs more memory than the {:.2g} GB it may use",
-                                         static_cast<double>(context.memory.limit()) / 1e9);
+    const std::string text = fmt::format("the script needs more memory than the {} it may use",
+                                         size_text(static_cast<double>(context.memory.limit())));
     return LocatedMessage{context.script_name, context.refusal_line, text}.joined();
 }
 

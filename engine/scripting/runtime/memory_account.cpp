@@ -1,5 +1,7 @@
 #include "scripting/runtime/memory_account.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdlib>
 
@@ -28,6 +30,10 @@ void* MemoryAccount::allocate(void* account, void* block, std::size_t old_size, 
 void MemoryAccount::add_outside(std::size_t bytes) {
     used_ += bytes;
     peak_ = std::max(peak_, used_);
+}
+
+std::string size_text(double bytes) {
+    return bytes >= 1e9 ? fmt::format("{:.3g} GB", bytes / 1e9) : fmt::format("{:.3g} MB", bytes / 1e6);
 }
 
 }  // namespace dynlab::inline scripting

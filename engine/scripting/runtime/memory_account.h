@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <functional>
+#include <string>
 
 namespace dynlab::inline scripting {
 
@@ -26,5 +27,8 @@ class MemoryAccount {
   private:
     std::size_t limit_, used_ = 0, peak_ = 0;
 };
+
+/// As messages write it: "2.15 GB", "67.1 MB".
+std::string size_text(double bytes);
 
 }  // namespace dynlab::inline scripting

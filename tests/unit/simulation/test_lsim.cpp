@@ -162,7 +162,7 @@ TEST(lsim, says_what_is_wrong) {
         thrown_message([] {
             lsim(TransferFunction(from({1, 0}), from({1})), from({1}), 0.1);
         }),
-        "lsim: the transfer function has 1 zeros but only 0 poles; an improper model cannot be simulated, it needs "
+        "lsim: the transfer function has 1 zero but only 0 poles; an improper model cannot be simulated, it needs "
         "at least as many poles as zeros");
     EXPECT_EQ(thrown_message([] {
                   lsim(kSecondOrder, from({1}), 0.1, Hold::kZoh, from({1, 2, 3}));

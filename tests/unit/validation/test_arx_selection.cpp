@@ -15,6 +15,7 @@ namespace test_arx_selection {
 
 using namespace dynlab;
 
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -129,6 +130,8 @@ TEST(arx_selection, says_what_is_wrong) {
     const auto complaint = [&](const ArxRanges& ranges) { return thrown_message([&] { select_arx(data, ranges); }); };
     EXPECT_THAT(complaint({{2, 1}, {1, 1}, {1, 1}}), HasSubstr("na must be a number or a range"));
     EXPECT_THAT(complaint({{1, 1}, {0, 1}, {1, 1}}), HasSubstr("nb must be"));
+    EXPECT_THAT(complaint({{1, 1}, {0, 0}, {1, 1}}), EndsWith("from at least 1 upwards, but it is 0"));
+    EXPECT_THAT(complaint({{2, 1}, {1, 1}, {1, 1}}), EndsWith("upwards, but it is {2, 1}"));
     EXPECT_THAT(complaint({{1, 1}, {1, 1}, {-1, 1}}), HasSubstr("nk must be"));
     EXPECT_THAT(complaint({{1, 50}, {1, 50}, {0, 50}}), HasSubstr("more than 2000"));
     EXPECT_THAT(complaint({{1, 30}, {1, 30}, {1, 1}}), HasSubstr("arxstruc needs more equations"));

@@ -307,9 +307,8 @@ class Approximation {
     void describe() {
         warn_of_transient();
         warn_of_record();
-        result_.message = "Best linear approximation at " + std::to_string(result_.w.size()) + " frequencies from " +
-                          counted(static_cast<Index>(all_.size()), "realisation") + " of " +
-                          counted(periods_, "period") + ".";
+        result_.message = "Best linear approximation at " + counted(result_.w.size(), "frequency", "frequencies") +
+                          " from " + counted(all_.size(), "realisation") + " of " + counted(periods_, "period") + ".";
         const LevelSums sums = level_sums(result_);
         const auto decibels = [&](double part) {
             return number_text(10 * std::log10(std::max(part, 0.0) / sums.power), 3);

@@ -61,8 +61,8 @@ void describe(SpectralEstimate& estimate, const EtfeOptions& options, Index line
         estimate.message += " At the others the input has less than " + number_text(100 * options.least_input, 3) +
                             " % of its largest amplitude, and noise alone would be shown.";
     if (estimate.w.size() < 3)
-        estimate.warnings.push_back("The input excites " + std::to_string(estimate.w.size()) +
-                                    " frequencies only: the response is known there and nowhere else.");
+        estimate.warnings.push_back("The input excites " + counted(estimate.w.size(), "frequency", "frequencies") +
+                                    " only: the response is known there and nowhere else.");
 }
 
 }  // namespace

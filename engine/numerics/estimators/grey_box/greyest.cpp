@@ -399,8 +399,8 @@ Matrix grey_response(const GreyFit& grey, const GreyInputs& inputs, const Vector
         throw InvalidArgument("The model has " + counted(grey.model.inputs, "input") + ", and " +
                               std::to_string(inputs.u.cols()) + " were given");
     if (inputs.u.rows() != inputs.t.size())
-        throw InvalidArgument("The inputs have " + counted(inputs.u.rows(), "sample") + ", and there are " +
-                              std::to_string(inputs.t.size()) + " instants");
+        throw InvalidArgument("The inputs have " + counted(inputs.u.rows(), "sample") + ", and the time has " +
+                              counted(inputs.t.size(), "instant"));
     if (x0.size() != 0 && x0.size() != grey.model.order())
         throw InvalidArgument("The initial state must hold " + counted(grey.model.order(), "value") + ", and holds " +
                               std::to_string(x0.size()));

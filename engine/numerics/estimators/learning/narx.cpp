@@ -86,9 +86,8 @@ Choice choose_forwards(const Matrix& R, Index rows, Index most, const std::funct
 std::size_t number_of_terms(const Choice& choice, Index wanted) {
     if (wanted == 0) return static_cast<std::size_t>(std::ranges::min_element(choice.bic) - choice.bic.begin()) + 1;
     if (static_cast<Index>(choice.terms.size()) < wanted)
-        throw InvalidArgument("narx: " + std::to_string(wanted) + " terms are wanted, and only " +
-                              std::to_string(choice.terms.size()) +
-                              " candidates are independent of each other in this record");
+        throw InvalidArgument("narx: " + std::to_string(wanted) + " terms are wanted, and in this record only " +
+                              counted(choice.terms.size(), "independent candidate") + " can be found");
     return static_cast<std::size_t>(wanted);
 }
 
@@ -140,8 +139,9 @@ void check(const IdData& data, const NarxLags& lags, const NarxOptions& options,
                               ": select one");
     const Index rows = equation_count(data, lags), least = std::max<Index>(options.terms, 1) + 1;
     if (options.terms > candidates)
-        throw InvalidArgument("narx: " + std::to_string(options.terms) + " terms are wanted, and there are only " +
-                              std::to_string(candidates) + " candidates");
+        throw InvalidArgument("narx: " + std::to_string(options.terms) +
+                              " terms are wanted, and the lags and degree give only " +
+                              counted(candidates, "candidate"));
     if (rows > least && rows <= candidates)
         throw InvalidArgument("narx: " + std::to_string(rows) + " samples have their whole past recorded, and there " +
                               "are " + std::to_string(candidates) +

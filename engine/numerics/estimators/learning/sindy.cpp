@@ -153,7 +153,7 @@ void describe(SindyFit& found, const IdData& data, const SindyOptions& options) 
     judge(found, data);
     const std::string equations = options.weak ? "in weak form" : "from derivatives";
     set_message(fit, "Sparse equations " + equations + ", " + std::to_string(theta.size()) + " of " +
-                         std::to_string(Xi.size()) + " coefficients kept: " + simulation_text(fit) + ".");
+                         counted(Xi.size(), "coefficient") + " kept: " + simulation_text(fit) + ".");
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "numerics/error.h"
+#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
@@ -11,16 +12,15 @@ void check_polynomial_data(const std::string& method, const IdData& data, const 
         throw InvalidArgument(method + " needs one output, and the data hold " + std::to_string(data.output_count()) +
                               ": select one");
     if (data.input_count() > 0 && static_cast<std::size_t>(data.input_count()) != orders.inputs())
-        throw InvalidArgument(method + ": the data have " + std::to_string(data.input_count()) +
-                              " inputs, so each of nb, nf and nk needs as many values, and " +
+        throw InvalidArgument(method + ": the data have " + counted(data.input_count(), "input") +
+                              ", so each of nb, nf and nk needs as many values, and " +
                               std::to_string(orders.inputs()) + " were given");
     check_sampled_data(method, data);
     const int longest_delay = *std::max_element(orders.nk.begin(), orders.nk.end());
     for (std::size_t e = 0; e < data.experiments.size(); ++e)
         if (longest_delay >= data.sample_count(e))
-            throw InvalidArgument(method + ": the delay nk = " + std::to_string(longest_delay) +
-                                  " samples is not shorter than the record of " + std::to_string(data.sample_count(e)) +
-                                  " samples");
+            throw InvalidArgument(method + ": the delay nk = " + counted(longest_delay, "sample") +
+                                  " is not shorter than the record of " + counted(data.sample_count(e), "sample"));
 }
 
 Fit polynomial_fit(const PolynomialOrders& orders, const VectorView& theta, double Ts) {

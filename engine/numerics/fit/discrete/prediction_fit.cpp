@@ -79,8 +79,8 @@ Fit fit_prediction(const std::string& method, const PredictionModel& model, cons
                    const std::vector<Vector>& starts, const FitOptions& options) {
     const Vector y = model.target();
     if (y.size() <= model.parameter_count())
-        throw InvalidArgument(method + " needs more samples than the " + std::to_string(model.parameter_count()) +
-                              " values it estimates, and the record leaves " + std::to_string(y.size()) +
+        throw InvalidArgument(method + " needs more samples than the " + counted(model.parameter_count(), "value") +
+                              " it estimates, and the record leaves " + std::to_string(y.size()) +
                               " after those without a recorded past");
     std::vector<Vector> complete;
     for (const Vector& values : starts) complete.push_back(model.completed(values));

@@ -26,7 +26,7 @@ TEST(polynomial_fit, refuses_other_data) {  // oracle: the promises of the heade
     EXPECT_EQ(refusal(data, orders), "");
     const Experiment& record = data.experiments[0];
     EXPECT_THAT(refusal(IdData(record.y, record.u, data.time()), orders), HasSubstr("regularly sampled"));
-    EXPECT_THAT(refusal(data, PolynomialOrders::arx(1, {1, 1}, {1, 1})), HasSubstr("the data have 1 inputs"));
+    EXPECT_THAT(refusal(data, PolynomialOrders::arx(1, {1, 1}, {1, 1})), HasSubstr("the data have 1 input, so each"));
     EXPECT_THAT(refusal(data.range(1, 5), PolynomialOrders::arx(1, {1}, {5})), HasSubstr("delay nk = 5"));
 }
 
