@@ -136,7 +136,7 @@ std::optional<fs::path> file_beside(const fs::path& script_folder, const std::st
 }
 
 /// In full, without the /. or / that names the folder a script runs in.
-std::string shown(const fs::path& folder) {
+std::string full_path(const fs::path& folder) {
     const fs::path whole = fs::absolute(folder).lexically_normal();
     return (whole.has_filename() ? whole : whole.parent_path()).string();
 }
@@ -150,7 +150,8 @@ std::string shown(const fs::path& folder) {
         message += known.empty() ? "; no data sets are installed"
                                  : fmt::format("; the data sets are {}", fmt::join(known, ", "));
     }
-    throw EnvironmentError(fmt::format("{}; files of your own are looked for in {}", message, shown(script_folder)));
+    throw EnvironmentError(
+        fmt::format("{}; files of your own are looked for in {}", message, full_path(script_folder)));
 }
 
 /// A data set of the installed data, by its name, a course file's, or a path that ends in one of its files.
@@ -162,7 +163,7 @@ Source find_source(const std::string& name_or_path, const fs::path& script_folde
     const fs::path path = name_or_path;
     if (path.has_parent_path()) {
         const fs::path file = script_folder / path;
-        if (!is_file(file)) throw EnvironmentError(fmt::format("there is no file {}", shown(file)));
+        if (!is_file(file)) throw EnvironmentError(fmt::format("there is no file {}", full_path(file)));
         return {file};
     }
     if (const auto file = file_beside(script_folder, name_or_path)) return {*file};
@@ -180,7 +181,7 @@ Source find_graded_source(const std::string& name_or_path, const fs::path& scrip
     if (!lies_in(script_folder, source.file))
         throw EnvironmentError(
             fmt::format("{} {}; where scripts are graded, files of {} itself and installed data are read",
-                        source.file.string(), kLeadsOutside, shown(script_folder)));
+                        source.file.string(), kLeadsOutside, full_path(script_folder)));
     return source;
 }
 

@@ -23,7 +23,7 @@ struct Pieces {
     std::string places;  ///< ' ', 'n' or 's'
 };
 
-Pieces pieces_of(const std::string& sentence) {
+Pieces sentence_pieces(const std::string& sentence) {
     Pieces pieces;
     std::size_t start = 0;
     for (std::size_t at = 0; (at = sentence.find('{', at)) != sentence.npos; ++at) {
@@ -130,8 +130,8 @@ void SentenceCatalogue::add(const std::filesystem::path& file) {
             sentence = trimmed(line);
             continue;
         }
-        Pieces from = pieces_of(sentence);
-        Entry entry{std::move(from.words), pieces_of(trimmed(line)).words, std::move(from.places), 0};
+        Pieces from = sentence_pieces(sentence);
+        Entry entry{std::move(from.words), sentence_pieces(trimmed(line)).words, std::move(from.places), 0};
         if (entry.from.size() != entry.to.size()) fail("as many {} are wanted as in the sentence above");
         for (const std::string& piece : entry.from) entry.letters += piece.size();
         entries_.push_back(std::move(entry));
