@@ -220,7 +220,8 @@ IdData IdData::merge(const std::vector<IdData>& parts) {
                                   std::to_string(merged.reference_count()));
         if (part.Ts != merged.Ts)
             throw InvalidArgument("merge: part " + std::to_string(i + 1) + " has the sampling time " +
-                                  number_text(part.Ts) + " s but the first has " + number_text(merged.Ts) + " s");
+                                  number_text(part.Ts) + " " + part.time_unit + " but the first has " +
+                                  number_text(merged.Ts) + " " + merged.time_unit);
         if (part.time_unit != merged.time_unit)
             throw InvalidArgument("merge: part " + std::to_string(i + 1) + " counts time in " + part.time_unit +
                                   " but the first in " + merged.time_unit);
