@@ -94,7 +94,7 @@ TEST(script_learning, bad_input_is_refused_in_words) {
         EXPECT_THAT(printed(code), HasSubstr(words)) << code;
     };
     expect(kNarxRecord + "narx(data, {2, 2})", "but it has 2 entries");
-    expect(kNarxRecord + "narx(data, {2, 2, 1}, {terms = 40})", "there are only 15 candidates");
+    expect(kNarxRecord + "narx(data, {2, 2, 1}, {terms = 40})", "the lags and degree give only 15 candidates");
     expect(kSindyRecord + "sindy(data, {library = 3})", "'library' must be a function(x, u)");
     expect(kSindyRecord + "sindy(data, {library = function(x) return 3 end})", "must return a list of vectors");
     expect(kSindyRecord + "sindy(data, {library = function(x) return {x[1], vector{1, 2}} end})",
