@@ -136,7 +136,10 @@ TEST(narx, refuses_what_cannot_be_fitted) {
     EXPECT_THAT(thrown_message([&] { narx(data, {0, {0}, {1}}); }), HasSubstr("reads no past value at all"));
     EXPECT_THAT(thrown_message([&] { narx(data, {-1, {1}, {1}}); }), HasSubstr("must not be negative"));
     EXPECT_THAT(thrown_message([&] { narx(data, {1, {1, 1}, {1, 1}}); }), HasSubstr("of 2 inputs"));
-    EXPECT_THAT(thrown_message([&] { narx(data, kLags, {2, 16}); }), HasSubstr("the lags and degree give only 15 candidates"));
+    EXPECT_THAT(thrown_message([&] {
+                    narx(data, kLags, {2, 16});
+                }),
+                HasSubstr("the lags and degree give only 15 candidates"));
     EXPECT_THAT(thrown_message([&] { narx(data, {49, {1}, {1}}, {1, 0}); }), HasSubstr("too few samples: 1"));
     EXPECT_THAT(thrown_message([&] { narx(data, {60, {1}, {1}}, {1, 0}); }), HasSubstr("too few samples: 0"));
     EXPECT_THAT(thrown_message([&] { narx(data, kLags, {2, -1}); }), HasSubstr("`terms`"));
