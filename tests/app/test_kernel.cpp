@@ -181,8 +181,14 @@ TEST_F(kernel, an_interrupt_ends_the_cell_that_runs_and_no_other) {
 }
 
 TEST_F(kernel, cells_behind_one_that_failed_are_not_run) {
-    const std::string fails = client().start("print('x') error('no')"), behind = client().start("waited = 1"),
+    client().run("begun = true");
+    const pid_t cells = cells_process(client().process());
+    ::kill(cells, SIGSTOP);  // until the second has come: the first would fail before
+    const std::string fails = client().start("print('x') for i = 1, 1e7 do end error('no')"),
+                      behind = client().start("waited = 1"),
                       asked = client().ask("is_complete_request", {{"code", "x"}});
+    EXPECT_TRUE(client().beats());
+    ::kill(cells, SIGCONT);
     EXPECT_EQ(client().finish(fails).reply["status"], "error");
     EXPECT_EQ(client().finish(behind).reply["status"], "aborted");
     EXPECT_THAT(client().run("print(waited)").reply.dump(), HasSubstr("no function or variable"));
