@@ -33,6 +33,19 @@ TEST(correlation, of_a_signal_with_itself_equals_the_definition) {  // oracle: t
     }
 }
 
+/// Where several lags are summed at a time, their first and last samples are summed apart: each length and lag.
+TEST(correlation, of_short_signals_equals_the_definition) {  // oracle: the definition
+    RandomStream random(9);
+    for (Index N = 1; N <= 40; ++N) {
+        const Vector x = random.normal(N), y = random.normal(N);
+        for (Index lags = 0; lags <= N + 1; ++lags) {
+            const Vector sums = lagged_products(x, y, lags);
+            for (Index lag = -lags; lag <= lags; ++lag)
+                ASSERT_NEAR(sums[lags + lag], product(x, y, lag), 1e-12) << N << ", " << lags << ", " << lag;
+        }
+    }
+}
+
 TEST(correlation, behind_equals_the_definition) {  // oracle: the definition
     const Vector y = RandomStream(7).normal(3000), x = RandomStream(8).normal(2900);
     for (const Index last : {0, 1, 3, 4, 30}) {
