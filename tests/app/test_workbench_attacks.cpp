@@ -222,30 +222,28 @@ TEST_F(workbench_attacks, a_yes_is_for_this_script_as_it_was) {
 
 TEST_F(workbench_attacks, what_is_refused_is_told_in_the_script_s_language) {
     const std::string mistake = "-- %% id=a\npritn(1 + 1)\n";
-    constexpr int kForbidden = 403, kConflict = 409;
-    const auto refused = [&](const Asker& page, int status, const std::string& words) {
-        const httplib::Result answer = page.get("/document.pdf");
-        ASSERT_TRUE(answer);
-        EXPECT_EQ(answer->status, status);
-        EXPECT_THAT(answer->body, HasSubstr(words));
+    const auto refuses = [&](const std::string& name, const std::string& forbidden, const std::string& stops,
+                             const std::string& conflict) {
+        const auto program = reopened(name);
+        const Asker page(program->address());
+        const auto expect = [&](int status, const std::string& words) {
+            const httplib::Result answer = page.get("/document.pdf");
+            ASSERT_TRUE(answer);
+            EXPECT_EQ(answer->status, status);
+            EXPECT_THAT(answer->body, HasSubstr(words));
+        };
+        expect(403, forbidden);
+        page.post("/allow");
+        ASSERT_TRUE(page.tells(stops));
+        expect(409, conflict);
+        expect(409, stops);
     };
     write("english.lua", mistake);
+    refuses("english.lua", "This script has not been allowed to run.", "no function or variable",
+            "There is no report of a script with a mistake: ");
     write("french.lua", "-- ---\n-- language: fr\n-- ---\n\n" + mistake);
-    {
-        const auto program = reopened("english.lua");
-        const Asker page(program->address());
-        refused(page, kForbidden, "This script has not been allowed to run.");
-        page.post("/allow");
-        ASSERT_TRUE(page.tells("no function or variable"));
-        refused(page, kConflict, "There is no report of a script with a mistake: ");
-    }
-    const auto program = reopened("french.lua");
-    const Asker page(program->address());
-    refused(page, kForbidden, "Ce script n'a pas encore le droit d'être exécuté.");
-    page.post("/allow");
-    ASSERT_TRUE(page.tells("ni fonction ni variable"));
-    refused(page, kConflict, "Il n'y a pas de rapport d'un script qui contient une erreur");
-    refused(page, kConflict, "ni fonction ni variable");
+    refuses("french.lua", "Ce script n'a pas encore le droit d'être exécuté.", "ni fonction ni variable",
+            "Il n'y a pas de rapport d'un script qui contient une erreur");
 }
 
 TEST_F(workbench_attacks, a_session_begun_here_is_asked_for_when_another_script_lies_there) {
