@@ -128,15 +128,6 @@ NormalEquations DenominatorGroup::refined(const VectorView& theta, bool with_gra
     });
 }
 
-Matrix DenominatorGroup::sensitivity_gram(const VectorView& theta) const {
-    const Vector A = denominator(theta);
-    Matrix sum = Matrix::Zero(count_, count_);
-    for (const Member& member : members_)
-        sum(member.places, member.places) +=
-            weights_[member.output] * transfer_filters().sensitivity_gram(member.record, A, numerators(member, theta));
-    return sum;
-}
-
 Vector DenominatorGroup::with_stable_poles(const VectorView& theta, bool* any) const {
     Vector result = theta;
     result.head(n_) = reflect_unstable_roots(denominator(theta), any).tail(n_);

@@ -33,7 +33,6 @@ class DenominatorGroup {
     /// Those of SRIVC: signals filtered by 1/A of `theta`, instruments the sensitivities of the model's output;
     /// `with_gram` also the sums of z z'.
     NormalEquations refined(const VectorView& theta, bool with_gram = false) const;
-    Matrix sensitivity_gram(const VectorView& theta) const;  ///< weighted sum z z' of the refined instruments
     Vector denominator(const VectorView& theta) const;       ///< A: n + 1 coefficients, monic; theta of the group
     /// theta with unstable poles mirrored (real part to its negative); tells whether there were any.
     Vector with_stable_poles(const VectorView& theta, bool* any = nullptr) const;

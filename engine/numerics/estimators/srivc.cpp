@@ -27,7 +27,7 @@ void set_covariance(Fit& estimate, const IdData& data, const FitOptions& options
             group.set_weight(output, largest > 0 ? largest / estimate.noise_variance[output] : 1);
         double condition = 0;
         const Matrix gram = last_gram.size() > 0 ? Matrix(last_gram.block(place, place, d, d))
-                                                 : group.sensitivity_gram(estimate.theta.segment(place, d));
+                                                 : group.refined(estimate.theta.segment(place, d), true).z_z;
         estimate.covariance.block(place, place, d, d) = largest * inverse_gram(gram, &condition);
         estimate.condition_number = std::max(estimate.condition_number, condition);
     }

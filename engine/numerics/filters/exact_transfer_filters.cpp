@@ -47,10 +47,6 @@ class ExactTransferFilters : public TransferFilters {
                             bool with_gram) const override {
         return refined_equations(record, A, B, with_gram);
     }
-    Matrix sensitivity_gram(const RegressionRecord& record, const VectorView& A,
-                            const std::vector<Vector>& B) const override {
-        return sensitivity_products(record, A, B);
-    }
     double output_error_squares(const RegressionRecord& record, const std::vector<Vector>& A,
                                 const std::vector<Vector>& B) const override {
         return numerics::output_error_squares(record, A, B);

@@ -1,7 +1,6 @@
 #include "numerics/filters/filter_chain.h"
 
 #include "numerics/linalg/polynomial.h"
-#include "numerics/linalg/tall_gram.h"
 #include "numerics/simulation/exact_filter.h"
 #include "numerics/simulation/irregular_filter.h"
 
@@ -105,12 +104,7 @@ Matrix chain_products(const std::vector<FilterChain>& chains, const Sampling& sa
         outputs.middleCols(place, chain.filter.C.rows()) = chain_outputs(chain, sampling);
         place += chain.filter.C.rows();
     }
-    for (const OutputSum& sum : sums) {
-        outputs.col(place).setZero();
-        for (const OutputSum::Term& term : sum.terms) outputs.col(place) += term.weight * outputs.col(term.output);
-        ++place;
-    }
-    return tall_gram(outputs.leftCols(count - 1), outputs.col(count - 1))(left, right);
+    return stored_products(outputs, left, right, sums);
 }
 
 }  // namespace dynlab::inline numerics

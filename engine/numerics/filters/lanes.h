@@ -1,7 +1,4 @@
 #pragma once
-#if defined(__AVX__)
-#include <immintrin.h>
-#endif
 #include <utility>
 
 namespace dynlab::inline numerics {
@@ -16,11 +13,9 @@ template <int n, class Function>
     (std::make_integer_sequence<int, n>());
 }
 
-/// Eight numbers that are worked on together, in as many machine vectors as the processor's width asks for. (One
-/// vector of eight is no good: where the processor has narrower ones, GCC 12 takes it apart number by number.)
+/// Numbers that are worked on together: one machine vector, as wide as the processor has them.
 class Lanes {
   public:
-    static constexpr int kCount = 8;
 #if defined(__AVX512F__)
     static constexpr int kWidth = 8;
 #elif defined(__AVX__)
@@ -29,34 +24,9 @@ class Lanes {
     static constexpr int kWidth = 2;
 #endif
     typedef double Part __attribute__((vector_size(kWidth * sizeof(double))));
-    static constexpr int kParts = kCount / kWidth;
 
-    Lanes() : part_{} {}
-    // Written out because GCC 12 copies a class through memory, and the filters would wait for it at every step.
-    Lanes(const Lanes& x) {
-        *this = x;
-    }
-    Lanes& operator=(const Lanes& x) {
-        for (int i = 0; i < kParts; ++i) part_[i] = x.part_[i];
-        return *this;
-    }
-
-    /// The numbers at p[0], p[stride], ..., as many as a part holds; stride >= 1.
-    [[gnu::always_inline]] static Part gather_part(const double* p, long stride) {
-#if defined(__AVX__) && !defined(__AVX512F__)
-        // By number, the moves would keep a unit busy that multiplies. So two neighbours are loaded at a time, of which
-        // one is wanted, and always between p[0] and p[3 stride].
-        const auto pairs = [](const double* a, const double* b) {
-            return _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(a)), _mm_loadu_pd(b), 1);
-        };
-        return _mm256_blend_pd(pairs(p, p + 2 * stride), pairs(p + stride - 1, p + 3 * stride - 1), 0b1010);
-#else
-        Part part;
-        for (int lane = 0; lane < kWidth; ++lane) part[lane] = p[lane * stride];
-        return part;
-#endif
-    }
-    /// tile[j] = gather_part(p + j, stride) for j = 0 .. kWidth - 1: whole vectors are loaded and transposed.
+    /// tile[j]: the numbers at p[j], p[j + stride], p[j + 2 stride], ..., for j = 0 .. kWidth - 1; stride >= 1. Whole
+    /// vectors are loaded and transposed.
     [[gnu::always_inline]] static void gather_tile(const double* p, long stride, Part* tile) {
         typedef double Unaligned
             __attribute__((vector_size(kWidth * sizeof(double)), aligned(sizeof(double)), may_alias));
@@ -72,44 +42,6 @@ class Lanes {
             });
             spread<kWidth / 2, 2>(pairs, tile + column);
         });
-    }
-    /// The numbers at p[0], p[stride], ..., p[7 stride]; stride >= 1.
-    static Lanes gather(const double* p, long stride) {
-        Lanes lanes;
-        for (int i = 0; i < kParts; ++i) lanes.part_[i] = gather_part(p + i * kWidth * stride, stride);
-        return lanes;
-    }
-
-    Part part(int i) const {
-        return part_[i];
-    }
-    Part& part(int i) {
-        return part_[i];
-    }
-    double operator[](int lane) const {
-        return part_[lane / kWidth][lane % kWidth];
-    }
-    void set(int lane, double value) {
-        part_[lane / kWidth][lane % kWidth] = value;
-    }
-
-    Lanes times(double weight) const {
-        Lanes product;
-        for (int i = 0; i < kParts; ++i) product.part_[i] = weight * part_[i];
-        return product;
-    }
-    /// this += weight x
-    void add(double weight, const Lanes& x) {
-        for (int i = 0; i < kParts; ++i) part_[i] += weight * x.part_[i];
-    }
-    Lanes& operator+=(const Lanes& x) {
-        for (int i = 0; i < kParts; ++i) part_[i] += x.part_[i];
-        return *this;
-    }
-    double sum() const {
-        double total = 0;
-        for (int lane = 0; lane < kCount; ++lane) total += (*this)[lane];
-        return total;
     }
 
   private:
@@ -140,8 +72,6 @@ class Lanes {
             });
         }
     }
-
-    Part part_[kParts];
 };
 
 }  // namespace dynlab::inline numerics

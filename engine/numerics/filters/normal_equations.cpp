@@ -152,12 +152,6 @@ NormalEquations refined_equations(const RegressionRecord& record, const VectorVi
     return equation.with_instruments(z, 1, with_gram);
 }
 
-Matrix sensitivity_products(const RegressionRecord& record, const VectorView& A, const std::vector<Vector>& B) {
-    Equation equation(record, A.size() - 1);
-    const std::vector<Index> z = add_sensitivities(equation, record, A, B);
-    return equation.products(z, z);
-}
-
 double output_error_squares(const RegressionRecord& record, const std::vector<Vector>& A,
                             const std::vector<Vector>& B) {
     // The quickest, where enough digits are left: nearly noise-free data go the long way.

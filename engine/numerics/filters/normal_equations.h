@@ -19,9 +19,6 @@ NormalEquations auxiliary_equations(const RegressionRecord& record, const Vector
 NormalEquations refined_equations(const RegressionRecord& record, const VectorView& A, const std::vector<Vector>& B,
                                   bool with_gram = false);
 
-/// sum z z' of these instruments, d x d.
-Matrix sensitivity_products(const RegressionRecord& record, const VectorView& A, const std::vector<Vector>& B);
-
 /// sum (y - sum_j B_j/A_j u_j)^2, simulated from rest; every input may have a denominator of its own here.
 double output_error_squares(const RegressionRecord& record, const std::vector<Vector>& A, const std::vector<Vector>& B);
 

@@ -36,9 +36,6 @@ class TransferFilters {
     /// with_gram: sum z z' in the same run.
     virtual NormalEquations refined(const RegressionRecord& record, const VectorView& A, const std::vector<Vector>& B,
                                     bool with_gram) const = 0;
-    /// sum z z' of these instruments, d x d.
-    virtual Matrix sensitivity_gram(const RegressionRecord& record, const VectorView& A,
-                                    const std::vector<Vector>& B) const = 0;
     /// sum (y - sum_j B_j/A_j u_j)^2, simulated from rest.
     virtual double output_error_squares(const RegressionRecord& record, const std::vector<Vector>& A,
                                         const std::vector<Vector>& B) const = 0;

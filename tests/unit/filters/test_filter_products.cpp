@@ -10,7 +10,7 @@
 #include "numerics/filters/sensitivity_system.h"
 #include "numerics/linalg/polynomial.h"
 #include "numerics/signals/random.h"
-#include "numerics/simulation/exact_filter.h"
+#include "numerics/simulation/sampled_recursion.h"
 
 namespace test_filter_products {
 
@@ -23,6 +23,19 @@ double difference(const Matrix& products, const Matrix& left, const Matrix& righ
     const Matrix expected = left.transpose() * right;
     const Matrix scale = left.colwise().norm().transpose() * right.colwise().norm();
     return ((products - expected).array() / scale.array().max(1e-300)).abs().maxCoeff();
+}
+
+/// The outputs as they are defined, sample by sample.
+Matrix outputs_of(const SampledSystem& system, const Vector& u) {
+    SampledRecursion recursion(system, Samples(u.data(), u.size()));
+    Matrix y(u.size(), recursion.output_count());
+    Vector row(recursion.output_count());
+    for (Index k = 0; k < u.size(); ++k) {
+        recursion.output(k, row);
+        y.row(k) = row.transpose();
+        recursion.step(k);
+    }
+    return y;
 }
 
 Vector stable_denominator(Index order) {
@@ -40,7 +53,7 @@ struct ProductsCase {
 
 class filter_products_of : public testing::TestWithParam<ProductsCase> {};
 
-// oracle: second route, the outputs of ExactFilter multiplied out
+// oracle: definition, the outputs of the recursion multiplied out
 TEST_P(filter_products_of, outputs_equal_the_stored_ones_multiplied) {
     const auto [order, N, delay, hold] = GetParam();
     const double Ts = 0.05;
@@ -49,7 +62,7 @@ TEST_P(filter_products_of, outputs_equal_the_stored_ones_multiplied) {
     const SampledSystem of_y = derivative_filter(den, Ts, Hold::kFoh);
     const SampledSystem of_u = discretise(cascade.A, cascade.B, cascade.C, cascade.D, Ts, hold, delay);
     Matrix outputs(N, of_y.C.rows() + of_u.C.rows());
-    outputs << ExactFilter(of_y).run(y), ExactFilter(of_u).run(u);
+    outputs << outputs_of(of_y, y), outputs_of(of_u, u);
     const std::vector<FilteredSignal> signals{{of_y, Samples(y.data(), N)}, {of_u, Samples(u.data(), N)}};
 
     std::vector<Index> all(static_cast<std::size_t>(outputs.cols()));
@@ -79,16 +92,16 @@ INSTANTIATE_TEST_SUITE_P(records, filter_products_of,
                                     (c.hold == Hold::kZoh ? "_zoh" : "_foh");
                          });
 
-TEST(filter_products, undamped_filters_are_followed_exactly) {  // oracle: second route; nothing is ever forgotten here
+TEST(filter_products, undamped_filters_are_followed_exactly) {  // oracle: definition; nothing is ever forgotten here
     const Index N = 4001;
     const Vector u = RandomStream(3).normal(N);
     const SampledSystem system = derivative_filter(Eigen::Vector3d(1, 0, 1), 0.1, Hold::kZoh);
-    const Matrix outputs = ExactFilter(system).run(u);
+    const Matrix outputs = outputs_of(system, u);
     EXPECT_LT(difference(filter_products({{system, Samples(u.data(), N)}}, {0, 1, 2}, {0, 1, 2}), outputs, outputs),
               1e-11);
 }
 
-// oracle: second route; the shapes that are summed in registers: alone, one output, a signal as it is, a late sample
+// oracle: definition; signals alone, one output, a signal as it is, a late sample
 TEST(filter_products, signals_alone_and_single_outputs_equal_the_stored_ones_multiplied) {
     const Index N = 2003;
     const Vector y = RandomStream(1).normal(N), u = RandomStream(2).normal(N);
@@ -101,15 +114,14 @@ TEST(filter_products, signals_alone_and_single_outputs_equal_the_stored_ones_mul
             system.D = system.D.bottomRows(1).eval();
             system.first_D = system.first_D.tail(1).eval();
             Matrix outputs(N, 2);
-            outputs << y, ExactFilter(system).run(u);
+            outputs << y, outputs_of(system, u);
             const FilteredSignal of_y{itself, Samples(y.data(), N)}, of_u{system, Samples(u.data(), N)};
             EXPECT_LT(difference(filter_products({of_y, of_u}, {0, 1}, {0, 1}), outputs, outputs), 1e-13);
             EXPECT_LT(difference(filter_products({of_u}, {0}, {0}), outputs.rightCols(1), outputs.rightCols(1)), 1e-13);
         }
 }
 
-// oracle: second route; sums of squares follow from how the squares grow where that keeps the digits: it does not for a
-// signal of alternating sign, of which next to nothing is left after a slow filter
+// oracle: definition; next to nothing is left of a signal of alternating sign after a slow filter
 TEST(filter_products, two_equal_poles_keep_the_digits_whatever_the_signal) {
     const Index N = 20011;
     const Vector u = RandomStream(2).normal(N), time = Vector::LinSpaced(N, 0, static_cast<double>(N - 1));
@@ -128,7 +140,7 @@ TEST(filter_products, two_equal_poles_keep_the_digits_whatever_the_signal) {
             const SampledSystem of_u =
                 discrete_system(A, Vector::Unit(2, 0), Eigen::RowVector2d(1, 2), Vector::Zero(1), 0);
             Matrix outputs(N, 4);
-            outputs << ExactFilter(of_y).run(y), ExactFilter(of_u).run(u);
+            outputs << outputs_of(of_y, y), outputs_of(of_u, u);
             const Matrix products = filter_products({{of_y, Samples(y.data(), N)}, {of_u, Samples(u.data(), N)}},
                                                     {0, 1, 2, 3}, {0, 1, 2, 3});
             // A sum of N terms rounds by N epsilon at most; each step of q by what 1/(1 - pole) steps of p have left.

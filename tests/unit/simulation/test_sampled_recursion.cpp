@@ -1,4 +1,4 @@
-#include "numerics/filters/sampled_recursion.h"
+#include "numerics/simulation/sampled_recursion.h"
 
 #include <gtest/gtest.h>
 
