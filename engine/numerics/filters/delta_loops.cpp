@@ -106,25 +106,36 @@ void filter_loop(const DeltaChain& first, const DeltaChain& second, const Segmen
 
 /// Those that regressions with one to four poles need: an output (or a signal as it is) beside an input, whose order is
 /// that of the model, or twice as much for its sensitivities, and one more for a delay between samples with inputs on
-/// straight lines; and inputs beside each other.
+/// straight lines, which always have the highest column; and inputs beside each other.
 DeltaLoops delta_loops(int order1, int order2, WantedProducts wanted) {
+    constexpr std::true_type yes;
+    constexpr std::false_type no;
     DeltaLoops loops;
-    const auto pair = [&](auto n1, auto n2) {
-        if (order1 != n1 || order2 != n2) return;
+    const auto pair = [&](auto n1, auto n2, auto first, auto without_highest) {
+        if (order1 != n1 || order2 != n2 || (wanted.first && !first)) return;
         loops.filter = filter_loop<n1, n2>;
-        if (wanted.highest)
-            loops.sum = wanted.first ? sum_loop<n1, n2, true, n2 + 1> : sum_loop<n1, n2, false, n2 + 1>;
-        else
-            loops.sum = wanted.first ? sum_loop<n1, n2, true, n2> : sum_loop<n1, n2, false, n2>;
+        loops.sum = sum_loop<n1, n2, first, n2 + 1>;
+        loops.summed = {first, true};
+        if constexpr (without_highest) {
+            if (wanted.highest) return;
+            loops.sum = sum_loop<n1, n2, first, n2>;
+            loops.summed.highest = false;
+        }
     };
-    repeat<5>([&](auto i) { pair(std::integral_constant<int, 0>(), std::integral_constant<int, i + 1>()); });
+    repeat<5>([&](auto i) {
+        pair(std::integral_constant<int, 0>(), std::integral_constant<int, i + 1>(), yes,
+             std::bool_constant<(i < 4)>());
+    });
+    repeat<9>([&](auto i) {
+        constexpr std::integral_constant<int, i + 1> n;
+        pair(n, n, yes, std::bool_constant<(n <= 4 || n == 6 || n == 8)>());
+    });
     repeat<4>([&](auto i) {
         constexpr std::integral_constant<int, i + 1> n;
-        pair(n, std::integral_constant<int, n + 1>());
-        if constexpr (n > 1) pair(n, std::integral_constant<int, 2 * n>());
-        pair(n, std::integral_constant<int, 2 * n + 1>());
+        pair(n, std::integral_constant<int, n + 1>(), yes, no);
+        pair(n, std::integral_constant<int, 2 * n>(), no, yes);
+        pair(n, std::integral_constant<int, 2 * n + 1>(), no, no);
     });
-    repeat<9>([&](auto i) { pair(std::integral_constant<int, i + 1>(), std::integral_constant<int, i + 1>()); });
     return loops;
 }
 

@@ -55,9 +55,10 @@ using FilterLoop = void (*)(const DeltaChain&, const DeltaChain&, const SegmentS
 struct DeltaLoops {
     FilterLoop filter = nullptr;
     SumLoop sum = nullptr;
+    WantedProducts summed;  ///< all that are wanted, if not more
 };
 
-/// Null pointers for orders that have no loop.
+/// Null pointers for orders that have no loop, or none that sums what is wanted.
 DeltaLoops delta_loops(int order1, int order2, WantedProducts wanted);
 
 }  // namespace dynlab::inline numerics

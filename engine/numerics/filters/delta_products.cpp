@@ -166,9 +166,8 @@ class Growth {
 
 class DeltaRun {
   public:
-    DeltaRun(const DeltaChain& first, const DeltaChain& second, WantedProducts wanted, const DeltaLoops& loops, Index N)
-        : wanted_(wanted),
-          first_(first),
+    DeltaRun(const DeltaChain& first, const DeltaChain& second, const DeltaLoops& loops, Index N)
+        : first_(first),
           second_(second),
           loops_(loops),
           N_(N),
@@ -186,7 +185,7 @@ class DeltaRun {
         keep_last_lane();
         in_lanes_ = false;
         run(kDeltaLanes * segment_, N_, nullptr);
-        if (wanted_.first)
+        if (loops_.summed.first)
             set_own(
                 first_.order, sums_.first, [&](int i, int j) { return growth_.first(i, j); }, result.first);
         set_own(
@@ -250,7 +249,7 @@ class DeltaRun {
     }
 
     /// The second chain's last column that is multiplied.
-    int second_highest() const { return wanted_.highest ? second_.order : second_.order - 1; }
+    int second_highest() const { return loops_.summed.highest ? second_.order : second_.order - 1; }
 
     /// All products of a chain's columns 0 .. n from their squares.
     template <class GrowthOf>
@@ -278,7 +277,6 @@ class DeltaRun {
         }
     }
 
-    WantedProducts wanted_;
     const DeltaChain &first_, &second_;
     DeltaLoops loops_;
     Index N_, segment_;
@@ -296,7 +294,7 @@ std::optional<DeltaProducts> delta_products(const DeltaChain& first, const Delta
     const DeltaLoops loops = delta_loops(first.order, second.order, wanted);
     if (!loops.sum || N < kDeltaLanes * kShortestDeltaSegment) return {};
     std::optional<DeltaProducts> products(std::in_place);
-    DeltaRun(first, second, wanted, loops, N).run(*products);
+    DeltaRun(first, second, loops, N).run(*products);
     return products;
 }
 

@@ -1,6 +1,5 @@
 #include "numerics/linalg/matrix_exponential.h"
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <optional>
 #include <unsupported/Eigen/MatrixFunctions>
@@ -37,38 +36,39 @@ Eigen::RowVectorXd input_scale(const Matrix& B) {
     return scale;
 }
 
-template <int n>
-std::optional<StepMatrices> short_step_of(const MatrixView& A, const MatrixView& B, double h) {
-    using Inputs = Eigen::Matrix<double, n, Eigen::Dynamic>;
-    const auto step = short_step<n, Eigen::Dynamic>(A, Inputs(B), h);
+template <int room>
+std::optional<StepMatrices> exact_short_step(const MatrixView& A, const MatrixView& B, double h) {
+    const int n = static_cast<int>(A.rows());
+    SmallMatrix<room> small;
+    for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i) small(i, j) = A(i, j);
+    const auto step = short_step(small, n, h);
     if (!step) return {};
-    return StepMatrices{step->F, step->G, step->H0, step->H1};
-}
-
-/// For the numbers of states that one to four poles have, alone and in series.
-std::optional<StepMatrices> short_step_of(const MatrixView& A, const MatrixView& B, double h) {
-    switch (A.rows()) {
-        case 1:
-            return short_step_of<1>(A, B, h);
-        case 2:
-            return short_step_of<2>(A, B, h);
-        case 3:
-            return short_step_of<3>(A, B, h);
-        case 4:
-            return short_step_of<4>(A, B, h);
-        case 6:
-            return short_step_of<6>(A, B, h);
-        case 8:
-            return short_step_of<8>(A, B, h);
-        default:
-            return {};
+    StepMatrices all{Matrix(n, n), Matrix(n, B.cols()), Matrix(n, B.cols()), Matrix(n, B.cols())};
+    for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i) all.F(i, j) = step->E(i, j) + (i == j ? 1 : 0);
+    for (Index j = 0; j < B.cols(); ++j) {
+        SmallVector<room> input;
+        for (int i = 0; i < n; ++i) input[i] = B(i, j);
+        const SmallVector<room> constant = product(step->W, input, n), ramp = product(step->R, input, n);
+        for (int i = 0; i < n; ++i) {
+            all.G(i, j) = constant[i];
+            all.H1(i, j) = ramp[i];
+            all.H0(i, j) = constant[i] - ramp[i];
+        }
     }
+    return all;
 }
 
 }  // namespace
 
 StepMatrices exact_step(const MatrixView& A, const MatrixView& B, double h) {
-    if (std::optional<StepMatrices> step = short_step_of(A, B, h)) return *std::move(step);
+    std::optional<StepMatrices> short_one;
+    if (A.rows() <= 4)
+        short_one = exact_short_step<4>(A, B, h);
+    else if (A.rows() <= 8)
+        short_one = exact_short_step<8>(A, B, h);
+    if (short_one) return *std::move(short_one);
     // In steps of h, with s = t/h: d/ds [x; a; b - a] = [hA hB 0; 0 0 I; 0 0 0] [x; a; b - a].
     const Index n = A.rows(), m = B.cols();
     const Eigen::RowVectorXd scale = input_scale(h * B);

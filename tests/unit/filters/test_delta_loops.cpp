@@ -49,6 +49,8 @@ struct Orders {
 void expect_loops(const Orders& orders, WantedProducts wanted) {
     const DeltaLoops loops = delta_loops(orders.first, orders.second, wanted);
     ASSERT_NE(loops.filter, nullptr) << orders.first << ", " << orders.second;
+    ASSERT_TRUE(loops.summed.first || !wanted.first);
+    ASSERT_TRUE(loops.summed.highest || !wanted.highest);
     const DeltaChain first = chain_of(orders.first), second = chain_of(orders.second);
     const Vector v = RandomStream(1).normal(kSteps * kDeltaLanes), w = RandomStream(2).normal(kSteps * kDeltaLanes);
     DeltaState summed, filtered, free;
@@ -72,7 +74,7 @@ void expect_loops(const Orders& orders, WantedProducts wanted) {
             expect(filtered.second[j][lane], Y.back()[static_cast<std::size_t>(j)], "filtered second state");
             EXPECT_EQ(free.second[j][lane], 0);
         }
-        const int columns = orders.second + (wanted.highest ? 1 : 0);
+        const int columns = orders.second + (loops.summed.highest ? 1 : 0);
         for (int s = 0; s < orders.first + columns; ++s) {
             const int j = summed_row(orders.first, columns - 1, s);
             long double product = 0;
@@ -80,7 +82,7 @@ void expect_loops(const Orders& orders, WantedProducts wanted) {
                 product += X[k][static_cast<std::size_t>(j)] * Y[k][static_cast<std::size_t>(s - j)];
             expect(sums.both[s][lane], product, "product");
         }
-        for (int j = 0; j <= orders.first && wanted.first; ++j) {
+        for (int j = 0; j <= orders.first && loops.summed.first; ++j) {
             long double square = 0;
             for (std::size_t k = 0; k < kSteps; ++k)
                 square += X[k][static_cast<std::size_t>(j)] * X[k][static_cast<std::size_t>(j)];
@@ -90,14 +92,18 @@ void expect_loops(const Orders& orders, WantedProducts wanted) {
 }
 
 TEST(delta_loops, filter_and_sum_as_they_are_defined) {
-    for (const Orders orders : {Orders{0, 1}, {0, 3}, {1, 2}, {2, 3}, {2, 4}, {3, 6}, {4, 8}})
+    for (const Orders orders : {Orders{0, 1}, {0, 3}, {0, 5}, {1, 2}, {2, 2}, {2, 3}, {4, 5}, {8, 8}, {9, 9}})
         for (const WantedProducts wanted : {WantedProducts{true, true}, {false, true}, {true, false}, {false, false}})
             expect_loops(orders, wanted);
+    // Of a sensitivity's chain beside the output's, the output's own products are never wanted.
+    for (const Orders orders : {Orders{1, 2}, {1, 3}, {2, 4}, {2, 5}, {3, 6}, {4, 8}, {4, 9}})
+        for (const WantedProducts wanted : {WantedProducts{false, true}, {false, false}}) expect_loops(orders, wanted);
 }
 
 TEST(delta_loops, of_other_orders_there_are_none) {
     EXPECT_EQ(delta_loops(4, 7, {}).filter, nullptr);
     EXPECT_EQ(delta_loops(4, 7, {}).sum, nullptr);
+    EXPECT_EQ(delta_loops(2, 4, {true, true}).sum, nullptr) << "products that are never wanted";
 }
 
 }  // namespace test_delta_loops

@@ -1,0 +1,61 @@
+#pragma once
+#include <algorithm>
+#include <utility>
+
+namespace dynlab::inline numerics {
+
+// Vectors and square matrices of up to `room` states (4 or 8), whose number n is known at run time only. What is beyond
+// n is zero, so that loops over rows have a length that the compiler knows: machine vectors, without a template for
+// every n.
+
+constexpr int kMostSmall = 8;
+
+template <int room>
+struct SmallVector {
+    alignas(room * sizeof(double)) double at[room] = {};
+
+    double operator[](int i) const { return at[i]; }
+    double& operator[](int i) { return at[i]; }
+    /// this += weight x
+    void add(double weight, const SmallVector& x) {
+        for (int i = 0; i < room; ++i) at[i] += weight * x.at[i];
+    }
+    bool is_zero() const {
+        return std::all_of(at, at + room, [](double x) { return x == 0; });
+    }
+};
+
+template <int room>
+struct SmallMatrix {
+    SmallVector<room> column[room];
+
+    double operator()(int i, int j) const { return column[j].at[i]; }
+    double& operator()(int i, int j) { return column[j].at[i]; }
+    /// this += weight X, whose columns n and beyond are zero
+    void add(double weight, const SmallMatrix& X, int n) {
+        for (int j = 0; j < n; ++j) column[j].add(weight, X.column[j]);
+    }
+};
+
+template <int room>
+SmallMatrix<room> small_identity(int n) {
+    SmallMatrix<room> I;
+    for (int i = 0; i < n; ++i) I(i, i) = 1;
+    return I;
+}
+
+template <int room>
+SmallVector<room> product(const SmallMatrix<room>& A, const SmallVector<room>& x, int n) {
+    SmallVector<room> y;
+    for (int j = 0; j < n; ++j) y.add(x[j], A.column[j]);
+    return y;
+}
+
+template <int room>
+SmallMatrix<room> product(const SmallMatrix<room>& A, const SmallMatrix<room>& B, int n) {
+    SmallMatrix<room> C;
+    for (int j = 0; j < n; ++j) C.column[j] = product(A, B.column[j], n);
+    return C;
+}
+
+}  // namespace dynlab::inline numerics
