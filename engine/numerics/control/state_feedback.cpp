@@ -112,14 +112,16 @@ StateFeedback pole_placement(const MatrixView& A, const MatrixView& B, const Com
                               std::to_string(poles.size()));
     const Vector c = monic_coefficients(poles);
 
+    constexpr double kSingular = 1e-15;  // reciprocal of a condition number that leaves no digit
     // K = [0 ... 0 1] [B AB ... A^(n-1)B]^-1 p(A), in time units that make the powers of A alike
     const double scale = std::max(A.norm(), 1e-300);
     Matrix reach(n, n);
     reach.col(0) = B;
     for (Index k = 1; k < n; ++k) reach.col(k) = A * reach.col(k - 1) / scale;
-    const auto last_row = solve_regular(reach.transpose(), Vector::Unit(n, n - 1));
-    if (!last_row) throw InvalidArgument("the input does not reach every state, so not every pole can move");
-    Eigen::RowVectorXd row = last_row->transpose() / std::pow(scale, n - 1);
+    const auto [last_row, reciprocal_condition] = solve_by_lu(reach.transpose(), Vector::Unit(n, n - 1));
+    if (!(reciprocal_condition > kSingular))
+        throw InvalidArgument("the input does not reach every state, so not every pole can move");
+    Eigen::RowVectorXd row = last_row.transpose() / std::pow(scale, n - 1);
     Eigen::RowVectorXd K = Eigen::RowVectorXd::Zero(n);
     for (Index k = 0; k < n; ++k, row = row * A) K += c[k] * row;
     K += row;

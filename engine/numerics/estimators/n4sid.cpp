@@ -106,7 +106,7 @@ Observability observability(const Matrix& R, const Sizes& sizes, SubspaceWeighti
     // Only what the past really spans: directions of rounding size, as in noise-free records, point anywhere.
     Vector unscale = R.middleCols(f, p).colwise().norm().transpose();
     for (double& value : unscale) value = value > 0 ? 1 / value : 1;
-    const SingularValues span = divide_and_conquer_svd(R.block(f, f, p, p) * unscale.asDiagonal());
+    const SingularValues span = jacobi_svd(R.block(f, f, p, p) * unscale.asDiagonal());
     const Index rank = (span.s.array() > kNoSignal * span.s[0]).count();
     const Matrix basis = span.U.leftCols(rank).transpose();
     const Matrix past = basis * R.block(f, f, p, p), by_past = basis * R.block(f, f + p, p, q);
@@ -118,7 +118,7 @@ Observability observability(const Matrix& R, const Sizes& sizes, SubspaceWeighti
     } else if (weighting == SubspaceWeighting::kCva) {
         Matrix future(rank + q, q);
         future << by_past, rest;
-        const SingularValues spread = divide_and_conquer_svd(future);
+        const SingularValues spread = jacobi_svd(future);
         const Vector& root = spread.s;
         Vector inverse = Vector::Zero(q);
         for (Index i = 0; i < q && root[i] > kNoSignal * root[0]; ++i) inverse[i] = 1 / root[i];
@@ -126,7 +126,7 @@ Observability observability(const Matrix& R, const Sizes& sizes, SubspaceWeighti
         weighed = by_past * E * inverse.asDiagonal() * E.transpose();
         unweigh = E * root.asDiagonal() * E.transpose();
     }
-    const SingularValues svd = divide_and_conquer_svd(weighed);
+    const SingularValues svd = jacobi_svd(weighed);
     return {unweigh * svd.V.leftCols(sizes.n), svd.s};
 }
 

@@ -14,11 +14,10 @@ struct SingularValues {
     Vector s;
     Matrix V;
 };
-/// By Jacobi rotations: small singular values to full relative accuracy.
+/// By one-sided Jacobi rotations behind a pivoted QR decomposition (Drmac and Veselic 2008): small singular values to
+/// full relative accuracy.
 SingularValues jacobi_svd(const MatrixView& A);
-/// By divide and conquer: fast for large matrices, accurate against the largest singular value.
-SingularValues divide_and_conquer_svd(const MatrixView& A);
-Vector singular_values(const MatrixView& A);  ///< by Jacobi rotations, falling
+Vector singular_values(const MatrixView& A);  ///< falling
 
 /// Of a symmetric matrix, of which the lower triangle is read: rising eigenvalues, orthonormal eigenvectors as columns.
 struct SymmetricEigen {
@@ -77,8 +76,7 @@ Vector solve_semidefinite(const MatrixView& A, const VectorView& b);
 /// The solution of A X = B for a square A by LU decomposition with row pivots; without meaning where the reciprocal of
 /// the condition number (in the 1-norm, estimated) is 0.
 SquareSolution solve_by_lu(const MatrixView& A, const MatrixView& B);
-/// The same with row and column pivots, which shows a rank: nothing for a singular A.
-std::optional<Matrix> solve_regular(const MatrixView& A, const MatrixView& B);
+/// Nothing for a singular A.
 std::optional<Eigen::MatrixXcd> inverse_of_regular(const Eigen::MatrixXcd& A);
 
 }  // namespace dynlab::inline numerics

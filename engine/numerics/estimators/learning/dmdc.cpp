@@ -13,7 +13,6 @@ namespace dynlab::inline numerics {
 namespace {
 
 constexpr double kRounding = 1e-10;  // of the largest singular value, below which nothing is told apart
-constexpr Index kFewForJacobi = 200;
 
 Vector root_mean_squares(const IdData& data, Matrix Experiment::*channels) {
     Vector squares = Vector::Zero((data.experiments.front().*channels).cols());
@@ -65,10 +64,6 @@ Snapshots neighbouring_snapshots(const IdData& data, const Scale& scale, Index d
     return pairs;
 }
 
-SingularValues svd_of(const Matrix& M) {
-    return M.rows() <= kFewForJacobi ? jacobi_svd(M) : divide_and_conquer_svd(M);
-}
-
 Index told_apart(const Vector& s) {
     return (s.array() > kRounding * s[0]).count();
 }
@@ -89,7 +84,7 @@ Reduced reduce(const Snapshots& pairs, const DmdcOptions& options) {
     const Matrix R = triangular_part(joint);
     check_cancelled("dmdc", options.cancel);
     const Matrix now = R.leftCols(rows + nu).transpose(), next = R.rightCols(rows).transpose();
-    const SingularValues of_next = svd_of(next), of_now = svd_of(now);
+    const SingularValues of_next = jacobi_svd(next), of_now = jacobi_svd(now);
     const Index seen = told_apart(of_next.s), r = rank > 0 ? rank : seen;
     if (r > seen)
         throw InvalidArgument("dmdc: `rank` is " + std::to_string(rank) + ", and the data show only " +
