@@ -1,7 +1,8 @@
 #include "numerics/criteria/denominator_group.h"
 
-#include <Eigen/LU>
-#include <limits>
+#include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/polynomial.h"
@@ -20,6 +21,13 @@ SampleView sample_view(const VectorView& samples) {
 /// Without inputs.
 RegressionRecord regression_record(const IdData& data, const Experiment& experiment, Index output, Hold hold_y) {
     return {sample_view(experiment.y.col(output)), {}, {}, {}, {data.Ts, sample_view(experiment.t)}, data.hold, hold_y};
+}
+
+/// Adds weight times `block` to these rows and columns of `sum`.
+void add_at(const std::vector<Index>& places, double weight, const Matrix& block, Matrix& sum) {
+    for (Index j = 0; j < block.cols(); ++j)
+        for (Index i = 0; i < block.rows(); ++i)
+            sum(places[static_cast<std::size_t>(i)], places[static_cast<std::size_t>(j)]) += weight * block(i, j);
 }
 
 }  // namespace
@@ -99,11 +107,12 @@ NormalEquations DenominatorGroup::sum_over_records(const Equations& equations_of
         const Member& member = members_[i];
         const double weight = weights_[member.output];
         const NormalEquations& own = equations[i];
-        sum.z_phi(member.places, member.places) += weight * own.z_phi;
-        sum.z_y(member.places) += weight * own.z_y;
+        add_at(member.places, weight, own.z_phi, sum.z_phi);
+        for (std::size_t k = 0; k < member.places.size(); ++k)
+            sum.z_y[member.places[k]] += weight * own.z_y[static_cast<Index>(k)];
         if (own.z_z.size() > 0) {
             if (sum.z_z.size() == 0) sum.z_z = Matrix::Zero(count_, count_);
-            sum.z_z(member.places, member.places) += weight * own.z_z;
+            add_at(member.places, weight, own.z_z, sum.z_z);
         }
         sum.y_y += weight * own.y_y;
     }
@@ -161,41 +170,69 @@ double simulation_squares(const IdData& data, const TransferStructure& structure
 
 namespace {
 
-/// With the size known to the compiler where it is small.
-template <int d>
-Vector solve_sized_equations(const NormalEquations& equations, double* condition_number) {
-    using Square = Eigen::Matrix<double, d, d>;
-    using Column = Eigen::Matrix<double, d, 1>;
-    const Vector unsolvable = Vector::Constant(equations.z_y.size(), std::numeric_limits<double>::quiet_NaN());
-    if (condition_number) *condition_number = std::numeric_limits<double>::infinity();
-    // Rows and columns are brought to a common size; a Gram matrix then has a diagonal of ones.
-    Square scaled = equations.z_phi;
-    const Column known = equations.z_y, columns = scaled.colwise().norm().transpose();
-    if (!scaled.allFinite() || !known.allFinite() || !(columns.minCoeff() > 0)) return unsolvable;
-    scaled = (scaled * columns.cwiseInverse().asDiagonal()).eval();
-    const Column rows = scaled.rowwise().norm();
-    if (!(rows.minCoeff() > 0)) return unsolvable;
-    scaled = (rows.cwiseInverse().asDiagonal() * scaled).eval();
-    const Eigen::PartialPivLU<Square> decomposition(scaled);
-    const double reciprocal = decomposition.rcond();
-    if (!(reciprocal > 0)) return unsolvable;
-    if (condition_number) *condition_number = 1 / reciprocal;
-    return Column(decomposition.solve(known.cwiseQuotient(rows))).cwiseQuotient(columns);
+/// Gauss and Jordan's elimination with pivots. Column i holds equation i: its coefficients, then its right-hand sides,
+/// which become the solutions. By plain loops, for a few unknowns at every pass of a search. Whether it could be done.
+bool eliminate(Matrix& equations) {
+    const Index d = equations.cols(), size = equations.rows();
+    for (Index k = 0; k < d; ++k) {
+        Index pivot = k;
+        for (Index i = k + 1; i < d; ++i)
+            if (std::abs(equations(k, i)) > std::abs(equations(k, pivot))) pivot = i;
+        const double largest = equations(k, pivot);
+        if (!(std::abs(largest) > 0)) return false;
+        for (Index j = k; j < size; ++j) {
+            std::swap(equations(j, k), equations(j, pivot));
+            equations(j, k) /= largest;
+        }
+        for (Index i = 0; i < d; ++i) {
+            const double factor = equations(k, i);
+            if (i == k || factor == 0) continue;
+            for (Index j = k; j < size; ++j) equations(j, i) -= factor * equations(j, k);
+        }
+    }
+    return true;
+}
+
+/// The 1-norm of the square whose columns are rows first .. first + d - 1.
+double norm_of_rows(const Matrix& equations, Index first) {
+    double largest = 0;
+    for (Index j = 0; j < equations.cols(); ++j) {
+        double sum = 0;
+        for (Index i = 0; i < equations.cols(); ++i) sum += std::abs(equations(first + j, i));
+        largest = std::max(largest, sum);
+    }
+    return largest;
 }
 
 }  // namespace
 
 Vector solve_equations(const NormalEquations& equations, double* condition_number) {
-    switch (equations.z_y.size()) {
-        case 2:
-            return solve_sized_equations<2>(equations, condition_number);
-        case 3:
-            return solve_sized_equations<3>(equations, condition_number);
-        case 4:
-            return solve_sized_equations<4>(equations, condition_number);
-        default:
-            return solve_sized_equations<Eigen::Dynamic>(equations, condition_number);
+    const Index d = equations.z_y.size();
+    const Vector unsolvable = Vector::Constant(d, kNaN);
+    if (condition_number) *condition_number = kInfinity;
+    if (!equations.z_phi.allFinite() || !equations.z_y.allFinite()) return unsolvable;
+    // Rows and columns are brought to a common size; a Gram matrix then has a diagonal of ones.
+    Vector columns(d);
+    for (Index j = 0; j < d; ++j) columns[j] = equations.z_phi.col(j).norm();
+    Matrix work(condition_number ? 2 * d + 1 : d + 1, d);
+    for (Index i = 0; i < d; ++i) {
+        double square = 0;
+        for (Index j = 0; j < d; ++j) {
+            work(j, i) = equations.z_phi(i, j) / columns[j];
+            square += work(j, i) * work(j, i);
+        }
+        work(d, i) = equations.z_y[i];
+        const double row = std::sqrt(square);
+        if (!(row > 0) || !(columns[i] > 0)) return unsolvable;
+        for (Index j = 0; j <= d; ++j) work(j, i) /= row;
+        for (Index j = d + 1; j < work.rows(); ++j) work(j, i) = j - d - 1 == i ? 1 : 0;
     }
+    const double norm = norm_of_rows(work, 0);
+    if (!eliminate(work)) return unsolvable;
+    if (condition_number) *condition_number = norm * norm_of_rows(work, d + 1);
+    Vector theta(d);
+    for (Index i = 0; i < d; ++i) theta[i] = work(d, i) / columns[i];
+    return theta;
 }
 
 Matrix inverse_gram(const Matrix& gram, double* condition_number) {
