@@ -92,9 +92,9 @@ build() {
   mkdir -p "$folder"
   log=$folder/build.log
   cmake -S "$project" -B "$folder" -G Ninja "$@" >"$log" 2>&1 || { cat "$log" >&2; return 1; }
-  if [ -t 2 ]; then cmake --build "$folder" ${targets:+--target $targets} >&2; return; fi
+  if [ -t 2 ]; then cmake --build "$folder" -j "$(nproc)" ${targets:+--target $targets} >&2; return; fi
   # Ninja's lines begin with what is done in percent.
-  NINJA_STATUS='%p ' cmake --build "$folder" ${targets:+--target $targets} 2>&1 | tee "$log" |
+  NINJA_STATUS='%p ' cmake --build "$folder" -j "$(nproc)" ${targets:+--target $targets} 2>&1 | tee "$log" |
     sed -u -n 's/^ *\([0-9]*\)% .*/\1/p' | tell_progress "Building"
   [ "${PIPESTATUS[0]}" = 0 ] || { grep -v '^ *[0-9]*% ' "$log" | tail -n 200 >&2; return 1; }
 }
