@@ -1,8 +1,8 @@
 #include <fmt/format.h>
+#include <re2/re2.h>
 #include <unistd.h>
 
 #include <iostream>
-#include <regex>
 
 #include "cli/commands.h"
 #include "cli/options/run_command.h"
@@ -34,11 +34,11 @@ fs::path folder_of(const fs::path& script) {
 
 /// Figures of an earlier run, by the names that draw_figures gives: "03-step-figure-1.pdf".
 void remove_old_figures(const fs::path& folder) {
-    static const std::regex kDrawn("[0-9][0-9]+-.+\\.(pdf|gp)");
+    static const RE2 kDrawn(R"(\d\d+-.+\.(pdf|gp))", RE2::Latin1);
     std::error_code none;
     std::vector<fs::path> old;
     for (const auto& entry : fs::directory_iterator(folder, none))
-        if (entry.is_regular_file() && std::regex_match(entry.path().filename().string(), kDrawn))
+        if (entry.is_regular_file() && RE2::FullMatch(entry.path().filename().string(), kDrawn))
             old.push_back(entry.path());
     for (const fs::path& file : old) fs::remove(file, none);
 }
