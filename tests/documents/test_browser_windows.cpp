@@ -20,6 +20,7 @@ class browser_windows : public testing::Test {
             response.set_header("Cache-Control", "max-age=1000");
             response.set_content("<title>A page</title>", "text/html");
         });
+        server_.set_keep_alive_max_count(1);  // the server's end does not wait for connections of a browser
         const int port = server_.bind_to_any_port("127.0.0.1");
         address_ = "http://127.0.0.1:" + std::to_string(port) + "/";
         thread_ = std::thread([this] { server_.listen_after_bind(); });
