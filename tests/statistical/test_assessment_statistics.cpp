@@ -9,7 +9,7 @@
 #include "numerics/signals/prbs.h"
 #include "numerics/signals/random.h"
 #include "numerics/simulation/lsim.h"
-#include "numerics/validation/assessment.h"
+#include "numerics/fit/assessment.h"
 #include "support/coloured_noise.h"
 
 namespace test_assessment_statistics {

@@ -7,7 +7,7 @@
 #include "numerics/signals/prbs.h"
 #include "numerics/signals/random.h"
 #include "numerics/simulation/lsim.h"
-#include "numerics/validation/assessment.h"
+#include "numerics/fit/assessment.h"
 #include "numerics/validation/residual_tests.h"
 
 namespace test_residual_statistics {

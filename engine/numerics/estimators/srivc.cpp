@@ -3,9 +3,11 @@
 #include <algorithm>
 
 #include "numerics/fit/diagnosis.h"
+#include "numerics/fit/doubts.h"
 #include "numerics/fit/first_estimate.h"
 #include "numerics/fit/simulation_error.h"
 #include "numerics/fit/srivc_iteration.h"
+#include "numerics/fit/srivc_search.h"
 #include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
@@ -72,6 +74,26 @@ Fit srivc_by_passes(const IdData& data, const TransferStructure& structure, cons
         set_message(estimate, "SRIVC had not settled after " + passes +
                                   "; the best of them is given: " + simulation_text(estimate) + ".");
     return estimate;
+}
+
+bool srivc_passes_suffice(const TransferStructure& structure, const FitOptions& options) {
+    if (structure.free_delays || options.initial_state != InitialState::kZero || options.offset != Offset::kNone)
+        return false;
+    if (!options.fixed.empty() || options.output_weights.size() > 0) return false;
+    for (Index output = 0; output < structure.outputs; ++output)
+        if (!structure.inputs_share_denominator(output)) return false;
+    return true;
+}
+
+Fit srivc(const IdData& data, const TransferStructure& structure, const FitOptions& options, const SearchAids& aids) {
+    options.validate();
+    return finished_fit(data, options, [&](const IdData& seen, const FitOptions& wanted) {
+        if (!srivc_passes_suffice(structure, wanted) || aids.start.size() > 0)
+            return search_transfer("srivc", seen, structure, wanted, aids);
+        Fit estimate = srivc_by_passes(seen, structure, wanted);
+        if (estimate.termination == Termination::kCancelled) return estimate;
+        return search_where_passes_fail(std::move(estimate), seen, wanted, aids);
+    });
 }
 
 }  // namespace dynlab::inline numerics

@@ -24,8 +24,7 @@ namespace dynlab::inline numerics {
 Fit srivc(const IdData& data, const TransferStructure& structure, const FitOptions& options = {},
           const SearchAids& aids = {});
 
-/// The passes alone (srivc.cpp; the choice between them and the search: srivc/passes_or_search.cpp), from their first
-/// estimate to where they settle or end. Throws InvalidArgument for unsuitable data.
+/// The passes alone, from their first estimate to where they settle or end. Throws InvalidArgument for unsuitable data.
 Fit srivc_by_passes(const IdData& data, const TransferStructure& structure, const FitOptions& options);
 
 /// Whether they give the whole answer: fixed delays, a start from rest without offset, one denominator for each output,

@@ -93,11 +93,6 @@ bool leaves_dynamics(const Fit& estimate, const IdData& data) {
 
 }  // namespace
 
-Fit search_srivc(const IdData& data, const TransferStructure& structure, const FitOptions& options,
-                 const SearchAids& aids) {
-    return search_transfer("srivc", data, structure, options, aids);
-}
-
 Fit search_where_passes_fail(Fit estimate, const IdData& data, const FitOptions& options, const SearchAids& aids) {
     const bool settled = estimate.termination == Termination::kConverged;
     const bool poor = !(estimate.fit_percent.minCoeff() > kPoorFit);

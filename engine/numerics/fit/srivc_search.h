@@ -3,12 +3,7 @@
 
 namespace dynlab::inline numerics {
 
-/// SRIVC as one search of the output error over all parameters (search_transfer), for what its passes cannot solve.
-/// Throws InvalidArgument for unsuitable data.
-Fit search_srivc(const IdData& data, const TransferStructure& structure, const FitOptions& options,
-                 const SearchAids& aids);
-
-/// The estimate of SRIVC's passes; or the end of that search, if it lies lower, where they may have ended in a bad
+/// The estimate of SRIVC's passes; or the end of a search of the output error over all parameters (search_transfer), if it lies lower, where they may have ended in a bad
 /// minimum: they did not settle, explain little, leave errors that follow the input, or gain nothing over a model with
 /// fewer poles or zeros.
 Fit search_where_passes_fail(Fit estimate, const IdData& data, const FitOptions& options, const SearchAids& aids);

@@ -29,9 +29,4 @@ EstimationReader find_estimation_reader(const std::string& method);
 /// Names of all methods that have one.
 std::vector<std::string> estimation_names();
 
-/// Pushes an estimate as the model that the method's own function gives, without robust standard errors.
-/// `of_coefficients`: its covariance is that of the model's own coefficients, which an integrator put behind it has
-/// not.
-int give_transfer_estimate(const Call& call, const char* method, const Fit& estimate, bool of_coefficients);
-
 }  // namespace dynlab::inline scripting

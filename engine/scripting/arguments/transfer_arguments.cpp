@@ -128,17 +128,6 @@ StartedStructure started_structure(const Call& call, const Options& options, con
             aids};
 }
 
-TransferRequest transfer_request(const Options& options, const FitOptions& wanted, const Estimation& estimate) {
-    const bool start_is_given = options.has("InitialState") && options.has("Offset");
-    if (!options.flag("Integration", false)) return {false, estimate, wanted, start_is_given};
-    const auto with_integrator = [estimate](const IdData& data) {
-        Fit result = estimate(integrated_inputs(data));
-        append_integrator(result);
-        return result;
-    };
-    return {true, with_integrator, wanted, start_is_given};
-}
-
 Denominators sharing_of(const Options& options) {
     return options.flag("CommonDenominator", false) ? Denominators::kCommon : Denominators::kPerChannel;
 }
@@ -161,9 +150,18 @@ void read_fit_options(const Options& options, FitOptions& wanted) {
     if (options.has("Stable")) wanted.stable = options.flag("Stable", false);
     wanted.fixed = options.numbers_by_name("Fixed");
     if (options.has("OutputWeights")) wanted.output_weights = options.vector("OutputWeights");
+    wanted.start_is_given = options.has("InitialState") && options.has("Offset");
+    wanted.integration = options.flag("Integration", false);
     wanted.cancel = options.call().cancel();
     wanted.validate();
-    if (options.flag("Integration", false)) wanted = options_with_integrator(std::move(wanted));
+    if (wanted.integration) wanted = options_with_integrator(std::move(wanted));
+}
+
+FitOptions fit_options(const Options& options, Purpose purpose) {
+    FitOptions wanted;
+    wanted.doubts = purpose == Purpose::kModel;
+    read_fit_options(options, wanted);
+    return wanted;
 }
 
 }  // namespace dynlab::inline scripting

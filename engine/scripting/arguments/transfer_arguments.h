@@ -33,19 +33,19 @@ struct StartedStructure {
 /// From np and nz as above, with the delays of Td0, or from a start model at argument 2.
 StartedStructure started_structure(const Call& call, const Options& options, const FitOptions& wanted);
 
-/// An estimation as it was asked for; with the option Integration, of models that have an integrator besides.
-struct TransferRequest {
-    bool integration;
-    Estimation estimate;
-    FitOptions wanted;    ///< that the estimation uses
-    bool start_is_given;  ///< the script says how records begin, and whether they stand on a constant
-};
-TransferRequest transfer_request(const Options& options, const FitOptions& wanted, const Estimation& estimate);
-
 /// The option CommonDenominator.
 Denominators sharing_of(const Options& options);
 Hold hold_y_of(const Options& options);
 /// The options of fits, those of them that the binding knows; for others `wanted` keeps what it holds.
 void read_fit_options(const Options& options, FitOptions& wanted);
+
+/// A fit is the script's own model, or one of many in a study, which asks for no doubts.
+enum class Purpose { kModel, kStudy };
+FitOptions fit_options(const Options& options, Purpose purpose);
+/// The EstimationReader of a function that reads for either purpose.
+template <Estimation (*kRead)(const Call&, Purpose)>
+Estimation read_for_study(const Call& call) {
+    return kRead(call, Purpose::kStudy);
+}
 
 }  // namespace dynlab::inline scripting

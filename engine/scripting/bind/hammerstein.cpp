@@ -20,8 +20,7 @@ int estimate_hammerstein(Call& call) {
     wanted.bins = static_cast<int>(options.size("Bins", wanted.bins));
     if (options.has("Breakpoints")) wanted.breakpoints = options.vector("Breakpoints");
     const TransferStructure structure = structure_of_counts(call, options, wanted)(data);
-    const Fit result = hammerstein(data, structure, wanted);
-    return give_fit(call, estimate_of("hammerstein", result), result);
+    return give_fit(call, "hammerstein", hammerstein(data, structure, wanted));
 }
 
 constexpr std::array kHammersteinFunctions = {

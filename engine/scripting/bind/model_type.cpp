@@ -109,7 +109,7 @@ double noise_variance_of(const Model& model) {
 
 const Assessment& assessment_of(const Model& model) {
     const Estimate& estimate = estimate_in(model);
-    if (estimate.assessment) return *estimate.assessment;
+    if (estimate.doubts.assessment) return *estimate.doubts.assessment;
     throw InvalidArgument(fmt::format("{} gives no robust standard errors", estimate.method));
 }
 

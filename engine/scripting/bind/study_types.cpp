@@ -1,10 +1,10 @@
 #include <array>
 
 #include "figures/plots/monte_carlo_plot.h"
-#include "scripting/arguments/estimation.h"
 #include "scripting/conversions/table_fields.h"
 #include "scripting/conversions/told_sentences.h"
 #include "scripting/objects/figure_object.h"
+#include "scripting/objects/fit_model.h"
 #include "scripting/objects/study_objects.h"
 #include "scripting/objects/study_text.h"
 
@@ -100,7 +100,7 @@ int push_candidate(const Call& call, const OrderCandidate& candidate) {
     set_field(call, "undetermined", candidate.undetermined);
     set_field(call, "cancellation", candidate.cancellation);
     set_field(call, "converged", candidate.converged);
-    give_transfer_estimate(call, "srivc", candidate.estimate, !candidate.integrator);
+    give_fit(call, "srivc", candidate.estimate);
     lua_setfield(L, -2, "model");
     return 1;
 }

@@ -158,4 +158,34 @@ TEST(srivc, tells_of_delays_that_held_inputs_cannot_show) {
     EXPECT_EQ(srivc(data, proper).message.find(doubt), std::string::npos);
 }
 
+TEST(srivc, passes_suffice_for_fixed_delays_from_rest_with_one_denominator) {  // oracle: the rule of srivc.h
+    const TransferStructure plain = TransferStructure::single(2, 0);
+    EXPECT_TRUE(srivc_passes_suffice(plain, {}));
+    EXPECT_TRUE(srivc_passes_suffice(TransferStructure::grid(1, 2, Denominators::kPerOutput, {2}, {0}, {0, 0}), {}));
+    EXPECT_FALSE(srivc_passes_suffice(TransferStructure::grid(1, 2, Denominators::kPerChannel, {2}, {0}, {0, 0}), {}));
+    TransferStructure delayed = plain;
+    delayed.free_delays = true;
+    EXPECT_FALSE(srivc_passes_suffice(delayed, {}));
+    FitOptions moving, offset, held;
+    moving.initial_state = InitialState::kEstimate;
+    offset.offset = Offset::kEstimate;
+    held.fixed = {{"a1", 3}};
+    for (const FitOptions& options : {moving, offset, held}) EXPECT_FALSE(srivc_passes_suffice(plain, options));
+}
+
+// oracle: the passes alone
+TEST(srivc, result_equals_the_passes_where_they_settle) {
+    const IdData data = course_record(0.4, 11);
+    const TransferStructure structure = TransferStructure::single(2, 0);
+    EXPECT_EQ(srivc(data, structure).theta, srivc_by_passes(data, structure, {}).theta);
+}
+
+TEST(srivc, search_from_a_given_start_ends_at_the_same_minimum) {  // oracle: the least loss is the same from anywhere
+    const IdData data = course_record(0.4, 11);
+    const TransferStructure structure = TransferStructure::single(2, 0);
+    SearchAids aids;
+    aids.start = Vector(srivc(data, structure).theta * 1.2);
+    EXPECT_LT(relative_difference(srivc(data, structure, {}, aids).theta, srivc(data, structure).theta), 1e-5);
+}
+
 }  // namespace test_srivc

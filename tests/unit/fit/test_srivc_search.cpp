@@ -61,7 +61,7 @@ TEST(srivc_search, the_search_alone_ends_where_good_passes_end) {
     const IdData data(x + 0.1 * RandomStream(2).normal(x.size()), u, 0.05);
     FitOptions options;
     options.tolerance = 1e-10;
-    const Fit passes = srivc_by_passes(data, kCourse, options), searched = search_srivc(data, kCourse, options, {});
+    const Fit passes = srivc_by_passes(data, kCourse, options), searched = search_transfer("srivc", data, kCourse, options);
     EXPECT_LT((searched.theta - passes.theta).norm(), 1e-6 * passes.theta.norm());
 }
 

@@ -72,16 +72,12 @@ Estimation read_clsrivc(const Call& call) {
 
 int estimate_clivsvf(Call& call) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    const Fit result = read_clivsvf(call)(data);
-    Estimate estimate = estimate_of(call.function_name(), result);
-    estimate.carx = true;
-    return give_fit(call, std::move(estimate), result);
+    return give_fit(call, "clivsvf", read_clivsvf(call)(data), FitForm::kEquationError);
 }
 
 int estimate_clsrivc(Call& call) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    const Fit result = read_clsrivc(call)(data);
-    return give_fit(call, estimate_of(call.function_name(), result), result);
+    return give_fit(call, "clsrivc", read_clsrivc(call)(data));
 }
 
 constexpr NamedReader kLoopReaders[] = {{"clivsvf", read_clivsvf}, {"clsrivc", read_clsrivc}};

@@ -67,9 +67,7 @@ int estimate_recursively(Call& call) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
     Fit result = read_recursive<kMethod, kCarx>(call)(data);
     measure_simulation(result, data);
-    Estimate estimate = estimate_of(call.function_name(), result);
-    estimate.carx = kCarx;
-    return give_fit(call, std::move(estimate), result);
+    return give_fit(call, call.function_name(), result, kCarx ? FitForm::kEquationError : FitForm::kOutputError);
 }
 
 /// A number or a vector for each parameter that has a name in the table.

@@ -12,7 +12,7 @@
 #include "numerics/signals/random.h"
 #include "numerics/simulation/lsim.h"
 #include "numerics/statistics/robust_covariance.h"
-#include "numerics/validation/assessment.h"
+#include "numerics/fit/assessment.h"
 #include "numerics/validation/compare.h"
 
 namespace test_assessment {
