@@ -17,7 +17,7 @@
 
 #include "numerics/estimators/catalogue.h"
 #include "scripting/conversions/option_words.h"
-#include "scripting/runtime/function_entry.h"
+#include "scripting/interpreter/catalogue.h"
 #include "scripting/runtime/help.h"
 
 namespace test_architecture {

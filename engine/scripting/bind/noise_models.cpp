@@ -3,6 +3,7 @@
 #include "numerics/estimators/rivc.h"
 #include "scripting/arguments/transfer_arguments.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/bind/estimation_readers.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/fit_model.h"

@@ -8,7 +8,6 @@
 #include "scripting/conversions/table_fields.h"
 #include "scripting/memoized_calls/value_archive.h"
 #include "scripting/objects/data_object.h"
-#include "scripting/runtime/services.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -152,7 +151,7 @@ class CallWriter {
 std::optional<std::string> call_text(lua_State* L, const char* function, int first, int last, LargeArguments large) {
     CallWriter writer(L, large);
     writer.put_text(function);
-    if (const std::string language = service_or_default<ReportLanguage>(L).code; language != "en")
+    if (const std::string language = context_of(L).services.language_code(); language != "en")
         writer.put_text(language);  // its result holds sentences
     for (int i = first; i <= last; ++i)
         if (!writer.put_value_at(i)) return {};

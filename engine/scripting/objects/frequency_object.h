@@ -7,7 +7,7 @@ namespace dynlab::inline scripting {
 /// A measured frequency response: what idfrd, bla, spa and etfe give.
 template <>
 struct Boxed<FrequencyData> {
-    static const ObjectType type;
+    static constexpr ObjectType type{"idfrd"};
     static std::size_t outside_bytes(const FrequencyData& data);
 };
 

@@ -5,6 +5,7 @@
 #include "documents/error.h"
 #include "documents/text_lines.h"
 #include "figures/gnuplot_renderer.h"
+#include "scripting/interpreter/catalogue.h"
 #include "scripting/interpreter/runtime.h"
 #include "scripting/memoized_calls/call_cache.h"
 #include "scripting/runtime/help.h"
