@@ -9,8 +9,7 @@
 #include "platform/cache.h"
 #include "platform/temporary_folder.h"
 #include "script_run.h"
-#include "scripting/memoized_calls/call_cache.h"
-#include "scripting/memoized_calls/call_text.h"
+#include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/memoized_calls/value_archive.h"
 #include "scripting/objects/data_object.h"
 

@@ -19,7 +19,7 @@
 #include "platform/written_files.h"
 #include "scripting/interpreter/catalogue.h"
 #include "scripting/interpreter/runtime.h"
-#include "scripting/memoized_calls/call_cache.h"
+#include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/prompt/completion.h"
 #include "scripting/prompt/inspection.h"
 #include "scripting/runtime/context.h"

@@ -24,7 +24,7 @@
 #include "platform/memory.h"
 #include "platform/terminal/progress.h"
 #include "scripting/interpreter/runtime.h"
-#include "scripting/memoized_calls/call_cache.h"
+#include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/runtime/services.h"
 #include "workflow/process_copy.h"
 #include "workflow/run_script.h"

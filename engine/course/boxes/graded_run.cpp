@@ -10,7 +10,7 @@
 #include "platform/cache.h"
 #include "platform/confinement.h"
 #include "scripting/interpreter/runtime.h"
-#include "scripting/memoized_calls/call_cache.h"
+#include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/runtime/services.h"
 
 namespace dynlab::inline course {

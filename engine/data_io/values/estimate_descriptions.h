@@ -1,8 +1,8 @@
 #pragma once
 #include "data_io/values/model_descriptions.h"
 #include "numerics/estimators/step_test.h"
-#include "numerics/fit/fit.h"
 #include "numerics/fit/assessment.h"
+#include "numerics/fit/fit.h"
 #include "numerics/validation/monte_carlo.h"
 #include "numerics/validation/order_selection.h"
 

@@ -52,12 +52,14 @@ struct FitOptions {
     std::map<std::string, double> fixed;  ///< searches: parameters that are not estimated, by name, in seconds
     Vector output_weights;                ///< of each output's errors; one over their standard deviations when empty
     bool precision = true;                ///< a search ends with the covariance
-    /// A fit ends with its doubts: srivc, coe, rivc, oe, sriv, bj, armax and procsrivc. Studies of many fits ask for none.
+    /// A fit ends with its doubts: srivc, coe, rivc, oe, sriv, bj, armax and procsrivc. Studies of many fits ask for
+    /// none.
     bool doubts = true;
     bool start_is_given = false;  ///< initial state and offset are the user's own choice: no others are suggested
-    /// The model has an integrator besides its poles (fit/integrated_input.h): srivc, coe, rivc, oe, sriv, bj and armax.
+    /// The model has an integrator besides its poles (fit/integrated_input.h): srivc, coe, rivc, oe, sriv, bj and
+    /// armax.
     bool integration = false;
-    std::function<bool()> cancel;         ///< asked before every iteration, by several threads at once
+    std::function<bool()> cancel;  ///< asked before every iteration, by several threads at once
 
     /// Throws InvalidArgument naming the option.
     void validate() const;
@@ -90,11 +92,11 @@ struct ParameterHistory {
 /// An option that a fit by the defaults misses, and the fit that it leads to (fit/missed_options.h).
 struct MissedOption {
     StartCondition start{InitialState::kZero, false};  ///< initial state and offset to ask for
-    bool feedthrough = false;        ///< to ask for as many zeros as poles instead
-    std::string output = {};         ///< name of the output whose fit rises, where there are several
-    Index samples = 0;               ///< of a long record: of its beginning, which both fits are of; 0 for all
-    double fit_percent = 0;          ///< as it is; -infinity where the model's simulation overflows
-    double better_fit_percent = 0;   ///< with the option
+    bool feedthrough = false;                          ///< to ask for as many zeros as poles instead
+    std::string output = {};                           ///< name of the output whose fit rises, where there are several
+    Index samples = 0;              ///< of a long record: of its beginning, which both fits are of; 0 for all
+    double fit_percent = 0;         ///< as it is; -infinity where the model's simulation overflows
+    double better_fit_percent = 0;  ///< with the option
 };
 
 /// What speaks against a fit: second opinions on it, which the estimators ask for unless FitOptions say otherwise.

@@ -7,9 +7,9 @@
 
 namespace dynlab::inline numerics {
 
-/// What an output-error fit by the default options (from rest at zero input, no offset) misses: the option that raises the
-/// fit and the fit it leads to, or nothing. Looked for are a constant, a start that is not from rest, both, and a direct feedthrough, i.e. as many
-/// zeros as poles where the structure has fewer.
+/// What an output-error fit by the default options (from rest at zero input, no offset) misses: the option that raises
+/// the fit and the fit it leads to, or nothing. Looked for are a constant, a start that is not from rest, both, and a
+/// direct feedthrough, i.e. as many zeros as poles where the structure has fewer.
 ///
 /// FIRST A LOOK AHEAD on the first 3000 samples at most: the sums J'J and J'e of the sensitivities at the fit,
 /// extended by a constant, the free motions of 1/A and the further coefficients of B, tell what one Gauss-Newton step

@@ -116,10 +116,11 @@ void measure(OrderCandidate& candidate, const IdData& data, const OrderSelection
     candidate.converged = estimate.termination == Termination::kConverged;
     candidate.unstable =
         !options.estimation.integration && std::any_of(estimate.models.begin(), estimate.models.end(),
-                                            [](const TransferFunction& model) { return !model.stable(); });
+                                                       [](const TransferFunction& model) { return !model.stable(); });
     if (options.validation == nullptr) return;
-    candidate.validation_fit = options.estimation.integration ? validation_fit_with_integrator(*options.validation, estimate)
-                                                   : validation_fit(*options.validation, estimate, offset);
+    candidate.validation_fit = options.estimation.integration
+                                   ? validation_fit_with_integrator(*options.validation, estimate)
+                                   : validation_fit(*options.validation, estimate, offset);
 }
 
 /// `poorer`: fits of all structures that are a step poorer, or none.
@@ -131,7 +132,8 @@ OrderCandidate candidate_of(const IdData& data, const TransferStructure& structu
     candidate.delay = structure.channels.front().delay;
     candidate.integrator = options.estimation.integration;
     FitOptions estimation = options.estimation;
-    estimation.integration = estimation.doubts = false;  // `data` are integrated; of the choice alone doubts are looked for
+    estimation.integration = estimation.doubts =
+        false;  // `data` are integrated; of the choice alone doubts are looked for
     try {
         candidate.estimate = srivc(data, structure, estimation, {{}, {}, std::move(poorer)});
         if (!candidate.estimate.theta.allFinite()) throw InvalidArgument("a parameter is not finite");

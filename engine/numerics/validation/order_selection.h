@@ -66,8 +66,8 @@ std::vector<TransferStructure> order_grid(std::pair<int, int> poles, std::pair<i
 /// InvalidArgument for other data, no candidates, and when none of them could be estimated.
 /// The choice by kRecommended gets the option that its fit misses (fit/missed_options.h), if estimation.doubts is true;
 /// no candidate is assessed.
-/// With estimation.integration inputs are held (zoh), the record begins at rest, and a second record's initial state is that of
-/// the integrator too, so that an offset of its output is part of it.
+/// With estimation.integration inputs are held (zoh), the record begins at rest, and a second record's initial state is
+/// that of the integrator too, so that an offset of its output is part of it.
 OrderSelection select_order(const IdData& data, const std::vector<TransferStructure>& candidates,
                             const OrderSelectionOptions& options = {});
 

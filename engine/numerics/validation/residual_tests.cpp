@@ -54,7 +54,8 @@ ProductCovariances product_covariances(const Signals& e, const Signals& u, Index
     const Index reach = longest(e) / 4;
     ProductCovariances product{{}, Vector(lags + 1)};
     Vector Ru;
-    tbb::parallel_invoke([&] { product.Re = lagged_covariances(e, e, reach); }, [&] { Ru = lagged_covariances(u, u, reach + lags); });
+    tbb::parallel_invoke([&] { product.Re = lagged_covariances(e, e, reach); },
+                         [&] { Ru = lagged_covariances(u, u, reach + lags); });
     for (Index k = -reach; k <= reach; ++k)
         product.Re[reach + k] *= 1 - static_cast<double>(std::abs(k)) / static_cast<double>(reach + 1);
     for (Index h = 0; h <= lags; ++h) product.g[h] = product.Re.dot(Ru.segment(lags + h, 2 * reach + 1));

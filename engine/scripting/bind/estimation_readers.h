@@ -1,5 +1,5 @@
 #pragma once
-#include "scripting/arguments/estimation.h"
+#include "scripting/arguments/estimator_arguments.h"
 
 namespace dynlab::inline scripting {
 

@@ -121,8 +121,8 @@ constexpr std::array kMatrixTypeOperators = {
     Member{"__len", guarded<refuse_length>},
 };
 
-constexpr std::array kMatrixTypes = {TypeEntry{&kMatrixType, kMatrixTypeFields, kMatrixTypeMethods,
-                                               kMatrixTypeOperators, guarded<read_matrix_element>}};
+constexpr std::array kMatrixTypes = {
+    TypeEntry{&kMatrixType, kMatrixTypeFields, kMatrixTypeMethods, kMatrixTypeOperators, guarded<read_matrix_element>}};
 
 }  // namespace
 

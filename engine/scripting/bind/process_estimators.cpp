@@ -3,7 +3,7 @@
 #include "figures/step_construction.h"
 #include "numerics/estimators/procsrivc.h"
 #include "numerics/estimators/step_test.h"
-#include "scripting/arguments/transfer_arguments.h"
+#include "scripting/arguments/estimator_arguments.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/data_object.h"

@@ -162,10 +162,9 @@ constexpr std::array kArxTableFields = {Member{"rows", guarded<arx_rows>}, Membe
                                         Member{"recommendation", told_field<ArxSelection, arx_recommendation>}};
 constexpr std::array kArxTableOperators = {Member{"__tostring", told_field<ArxSelection, arx_text>}};
 
-constexpr std::array kStudyTypes = {
-    TypeEntry{&Boxed<ArxSelection>::type, kArxTableFields, {}, kArxTableOperators},
-    TypeEntry{&Boxed<MonteCarlo>::type, kStudyFields, kStudyMethods, kStudyOperators},
-    TypeEntry{&Boxed<OrderTable>::type, kTableFields, {}, kTableOperators}};
+constexpr std::array kStudyTypes = {TypeEntry{&Boxed<ArxSelection>::type, kArxTableFields, {}, kArxTableOperators},
+                                    TypeEntry{&Boxed<MonteCarlo>::type, kStudyFields, kStudyMethods, kStudyOperators},
+                                    TypeEntry{&Boxed<OrderTable>::type, kTableFields, {}, kTableOperators}};
 
 }  // namespace
 

@@ -5,7 +5,7 @@
 #include "numerics/estimators/lssvf.h"
 #include "numerics/estimators/srivc.h"
 #include "numerics/fit/simulation_error.h"
-#include "scripting/arguments/transfer_arguments.h"
+#include "scripting/arguments/estimator_arguments.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/bind/estimation_readers.h"
 #include "scripting/bind/frequency/frequency_bindings.h"
@@ -96,15 +96,14 @@ int estimate_by_least_squares(Call& call) {
     return estimate_filtered<lssvf, false, false>(call);
 }
 
-constexpr NamedReader kTransferEstimatorsReaders[] = {
-    {"lssvf", read_filtered<lssvf, false, false>},
-    {"ivsvf", read_filtered<ivsvf, true, false>},
-    {"lsgpmf", read_filtered<lssvf, false, true>},
-    {"ivgpmf", read_filtered<ivsvf, true, true>},
-    {"srivc", read_for_study<read_refined<srivc>>},
-    {"coe", read_for_study<read_refined<coe>>},
-    {"tfsrivc", read_for_study<read_transfer_function<srivc>>},
-    {"tfcoe", read_for_study<read_transfer_function<coe>>}};
+constexpr NamedReader kTransferEstimatorsReaders[] = {{"lssvf", read_filtered<lssvf, false, false>},
+                                                      {"ivsvf", read_filtered<ivsvf, true, false>},
+                                                      {"lsgpmf", read_filtered<lssvf, false, true>},
+                                                      {"ivgpmf", read_filtered<ivsvf, true, true>},
+                                                      {"srivc", read_for_study<read_refined<srivc>>},
+                                                      {"coe", read_for_study<read_refined<coe>>},
+                                                      {"tfsrivc", read_for_study<read_transfer_function<srivc>>},
+                                                      {"tfcoe", read_for_study<read_transfer_function<coe>>}};
 
 constexpr const char* kTransferEstimatorsArea = "continuous time";
 constexpr std::array kTransferEstimatorsFunctions = {

@@ -10,7 +10,8 @@
 
 namespace dynlab::inline scripting {
 
-/// Each boxed C++ class says which object type it is (its members are a TypeEntry) and how many bytes it holds outside Lua:
+/// Each boxed C++ class says which object type it is (its members are a TypeEntry) and how many bytes it holds outside
+/// Lua:
 ///   template <> struct Boxed<IdData> { static constexpr ObjectType type{"iddata"};
 ///                                      static std::size_t outside_bytes(const IdData&); };
 /// A class of large objects that nobody changes once they are pushed may also say `static Digest digest(const T&)`, of

@@ -188,7 +188,8 @@ void Runtime::begin_parts(const PercentScript& script) {
 RunRecord Runtime::run_part(const PercentScript& script, const ScriptPart& part) {
     prepare(script);
     context_->recorder.follow(script);
-    run_with_variables(read_script_part(std::string(static_cast<std::size_t>(part.first_line) - 1, '\n') + part.code, shown_calls()));
+    run_with_variables(
+        read_script_part(std::string(static_cast<std::size_t>(part.first_line) - 1, '\n') + part.code, shown_calls()));
     RunRecord record = context_->recorder.so_far();
     throw_if_stopped();
     return record;

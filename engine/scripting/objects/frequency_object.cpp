@@ -7,8 +7,4 @@ std::size_t Boxed<FrequencyData>::outside_bytes(const FrequencyData& data) {
     return sizeof(double) * static_cast<std::size_t>(8 * data.w.size() + 2 * data.realised.size() + 4 * levels);
 }
 
-bool holds_response(const Call& call, int index) {
-    return index <= call.count() && to_object<FrequencyData>(call.state(), index) != nullptr;
-}
-
 }  // namespace dynlab::inline scripting

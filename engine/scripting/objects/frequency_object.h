@@ -12,6 +12,8 @@ struct Boxed<FrequencyData> {
 };
 
 /// Whether one stands at a stack index.
-bool holds_response(const Call& call, int index);
+inline bool holds_response(const Call& call, int index) {
+    return index <= call.count() && to_object<FrequencyData>(call.state(), index) != nullptr;
+}
 
 }  // namespace dynlab::inline scripting

@@ -38,7 +38,9 @@ struct Estimate {
 
     bool errors_are_coloured() const { return doubts.assessment && !doubts.assessment->white; }
     /// The robust covariance when the output errors are coloured.
-    const Matrix& trusted_covariance() const { return errors_are_coloured() ? doubts.assessment->covariance : covariance; }
+    const Matrix& trusted_covariance() const {
+        return errors_are_coloured() ? doubts.assessment->covariance : covariance;
+    }
 };
 
 /// A model as scripts hold it: a transfer function, with its process parameters, polynomials and estimate where it has

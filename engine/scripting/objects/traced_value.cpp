@@ -51,8 +51,7 @@ constexpr std::array kTracedOperators = {Member{"__add", guarded<operate<Operati
                                          Member{"__eq", guarded<refuse_order>},
                                          Member{"__tostring", guarded<text_of>}};
 
-constexpr std::array kTracedTypes = {
-    TypeEntry{&Boxed<TracedValue>::type, {}, {}, kTracedOperators, guarded<input_of>}};
+constexpr std::array kTracedTypes = {TypeEntry{&Boxed<TracedValue>::type, {}, {}, kTracedOperators, guarded<input_of>}};
 
 }  // namespace
 
@@ -87,6 +86,5 @@ int give_traced_operation(const Call& call, const std::shared_ptr<Trace>& trace,
     }
     return give_traced(call, trace, trace->tape.apply(operation, nodes[0], nodes[1], nodes[2]));
 }
-
 
 }  // namespace dynlab::inline scripting

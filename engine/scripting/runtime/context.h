@@ -32,7 +32,7 @@ struct RuntimeContext {
     MemoryAccount memory;
     RandomStream random;
     Recorder recorder;
-    std::vector<const FunctionEntry*> functions;  ///< all that scripts can call, later layers' too
+    std::vector<const FunctionEntry*> functions;          ///< all that scripts can call, later layers' too
     std::map<const ObjectType*, const TypeEntry*> types;  ///< all kinds of objects that scripts can hold
     const ShownCalls* shown_calls = nullptr;              ///< calls that show their values where they stand alone
     Services services;

@@ -8,8 +8,8 @@
 
 namespace dynlab::inline scripting {
 
-/// The functions whose values are shown where their call stands alone: those of a table of functions whose signature has
-/// results. Those that draw or print them, or are called for what they do, are not among them.
+/// The functions whose values are shown where their call stands alone: those of a table of functions whose signature
+/// has results. Those that draw or print them, or are called for what they do, are not among them.
 class ShownCalls {
   public:
     ShownCalls() = default;  ///< none

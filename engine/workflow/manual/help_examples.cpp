@@ -7,7 +7,7 @@
 #include "figures/gnuplot_renderer.h"
 #include "scripting/interpreter/catalogue.h"
 #include "scripting/interpreter/runtime.h"
-#include "scripting/memoized_calls/call_cache.h"
+#include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/runtime/help.h"
 
 namespace dynlab::inline workflow {

@@ -99,8 +99,7 @@ constexpr std::array kResponseOperators = {
     Member{"__tostring", field<FrequencyData, response_text>},
     Member{"__len", field<FrequencyData, [](const FrequencyData& d) { return d.w.size(); }>}};
 
-constexpr std::array kResponseTypes = {
-    TypeEntry{&Boxed<FrequencyData>::type, kResponseFields, {}, kResponseOperators}};
+constexpr std::array kResponseTypes = {TypeEntry{&Boxed<FrequencyData>::type, kResponseFields, {}, kResponseOperators}};
 
 }  // namespace
 

@@ -2,7 +2,7 @@
 #include <string_view>
 
 #include "numerics/estimators/frequency/frequency_fit.h"
-#include "scripting/arguments/transfer_arguments.h"
+#include "scripting/arguments/estimator_arguments.h"
 #include "scripting/bind/frequency/frequency_bindings.h"
 #include "scripting/objects/fit_model.h"
 #include "scripting/objects/frequency_object.h"

@@ -133,8 +133,7 @@ constexpr std::array kGreyestFunctions = {
                   "parameters of differential equations that physics gives", guarded<estimate_grey_box>},
 };
 
-constexpr std::array kGreyestTypes = {
-    TypeEntry{&Boxed<GreyEstimate>::type, kEstimateFields, {}, kEstimateOperators}};
+constexpr std::array kGreyestTypes = {TypeEntry{&Boxed<GreyEstimate>::type, kEstimateFields, {}, kEstimateOperators}};
 
 }  // namespace
 

@@ -249,8 +249,7 @@ constexpr std::array kIdgreyFunctions = {
                   "a model of differential equations, with parameters to be estimated", guarded<make_grey_model>},
 };
 
-constexpr std::array kIdgreyTypes = {
-    TypeEntry{&Boxed<GreyModel>::type, kGreyModelFields, {}, kGreyModelOperators}};
+constexpr std::array kIdgreyTypes = {TypeEntry{&Boxed<GreyModel>::type, kGreyModelFields, {}, kGreyModelOperators}};
 
 }  // namespace
 

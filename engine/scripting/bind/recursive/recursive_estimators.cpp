@@ -5,7 +5,7 @@
 #include "numerics/estimators/recursive/rlssvf.h"
 #include "numerics/estimators/recursive/rsrivc.h"
 #include "numerics/fit/simulation_error.h"
-#include "scripting/arguments/transfer_arguments.h"
+#include "scripting/arguments/estimator_arguments.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/bind/estimation_readers.h"
 #include "scripting/memoized_calls/memoized_call.h"

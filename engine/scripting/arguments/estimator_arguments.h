@@ -1,14 +1,44 @@
 #pragma once
+#include <functional>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "numerics/fit/transfer_search.h"
-#include "scripting/arguments/estimation.h"
-#include "scripting/arguments/order_vector.h"
+#include "scripting/conversions/arguments.h"
 
 namespace dynlab::inline scripting {
 
-/// What the bindings of continuous-time estimators have in common.
+/// What the bindings of estimators have in common: orders, structures, options, estimations that are ready to be made.
+
+/// An estimation as a script asked for it, its arguments checked: ready for any data, in any thread.
+using Estimation = std::function<Fit(const IdData&)>;
+
+/// Reads the arguments of one method from the second on; the first, where the data stand, is not looked at.
+using EstimationReader = Estimation (*)(const Call& call);
+
+/// The readers of a file of bindings, by the methods' Lua names.
+using NamedReader = std::pair<const char*, EstimationReader>;
+using EstimationReaders = std::span<const NamedReader>;
+
+// ---- Orders
+
+/// One entry of an order vector and what it means in messages.
+struct OrderEntry {
+    const char* name;
+    const char* meaning;
+};
+
+/// The orders {2, 1, 1} of a model, or {2, {1, 2}, {1, 1}} with several inputs: a list for each entry. Throws
+/// InvalidArgument that says what the entries mean for another number of them, a value that is not whole, or a negative
+/// one.
+std::vector<std::vector<int>> order_lists(const Call& call, int index, std::span<const OrderEntry> entries);
+
+/// Throws InvalidArgument: what the entries of the orders at argument `index` mean, and what is wrong with these.
+[[noreturn]] void refuse_orders(int index, std::span<const OrderEntry> entries, const std::string& wrong);
+
+// ---- Transfer functions in continuous time
 
 inline constexpr OrderEntry kNa{"na", "poles"};
 inline constexpr OrderEntry kNb{"nb", "coefficients of B"};
