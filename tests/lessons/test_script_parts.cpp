@@ -20,7 +20,7 @@ struct LessonRun {
     ReportLanguage language;
     Runtime runtime;
     explicit LessonRun(const PercentScript& script) : runtime(options(script), renderer) {
-        runtime.set_service(&language);
+        runtime.services().language = &language;
     }
     RunOptions options(const PercentScript& script) const {
         RunOptions chosen;

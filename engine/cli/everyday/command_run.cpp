@@ -14,7 +14,7 @@
 #include "platform/terminal/terminal_output.h"
 #include "platform/terminal/terminal_text.h"
 #include "platform/written_files.h"
-#include "scripting/memoized_calls/call_cache.h"
+#include "scripting/memoized_calls/memoized_call.h"
 #include "workflow/error_text.h"
 #include "workflow/given_script.h"
 #include "workflow/make_report.h"

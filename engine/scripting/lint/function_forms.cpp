@@ -7,6 +7,7 @@
 
 #include "documents/text_lines.h"
 #include "scripting/conversions/option_words.h"
+#include "scripting/interpreter/catalogue.h"
 #include "scripting/runtime/help.h"
 #include "scripting/source/lua_tokens.h"
 

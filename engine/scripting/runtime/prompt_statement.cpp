@@ -6,7 +6,6 @@
 #include <optional>
 #include <string_view>
 
-#include "scripting/runtime/shown_calls.h"
 #include "scripting/runtime/shown_expressions.h"
 #include "scripting/source/lua_reader.h"
 #include "scripting/source/lua_tokens.h"
@@ -116,10 +115,10 @@ void keep_locals(PromptStatement& statement, const std::string& source, const To
 
 }  // namespace
 
-PromptStatement read_script_part(const std::string& source) {
+PromptStatement read_script_part(const std::string& source, const ShownCalls& shown) {
     PromptStatement statement;
     statement.source = source;
-    statement.code = with_shown_expressions(source);
+    statement.code = with_shown_expressions(source, shown);
     statement.silent = true;
     statement.kind = PromptStatement::Kind::kReady;
     const Syntax syntax = syntax_of(statement.code);
@@ -129,7 +128,7 @@ PromptStatement read_script_part(const std::string& source) {
     return statement;
 }
 
-PromptStatement read_statement(const std::string& source) {
+PromptStatement read_statement(const std::string& source, const ShownCalls& shown) {
     PromptStatement statement;
     statement.source = statement.code = source;
     const Tokens tokens = lua_tokens(statement.source);
@@ -143,7 +142,7 @@ PromptStatement read_statement(const std::string& source) {
     const std::string expression = "return " + without_habit(source, tokens).value_or(source);
     const Syntax as_expression = syntax_of(expression);
     if (as_expression == Syntax::kRight) {
-        const std::string named = with_shown_calls(source);
+        const std::string named = with_shown_calls(source, shown);
         statement.code = named.starts_with("do ") ? named : expression;
         return statement;
     }

@@ -10,7 +10,7 @@
 #include "figures/gnuplot_renderer.h"
 #include "platform/atomic_file.h"
 #include "platform/cache.h"
-#include "scripting/memoized_calls/call_cache.h"
+#include "scripting/memoized_calls/memoized_call.h"
 #include "workflow/make_report.h"
 #include "workflow/run_cache.h"
 #include "workflow/run_script.h"

@@ -11,6 +11,7 @@
 #include "numerics/estimators/catalogue.h"
 #include "platform/atomic_file.h"
 #include "platform/text/small_letters.h"
+#include "scripting/interpreter/catalogue.h"
 #include "scripting/runtime/help.h"
 #include "workflow/demonstration.h"
 #include "workflow/lesson_catalogue.h"
