@@ -1,11 +1,11 @@
 #include "scripting/runtime/prompt_statement.h"
 
+#include <re2/re2.h>
+
 #include <algorithm>
 #include <optional>
-#include <regex>
 #include <string_view>
 
-#include "platform/text/regex_limit.h"
 #include "scripting/runtime/shown_expressions.h"
 #include "scripting/source/lua_reader.h"
 #include "scripting/source/lua_tokens.h"
@@ -89,10 +89,10 @@ class LocalsToAssignments {
 
 /// The word typed by habit as Lua; nothing when it is not one.
 std::optional<std::string> without_habit(const std::string& source, const Tokens& tokens) {
-    static const std::regex help(R"(\s*help(\s+([\w.]+))?\s*;?\s*)");
-    std::smatch words;
-    if (tokens.size() <= 5 && source.size() <= kLongestForRegex && std::regex_match(source, words, help))
-        return words[2].matched ? "help(\"" + words[2].str() + "\")" : "help()";
+    static const RE2 help(R"(\s*help(?:\s+([\w.]+))?\s*;?\s*)", RE2::Latin1);
+    std::string topic;
+    if (tokens.size() <= 5 && RE2::FullMatch(source, help, &topic))
+        return topic.empty() ? "help()" : "help(\"" + topic + "\")";
     if (tokens.size() <= 2 && (tokens.front().is("who") || tokens.front().is("whos")) &&
         (tokens.size() == 1 || tokens.back().is(";")))
         return "who()";

@@ -6,7 +6,7 @@
 #include "support/program.h"
 
 namespace dynlab::test {
-namespace test_bad_input {
+namespace test_program_errors {
 using testing::ContainsRegex;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -26,7 +26,7 @@ void expect_failure(const ChildResult& result, int code, const std::string& part
     EXPECT_THAT(result.error_output, Not(HasSubstr("terminate called")));
 }
 
-TEST(bad_input, unknown_data_name_suggests_the_nearest) {
+TEST(program_errors, unknown_data_name_suggests_the_nearest) {
     const Workbench bench;
     bench.write("a.lua", "\nlocal d = load('winning_tmies')\n");
     const ChildResult result = bench.dynlab({"run", "a.lua"});
@@ -34,7 +34,7 @@ TEST(bad_input, unknown_data_name_suggests_the_nearest) {
     EXPECT_THAT(result.error_output, HasSubstr("winning_times"));
 }
 
-TEST(bad_input, broken_data_files_are_named) {
+TEST(program_errors, broken_data_files_are_named) {
     const Workbench bench;
     bench.write("cut.mat", std::string("MATLAB 5.0 MAT-file").append(140, ' '));
     bench.write("ragged.csv", "t,y\n0,1\n1\n");
@@ -47,14 +47,14 @@ TEST(bad_input, broken_data_files_are_named) {
     expect_failure(bench.dynlab({"run", "-e", "load('nowhere.mat')"}), 1, "nowhere.mat");
 }
 
-TEST(bad_input, vectors_of_different_lengths_are_told_with_both_lengths) {
+TEST(program_errors, vectors_of_different_lengths_are_told_with_both_lengths) {
     const Workbench bench;
     const ChildResult result = bench.dynlab({"run", "-e", "iddata(zeros(3), zeros(4), 1)"});
     expect_failure(result, 1, "3");
     EXPECT_THAT(result.error_output, HasSubstr("4"));
 }
 
-TEST(bad_input, records_of_no_use_are_told_in_words) {
+TEST(program_errors, records_of_no_use_are_told_in_words) {
     const Workbench bench;
     bench.write("wrong.csv", "t,in,out\n0,1,2\n0.1,2,3\n0.2,3,4\n");
     bench.write("uneven.csv", "t,u,y\n0,1,2\n0.1,2,3\n0.3,3,4\n0.31,1,2\n0.5,1,2\n");
@@ -87,7 +87,7 @@ TEST(bad_input, records_of_no_use_are_told_in_words) {
     }
 }
 
-TEST(bad_input, syntax_and_runtime_errors_have_file_and_line) {
+TEST(program_errors, syntax_and_runtime_errors_have_file_and_line) {
     const Workbench bench;
     bench.write("syntax.lua", "local a = 1\nlocal b = = 2\n");
     bench.write("runtime.lua", "local a\n\nprint(a.x)\n");
@@ -96,7 +96,7 @@ TEST(bad_input, syntax_and_runtime_errors_have_file_and_line) {
     expect_failure(bench.dynlab({"run", "absent.lua"}), 1, "absent.lua");
 }
 
-TEST(bad_input, script_that_fails_gives_the_report_up_to_there_and_its_error) {
+TEST(program_errors, script_that_fails_gives_the_report_up_to_there_and_its_error) {
     const Workbench bench;
     write_folder(bench, "-- %%\nprint('before')\n-- %%\nerror('on purpose')\n-- %%\nprint('after')\n",
                  "::: {.cells}\n:::\n\nFit `fit`{.value}\n");
@@ -112,7 +112,7 @@ TEST(bad_input, script_that_fails_gives_the_report_up_to_there_and_its_error) {
     EXPECT_THAT(report, HasSubstr("**\\[fit\\]**"));
 }
 
-TEST(bad_input, script_that_fails_is_told_even_where_no_report_can_be_made) {
+TEST(program_errors, script_that_fails_is_told_even_where_no_report_can_be_made) {
     const Workbench bench;
     write_folder(bench, "error('on purpose')\n", "![A](absent.png)\n");
     const ChildResult result = bench.dynlab({"report", "mine"});
@@ -120,7 +120,7 @@ TEST(bad_input, script_that_fails_is_told_even_where_no_report_can_be_made) {
     EXPECT_THAT(bench.files(), ElementsAre("mine"));
 }
 
-TEST(bad_input, control_c_ends_an_endless_loop_and_leaves_nothing) {
+TEST(program_errors, control_c_ends_an_endless_loop_and_leaves_nothing) {
     const Workbench bench;
     write_folder(bench, "while true do pcall(function() while true do end end) end\n", "::: {.cells}\n:::\n");
     // Not before the program catches SIGINT, the second bit of SigCgt; half a second later the loop has begun.
@@ -131,7 +131,7 @@ TEST(bad_input, control_c_ends_an_endless_loop_and_leaves_nothing) {
     EXPECT_THAT(bench.files(), ElementsAre("mine"));
 }
 
-TEST(bad_input, slot_without_entry_names_slot_file_and_line) {
+TEST(program_errors, slot_without_entry_names_slot_file_and_line) {
     const Workbench bench;
     write_folder(bench, "report.value('fit', 93.2, '%.1f')\n", "The fit is `fti`{.value} %.\n");
     const ChildResult result = bench.dynlab({"report", "mine"});
@@ -141,7 +141,7 @@ TEST(bad_input, slot_without_entry_names_slot_file_and_line) {
     EXPECT_THAT(bench.files(), ElementsAre("mine"));
 }
 
-TEST(bad_input, missing_figures_are_errors) {
+TEST(program_errors, missing_figures_are_errors) {
     const Workbench bench;
     write_folder(bench, "print(1)\n", "![A](figure:raw){#fig:raw}\n\n![B](picture.png)\n");
     const ChildResult result = bench.dynlab({"report", "mine"});
@@ -149,13 +149,13 @@ TEST(bad_input, missing_figures_are_errors) {
     EXPECT_THAT(result.error_output, HasSubstr("picture.png"));
 }
 
-TEST(bad_input, characters_latex_cannot_print_are_named) {
+TEST(program_errors, characters_latex_cannot_print_are_named) {
     const Workbench bench;
     write_folder(bench, "print(1)\n", "A cat: \xF0\x9F\x90\x88\n");
     expect_failure(bench.dynlab({"report", "mine"}), 1, "U+1F408");
 }
 
-TEST(bad_input, latex_failure_tells_the_first_real_error) {
+TEST(program_errors, latex_failure_tells_the_first_real_error) {
     const Workbench bench;
     write_folder(bench, "print(1)\n", "# Results\n\n$$ x^1^2 $$\n");
     const ChildResult result = bench.dynlab({"report", "mine"});
@@ -163,7 +163,7 @@ TEST(bad_input, latex_failure_tells_the_first_real_error) {
     EXPECT_THAT(bench.files(), ElementsAre("mine"));
 }
 
-TEST(bad_input, output_that_cannot_be_written_is_named) {
+TEST(program_errors, output_that_cannot_be_written_is_named) {
     const Workbench bench;
     bench.write("a_file", "x");
     write_folder(bench, "print(1)\n", "Text.\n");
@@ -171,7 +171,7 @@ TEST(bad_input, output_that_cannot_be_written_is_named) {
     expect_failure(bench.dynlab({"report", "mine", "-o", "report.docx"}), 1, ".pdf");
 }
 
-TEST(bad_input, full_disk_leaves_the_old_report) {
+TEST(program_errors, full_disk_leaves_the_old_report) {
     const Workbench bench;
     write_folder(bench, "print(1)\n", "Text.\n");
     // A file system of 16 KiB in a mount namespace of its own; the PDF needs more.
@@ -184,7 +184,7 @@ TEST(bad_input, full_disk_leaves_the_old_report) {
     EXPECT_EQ(result.output, "report.pdf\nold\n");
 }
 
-TEST(bad_input, missing_programs_are_told_with_the_package) {
+TEST(program_errors, missing_programs_are_told_with_the_package) {
     for (const auto& [program, package] :
          {std::pair{"gnuplot", "gnuplot-nox"}, {"pandoc", "pandoc"}, {"pdflatex", "texlive-latex-base"}}) {
         Workbench bench;
@@ -197,7 +197,7 @@ TEST(bad_input, missing_programs_are_told_with_the_package) {
     }
 }
 
-TEST(bad_input, wrong_usage_is_exit_code_two) {
+TEST(program_errors, wrong_usage_is_exit_code_two) {
     const Workbench bench;
     EXPECT_EQ(bench.dynlab({"run"}).exit_code, 2);
     EXPECT_EQ(bench.dynlab({"report"}).exit_code, 2);
@@ -206,13 +206,13 @@ TEST(bad_input, wrong_usage_is_exit_code_two) {
     EXPECT_EQ(bench.dynlab({"run", "-e", "print(1)", "--seed", "-1"}).exit_code, 2);
 }
 
-TEST(bad_input, unknown_lesson_lists_the_lessons) {
+TEST(program_errors, unknown_lesson_lists_the_lessons) {
     const Workbench bench;
     const ChildResult result = bench.dynlab({"report", "77"});
     expect_failure(result, 1, "02_least_squares");
 }
 
-TEST(bad_input, group_file_errors_are_told) {
+TEST(program_errors, group_file_errors_are_told) {
     const Workbench bench;
     write_folder(bench, "print(1)\n", "Text.\n");
     bench.write("mine/group.toml", "seed = -3\n");
@@ -221,7 +221,7 @@ TEST(bad_input, group_file_errors_are_told) {
     expect_failure(bench.dynlab({"report", "mine"}), 1, "group.toml:2");
 }
 
-TEST(bad_input, misspelt_commands_and_options_are_told_in_the_order_given_with_the_nearest) {
+TEST(program_errors, misspelt_commands_and_options_are_told_in_the_order_given_with_the_nearest) {
     const Workbench bench;
     expect_failure(bench.dynlab({"raport", "my-work"}), 2,
                    "dynlab: there is no command 'raport'; did you mean 'report'?\nRun with --help");
@@ -234,7 +234,7 @@ TEST(bad_input, misspelt_commands_and_options_are_told_in_the_order_given_with_t
     EXPECT_THAT(bench.files(), ElementsAre());
 }
 
-TEST(bad_input, a_bibliography_that_is_a_link_to_elsewhere_is_not_packed) {
+TEST(program_errors, a_bibliography_that_is_a_link_to_elsewhere_is_not_packed) {
     const Workbench bench;
     bench.write("outside.bib", "@book{secret, author={Outsider, O.}, title={A secret}, year={2020}}\n");
     bench.write("mine/analysis.lua",
@@ -246,7 +246,7 @@ TEST(bad_input, a_bibliography_that_is_a_link_to_elsewhere_is_not_packed) {
     EXPECT_THAT(bench.files(), ElementsAre("mine", "outside.bib"));
 }
 
-TEST(bad_input, files_that_are_no_script_are_told_and_nothing_is_written) {
+TEST(program_errors, files_that_are_no_script_are_told_and_nothing_is_written) {
     const Workbench bench;
     write_folder(bench, "-- %%\nprint(1)\n", "Text\n");
     bench.write("mine/report.pdf", "%PDF the good one");
@@ -263,7 +263,7 @@ TEST(bad_input, files_that_are_no_script_are_told_and_nothing_is_written) {
     EXPECT_THAT(bench.files(), ElementsAre("data.csv", "mine"));
 }
 
-TEST(bad_input, what_is_nearly_called_so_is_named) {
+TEST(program_errors, what_is_nearly_called_so_is_named) {
     const Workbench bench;
     bench.write("capital/Analysis.lua", "print(1)\n");
     bench.write("second/analysis (2).lua", "print(1)\n");
@@ -283,7 +283,7 @@ TEST(bad_input, what_is_nearly_called_so_is_named) {
                    "the folder '.' holds no lesson.lua and no analysis.lua; the lessons");
 }
 
-TEST(bad_input, lint_reads_notebooks_and_names_their_cells) {
+TEST(program_errors, lint_reads_notebooks_and_names_their_cells) {
     const Workbench bench;
     bench.write("a.lua", "-- %%\nx = 1\n\n-- %%\nprint(x)\nprint(meen(x))\n");
     ASSERT_EQ(bench.dynlab({"notebook", "a.lua"}).exit_code, 0);
@@ -293,12 +293,12 @@ TEST(bad_input, lint_reads_notebooks_and_names_their_cells) {
     EXPECT_THAT(found.output, HasSubstr("meen"));
 }
 
-TEST(bad_input, a_folder_that_cannot_be_made_is_told_as_other_files_are) {
+TEST(program_errors, a_folder_that_cannot_be_made_is_told_as_other_files_are) {
     const Workbench bench;
     bench.write("block", "a file");
     expect_failure(bench.dynlab({"run", "-e", "print(1)", "--out", "block/out"}), 1,
                    "dynlab: cannot make the folder block/out: not a directory\n");
 }
 
-}  // namespace test_bad_input
+}  // namespace test_program_errors
 }  // namespace dynlab::test
