@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "platform/temporary_folder.h"
-#include "scripting/memoized_calls/call_cache.h"
+#include "scripting/memoized_calls/memoized_call.h"
 #include "support/environment_variable.h"
 #include "support/grey_looks.h"
 #include "support/lesson_list.h"

@@ -7,7 +7,7 @@
 #include "figures/gnuplot_renderer.h"
 #include "platform/temporary_folder.h"
 #include "scripting/interpreter/runtime.h"
-#include "scripting/memoized_calls/call_cache.h"
+#include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/runtime/services.h"
 #include "support/environment_variable.h"
 #include "support/program.h"
@@ -24,7 +24,7 @@ struct LessonRun {
     Runtime runtime;
     explicit LessonRun(const PercentScript& script, CallCache* calls = nullptr)
         : runtime(options(script, calls), renderer) {
-        runtime.set_service(&language);
+        runtime.services().language = &language;
     }
     RunOptions options(const PercentScript& script, CallCache* calls) const {
         RunOptions chosen;

@@ -39,7 +39,7 @@ TEST_F(caches, what_one_of_dynlabs_programs_computed_the_others_recall) {
         return bench_.shell(program + " weave a.lua -o a.html --timings").output;
     };
     EXPECT_THAT(weave_by("$DYNLAB"), HasSubstr("run the script"));
-    EXPECT_THAT(weave_by("$DYNLAB-pages"), HasSubstr("a.html (up to date)"));
+    EXPECT_THAT(weave_by("$DYNLAB-course"), HasSubstr("a.html (up to date)"));
 }
 
 // Of a portable build, the loader takes the library for this processor; another one is another program. Any library

@@ -20,11 +20,12 @@ inline CommandResult command_line(std::vector<std::string> words) {
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
     const auto no_view = []() -> FigureListener { return nullptr; };
+    const auto no_checks = [] { return std::vector<std::string>(); };
     CommandResult result;
     testing::internal::CaptureStdout();
     testing::internal::CaptureStderr();
     result.exit_code =
-        Program(everyday_commands(no_view), no_view).run(static_cast<int>(words.size()), arguments.data());
+        Program(everyday_commands(no_view, no_checks), no_view).run(static_cast<int>(words.size()), arguments.data());
     result.output = testing::internal::GetCapturedStdout();
     result.error_output = testing::internal::GetCapturedStderr();
     return result;

@@ -1,4 +1,4 @@
-#include "numerics/estimators/grey_box/missed_start.h"
+#include "numerics/estimators/grey_box/missed_initial_state.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,13 +1,93 @@
-#include "scripting/arguments/transfer_arguments.h"
+#include "scripting/arguments/estimator_arguments.h"
 
 #include <cmath>
 
 #include "numerics/fit/integrated_input.h"
+#include "numerics/number_text.h"
 #include "scripting/arguments/simulation_options.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/model.h"
 
 namespace dynlab::inline scripting {
+namespace {
+
+constexpr double kLargestOrder = 1e6;
+
+std::string meaning_of(std::span<const OrderEntry> entries) {
+    std::vector<std::string> names, meanings;
+    for (const OrderEntry& entry : entries) {
+        names.emplace_back(entry.name);
+        meanings.push_back(fmt::format("{}: {}", entry.name, entry.meaning));
+    }
+    return fmt::format("{{{}}} ({})", fmt::join(names, ", "), fmt::join(meanings, "; "));
+}
+
+int checked_order(double value, int index, std::span<const OrderEntry> entries, const char* name) {
+    if (std::floor(value) != value || value < 0 || value > kLargestOrder)
+        refuse_orders(index, entries, fmt::format("{} is {:.10g}, and must be a whole number from 0 on", name, value));
+    return static_cast<int>(value);
+}
+
+/// The number, table or vector on top of the stack as a list.
+std::vector<int> entry_list(lua_State* L, int index, std::span<const OrderEntry> entries, const char* name) {
+    if (lua_type(L, -1) == LUA_TNUMBER) return {checked_order(lua_tonumber(L, -1), index, entries, name)};
+    std::vector<int> list;
+    if (NumericBlock* vector = to_vector(L, -1)) {
+        for (const double value : vector->vector()) list.push_back(checked_order(value, index, entries, name));
+        return list;
+    }
+    if (lua_type(L, -1) != LUA_TTABLE)
+        refuse_orders(index, entries, fmt::format("{} is {}", name, given_text(L, lua_gettop(L))));
+    const auto count = static_cast<lua_Integer>(lua_rawlen(L, -1));
+    if (count == 0) refuse_orders(index, entries, fmt::format("{} is an empty table", name));
+    for (lua_Integer i = 1; i <= count; ++i) {
+        lua_rawgeti(L, -1, i);
+        if (lua_type(L, -1) != LUA_TNUMBER)
+            refuse_orders(index, entries, fmt::format("{} holds {}", name, given_text(L, lua_gettop(L))));
+        list.push_back(checked_order(lua_tonumber(L, -1), index, entries, name));
+        lua_pop(L, 1);
+    }
+    return list;
+}
+
+}  // namespace
+
+std::vector<std::vector<int>> order_lists(const Call& call, int index, std::span<const OrderEntry> entries) {
+    lua_State* L = call.state();
+    const auto wrong_count = [&](Index count) {
+        const bool many = count > static_cast<Index>(entries.size()) + 1;
+        refuse_orders(
+            index, entries,
+            fmt::format("it has {}{}", counted(count, "entry", "entries"),
+                        many ? "; with several inputs an entry is a list of one value for each, such as {1, 1}" : ""));
+    };
+    std::vector<std::vector<int>> lists;
+    if (index <= call.count()) {
+        if (NumericBlock* vector = to_vector(L, index)) {
+            const auto values = vector->vector();
+            if (values.size() != static_cast<Index>(entries.size())) wrong_count(values.size());
+            for (Index i = 0; i < values.size(); ++i)
+                lists.push_back({checked_order(values[i], index, entries, entries[static_cast<std::size_t>(i)].name)});
+            return lists;
+        }
+        if (call.type(index) == LUA_TTABLE) {
+            const auto count = static_cast<std::size_t>(lua_rawlen(L, index));
+            if (count != entries.size()) wrong_count(static_cast<Index>(count));
+            for (std::size_t i = 0; i < count; ++i) {
+                lua_rawgeti(L, index, static_cast<lua_Integer>(i + 1));
+                lists.push_back(entry_list(L, index, entries, entries[i].name));
+                lua_pop(L, 1);
+            }
+            return lists;
+        }
+    }
+    refuse_orders(index, entries, call.given(index) ? given_text(L, index) + " was given" : "it is missing");
+}
+
+void refuse_orders(int index, std::span<const OrderEntry> entries, const std::string& wrong) {
+    throw InvalidArgument(fmt::format("argument {} (orders) must be {}, but {}", index, meaning_of(entries), wrong));
+}
+
 namespace {
 
 /// Orders of all channels as they are, those of inputs repeated for each output.
@@ -128,17 +208,6 @@ StartedStructure started_structure(const Call& call, const Options& options, con
             aids};
 }
 
-TransferRequest transfer_request(const Options& options, const FitOptions& wanted, const Estimation& estimate) {
-    const bool start_is_given = options.has("InitialState") && options.has("Offset");
-    if (!options.flag("Integration", false)) return {false, estimate, wanted, start_is_given};
-    const auto with_integrator = [estimate](const IdData& data) {
-        Fit result = estimate(integrated_inputs(data));
-        append_integrator(result);
-        return result;
-    };
-    return {true, with_integrator, wanted, start_is_given};
-}
-
 Denominators sharing_of(const Options& options) {
     return options.flag("CommonDenominator", false) ? Denominators::kCommon : Denominators::kPerChannel;
 }
@@ -161,9 +230,18 @@ void read_fit_options(const Options& options, FitOptions& wanted) {
     if (options.has("Stable")) wanted.stable = options.flag("Stable", false);
     wanted.fixed = options.numbers_by_name("Fixed");
     if (options.has("OutputWeights")) wanted.output_weights = options.vector("OutputWeights");
+    wanted.start_is_given = options.has("InitialState") && options.has("Offset");
+    wanted.integration = options.flag("Integration", false);
     wanted.cancel = options.call().cancel();
     wanted.validate();
-    if (options.flag("Integration", false)) wanted = options_with_integrator(std::move(wanted));
+    if (wanted.integration) wanted = options_with_integrator(std::move(wanted));
+}
+
+FitOptions fit_options(const Options& options, Purpose purpose) {
+    FitOptions wanted;
+    wanted.doubts = purpose == Purpose::kModel;
+    read_fit_options(options, wanted);
+    return wanted;
 }
 
 }  // namespace dynlab::inline scripting

@@ -5,7 +5,7 @@
 
 #include "numerics/fit/fit.h"
 #include "numerics/signals/iddata.h"
-#include "numerics/validation/residual_tests.h"
+#include "numerics/statistics/whiteness.h"
 
 namespace dynlab::inline numerics {
 
@@ -35,8 +35,8 @@ Assessment assess(const IdData& data, const Fit& fit, const ResidualOptions& opt
 
 /// Samples: robust errors of longer records would take longer than the fit, but for process models.
 inline constexpr Index kMostAssessed = 200'000;
-/// The assessment of a fit where it costs little beside it and has a meaning: nothing for longer records, nor for
-/// difference equations without finite standard errors.
+/// The assessment of a fit where it costs little beside it and has a meaning: nothing for longer records, for
+/// difference equations without finite standard errors, and for models whose output grows beyond all bounds.
 std::optional<Assessment> assess_if_affordable(const IdData& data, const Fit& fit);
 
 }  // namespace dynlab::inline numerics

@@ -1,5 +1,5 @@
 // Oracle: the fit with the initial state estimated.
-#include "numerics/estimators/grey_box/missed_start.h"
+#include "numerics/estimators/grey_box/missed_initial_state.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include "support/grey_cases.h"
 #include "support/transfer_cases.h"
 
-namespace test_missed_start {
+namespace test_missed_initial_state {
 
 using namespace dynlab;
 using namespace dynlab::test;
@@ -20,7 +20,7 @@ GreyModel lag_of_second_order() {
     });
 }
 
-TEST(missed_start, is_told_of_a_record_that_begins_in_a_movement) {
+TEST(missed_initial_state, is_told_of_a_record_that_begins_in_a_movement) {
     const IdData cut = course_record(0.2, 5).range(301, 900);
     const GreyFit from_rest = greyest(cut, lag_of_second_order());
     GreyOptions options;
@@ -35,9 +35,9 @@ TEST(missed_start, is_told_of_a_record_that_begins_in_a_movement) {
     EXPECT_FALSE(missed_initial_state(cut, free, Vector::Ones(1)).has_value());
 }
 
-TEST(missed_start, is_not_told_of_a_record_from_rest) {
+TEST(missed_initial_state, is_not_told_of_a_record_from_rest) {
     const IdData data = course_record(0.2, 5);
     EXPECT_FALSE(missed_initial_state(data, greyest(data, lag_of_second_order()), Vector::Ones(1)).has_value());
 }
 
-}  // namespace test_missed_start
+}  // namespace test_missed_initial_state

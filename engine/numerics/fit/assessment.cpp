@@ -1,4 +1,4 @@
-#include "numerics/validation/assessment.h"
+#include "numerics/fit/assessment.h"
 
 #include <cmath>
 #include <span>
@@ -303,7 +303,11 @@ Assessment assess(const IdData& data, const Fit& fit, const ResidualOptions& opt
 std::optional<Assessment> assess_if_affordable(const IdData& data, const Fit& fit) {
     if (!fit.process && data.sample_count() > kMostAssessed) return std::nullopt;
     if (fit.polynomial && !fit.std.allFinite()) return std::nullopt;
-    return assess(data, fit);
+    try {
+        return assess(data, fit);
+    } catch (const InvalidArgument&) {
+        return std::nullopt;  // its output is not finite
+    }
 }
 
 }  // namespace dynlab::inline numerics

@@ -8,11 +8,11 @@
 #include "numerics/estimators/procsrivc.h"
 #include "numerics/estimators/sriv.h"
 #include "numerics/estimators/srivc.h"
+#include "numerics/fit/assessment.h"
 #include "numerics/signals/prbs.h"
 #include "numerics/signals/random.h"
 #include "numerics/simulation/lsim.h"
 #include "numerics/statistics/robust_covariance.h"
-#include "numerics/validation/assessment.h"
 #include "numerics/validation/compare.h"
 
 namespace test_assessment {

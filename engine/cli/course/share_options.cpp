@@ -1,4 +1,4 @@
-#include "cli/options/share_options.h"
+#include "cli/course/share_options.h"
 
 namespace dynlab::inline cli {
 

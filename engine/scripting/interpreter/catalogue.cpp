@@ -1,4 +1,8 @@
+#include "scripting/interpreter/catalogue.h"
+
 #include "scripting/bind/bindings.h"
+#include "scripting/objects/simulated_model.h"
+#include "scripting/objects/traced_value.h"
 
 namespace dynlab::inline scripting {
 
@@ -30,6 +34,23 @@ const std::vector<FunctionEntry>& catalogue_of_functions() {
         return all;
     }();
     return catalogue;
+}
+
+const std::vector<TypeEntry>& catalogue_of_types() {
+    static const std::vector<TypeEntry> catalogue = [] {
+        std::vector<TypeEntry> all;
+        for (TypeEntries types : {vector_types(), matrix_types(), complex_types(), data_types(), response_types(),
+                                  model_types(), simulated_types(), idgrey_types(), greyest_types(), traced_types(),
+                                  regression_types(), study_types(), figure_types()})
+            all.insert(all.end(), types.begin(), types.end());
+        return all;
+    }();
+    return catalogue;
+}
+
+const ShownCalls& shown_calls() {
+    static const ShownCalls calls(catalogue_of_functions());
+    return calls;
 }
 
 }  // namespace dynlab::inline scripting

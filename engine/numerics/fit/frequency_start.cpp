@@ -1,4 +1,4 @@
-#include "numerics/estimators/frequency/frequency_start.h"
+#include "numerics/fit/frequency_start.h"
 
 #include <cmath>
 #include <numbers>

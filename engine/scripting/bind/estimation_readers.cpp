@@ -1,4 +1,4 @@
-#include "scripting/arguments/estimation.h"
+#include "scripting/bind/estimation_readers.h"
 
 namespace dynlab::inline scripting {
 namespace {
