@@ -16,9 +16,10 @@ duration() {
   if [ "$1" -ge 60 ]; then printf '%d min %d s' $(($1 / 60)) $(($1 % 60)); else printf '%d s' "$1"; fi
 }
 
-# tell_progress WHAT: reads numbers from 0 to 100, one a line, and says every ten seconds how far WHAT is.
+# tell_progress WHAT [PART]: reads numbers from 0 to 100, one a line, and says every ten seconds how far WHAT is. Where
+# the numbers count parts that differ much in length (PART: their name), it says no time left.
 tell_progress() {
-  local what=$1 start=$SECONDS next=$((SECONDS + 10)) percent=0 line begun="" status
+  local what=$1 part=${2:-} start=$SECONDS next=$((SECONDS + 10)) percent=0 line begun="" status
   while true; do
     status=0
     read -r -t 2 line || status=$?
@@ -29,9 +30,19 @@ tell_progress() {
     [ "$SECONDS" -lt "$next" ] && continue
     next=$((SECONDS + 10))
     local elapsed=$((SECONDS - start)) left=""
-    [ "${percent:-0}" -gt 0 ] && left=", about $(duration $((elapsed * (100 - percent) / percent))) left"
-    say "$what: ${percent:-0} % after $(duration "$elapsed")$left"
+    [ -z "$part" ] && [ "${percent:-0}" -gt 0 ] && left=", about $(duration $((elapsed * (100 - percent) / percent))) left"
+    say "$what: ${percent:-0} %${part:+ of the $part} after $(duration "$elapsed")$left"
   done
+}
+
+# tell_tests: reads what ctest says and passes it on, but for the lines about suites that begin and that pass: a line
+# every ten seconds says how far the tests are.
+tell_tests() {
+  local line result='^ *([0-9]+)/([0-9]+) Test +#[0-9]+: [^ ]+ \.* +'
+  while IFS= read -r line || [ -n "$line" ]; do
+    [[ $line =~ $result ]] && echo $((100 * BASH_REMATCH[1] / BASH_REMATCH[2])) >&3
+    [[ $line =~ ^\ *Start\ +[0-9]+:|$result"Passed" ]] || printf '%s\n' "$line"
+  done 3> >(tell_progress Testing suites)
 }
 
 # purpose_text PURPOSE: why the packages of this purpose are wanted.
@@ -92,9 +103,9 @@ build() {
   mkdir -p "$folder"
   log=$folder/build.log
   cmake -S "$project" -B "$folder" -G Ninja "$@" >"$log" 2>&1 || { cat "$log" >&2; return 1; }
-  if [ -t 2 ]; then cmake --build "$folder" ${targets:+--target $targets} >&2; return; fi
+  if [ -t 2 ]; then cmake --build "$folder" -j "$(nproc)" ${targets:+--target $targets} >&2; return; fi
   # Ninja's lines begin with what is done in percent.
-  NINJA_STATUS='%p ' cmake --build "$folder" ${targets:+--target $targets} 2>&1 | tee "$log" |
+  NINJA_STATUS='%p ' cmake --build "$folder" -j "$(nproc)" ${targets:+--target $targets} 2>&1 | tee "$log" |
     sed -u -n 's/^ *\([0-9]*\)% .*/\1/p' | tell_progress "Building"
   [ "${PIPESTATUS[0]}" = 0 ] || { grep -v '^ *[0-9]*% ' "$log" | tail -n 200 >&2; return 1; }
 }

@@ -22,8 +22,12 @@ using FigureView = std::function<FigureListener()>;
 /// sets the second when it is the one called.
 using Commands = std::vector<std::function<void(CLI::App&, Action&)>>;
 
+/// The names that files with checks may use besides those of lessons, for lint. Only the program with all commands
+/// knows them; the other one hands over to it.
+using CheckNames = std::function<std::vector<std::string>()>;
+
 /// The commands of a folder beside this file, whose libraries all programs with them load as they start.
-Commands everyday_commands(const FigureView& view);
+Commands everyday_commands(const FigureView& view, const CheckNames& check_names);
 Commands course_commands();
 Commands page_commands();
 
@@ -31,7 +35,6 @@ Commands page_commands();
 void add_run(CLI::App& app, Action& action, const FigureView& view);
 void add_look(CLI::App& app, Action& action);
 void add_identify(CLI::App& app, Action& action);
-void add_study(CLI::App& app, Action& action);
 void add_report(CLI::App& app, Action& action);
 void add_sheet(CLI::App& app, Action& action);
 void add_hint(CLI::App& app, Action& action);
@@ -40,11 +43,9 @@ void add_new(CLI::App& app, Action& action);
 void add_lessons(CLI::App& app, Action& action);
 void add_demo(CLI::App& app, Action& action);
 void add_help(CLI::App& app, Action& action);
-void add_manual(CLI::App& app, Action& action);
 void add_notebook(CLI::App& app, Action& action);
-void add_lint(CLI::App& app, Action& action);
+void add_lint(CLI::App& app, Action& action, const CheckNames& check_names);
 void add_lsp(CLI::App& app, Action& action);
-void add_boxed(CLI::App& app, Action& action);
 
 // course/
 void add_check(CLI::App& app, Action& action);
@@ -59,9 +60,11 @@ void add_similar(CLI::App& app, Action& action);
 void add_course(CLI::App& app, Action& action);
 void add_test_lesson(CLI::App& app, Action& action);
 void add_work(CLI::App& app, Action& action);
-void add_boxed_version(CLI::App& app, Action& action);  ///< of that program alone
+void add_study(CLI::App& app, Action& action);
+void add_boxed_version(CLI::App& app, Action& action);
 
 // pages/
+void add_manual(CLI::App& app, Action& action);
 void add_preview(CLI::App& app, Action& action);
 void add_app(CLI::App& app, Action& action);
 void add_kernel(CLI::App& app, Action& action);

@@ -9,7 +9,9 @@
 #include <cstring>
 #include <exception>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <optional>
 
 #include "cli/usage_error.h"
 #include "platform/error.h"
@@ -101,11 +103,37 @@ int Program::run(int count, char** words) {
     return run_action(action_);
 }
 
+namespace {
+
+/// scripts/start of the source tree that `dynlab` was built from, where that is known and still there.
+std::optional<std::filesystem::path> build_script(const std::filesystem::path& dynlab) {
+    std::filesystem::path source;
+    if (std::ifstream recorded(source_record(dynlab)); recorded) {
+        std::string line;
+        std::getline(recorded, line);
+        source = line;
+    } else {
+        for (source = dynlab.parent_path(); source.has_relative_path(); source = source.parent_path())
+            if (std::filesystem::exists(source / "scripts/start")) break;
+    }
+    std::error_code error;
+    const std::filesystem::path script = source / "scripts/start";
+    return std::filesystem::is_regular_file(script, error) ? std::optional(script) : std::nullopt;
+}
+
+}  // namespace
+
 void go_on_as(const std::string& program, char** words) {
-    const std::filesystem::path file = running_program().parent_path() / program;
+    const std::filesystem::path dynlab = running_program(), file = dynlab.parent_path() / program;
     ::execv(file.c_str(), words);
-    std::cerr << fmt::format("dynlab: {}, a part of dynlab, cannot be started ({}): install dynlab again\n",
-                             terminal_text(file.string()), std::strerror(errno));
+    const int error = errno;
+    const auto script = build_script(dynlab);
+    if (error == ENOENT && script)
+        std::cerr << fmt::format("dynlab: this command is not built yet ({} is missing). Build it with:\n  {}\n",
+                                 program, terminal_text(script->string()));
+    else
+        std::cerr << fmt::format("dynlab: cannot start {} ({}), which has this command. Install dynlab again.\n",
+                                 terminal_text(file.string()), std::strerror(error));
     std::exit(kMissingProgram);
 }
 

@@ -24,7 +24,8 @@ class Program {
     bool shows_figures_ = false;
 };
 
-/// Goes on as another of dynlab's programs, with the words of main(); ends with kMissingProgram where it is not there.
+/// Continues as another of dynlab's programs with the arguments of main(). Where that program is missing, prints the
+/// command that builds it and exits with kMissingProgram.
 [[noreturn]] void go_on_as(const std::string& program, char** words);
 
 }  // namespace dynlab::inline cli

@@ -1,13 +1,12 @@
 #include "cli/usage_error.h"
 
 #include <fmt/format.h>
+#include <re2/re2.h>
 
-#include <regex>
 #include <vector>
 
 #include "platform/spelling.h"
 #include "platform/terminal/terminal_text.h"
-#include "platform/text/regex_limit.h"
 
 namespace dynlab::inline cli {
 namespace {
@@ -18,17 +17,15 @@ struct UsageSentence {
 };
 
 constexpr UsageSentence kSentences[] = {
-    {"Could not convert: (\\S+) = (.*)", "$1 wants a number, but '$2' was given"},
-    {"(\\S+): At Most 1 required but received .*", "$1 can be given once only"},
-    {"(\\S+): 1 required .*", "$1 wants a value behind it"},
+    {R"(^Could not convert: (\S+) = (.*)$)", R"(\1 wants a number, but '\2' was given)"},
+    {R"(^(\S+): At Most 1 required but received .*$)", R"(\1 can be given once only)"},
+    {R"(^(\S+): 1 required .*$)", R"(\1 wants a value behind it)"},
 };
 
 std::string in_our_words(const std::string& message) {
-    for (const auto& [theirs, ours] : kSentences) {
-        if (message.size() > kLongestForRegex) break;
-        const std::regex pattern(theirs);
-        if (std::regex_match(message, pattern)) return std::regex_replace(message, pattern, ours);
-    }
+    std::string words;
+    for (const auto& [theirs, ours] : kSentences)
+        if (RE2::Extract(message, RE2(theirs, RE2::Latin1), ours, &words)) return words;
     return message;
 }
 

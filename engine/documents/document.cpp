@@ -1,7 +1,8 @@
 #include "documents/document.h"
 
+#include <re2/re2.h>
+
 #include <algorithm>
-#include <regex>
 
 #include "documents/bibliography.h"
 #include "documents/characters.h"
@@ -18,7 +19,6 @@
 #include "platform/program_lookup.h"
 #include "platform/stopwatch.h"
 #include "platform/temporary_folder.h"
-#include "platform/text/regex_limit.h"
 
 namespace dynlab::inline documents {
 namespace {
@@ -38,9 +38,8 @@ SourceLine origin_of_refusal(const LatexRefusal& refusal, const MarkdownText& ma
 
 /// " in section "Results"": the last heading above a line of the LaTeX text; on slides, the title of the slide.
 std::string section_of(const std::string& body, int line) {
-    static const std::regex slide(R"(\\begin\{frame\}(\[[^\]]*\])?\{(.*)\})");
+    static const RE2 slide(R"(\\begin\{frame\}(?:\[[^\]]*\])?\{(.*)\})", RE2::Latin1);
     std::string heading;
-    std::smatch title;
     const std::vector<std::string> lines = lines_of(body);
     for (int i = 0; i < std::min<int>(line, static_cast<int>(lines.size())); ++i) {
         const std::string& text = lines[static_cast<std::size_t>(i)];
@@ -48,7 +47,7 @@ std::string section_of(const std::string& body, int line) {
         const bool is_heading =
             text.find("section{") != std::string::npos && text.starts_with("\\") && open < text.size();
         const std::size_t close = std::min(text.find("}\\label{"), text.rfind('}'));
-        if (text.size() <= kLongestForRegex && std::regex_match(text, title, slide)) heading = title[2];
+        RE2::FullMatch(text, slide, &heading);
         if (is_heading) heading = text.substr(open + 1, close - open - 1);
     }
     return heading.empty() ? "" : " in section \"" + heading + "\"";

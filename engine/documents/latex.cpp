@@ -1,11 +1,12 @@
 #include "documents/latex.h"
 
+#include <re2/re2.h>
+
 #include <array>
 #include <chrono>
 #include <cmath>
 #include <csignal>
 #include <optional>
-#include <regex>
 
 #include "data_io/values/cbor_values.h"
 #include "documents/text_lines.h"
@@ -72,53 +73,48 @@ class KeptAuxiliaryFiles {
 
 /// "./main.tex:12: Undefined control sequence." and the line "l.12 text so far" below it.
 LatexRefusal refusal_in(const std::string& log, int lines_before_body) {
-    static const std::regex placed(R"((?:^|\n)(?:\./)?main\.(tex|vrb):(\d+): ([^\n]*))");
-    static const std::regex unplaced(R"((?:^|\n)! ?([^\n]*))");
-    static const std::regex context(R"(\nl\.(\d+) ([^\n]*))");
-    std::smatch found, shown;
+    static const RE2 placed(R"((?m)^(?:\./)?main\.(tex|vrb):(\d+): (.*))", RE2::Latin1),
+        unplaced("(?m)^! ?(.*)", RE2::Latin1), context(R"((?m)^l\.\d+ (.*))", RE2::Latin1);
+    re2::StringPiece rest = log;
     int line = 0;
-    std::string message = "pdflatex stopped without a message";
-    if (std::regex_search(log, found, placed)) {
+    std::string ending, message, before;
+    if (RE2::FindAndConsume(&rest, placed, &ending, &line, &message)) {
         // Code on slides is set from a file of its own, whose lines are not those of the body.
-        line = found[1] == "tex" ? std::stoi(found[2]) - lines_before_body : 0;
-        message = found[3];
-    } else if (std::regex_search(log, found, unplaced)) {
-        message = found[1];
-    } else {
-        return LatexRefusal(message, 0, "");
+        line = ending == "tex" ? line - lines_before_body : 0;
+    } else if (!RE2::FindAndConsume(&rest, unplaced, &message)) {
+        return LatexRefusal("pdflatex stopped without a message", 0, "");
     }
-    const std::string rest = found.suffix();
-    const bool has_context = std::regex_search(rest, shown, context);
-    const std::string before = has_context ? shown[2].str() : "";
+    RE2::PartialMatch(rest, context, &before);
     return LatexRefusal(trimmed(message), line, before.starts_with("...") ? before.substr(3) : before);
 }
 
 /// Complaints that LaTeX itself passes over, though something is missing on the page.
 void check_nothing_dropped(const std::string& log) {
-    static const std::regex dropped(
-        R"(\n(Missing character: [^\n]*|[^\n]*invalid in math mode[^\n]*?)(?: on input line (\d+))?\.?\n)");
-    std::smatch found;
-    if (std::regex_search(log, found, dropped))
-        throw LatexRefusal(trimmed(found[1].str()), found[2].matched ? std::stoi(found[2]) : 0, "");
+    static const RE2 dropped(
+        R"(\n(Missing character: [^\n]*|[^\n]*invalid in math mode[^\n]*?)(?: on input line (\d+))?\.?\n)",
+        RE2::Latin1);
+    std::string complaint, line;
+    if (RE2::PartialMatch(log, dropped, &complaint, &line))
+        throw LatexRefusal(trimmed(complaint), line.empty() ? 0 : std::stoi(line), "");
 }
 
 /// Slides whose content is higher than they are: it would run over their lower edge.
 void check_nothing_overflows(const std::string& log, int lines_before_body) {
-    static const std::regex overfull(R"(\nOverfull \\vbox \(([0-9.]+)pt too high\) detected at line (\d+))");
-    static const std::regex page(R"(\n\[(\d+))");
+    static const RE2 overfull(R"(\nOverfull \\vbox \(([0-9.]+)pt too high\) detected at line (\d+))", RE2::Latin1),
+        page(R"(\n\[(\d+))", RE2::Latin1);
     constexpr double kPointsPerMm = 72.27 / 25.4, kUnseen = 0.5;  // mm
-    std::string slides;
-    int line = 0;
-    for (std::sregex_iterator found(log.begin(), log.end(), overfull), end; found != end; ++found) {
-        const double excess = std::stod((*found)[1]) / kPointsPerMm;
-        std::smatch number;
-        if (excess < kUnseen || !std::regex_search((*found)[0].second, log.end(), number, page)) continue;
-        if (slides.empty()) line = std::stoi((*found)[2]) - lines_before_body;
-        slides += (slides.empty() ? "slide " : ", slide ") + number[1].str() + " is too full by " +
+    std::string slides, number;
+    double points = 0;
+    int first = 0, line = 0;
+    for (re2::StringPiece rest = log; RE2::FindAndConsume(&rest, overfull, &points, &line);) {
+        const double excess = points / kPointsPerMm;
+        if (excess < kUnseen || !RE2::PartialMatch(rest, page, &number)) continue;
+        if (slides.empty()) first = line - lines_before_body;
+        slides += (slides.empty() ? "slide " : ", slide ") + number + " is too full by " +
                   number_text(std::ceil(excess)) + " mm";
     }
     if (!slides.empty())
-        throw LatexRefusal(slides + "; shorten the text, make a figure less high, or part the slide into two", line,
+        throw LatexRefusal(slides + "; shorten the text, make a figure less high, or part the slide into two", first,
                            "");
 }
 

@@ -1,10 +1,11 @@
 #include "documents/latex_format.h"
 
+#include <re2/re2.h>
+
 #include <boost/iostreams/copy.hpp>
 #include <boost/iostreams/filter/gzip.hpp>
 #include <boost/iostreams/filtering_stream.hpp>
 #include <fstream>
-#include <regex>
 #include <sstream>
 
 #include "documents/text_lines.h"
@@ -76,10 +77,10 @@ void finish_format(ChildProcess& tex, const fs::path& folder) {
     const fs::path format = folder / (std::string(kLatexFormatName) + ".fmt");
     if (run.exit_code == 0 && fs::exists(format)) return unpack_format(format);
     check_missing_packages(run.output);
-    std::smatch error;
-    const bool found = std::regex_search(run.output, error, std::regex("(^|\n)! ([^\n]*)"));
-    throw EnvironmentError("the layout of documents (report_templates/latex) cannot be prepared: " +
-                           (found ? error[2].str() : "pdflatex ended with code " + std::to_string(run.exit_code)));
+    static const RE2 kError("(?m)^! (.*)", RE2::Latin1);
+    std::string reason = "pdflatex ended with code " + std::to_string(run.exit_code);
+    RE2::PartialMatch(run.output, kError, &reason);
+    throw EnvironmentError("the layout of documents (report_templates/latex) cannot be prepared: " + reason);
 }
 
 }  // namespace
@@ -89,12 +90,12 @@ void write_preamble(const LatexLayout& layout, const fs::path& folder) {
 }
 
 void check_missing_packages(const std::string& log) {
-    std::smatch found;
-    if (std::regex_search(log, found, std::regex("Unknown option [`'\"](french)['\"]")) ||
-        std::regex_search(log, found, std::regex("(?:file|File) [`'\"]?(french\\.ldf)")))
+    static const RE2 kNoFrench(R"(Unknown option [`'"]french['"]|[fF]ile [`'"]?french\.ldf)", RE2::Latin1),
+        kNoFile(R"(File [`']([^']+\.(?:sty|cls|def|fd))' not found)", RE2::Latin1);
+    if (RE2::PartialMatch(log, kNoFrench))
         throw MissingProgram("the French language of LaTeX (babel's french.ldf)", "texlive-lang-french");
-    if (std::regex_search(log, found, std::regex("File [`']([^']+\\.(sty|cls|def|fd))' not found")))
-        throw MissingProgram("the LaTeX file " + found[1].str(),
+    if (std::string file; RE2::PartialMatch(log, kNoFile, &file))
+        throw MissingProgram("the LaTeX file " + file,
                              "texlive-latex-recommended texlive-fonts-recommended texlive-pictures lmodern");
 }
 

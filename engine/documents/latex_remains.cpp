@@ -1,18 +1,19 @@
 #include "documents/latex_remains.h"
 
+#include <re2/re2.h>
+
 #include <algorithm>
-#include <regex>
 
 #include "documents/text_lines.h"
-#include "platform/text/regex_limit.h"
 
 namespace dynlab::inline documents {
 namespace {
 
 /// The line without code between backticks, formulas between dollar signs and escaped backslashes.
-std::string prose_of(const std::string& line) {
-    static const std::regex not_prose(R"(`[^`]*`|\$\$[^$]*\$\$|\$[^$]*\$|\\\\)");
-    return std::regex_replace(line, not_prose, " ");
+std::string prose_of(std::string line) {
+    static const RE2 not_prose(R"(`[^`]*`|\$\$[^$]*\$\$|\$[^$]*\$|\\\\)", RE2::Latin1);
+    RE2::GlobalReplace(&line, not_prose, " ");
+    return line;
 }
 
 }  // namespace
@@ -31,18 +32,18 @@ std::set<std::string> escaped_commands(const MarkdownText& markdown) {
 
 void find_latex_brackets(const MarkdownText& markdown, Complaints& complaints) {
     // What looks like a formula: with its signs, or a symbol of few letters.
-    static const std::regex round(R"(\\\(([^()]*[=^_\\{}<>][^()]*|\s*\w{1,3}\s*)\\\))"),
-        square(R"(\\\[([^\[\]]*[=^_\\{}<>][^\[\]]*|\s*\w{1,3}\s*)\\\](?!\()|^\s*\\[\[\]]\s*$)");
+    static const RE2 round(R"(\\\(([^()]*[=^_\\{}<>][^()]*|\s*\w{1,3}\s*)\\\))", RE2::Latin1),
+        square(R"(\\\[([^\[\]]*[=^_\\{}<>][^\[\]]*|\s*\w{1,3}\s*)\\\]([^(]|$)|^\s*\\[\[\]]\s*$)", RE2::Latin1);
     FencedCode fence;
     int number = 0;
     for (const std::string& line : lines_of(markdown.text)) {
         ++number;
-        if (fence.holds(line) || line.size() > kLongestForRegex) continue;
+        if (fence.holds(line)) continue;
         const std::string prose = prose_of(line);
-        if (std::regex_search(prose, round))
+        if (RE2::PartialMatch(prose, round))
             complaints.add(markdown.origin_of(number),
                            "\\(...\\) is LaTeX and would be printed as plain text; write a formula as $...$");
-        if (std::regex_search(prose, square))
+        if (RE2::PartialMatch(prose, square))
             complaints.add(markdown.origin_of(number),
                            "\\[...\\] is LaTeX and would be printed as plain text; write a formula on lines of its own "
                            "as $$...$$");

@@ -1,7 +1,8 @@
 #include "documents/template_file.h"
 
+#include <re2/re2.h>
+
 #include <algorithm>
-#include <regex>
 
 #include "documents/bibliography.h"
 #include "documents/document_rules.h"
@@ -69,10 +70,8 @@ std::size_t end_of_metadata(const std::vector<std::string>& lines, const std::fi
 }
 
 bool opens_cells(const std::string& line) {
-    constexpr std::size_t kLongest = 200;
-    if (line.size() > kLongest) return false;
-    static const std::regex opening(R"(:::+\s*(\{\s*\.cells\s*\}|cells)\s*:*\s*)");
-    return std::regex_match(line, opening);
+    static const RE2 opening(R"(:::+\s*(\{\s*\.cells\s*\}|cells)\s*:*\s*)", RE2::Latin1);
+    return RE2::FullMatch(line, opening);
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
 #include "figures/figure_text.h"
 
+#include <re2/re2.h>
+
 #include <algorithm>
 #include <array>
-#include <regex>
 
 #include "figures/style.h"
-#include "platform/text/regex_limit.h"
 #include "platform/utf8.h"
 
 namespace dynlab::inline figures {
@@ -117,19 +117,20 @@ std::vector<TextPiece> text_pieces(std::string_view utf8) {
 }
 
 std::string with_marked_indices(const std::string& text) {
-    if (text.size() > kLongestForRegex) return text;
-    static const std::regex index(
-        R"((^|[^A-Za-z0-9_])([A-Za-z]_|(?:[A-Za-z]*|[0-9]+)\^-?)([A-Za-z0-9]{1,2})(?![A-Za-z0-9_{]))");
+    // The character behind an index may stand before the next one, so that the search goes on at it.
+    static const RE2 index(
+        R"((?:^|[^A-Za-z0-9_])([A-Za-z]_|(?:[A-Za-z]*|[0-9]+)\^-?)([A-Za-z0-9]{1,2})(?:[^A-Za-z0-9_{]|$))",
+        RE2::Latin1);
+    const auto place = [&](const char* at) { return static_cast<std::size_t>(at - text.data()); };
     std::string marked;
-    auto rest = text.begin();
-    for (std::sregex_iterator found(text.begin(), text.end(), index), end; found != end; ++found) {
-        const std::smatch& part = *found;
-        std::string base = part[2], script = part[3];
-        if (base.ends_with('-')) base.pop_back(), script = "−" + script;
-        marked.append(rest, part[0].first).append(part[1]).append(base).append("{" + script + "}");
-        rest = part[0].second;
+    std::size_t rest = 0;
+    for (re2::StringPiece part[3]; index.Match(text, rest, text.size(), RE2::UNANCHORED, part, 3);) {
+        const bool minus = part[1].ends_with("-");
+        marked +=
+            text.substr(rest, place(part[1].end()) - minus - rest) + (minus ? "{−" : "{") + part[2].as_string() + "}";
+        rest = place(part[2].end());
     }
-    return marked.append(rest, text.end());
+    return marked + text.substr(rest);
 }
 
 double text_width(std::string_view utf8, double size) {

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 #include <gnuplot-iostream.h>
+#include <re2/re2.h>
 #include <signal.h>
 
 #include <deque>
 #include <fstream>
 #include <optional>
-#include <regex>
 
 #include "figures/figure_file.h"
 #include "figures/figure_text.h"
@@ -51,10 +51,11 @@ class BrokenPipeBlock {
 /// The first error in what gnuplot wrote, as in `"/dev/stdin" line 7: undefined variable: x`, without its echo of the
 /// command; nothing when there are but warnings.
 std::optional<std::string> first_error(const std::string& complaints) {
-    static const std::regex kComplaint(R"((?:^|\n)[ \t]*(?:"[^"\n]*" )?line \d+: (?![Ww]arning)([^\n]+))");
-    std::smatch match;
-    if (!std::regex_search(complaints, match, kComplaint)) return {};
-    return match[1];
+    static const RE2 kComplaint(R"((?m)^[ \t]*(?:"[^"\n]*" )?line \d+: (.+))", RE2::Latin1);
+    std::string complaint;
+    for (re2::StringPiece rest = complaints; RE2::FindAndConsume(&rest, kComplaint, &complaint);)
+        if (!complaint.starts_with("warning") && !complaint.starts_with("Warning")) return complaint;
+    return {};
 }
 
 std::string last_words(const std::string& complaints) {

@@ -9,14 +9,17 @@ namespace dynlab::inline platform {
 std::optional<std::filesystem::path> find_program(const std::string& name);  ///< in PATH, or a path as it is
 
 /// The programs that together are dynlab, in one folder. People start the first; for a command that it lacks it goes on
-/// as the second or the third, which has all commands. The last works in boxes.
+/// as the second, which has all commands. The last one works in sandboxes.
 inline constexpr const char* kProgram = "dynlab";
 inline constexpr const char* kCourseProgram = "dynlab-course";
-inline constexpr const char* kPagesProgram = "dynlab-pages";
 inline constexpr const char* kBoxedProgram = "dynlab-boxed";
 
 /// The file of the program that runs; that of dynlab where one of the others does.
 std::filesystem::path running_program();
+
+/// Where scripts/start records the source tree from which the installed `dynlab` was built:
+/// <prefix>/share/dynlab/source.
+std::filesystem::path source_record(const std::filesystem::path& dynlab);
 
 /// Those of dynlab's programs that are there, in the order above, `dynlab` being the file of the first.
 std::vector<std::filesystem::path> programs_beside(const std::filesystem::path& dynlab);

@@ -1,9 +1,9 @@
 #include "workflow/cheat_sheet.h"
 
 #include <fmt/format.h>
+#include <re2/re2.h>
 
 #include <algorithm>
-#include <regex>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -14,6 +14,7 @@
 #include "platform/error.h"
 #include "platform/program_lookup.h"
 #include "platform/temporary_folder.h"
+#include "scripting/interpreter/catalogue.h"
 #include "scripting/runtime/help.h"
 
 namespace dynlab::inline workflow {
@@ -33,8 +34,8 @@ constexpr const char* kSheetBegin = R"(\begin{document}
 
 /// Whether a word is one of an equation: "B/F", "y", "+", "=", the last one with a comma behind it.
 bool is_symbol(std::string_view word) {
-    static const std::regex kSymbol("[A-Z](/[A-Z])?|[euvy]|[=+]");
-    return std::regex_match(word.begin(), word.end(), kSymbol);
+    static const RE2 kSymbol("[A-Z](/[A-Z])?|[euvy]|[=+]", RE2::Latin1);
+    return RE2::FullMatch(word, kSymbol);
 }
 
 constexpr char kTie = '\t';  // a space at which no line breaks
@@ -98,8 +99,7 @@ std::string latex_cell(std::string_view markdown) {
     bool code = false;
     const auto end_piece = [&] {
         const std::string words = latex_words(tied(piece));
-        latex += code ? "\\texttt{" + words + "}"
-                      : std::regex_replace(words, std::regex("R\\\\_T\\\\textasciicircum\\{\\}2"), "$$R_T^2$$");
+        latex += code ? "\\texttt{" + words + "}" : replaced(words, R"(R\_T\textasciicircum{}2)", "$R_T^2$");
         piece.clear();
     };
     for (std::size_t i = 0; i < markdown.size(); ++i) {

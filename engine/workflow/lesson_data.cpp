@@ -32,7 +32,7 @@ RunRecord run_of_solution(const PercentScript& script) {
     GnuplotRenderer renderer;
     ReportLanguage language{script.header.language};
     Runtime runtime(options, renderer);
-    runtime.set_service(&language);
+    runtime.services().language = &language;
     return runtime.run(script);
 }
 

@@ -14,7 +14,7 @@
 #include "platform/program_lookup.h"
 #include "platform/stopwatch.h"
 #include "platform/temporary_folder.h"
-#include "scripting/memoized_calls/call_cache.h"
+#include "scripting/memoized_calls/memoized_call.h"
 #include "workflow/error_text.h"
 #include "workflow/given_script.h"
 #include "workflow/measures.h"

@@ -99,10 +99,8 @@ ScriptWorld::ScriptWorld(const RunRequest& request, GnuplotRenderer& renderer)
     : language{request.script.header.language},
       sliders{request.slider_values},
       runtime(run_options(request), renderer) {
-    runtime.set_service(&language);
-    if (request.written != nullptr) runtime.set_service(request.written);
-    runtime.set_service(&sliders);
-    if (request.shared != nullptr) runtime.set_service(request.shared);
+    runtime.services() = {
+        .language = &language, .sliders = &sliders, .written = request.written, .shared = request.shared};
 }
 
 RunRecord run_script(const RunRequest& request, GnuplotRenderer& renderer) {

@@ -1,8 +1,8 @@
 #include "workflow/script_folder.h"
 
 #include <fmt/format.h>
+#include <re2/re2.h>
 
-#include <regex>
 #include <set>
 
 #include "documents/bibliography.h"
@@ -25,11 +25,11 @@ void copy_with_time(const fs::path& from, const fs::path& to) {
 
 /// Names in quotes, of files that lie beside the script.
 std::set<std::string> files_named_in(const std::string& source, const fs::path& beside) {
-    static const std::regex kQuoted("[\"']([^\"'\\\\\n]{1,200})[\"']");
+    static const RE2 kQuoted(R"(["']([^"'\\\n]{1,200})["'])", RE2::Latin1);
     std::set<std::string> names;
-    for (auto found = std::sregex_iterator(source.begin(), source.end(), kQuoted); found != std::sregex_iterator();
-         ++found) {
-        const fs::path name = (*found)[1].str();
+    std::string quoted;
+    for (re2::StringPiece rest = source; RE2::FindAndConsume(&rest, kQuoted, &quoted);) {
+        const fs::path name = quoted;
         if (name == name.filename() && fs::is_regular_file(fs::symlink_status(beside / name))) names.insert(name);
     }
     return names;

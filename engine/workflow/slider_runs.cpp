@@ -6,7 +6,7 @@
 
 #include "documents/html/slider_page.h"
 #include "platform/atomic_file.h"
-#include "scripting/memoized_calls/call_cache.h"
+#include "scripting/memoized_calls/memoized_call.h"
 #include "workflow/branched_runs.h"
 
 namespace dynlab::inline workflow {

@@ -12,7 +12,7 @@ add_custom_command(OUTPUT ${made}/done
   COMMAND ${CMAKE_COMMAND} -E rm -rf ${made}
   COMMAND dynlab man-pages ${made}/man1
   COMMAND sh -c "gzip -9n ${made}/man1/*.1 && gzip -9nc ${files}/changelog >${made}/changelog.gz && touch ${made}/done"
-  DEPENDS dynlab ${files}/changelog VERBATIM)
+  DEPENDS dynlab_programs ${files}/changelog VERBATIM)
 add_custom_target(dynlab_packaging ALL DEPENDS ${made}/done)
 
 install(DIRECTORY ${made}/man1 DESTINATION share/man)

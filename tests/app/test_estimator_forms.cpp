@@ -13,8 +13,8 @@
 #include "documents/words/sentence_catalogue.h"
 #include "figures/gnuplot_renderer.h"
 #include "platform/atomic_file.h"
+#include "scripting/interpreter/catalogue.h"
 #include "scripting/interpreter/runtime.h"
-#include "scripting/runtime/function_entry.h"
 
 namespace test_estimator_forms {
 using namespace dynlab;

@@ -5,12 +5,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <atomic>
+#include <chrono>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <semaphore>
 #include <thread>
 
 #include "platform/temporary_folder.h"
+#include "support/environment_variable.h"
 
 namespace test_live_document {
 using namespace dynlab;
@@ -21,16 +23,14 @@ using namespace std::chrono_literals;
 class live_document : public testing::Test {
   protected:
     live_document() {
-        ::setenv("XDG_CACHE_HOME", (folder.path() / "cache").c_str(), 1);
         ::setenv("DYNLAB_HOME", DYNLAB_SOURCE_DIR, 1);
         std::ofstream(folder.path() / "analysis.lua") << "-- %% id=one\nprint(\"it is \" .. 3 + 4)\n";
     }
-    ~live_document() override { ::unsetenv("XDG_CACHE_HOME"); }
 
     /// Shows the document until its run is over; notes what a reader is told.
     void open() {
         readings = 0, told.clear();
-        std::atomic<bool> over = false;
+        std::counting_semaphore<> over(0);
         ScriptRunner runner;
         LivePage page;
         const auto read = [this] {
@@ -43,18 +43,18 @@ class live_document : public testing::Test {
             const std::string whose = shown["recalled"] == true ? "of before" : "own";
             const std::string what = page.settled() ? "settled" : shown["running"] == true ? "running" : "waiting";
             if (told.empty() || told.back() != whose + ", " + what) told.push_back(whose + ", " + what);
-            over = page.settled() && shown["html"].dump().find("it is 7") != std::string::npos;
+            if (page.settled() && shown["html"].dump().find("it is 7") != std::string::npos) over.release();
         });
         document.allow_runs();
         const std::jthread reader([&] {
-            for (int i = 0; i < 600 && !over; ++i) std::this_thread::sleep_for(50ms);
-            std::this_thread::sleep_for(300ms);  // nothing more is told then
+            if (over.try_acquire_for(30s)) std::this_thread::sleep_for(300ms);  // nothing more is told then
             document.end();
         });
         document.work();
     }
 
     TemporaryFolder folder;
+    test::EnvironmentVariable cache_home{"XDG_CACHE_HOME", folder.path() / "cache"};
     int readings = 0;
     std::vector<std::string> told;
 };

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "platform/temporary_folder.h"
+#include "support/environment_variable.h"
 
 namespace test_live_page {
 using namespace dynlab;
@@ -129,7 +130,7 @@ TEST_F(live_page, reads_the_french_of_a_lesson_once) {
     };
     add_lesson("91_first", "c'est deux");
     add_lesson("92_second", "il y en a deux");
-    ::setenv("DYNLAB_LESSONS", (folder.path() / "lessons").c_str(), 1);
+    const test::EnvironmentVariable lessons("DYNLAB_LESSONS", folder.path() / "lessons");
     page.speak("fr", "91_first");
     EXPECT_EQ(page.told("quuxes abound here"), "c'est deux");
     add_lesson("91_first", "changed");
@@ -138,7 +139,6 @@ TEST_F(live_page, reads_the_french_of_a_lesson_once) {
     EXPECT_EQ(page.told("quuxes abound here"), "il y en a deux");
     page.speak("fr", "");
     EXPECT_EQ(page.told("quuxes abound here"), "quuxes abound here");
-    ::unsetenv("DYNLAB_LESSONS");
 }
 
 }  // namespace test_live_page

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "platform/temporary_folder.h"
+#include "support/environment_variable.h"
 
 namespace test_page_memory {
 using namespace dynlab;
@@ -14,7 +15,6 @@ namespace fs = std::filesystem;
 class page_memory : public testing::Test {
   protected:
     page_memory() {
-        ::setenv("XDG_CACHE_HOME", (folder.path() / "cache").c_str(), 1);
         ::setenv("DYNLAB_HOME", DYNLAB_SOURCE_DIR, 1);
         memory.emplace();
         write("report.md", "---\ntitle: A report\n---\n\n::: {.cells}\n:::\n");
@@ -25,7 +25,6 @@ class page_memory : public testing::Test {
         files = {folder.path() / "d.csv"};
         page.name = "analysis.lua", page.html["p1"] = "<p>one</p>", page.complaints = {"no such figure"};
     }
-    ~page_memory() override { ::unsetenv("XDG_CACHE_HOME"); }
     void write(const std::string& name, const std::string& text) const { std::ofstream(folder.path() / name) << text; }
     void set_script(const std::string& source) {
         request.script = parse_percent_script(source, folder.path() / "analysis.lua");
@@ -36,6 +35,7 @@ class page_memory : public testing::Test {
     }
 
     TemporaryFolder folder;
+    test::EnvironmentVariable cache_home{"XDG_CACHE_HOME", folder.path() / "cache"};
     std::optional<PageMemory> memory;
     ReportRequest request;
     std::vector<fs::path> files;

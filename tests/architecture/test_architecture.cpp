@@ -17,7 +17,7 @@
 
 #include "numerics/estimators/catalogue.h"
 #include "scripting/conversions/option_words.h"
-#include "scripting/runtime/function_entry.h"
+#include "scripting/interpreter/catalogue.h"
 #include "scripting/runtime/help.h"
 
 namespace test_architecture {
@@ -254,6 +254,79 @@ TEST(architecture, no_symbol_is_defined_twice) {
         if (!first && known->second != place) offences.push_back(name + " in " + known->second + " and " + place);
     }
     EXPECT_GT(objects.size(), 1000u);
+    EXPECT_THAT(offences, IsEmpty());
+}
+
+/// Function definitions of a source at the outermost level: "name" or "Class::name".
+std::vector<std::string> functions_defined_in(const std::string& source) {
+    const std::string code = std::regex_replace(source, std::regex("//[^\n]*"), "");
+    return matches(code, R"(\n[A-Za-z][^;{}#()=\n]*?((?:\w+(?:<\w+>)?::)?\w+)\([^;{}]*\)(?: const)? \{)");
+}
+
+/// The functions that a header declares outside of its classes, and those that its classes declare, as Class::name.
+std::set<std::string> functions_declared_in(const std::string& header) {
+    const std::string code = std::regex_replace(header, std::regex("//[^\n]*"), "");
+    std::set<std::string> names;
+    for (const std::string& name :
+         matches(code, R"(\n(?!using|typedef)[A-Za-z][^;{}#()=\n]*?(\w+)\([^;{}]*\)(?: const)?;)"))
+        names.insert(name);
+    const std::regex classes(R"((?:struct|class) (\w+(?:<\w+>)?)[^;{}()]*\{\n([^}]*)\n\};)");
+    for (std::sregex_iterator it(code.begin(), code.end(), classes), end; it != end; ++it)
+        for (const std::string& name :
+             matches("\n" + std::string((*it)[2]), R"(\n    [A-Za-z][^;{}#()=\n]*?(\w+)\([^;{}]*\)(?: const)?;)"))
+            names.insert(std::string((*it)[1]) + "::" + name);
+    return names;
+}
+
+// What an early room declares and a later one defines would be an include upward that the linker hides.
+TEST(architecture, what_a_room_declares_no_later_room_defines) {
+    const std::string readme = text_of(kRoot / "engine/README.md");
+    std::vector<std::string> offences;
+    std::size_t compared = 0;
+    for (const auto& [layer, layers] : allowed_layers()) {
+        const std::vector<std::string> rows = matches(readme, "\n\\| `" + layer + "` \\| `([a-z_ ]+)`");
+        std::map<std::string, int> places;
+        std::istringstream names(rows.empty() ? "" : rows[0]);
+        for (std::string name; names >> name;) places.emplace(name, static_cast<int>(places.size()));
+        const auto place = [&, layer = layer](const fs::path& file) {
+            const auto found = places.find(fs::relative(file, kRoot / "engine" / layer).begin()->string());
+            return found == places.end() ? -1 : found->second;
+        };
+        std::map<std::string, std::vector<fs::path>> definitions;
+        for (const fs::path& file : files_below(kRoot / "engine" / layer, {".cpp"}))
+            for (const std::string& name : functions_defined_in(text_of(file))) definitions[name].push_back(file);
+        for (const fs::path& file : files_below(kRoot / "engine" / layer, {".h"})) {
+            if (place(file) < 0) continue;
+            for (const std::string& name : functions_declared_in(text_of(file))) {
+                const std::vector<fs::path>& defined = definitions[name];
+                compared += defined.empty() ? 0 : 1;
+                if (!defined.empty() && std::all_of(defined.begin(), defined.end(), [&](const fs::path& source) {
+                        return place(source) > place(file);
+                    }))
+                    offences.push_back(place_of(file) + " declares " + name + ", which " + place_of(defined.front()) +
+                                       " defines");
+            }
+        }
+    }
+    EXPECT_GT(compared, 1000u);
+    EXPECT_THAT(offences, IsEmpty());
+}
+
+// Where is srivc? In srivc.cpp. A family of methods in one file has its first function there.
+TEST(architecture, an_estimator_is_defined_in_the_file_of_its_name) {
+    std::map<std::string, std::string> first_of_family;
+    for (const dynlab::MethodEntry& method : dynlab::method_catalogue())
+        first_of_family[fs::path(method.file).filename().string()] = method.lua_names.front();
+    std::vector<std::string> offences;
+    for (const fs::path& file : files_below(kRoot / "engine/numerics/estimators", {".cpp"})) {
+        const std::string name = file.stem().string();
+        if (name == "catalogue") continue;
+        const std::vector<std::string> defined = functions_defined_in(text_of(file));
+        const auto holds = [&](const std::string& function) {
+            return std::find(defined.begin(), defined.end(), function) != defined.end();
+        };
+        if (!holds(name) && !holds(first_of_family[name])) offences.push_back(place_of(file));
+    }
     EXPECT_THAT(offences, IsEmpty());
 }
 

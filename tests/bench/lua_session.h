@@ -5,7 +5,7 @@
 #include "numerics/linalg/types.h"
 #include "platform/temporary_folder.h"
 #include "scripting/interpreter/runtime.h"
-#include "scripting/memoized_calls/call_cache.h"
+#include "scripting/memoized_calls/memoized_call.h"
 
 namespace dynlab::bench {
 

@@ -1,12 +1,17 @@
 #pragma once
 #include <gmock/gmock.h>
 
-#include <fstream>
+#include <filesystem>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "course/store/assignments.h"
+#include "course/store/groups.h"
 #include "platform/atomic_file.h"
 #include "platform/box.h"
+#include "platform/temporary_folder.h"
 #include "support/program.h"
 
 namespace dynlab::test {
@@ -30,20 +35,13 @@ inline std::string small_pdf(const std::string& text) {
 }
 
 /// A course of groups group-01, group-02, ... with a student each, and a report "crane" with deadlines at noon on
-/// 1, 8 and 15 March 2026, UTC, with ten minutes of grace.
+/// 1, 8 and 15 March 2026, UTC, with ten minutes of grace. The course is made once in this process and copied: courses
+/// of equal size have the same key.
 class CourseBench {
   public:
-    explicit CourseBench(int groups, int reviews = 2) {
-        std::string roster = "id,name,group\n";
-        for (int i = 1; i <= groups; ++i)
-            roster += "s" + std::to_string(i) + ",Student " + std::to_string(i) + "," + group(i) + "\n";
-        bench_.write("roster.csv", roster);
-        expect_done(bench_.dynlab({"course", "init", "k", "--timezone", "UTC"}));
-        expect_done(course({"roster", "import", "roster.csv"}));
-        expect_done(course({"assignment", "add", "crane", "--first", "2026-03-01 12:00", "--review", "2026-03-08 12:00",
-                            "--final", "2026-03-15 12:00", "--grace", "10min", "--seed", "7", "--reviews",
-                            std::to_string(reviews)}));
-    }
+    explicit CourseBench(int groups, int reviews = 2) { copy_from(new_course(groups, reviews)); }
+    /// A copy of another bench's folder: the work that several tests start from is done once.
+    CourseBench(const CourseBench& other) { copy_from(other.bench_.path()); }
     static std::string group(int i) { return (i < 10 ? "group-0" : "group-") + std::to_string(i); }
     static void expect_done(const ChildResult& result) { EXPECT_EQ(result.exit_code, 0) << result.error_output; }
 
@@ -65,6 +63,32 @@ class CourseBench {
     static std::string level() { return obstacle_to(Isolation::kFull) ? "process" : "full"; }
 
   private:
+    static std::filesystem::path new_course(int groups, int reviews) {
+        static std::map<std::pair<int, int>, TemporaryFolder> folders;
+        const auto [place, is_new] = folders.try_emplace({groups, reviews});
+        const std::filesystem::path folder = place->second.path();
+        if (!is_new) return folder;
+        std::string roster = "id,name,group\n";
+        for (int i = 1; i <= groups; ++i)
+            roster += "s" + std::to_string(i) + ",Student " + std::to_string(i) + "," + group(i) + "\n";
+        write_file_atomically(folder / "roster.csv", roster);
+        Course::create(folder / "k", "k", "UTC");
+        Course course(folder / "k");
+        import_roster(course, folder / "roster.csv");
+        const auto noon = [&course](const std::string& day) { return course.clock().parse(day + " 12:00", "day"); };
+        Assignment crane;
+        crane.name = "crane";
+        crane.first_due = noon("2026-03-01"), crane.review_due = noon("2026-03-08"),
+        crane.final_due = noon("2026-03-15");
+        crane.grace = 600, crane.reviews = reviews, crane.seed = 7;
+        crane.criteria = usual_criteria(crane.kind);
+        add_assignment(course, crane);
+        return folder;
+    }
+    void copy_from(const std::filesystem::path& folder) const {
+        std::filesystem::copy(folder, bench_.path(), std::filesystem::copy_options::recursive);
+    }
+
     Workbench bench_;
 };
 

@@ -13,6 +13,9 @@ using ::testing::Not;
 
 class corrections : public testing::Test {
   protected:
+    corrections() : course_(4) {}
+    explicit corrections(const CourseBench& begun) : course_(begun) {}
+
     ChildResult course(const std::vector<std::string>& words) { return course_.course(words); }
     std::string done(const std::vector<std::string>& words) {
         const ChildResult result = course(words);
@@ -23,14 +26,28 @@ class corrections : public testing::Test {
     /// The rows of what was received, as they were signed.
     std::string signed_rows() { return shell("sqlite3 k/course.db 'SELECT * FROM versions'"); }
     std::string shell(const std::string& command) { return course_.bench().shell(command).output; }
-    void all_hand_in(int groups) {
-        for (int i = 1; i <= groups; ++i)
-            CourseBench::expect_done(course_.hand_in(CourseBench::group(i) + ".pdf",
-                                                     small_pdf("report " + std::to_string(i)), "2026-03-01 10:00",
-                                                     {"--no-checks"}));
-    }
 
-    CourseBench course_{4};
+    CourseBench course_;
+};
+
+/// All reports are on their way to two reviewers each.
+class corrections_of_reviews : public corrections {
+  protected:
+    corrections_of_reviews() : corrections(sent()) {}
+
+    static const CourseBench& sent() {
+        static const CourseBench bench = [] {
+            CourseBench made(4);
+            for (int i = 1; i <= 4; ++i)
+                made.bench().write("in/" + CourseBench::group(i) + ".pdf", small_pdf("report " + std::to_string(i)));
+            CourseBench::expect_done(made.course({"receive", "in", "--at", "2026-03-01 10:00", "--no-checks"}));
+            CourseBench::expect_done(made.course({"peer", "assign", "--at", "2026-03-02 10:00"}));
+            EXPECT_THAT(made.course({"peer", "send", "--at", "2026-03-02 11:00"}).output,
+                        HasSubstr("8 sent now, 0 before"));
+            return made;
+        }();
+        return bench;
+    }
 };
 
 TEST_F(corrections, a_time_of_receipt_is_corrected_by_a_further_receipt) {
@@ -165,10 +182,7 @@ TEST_F(corrections, an_assignment_is_removed_while_nothing_hangs_on_it) {
                 HasSubstr("something hangs on it (its versions)"));
 }
 
-TEST_F(corrections, a_newer_version_goes_out_again_or_is_held_back) {
-    all_hand_in(4);
-    done({"peer", "assign", "--at", "2026-03-02 10:00"});
-    EXPECT_THAT(done({"peer", "send", "--at", "2026-03-02 11:00"}), HasSubstr("8 sent now, 0 before"));
+TEST_F(corrections_of_reviews, a_newer_version_goes_out_again_or_is_held_back) {
     const std::string sent = shell("cat k/outbox/crane/to-review/*/*.pdf | sha256sum");
     course_.hand_in("group-01.pdf", small_pdf("better"), "2026-03-02 12:00", {"--no-checks"});
     EXPECT_THAT(status(),
@@ -190,10 +204,7 @@ TEST_F(corrections, a_newer_version_goes_out_again_or_is_held_back) {
                 HasSubstr("not held back"));
 }
 
-TEST_F(corrections, a_newer_review_goes_out_again_and_a_withdrawn_one_leaves_the_outbox) {
-    all_hand_in(4);
-    done({"peer", "assign", "--at", "2026-03-02 10:00"});
-    done({"peer", "send", "--at", "2026-03-02 11:00"});
+TEST_F(corrections_of_reviews, a_newer_review_goes_out_again_and_a_withdrawn_one_leaves_the_outbox) {
     const std::string report =
         shell("basename $(ls k/outbox/crane/to-review/group-01/*.pdf | head -1) .pdf | tr -d '\\n'");
     const auto review = [&](const std::string& text) {
@@ -214,10 +225,7 @@ TEST_F(corrections, a_newer_review_goes_out_again_and_a_withdrawn_one_leaves_the
     EXPECT_THAT(shell("ls k/outbox/crane/reviews/*/*.pdf | wc -l"), HasSubstr("0"));
 }
 
-TEST_F(corrections, pairs_are_set_and_forbidden_by_hand) {
-    all_hand_in(4);
-    done({"peer", "assign", "--at", "2026-03-02 10:00"});
-    done({"peer", "send", "--at", "2026-03-02 11:00"});
+TEST_F(corrections_of_reviews, pairs_are_set_and_forbidden_by_hand) {
     const auto reads = [&](const std::string& who, const std::string& whose) {
         return shell("$DYNLAB course --course k peer show crane | awk '$1 == \"" + who + "\" && $3 == \"" + whose +
                      "\" && $NF != \"back\"' | wc -l") == "1\n";
@@ -235,10 +243,7 @@ TEST_F(corrections, pairs_are_set_and_forbidden_by_hand) {
     EXPECT_EQ(course({"peer", "set", "crane", "group-01", "group-01", "--reason", "x"}).exit_code, 1);
 }
 
-TEST_F(corrections, who_joins_the_authors_reviews_them_no_more) {
-    all_hand_in(4);
-    done({"peer", "assign", "--at", "2026-03-02 10:00"});
-    done({"peer", "send", "--at", "2026-03-02 11:00"});
+TEST_F(corrections_of_reviews, who_joins_the_authors_reviews_them_no_more) {
     const std::string author =
         shell("$DYNLAB course --course k peer show crane | awk '$1 == \"group-01\" {print $3; exit}'").substr(0, 8);
     course_.bench().write("roster.csv", "id,name,group\ns" + author.substr(7) + ",Student,group-01\n");

@@ -16,19 +16,15 @@ using ::testing::Not;
 /// criteria.
 class ScoredCourse {
   public:
-    explicit ScoredCourse(const std::vector<std::string>& scores) : bench_(4, 3) {
-        for (int i = 1; i <= 4; ++i)
-            bench_.bench().write("in/" + CourseBench::group(i) + ".pdf", small_pdf("report " + std::to_string(i)));
-        CourseBench::expect_done(bench_.course({"receive", "in", "--at", "2026-03-01 10:00", "--no-checks"}));
-        CourseBench::expect_done(bench_.course({"peer", "assign", "--at", "2026-03-02 10:00"}));
+    explicit ScoredCourse(const std::vector<std::string>& scores) : bench_(assigned()) {
         std::string table;
         for (std::size_t i = 0; i < scores.size(); ++i) table += scores[i] + "\n";
         bench_.bench().write("table", table);
         const ChildResult made = bench_.bench().shell(
             "echo reviewer,report,data,steps,conclusions,strength,suggestions >s.csv\n"
-            "$DYNLAB course --course k peer show | awk 'NR == FNR {for (i = 1; i <= 4; i++) s[FNR, i] = $i; next} "
+            "awk 'NR == FNR {for (i = 1; i <= 4; i++) s[FNR, i] = $i; next} "
             "/^group/ {r = substr($1, 7) + 0; a = substr($3, 7) + 0; p = s[r, a]; "
-            "print $1 \",\" $2 \",\" p \",\" p \",\" p \",\" p \",\" p}' table - >>s.csv");
+            "print $1 \",\" $2 \",\" p \",\" p \",\" p \",\" p \",\" p}' table pairs >>s.csv");
         EXPECT_EQ(made.exit_code, 0) << made.error_output;
     }
     CourseBench& bench() { return bench_; }
@@ -36,6 +32,19 @@ class ScoredCourse {
     std::string marks() { return bench_.course({"marks", "crane"}).output; }
 
   private:
+    static const CourseBench& assigned() {
+        static const CourseBench bench = [] {
+            CourseBench made(4, 3);
+            for (int i = 1; i <= 4; ++i)
+                made.bench().write("in/" + CourseBench::group(i) + ".pdf", small_pdf("report " + std::to_string(i)));
+            CourseBench::expect_done(made.course({"receive", "in", "--at", "2026-03-01 10:00", "--no-checks"}));
+            CourseBench::expect_done(made.course({"peer", "assign", "--at", "2026-03-02 10:00"}));
+            made.bench().write("pairs", made.course({"peer", "show"}).output);
+            return made;
+        }();
+        return bench;
+    }
+
     CourseBench bench_;
 };
 

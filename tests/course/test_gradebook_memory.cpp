@@ -1,15 +1,24 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <ctime>
+
+#include "course/grading/class_owners.h"
+#include "course/grading/deadlines.h"
 #include "course/grading_bench.h"
+#include "platform/error.h"
 #include "platform/locks/file_lock.h"
+#include "platform/temporary_folder.h"
+#include "support/environment_variable.h"
 
 namespace dynlab::test {
 namespace test_gradebook_memory {
 namespace fs = std::filesystem;
 using ::testing::AllOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using ::testing::UnorderedElementsAre;
 
 constexpr const char* kAnswers = "--   x: number\n";
 constexpr const char* kSolution = "answer('x', 42)\n";
@@ -119,20 +128,31 @@ TEST(gradebook_memory, only_takes_a_name_a_group_an_id_or_a_student) {
          {"Anna Müller_900001_assignsubmission_file_", "group-2", "Ben Lee_900003_assignsubmission_file_"})
         bench.hand_in(name, kSolution);
     work.write("roster.csv", "id;name;group\n1;Anna Müller;group-1\n2;Zoë Ade;group-2\n3;Ben Lee;group-3\n");
-    ASSERT_EQ(bench.grade({"--roster", "roster.csv"}).exit_code, 0);
+    GradingRequest request;
+    request.roster = work.path("roster.csv");
+    const ClassOwners owners(request);
+    std::vector<std::string> left_out;
+    const std::vector<Submission> submissions = submissions_in(work.path("in"), left_out);
+    const auto chosen = [&](const std::vector<std::string>& words) {
+        std::vector<std::string> names;
+        for (const std::size_t place : owners.chosen(submissions, words))
+            names.push_back(submissions[place].name.substr(0, 7));
+        return names;
+    };
     for (const char* word :
          {"group-1", "Group 1", "anna muller", "1", "900001", "Anna Müller_900001_assignsubmission_file_"})
-        EXPECT_THAT(bench.grade({"--roster", "roster.csv", "--regrade", "--only", word}).output,
-                    HasSubstr("1 graded now, 0 unchanged"))
-            << word;
-    const ChildResult two = bench.grade({"--roster", "roster.csv", "--regrade", "--only", "Zoë Ade", "--only", "3"});
-    EXPECT_THAT(two.output, HasSubstr("2 graded now, 0 unchanged"));
+        EXPECT_THAT(chosen({word}), ElementsAre("Anna M\xC3")) << word;
+    EXPECT_THAT(chosen({"Zoë Ade", "3"}), UnorderedElementsAre("group-2", "Ben Lee"));
+    EXPECT_EQ(chosen({}).size(), 3u);
+    EXPECT_THROW(chosen({"group-4"}), EnvironmentError);
+    // The command takes the words, and reports those that are not graded now but would get other marks.
+    ASSERT_EQ(bench.grade({"--roster", "roster.csv"}).exit_code, 0);
+    bench.hand_in("group-2", "answer('x', 1)\n");
+    const ChildResult one = bench.grade({"--roster", "roster.csv", "--regrade", "--only", "3"});
+    EXPECT_THAT(one.output, HasSubstr("1 graded now, 0 unchanged"));
+    EXPECT_THAT(one.error_output, HasSubstr("the marks of \"group-2\" are from before"));
     EXPECT_THAT(bench.grade({"--roster", "roster.csv", "--only", "group-4"}).error_output,
                 HasSubstr("there is no submission \"group-4\""));
-    // Those that are not graded now but would get other marks are told.
-    bench.hand_in("group-2", "answer('x', 1)\n");
-    EXPECT_THAT(bench.grade({"--roster", "roster.csv", "--only", "3"}).error_output,
-                HasSubstr("the marks of \"group-2\" are from before"));
 }
 
 // oracle: the roster, and who handed in what
@@ -187,16 +207,29 @@ TEST(gradebook_memory, deadlines_know_grace_zones_and_more_time) {
                 HasSubstr("which costs 0.2 points: received 2026-03-01 18:20 CET, 20 min after"));
     EXPECT_THAT(bench.result("group-1").at("output").get<std::string>(), HasSubstr("costs 0.20 points: " + reason));
     EXPECT_THAT(bench.grade({"--timezone", "Nowhere/Land", "--again"}).error_output, HasSubstr("Nowhere/Land"));
-    work.write("deadlines.csv", "submission,deadline,extra\ngroup-1,,2 d\n");
-    EXPECT_THAT(bench.grade({"--deadlines", "deadlines.csv", "--again"}).error_output,
-                HasSubstr("line 2: deadline must be a time"));
-    // Days that do not exist, and the hour that summer time leaves out.
-    for (const char* wrong : {"2026-02-30 18:00", "2026-03-29 02:30"}) {
-        work.write("deadlines.csv", std::string("submission,deadline\n*,") + wrong + "\n");
-        EXPECT_THAT(
-            bench.grade({"--deadlines", "deadlines.csv", "--timezone", "Europe/Paris", "--again"}).error_output,
-            HasSubstr(std::string("line 2: deadline must be a time that there is, but \"") + wrong + "\" was given"));
-    }
+}
+
+// oracle: the calendar: days that do not exist, and the hour that summer time leaves out
+TEST(gradebook_memory, deadlines_that_are_no_time_are_refused_with_their_line) {
+    const TemporaryFolder work;
+    const std::filesystem::path file = work.path() / "deadlines.csv";
+    const auto refusal = [&](const std::string& rows) -> std::string {
+        write_file_atomically(file, rows);
+        const EnvironmentVariable zone("TZ", "Europe/Paris");
+        ::tzset();
+        try {
+            const Deadlines read(file);
+        } catch (const EnvironmentError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_EQ(refusal("submission,deadline\n*,2026-03-29 03:30\n"), "");
+    EXPECT_THAT(refusal("submission,deadline,extra\ngroup-1,,2 d\n"), HasSubstr("line 2: deadline must be a time"));
+    for (const std::string wrong : {"2026-02-30 18:00", "2026-03-29 02:30"})
+        EXPECT_THAT(refusal("submission,deadline\n*," + wrong + "\n"),
+                    HasSubstr("line 2: deadline must be a time that there is, but \"" + wrong + "\" was given"));
+    ::tzset();
 }
 
 // oracle: of two hand-ins the better, or the one that came last

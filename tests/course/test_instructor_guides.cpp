@@ -74,7 +74,7 @@ std::vector<PrintedCommand> printed_in(const std::string& block) {
     return commands;
 }
 
-TEST(instructor_guides, marks_of_a_class_are_made_as_it_is_printed) {
+TEST(instructor_guide_marks, of_a_class_are_made_as_it_is_printed) {
     if (obstacle_to(Isolation::kFull))
         GTEST_SKIP() << "the guide shows marks made in boxes, which are not to be had here";
     const std::string part = guide("instructor");

@@ -18,51 +18,48 @@ using testing::Not;
 
 class leaks : public LeakCorpus {
   protected:
-    void expect_in_text(const std::string& body, const std::string& preamble = "") {
-        EXPECT_THAT(found(latex(preamble, std::string(kProse) + body)), ElementsAre("name-in-text 1")) << body;
+    /// Each text is a page of one document, and names somebody there.
+    void expect_in_text(const std::vector<std::string>& texts, const std::string& preamble = "") {
+        std::string body;
+        std::vector<std::string> expected;
+        for (const std::string& text : texts) {
+            body += kProse + ("{" + text + "}\n\\newpage\n");
+            expected.push_back("name-in-text " + std::to_string(expected.size() + 1));
+        }
+        EXPECT_THAT(found(latex(preamble, body)), testing::ElementsAreArray(expected));
     }
 };
 
 TEST_F(leaks, in_the_text_in_every_spelling) {
-    expect_in_text("A report by Zo\\'e Brandtner.");
-    expect_in_text("A report by BRANDTNER, ZOE.");
-    expect_in_text("Z. Brandtner wrote it.");
-    expect_in_text("zoe brandtner");
-    expect_in_text("Zo\\'e M. Brandtner");
-    expect_in_text("Jean-Pierre O'Marrec was there.");
-    expect_in_text("Muellhauser made the figures.");
-    expect_in_text("Li Wu made the figures.");
-    expect_in_text("The authors are Park, May and others.");
+    expect_in_text({"A report by Zo\\'e Brandtner.", "A report by BRANDTNER, ZOE.", "Z. Brandtner wrote it.",
+                    "zoe brandtner", "Zo\\'e M. Brandtner", "Jean-Pierre O'Marrec was there.",
+                    "Muellhauser made the figures.", "Li Wu made the figures.",
+                    "The authors are Park, May and others."});
 }
 
 TEST_F(leaks, in_hyphenated_words_ligatures_and_letters_set_apart) {
-    expect_in_text("\\parbox{12mm}{\\hspace{0pt}Brandt\\-ner}");
-    expect_in_text("This is Griffistone's own work.");
-    expect_in_text("B R A N D T N E R");
-    expect_in_text("\\texttt{author = zoe\\_brandtner}");
+    expect_in_text({"\\parbox{12mm}{\\hspace{0pt}Brandt\\-ner}", "This is Griffistone's own work.", "B R A N D T N E R",
+                    "\\texttt{author = zoe\\_brandtner}"});
 }
 
 TEST_F(leaks, in_composed_and_decomposed_accents) {
-    expect_in_text("This is M\\\"ullhauser's own work.");
+    expect_in_text({"This is M\\\"ullhauser's own work."});
     EXPECT_THAT(found(latex("", std::string(kProse) + "By M\\\"ullhauser.", "ot1", "")), ElementsAre("name-in-text 1"));
     EXPECT_THAT(names_->find("Mu\u0308llhauser", TextManner::kProse), testing::SizeIs(1));
     EXPECT_THAT(names_->find("МОДЕЛЬ: ПЕТРОВСКАЯ Ольга", TextManner::kProse), testing::SizeIs(1));
 }
 
 TEST_F(leaks, numbers_addresses_groups_and_home_folders_in_the_text) {
-    expect_in_text("Number 20214711.");
-    expect_in_text("My account is e45678.");
-    expect_in_text("Student ID: 1007.");
-    expect_in_text("\\parbox{3cm}{\\raggedright young@ uni.\\\\example}");
-    expect_in_text("This is the report of group-07.");
-    expect_in_text("\\verb|/home/somebody/crane/analysis.lua|");
-    expect_in_text("\\verb|C:\\Users\\somebody\\crane.lua|");
+    expect_in_text({"Number 20214711.", "My account is e45678.", "Student ID: 1007.",
+                    "\\parbox{3cm}{\\raggedright young@ uni.\\\\example}", "This is the report of group-07.",
+                    "\\verb|/home/somebody/crane/analysis.lua|", "\\verb|C:\\Users\\somebody\\crane.lua|"});
 }
 
 TEST_F(leaks, in_text_that_no_reader_sees) {
-    expect_in_text("\\pdfliteral{3 Tr}by Zo\\'e Brandtner\\pdfliteral{0 Tr}");
-    expect_in_text("\\color{white}by Zo\\'e Brandtner", "\\usepackage{color}\n");
-    expect_in_text("\\rotatebox{90}{Brandtner, position}", "\\usepackage{graphicx}\n");
+    expect_in_text({"\\pdfliteral{3 Tr}by Zo\\'e Brandtner\\pdfliteral{0 Tr}", "\\color{white}by Zo\\'e Brandtner",
+                    "\\rotatebox{90}{Brandtner, position}"},
+                   "\\usepackage{color}\n"
+                   "\\usepackage{graphicx}\n");
     EXPECT_THAT(found(prose_with("\\hspace{0pt}\\rlap{\\hspace{60cm}Zo\\'e Brandtner}")), ElementsAre("name-hidden 1"));
     EXPECT_THAT(
         found(prose_with("\\setbox0\\hbox{Zo\\'e Brandtner}\\immediate\\pdfxform0 "

@@ -33,9 +33,10 @@ Lesson with_own_records_alone(const Workbench& bench, const std::string& lesson)
 
 /// The worked solution is right on whatever records it is given. What it does with the records of another rig is the
 /// same for every group, so that it is run on them once.
-void expect_full_marks(const GroupsOfLesson& groups, const std::string& secret = "chosen by a test") {
+void expect_full_marks(const GroupsOfLesson& groups, Workbench::Memory memory,
+                       const std::string& secret = "chosen by a test") {
     const auto& [lesson, seeds] = groups;
-    const Workbench bench;
+    const Workbench bench(memory);
     bench.write("in/analysis.lua", quick_solution_of(lesson));
     GradingSetup setup;
     setup.lesson = {lesson, lesson_folder(lesson)};
@@ -43,6 +44,7 @@ void expect_full_marks(const GroupsOfLesson& groups, const std::string& secret =
     setup.isolation = strongest_isolation();
     setup.program = DYNLAB_PROGRAM;
     setup.jobs = 2;
+    setup.call_memory = bench.cache() / "dynlab";
     const GradingRules rules(setup);
     setup.lesson = with_own_records_alone(bench, lesson);
     const GradingRules own_only(setup);
@@ -65,18 +67,18 @@ void expect_full_marks(const GroupsOfLesson& groups, const std::string& secret =
 
 // oracle: the lesson's own answers
 TEST_P(own_records, cost_the_worked_solution_no_points) {
-    expect_full_marks(GetParam());
+    expect_full_marks(GetParam(), Workbench::Memory::kShared);
 }
 // A quarter of an hour for the crane: scripts/test --long.
 TEST_P(own_records_of_many, cost_the_worked_solution_no_points) {
-    expect_full_marks(GetParam());
+    expect_full_marks(GetParam(), Workbench::Memory::kOwn);
 }
 // So many courses, whose hidden records are drawn from secrets of their own.
 TEST_P(own_records_of_many, cost_no_points_whatever_the_secret) {
     for (const int seed : GetParam().seeds) {
         const std::string secret = fmt::format("secret {}", seed);
         SCOPED_TRACE(secret);
-        expect_full_marks({GetParam().lesson, {1}}, secret);
+        expect_full_marks({GetParam().lesson, {1}}, Workbench::Memory::kOwn, secret);
     }
 }
 

@@ -197,10 +197,10 @@ TEST(peer_review, survives_being_killed_at_any_moment) {
         "set -e; killed=0; mkdir rounds; cp -r k rounds/k; begun=$(date +%s%N)\n"
         "$DYNLAB course --course rounds/k receive in --no-checks --at '2026-03-01 10:00' >/dev/null\n"
         "took=$(( ($(date +%s%N) - begun)/1000 )); rm -r rounds/k\n"  // microseconds
-        "for round in $(seq 60); do\n"
+        "for round in $(seq 30); do\n"
         "  cp -r k rounds/k\n"
         "  $DYNLAB course --course rounds/k receive in --no-checks --at '2026-03-01 10:00' >/dev/null 2>&1 &\n"
-        "  sleep $(printf 0.%06d $((took*round/60))); kill -9 $! 2>/dev/null && killed=$((killed + 1)); wait $! "
+        "  sleep $(printf 0.%06d $((took*round/30))); kill -9 $! 2>/dev/null && killed=$((killed + 1)); wait $! "
         "2>/dev/null "
         "|| true\n"
         "  $DYNLAB course --course rounds/k receive in --no-checks --at '2026-03-01 10:00' >/dev/null\n"
@@ -223,7 +223,9 @@ TEST(peer_review, keeps_two_writers_apart) {
     EXPECT_THAT(both.output, HasSubstr("\n0 0\n"));
     EXPECT_THAT(bench.course({"verify"}).output, HasSubstr("1 file, 8 versions: all there"));
     const ChildResult blocked = bench.bench().shell(
-        "(echo 'BEGIN IMMEDIATE;'; sleep 8) | sqlite3 k/course.db & sleep 0.5; "
+        "(echo 'BEGIN IMMEDIATE;'; echo '.shell touch begun'; sleep 20) 2>/dev/null | sqlite3 k/course.db >/dev/null "
+        "2>&1 & "
+        "until [ -e begun ]; do sleep 0.02; done; "
         "$DYNLAB course --course k roster drop group-01; code=$?; kill $!; exit $code");
     EXPECT_EQ(blocked.exit_code, 1);
     EXPECT_THAT(blocked.error_output, HasSubstr("another dynlab is writing to this course; nothing was changed"));

@@ -14,10 +14,15 @@ using testing::Not;
 /// A course that took group-01's report; the receipt and the public key in the student's own folder, "mine".
 class receipts : public testing::Test {
   protected:
-    receipts() {
-        CourseBench::expect_done(course_.hand_in("group-01.pdf", small_pdf("one"), "2026-03-01 10:00"));
-        CourseBench::expect_done(
-            shell("mkdir mine && cp k/receipts/crane/*-group-01-first-report.txt mine/r.txt && cp k/course.pub mine"));
+    static const CourseBench& begun() {
+        static const CourseBench bench = [] {
+            CourseBench made(2);
+            CourseBench::expect_done(made.hand_in("group-01.pdf", small_pdf("one"), "2026-03-01 10:00"));
+            CourseBench::expect_done(made.bench().shell(
+                "mkdir mine && cp k/receipts/crane/*-group-01-first-report.txt mine/r.txt && cp k/course.pub mine"));
+            return made;
+        }();
+        return bench;
     }
     ChildResult shell(const std::string& command) { return course_.bench().shell(command); }
     ChildResult verify(std::vector<std::string> words) {
@@ -27,7 +32,7 @@ class receipts : public testing::Test {
     std::string read(const std::string& file) { return course_.bench().read(file); }
     void write(const std::string& file, const std::string& text) { course_.bench().write(file, text); }
 
-    CourseBench course_{2};
+    CourseBench course_{begun()};
 };
 
 TEST_F(receipts, are_verified_without_the_course) {
@@ -92,7 +97,7 @@ TEST_F(receipts, forged_and_altered_ones_are_refused) {
 }
 
 TEST_F(receipts, of_another_course_are_refused) {
-    CourseBench other(2);
+    CourseBench other(3);  // courses of equal size share a key
     CourseBench::expect_done(other.hand_in("group-01.pdf", small_pdf("one"), "2026-03-01 10:00"));
     write("theirs.pub", other.bench().read("k/course.pub"));
     EXPECT_NE(read("theirs.pub"), read("mine/course.pub"));

@@ -12,14 +12,19 @@ using ::testing::HasSubstr;
 /// Three groups whose reports are on their way to reviewers, and a mark of the instructor's.
 class store_seal : public testing::Test {
   protected:
-    store_seal() {
-        for (int i = 1; i <= 3; ++i)
-            CourseBench::expect_done(course_.hand_in(CourseBench::group(i) + ".pdf",
-                                                     small_pdf("report " + std::to_string(i)), "2026-03-01 10:00",
-                                                     {"--no-checks"}));
-        CourseBench::expect_done(course_.course({"peer", "assign", "--at", "2026-03-02 10:00"}));
-        CourseBench::expect_done(course_.course({"peer", "send", "--at", "2026-03-02 11:00"}));
-        CourseBench::expect_done(course_.course({"override", "crane", "group-01", "work", "60", "--reason", "paper"}));
+    static const CourseBench& begun() {
+        static const CourseBench bench = [] {
+            const CourseBench made(3, 1);
+            for (int i = 1; i <= 3; ++i)
+                CourseBench::expect_done(made.hand_in(CourseBench::group(i) + ".pdf",
+                                                      small_pdf("report " + std::to_string(i)), "2026-03-01 10:00",
+                                                      {"--no-checks"}));
+            CourseBench::expect_done(made.course({"peer", "assign", "--at", "2026-03-02 10:00"}));
+            CourseBench::expect_done(made.course({"peer", "send", "--at", "2026-03-02 11:00"}));
+            CourseBench::expect_done(made.course({"override", "crane", "group-01", "work", "60", "--reason", "paper"}));
+            return made;
+        }();
+        return bench;
     }
     ChildResult shell(const std::string& command) { return course_.bench().shell(command); }
     std::string troubles_after(const std::string& sql) {
@@ -30,7 +35,7 @@ class store_seal : public testing::Test {
         return told.error_output;
     }
 
-    CourseBench course_{3, 1};
+    CourseBench course_{begun()};
 };
 
 TEST_F(store_seal, an_untouched_course_is_whole) {

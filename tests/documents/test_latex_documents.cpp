@@ -8,6 +8,7 @@
 #include "platform/child_process.h"
 #include "platform/error.h"
 #include "platform/program_lookup.h"
+#include "support/environment_variable.h"
 #include "support/pdf_inspection.h"
 
 namespace dynlab {
@@ -379,17 +380,14 @@ TEST_F(latex_documents, french_documents_need_the_french_language_of_latex) {
 }
 
 TEST_F(latex_documents, a_missing_program_is_named_with_its_package) {
-    const std::string path = std::getenv("PATH");
     const auto missing = [&](const std::string& search_path) -> std::string {
-        ::setenv("PATH", search_path.c_str(), 1);
-        std::string message;
+        const test::EnvironmentVariable path("PATH", search_path);
         try {
             make("Text\n", "out.pdf");
         } catch (const MissingProgram& error) {
-            message = error.what();
+            return error.what();
         }
-        ::setenv("PATH", path.c_str(), 1);
-        return message;
+        return "";
     };
     EXPECT_THAT(missing("/nowhere"), HasSubstr("apt install pandoc"));
     std::filesystem::create_symlink(*find_program("pandoc"), file("pandoc"));

@@ -9,16 +9,12 @@
 #include <random>
 
 #include "documents/text_lines.h"
+#include "lesson_record.h"
 #include "numerics/rigs/drifting_process.h"
 #include "numerics/rigs/drive.h"
-#include "support/program.h"
 
 namespace dynlab::test {
 namespace test_feedback_statements {
-
-double number(const nlohmann::json& record, const std::string& name) {
-    return record.at("values").at(name).at("number");
-}
 
 /// A cell of a table of numbers, "−1.5 ± 0.2" being -1.5.
 double cell(const nlohmann::json& record, const char* table, int row, int column) {
@@ -34,10 +30,7 @@ nlohmann::json record_of(const std::string& code) {
 }
 
 TEST(lesson_07_feedback, finds_the_bias_of_the_loop_its_cures_and_the_drift) {
-    const Workbench bench(Workbench::Memory::kShared);
-    const ChildResult run = bench.dynlab({"run", DYNLAB_SOURCE_DIR "/lessons/07_feedback/lesson.lua", "--out", "made"});
-    ASSERT_EQ(run.exit_code, 0) << run.error_output;
-    const auto record = nlohmann::json::parse(bench.read("made/record.json"));
+    const nlohmann::json record = record_of_lesson("07_feedback");
     const TransferFunction G = drive_plant({});
 
     EXPECT_NEAR(number(record, "true_gain"), G.dc_gain(), 1e-9);

@@ -2,8 +2,11 @@
 #include <gtest/gtest.h>
 
 #include "platform/temporary_folder.h"
+#include "scripting/memoized_calls/memoized_call.h"
+#include "support/environment_variable.h"
 #include "support/grey_looks.h"
 #include "support/lesson_list.h"
+#include "support/program.h"
 #include "workflow/lesson_catalogue.h"
 #include "workflow/run_script.h"
 
@@ -15,11 +18,15 @@ class grey_figures : public testing::TestWithParam<const char*> {};
 TEST_P(grey_figures, neighbouring_curves_are_told_apart) {
     const std::filesystem::path file = find_lesson(GetParam()).script();
     const PercentScript script = parse_percent_script(quick_solution_of(file.parent_path().filename()), file);
+    const EnvironmentVariable cache_home("XDG_CACHE_HOME", Workbench(Workbench::Memory::kShared).cache());
+    const Cache cache;
+    CallCache calls(cache);
     const TemporaryFolder out;
     GnuplotRenderer renderer;
     RunRequest request;
     request.script = script;
     request.out_folder = out.path();
+    request.call_cache = &calls;
     const RunRecord record = run_script(request, renderer);
     ASSERT_FALSE(record.error) << record.error->message;
     EXPECT_FALSE(record.figures.empty());

@@ -9,6 +9,7 @@
 #include "platform/error.h"
 #include "platform/temporary_folder.h"
 #include "scripting/interpreter/runtime.h"
+#include "support/environment_variable.h"
 #include "workflow/lesson_data.h"
 #include "workflow/specimen_record.h"
 #include "workflow/student_copy.h"
@@ -22,9 +23,6 @@ using testing::IsEmpty;
 
 class group_data : public testing::Test {
   protected:
-    void SetUp() override { setenv("XDG_CACHE_HOME", (work_.path() / "cache").c_str(), 1); }
-    void TearDown() override { unsetenv("XDG_CACHE_HOME"); }
-
     Lesson lesson(const std::string& code) {
         const Lesson made{"99_small", work_.path() / "99_small"};
         fs::create_directories(made.folder);
@@ -36,6 +34,7 @@ class group_data : public testing::Test {
 
   private:
     TemporaryFolder work_;
+    EnvironmentVariable cache_home_{"XDG_CACHE_HOME", work_.path() / "cache"};
 };
 
 TEST_F(group_data, is_found_however_a_script_spells_its_name) {

@@ -12,8 +12,7 @@
 #include "data_io/csv_file.h"
 #include "documents/percent_script.h"
 #include "documents/text_lines.h"
-#include "support/lesson_list.h"
-#include "support/program.h"
+#include "lesson_record.h"
 
 namespace dynlab::test {
 namespace test_lesson_statements {
@@ -24,23 +23,12 @@ std::string script_of(const std::string& lesson) {
     return DYNLAB_SOURCE_DIR "/lessons/" + lesson + "/lesson.lua";
 }
 
-json record_of_run(const std::string& script) {
-    const Workbench bench(Workbench::Memory::kShared);
-    const ChildResult run = bench.dynlab({"run", script, "--out", "made"});
-    EXPECT_EQ(run.exit_code, 0) << run.error_output;
-    return json::parse(bench.read("made/record.json"));
-}
-
 json record_of_code(const std::string& code) {
     const Workbench bench(Workbench::Memory::kShared);
     bench.write("oracle.lua", code);
     const ChildResult run = bench.dynlab({"run", "oracle.lua", "--out", "made"});
     EXPECT_EQ(run.exit_code, 0) << run.error_output;
     return json::parse(bench.read("made/record.json"));
-}
-
-double value(const json& record, const std::string& name) {
-    return record.at("values").at(name).at("number");
 }
 
 /// A cell of a table; "−1.5 ± 0.2" and "3.2 (0.3)" give the number and what stands behind it.
@@ -106,7 +94,7 @@ TEST(lesson_sheets, have_no_code_that_wraps) {
 }
 
 TEST_P(lesson_pages, show_every_figure_with_number_and_caption) {
-    const json record = record_of_run(script_of(GetParam()));
+    const json record = record_of_lesson(GetParam());
     const std::string text = read_percent_script(script_of(GetParam())).source;
     for (const auto& [name, figure] : record.at("figures").items())
         EXPECT_THAT(text, HasSubstr("](figure:" + name + "){#fig:")) << "no caption for the figure " << name;
@@ -171,30 +159,30 @@ struct Exchanger {
 };
 
 TEST(lesson_01_statements, of_errors_follow_from_fishers_information) {
-    const json record = record_of_run(script_of("01_process_models"));
+    const json record = record_of_lesson("01_process_models");
     const Exchanger plant;
     const Vector known = least_deviations(plant.sensitivity(false), plant.noise);
     const Vector any = least_deviations(plant.sensitivity(true), plant.noise);
     const double of_noise = 1 / std::sqrt(2.0 * 301);  // relative error of a noise's standard deviation
-    EXPECT_NEAR(value(record, "K_std"), known[0], 4 * of_noise * known[0]);
-    EXPECT_NEAR(value(record, "K_any_std"), any[0], 4 * of_noise * any[0]);
-    EXPECT_NEAR(value(record, "K_any_ratio"), any[0] / known[0], 0.05 * any[0] / known[0]);
-    EXPECT_NEAR(value(record, "reported"), known[1], 0.02 * known[1]);
-    EXPECT_NEAR(value(record, "estimate_std"), known[1], 4 * known[1] / std::sqrt(2.0 * 200));
-    EXPECT_NEAR(value(record, "estimate_mean"), plant.time_constant, 4 * known[1] / std::sqrt(200.0));
+    EXPECT_NEAR(number(record, "K_std"), known[0], 4 * of_noise * known[0]);
+    EXPECT_NEAR(number(record, "K_any_std"), any[0], 4 * of_noise * any[0]);
+    EXPECT_NEAR(number(record, "K_any_ratio"), any[0] / known[0], 0.05 * any[0] / known[0]);
+    EXPECT_NEAR(number(record, "reported"), known[1], 0.02 * known[1]);
+    EXPECT_NEAR(number(record, "estimate_std"), known[1], 4 * known[1] / std::sqrt(2.0 * 200));
+    EXPECT_NEAR(number(record, "estimate_mean"), plant.time_constant, 4 * known[1] / std::sqrt(200.0));
     // an independent repetition of the reading found a scatter of 1.7 s
-    EXPECT_NEAR(value(record, "reading_std"), 1.7, 4 * 1.7 / std::sqrt(2.0 * 200));
-    EXPECT_LT(value(record, "T_apart"), 2 * value(record, "reading_std")) << "both methods agree";
+    EXPECT_NEAR(number(record, "reading_std"), 1.7, 4 * 1.7 / std::sqrt(2.0 * 200));
+    EXPECT_LT(number(record, "T_apart"), 2 * number(record, "reading_std")) << "both methods agree";
 }
 
 TEST(lesson_01_statements, of_settling_and_dead_time_follow_from_the_records) {
-    const json record = record_of_run(script_of("01_process_models"));
+    const json record = record_of_lesson("01_process_models");
     const CsvTable table = read_csv_file(DYNLAB_SOURCE_DIR "/data/heat_exchanger/heat_exchanger.csv");
     const Vector& y = table.columns[std::find(table.names.begin(), table.names.end(), "y") - table.names.begin()];
     const double first = y.head(30).mean(), last = y.tail(51).mean();
     Index outside = 300;
     while (std::abs(y[outside] - last) <= 0.05 * (last - first)) --outside;
-    EXPECT_EQ(value(record, "Tr_raw"), Exchanger{}.since_step(outside));
+    EXPECT_EQ(number(record, "Tr_raw"), Exchanger{}.since_step(outside));
 
     const auto [T, T_error] = cell(record, "dead_time", 2, 1);
     const auto [D, D_error] = cell(record, "dead_time", 2, 2);
@@ -221,7 +209,7 @@ double slope(const Vector& x, const Vector& y) {
 
 // dy/dt = -y + 2 u, u = 1: four samples every 0.5 s of output and derivative, noise of 0.05 on both.
 TEST(lesson_02_statements, of_four_samples_agree_with_another_random_generator) {
-    const json record = record_of_run(script_of("02_least_squares"));
+    const json record = record_of_lesson("02_least_squares");
     std::mt19937 random(2);
     std::normal_distribution<double> noise(0, 0.05);
     Estimates continuous, discrete;
@@ -237,14 +225,14 @@ TEST(lesson_02_statements, of_four_samples_agree_with_another_random_generator) 
     }
     for (const auto& [name, expected] : {std::pair("few_ct", continuous), {"few_dt", discrete}}) {
         const double error = expected.deviation() * std::sqrt(1 / 5000.0 + 1 / 20000.0);
-        EXPECT_NEAR(value(record, name), expected.mean(), 4 * error) << name;
-        EXPECT_NEAR(value(record, std::string(name) + "_std"), expected.deviation(), 0.08 * expected.deviation());
+        EXPECT_NEAR(number(record, name), expected.mean(), 4 * error) << name;
+        EXPECT_NEAR(number(record, std::string(name) + "_std"), expected.deviation(), 0.08 * expected.deviation());
     }
 }
 
 // Oracle: (R + sigma^2 E)^-1 R theta for an input whose bits of four samples are drawn by chance.
 TEST(lesson_02_statements, of_long_records_follow_the_limit_of_least_squares) {
-    const json record = record_of_run(script_of("02_least_squares"));
+    const json record = record_of_lesson("02_least_squares");
     const double a1 = -std::exp(-0.5), b1 = 2 * (1 - std::exp(-0.5));
     std::mt19937 random(3);
     Eigen::Matrix2d R = Eigen::Matrix2d::Zero();
@@ -259,8 +247,8 @@ TEST(lesson_02_statements, of_long_records_follow_the_limit_of_least_squares) {
     Eigen::Matrix2d E = Eigen::Matrix2d::Zero();
     E(0, 0) = 0.3 * 0.3;
     const double limit = (R + E).inverse().row(0).dot(R * Eigen::Vector2d(a1, b1));
-    EXPECT_NEAR(value(record, "mc_limit"), limit, 0.003) << "400 samples of one sequence";
-    EXPECT_NEAR(value(record, "mc_mean"), value(record, "mc_limit"), 0.002);
+    EXPECT_NEAR(number(record, "mc_limit"), limit, 0.003) << "400 samples of one sequence";
+    EXPECT_NEAR(number(record, "mc_mean"), number(record, "mc_limit"), 0.002);
     for (int row = 0; row < 5; ++row) {
         const double scatter = cell(record, "law", row, 5).first;
         EXPECT_NEAR(cell(record, "law", row, 3).first, cell(record, "law", row, 4).first,
@@ -278,26 +266,26 @@ local est = iddata(L.y, L.u, 0.05)
 local Td, fig, D = delayest(est)
 for _, samples in ipairs{0, 1, 2, 3, 5, 8, 12} do
     local G = srivc(est, {2, 3, samples})
-    report.value("held_" .. samples, mean((L.y - lsim(G, L.u, 0.05))^2), "%.6f")
-    report.value("curve_" .. samples, interp1(D.delays, D.losses, vector{0.05*samples})[1], "%.6f")
+    report.number("held_" .. samples, mean((L.y - lsim(G, L.u, 0.05))^2), "%.6f")
+    report.number("curve_" .. samples, interp1(D.delays, D.losses, vector{0.05*samples})[1], "%.6f")
 end
 )");
     for (const char* samples : {"0", "1", "2", "3", "5", "8", "12"}) {
-        const double held = value(losses, std::string("held_") + samples);
-        EXPECT_NEAR(value(losses, std::string("curve_") + samples), held, 0.005 * held) << samples;
+        const double held = number(losses, std::string("held_") + samples);
+        EXPECT_NEAR(number(losses, std::string("curve_") + samples), held, 0.005 * held) << samples;
     }
 }
 
 TEST(lesson_03_statements, of_the_noise_model_agree_with_an_independent_program) {
-    const json record = record_of_run(script_of("03_workflow"));
-    EXPECT_NEAR(value(record, "dryer_ar"), 0.906, 0.021);
-    EXPECT_NEAR(value(record, "dryer_noise_val"), 91.2, 0.1);
-    EXPECT_LT(value(record, "dryer_noise_val"), value(record, "dryer_val_short"));
+    const json record = record_of_lesson("03_workflow");
+    EXPECT_NEAR(number(record, "dryer_ar"), 0.906, 0.021);
+    EXPECT_NEAR(number(record, "dryer_noise_val"), 91.2, 0.1);
+    EXPECT_LT(number(record, "dryer_noise_val"), number(record, "dryer_val_short"));
 }
 
 // Oracle: what arx tends to, (R + sigma^2 E)^-1 R theta, from a recursion of the sampled system 1/(s+1) - 1/(s+3).
 TEST(lesson_04_statements, of_arx_follow_the_limit_of_least_squares) {
-    const json record = record_of_run(script_of("04_estimators"));
+    const json record = record_of_lesson("04_estimators");
     const json limits = record_of_code(R"(
 local function tends_to(period, snr)
     local p, q = math.exp(-period), math.exp(-3*period)
@@ -326,14 +314,14 @@ local function tends_to(period, snr)
 end
 for i, period in ipairs{0.01, 0.05, 0.1, 0.2, 0.3} do
     for j, snr in ipairs{5, 15, 25, 35, 45} do
-        report.value("a1_" .. i .. "_" .. j, tends_to(period, snr), "%.6f")
+        report.number("a1_" .. i .. "_" .. j, tends_to(period, snr), "%.6f")
     end
 end
 )");
     int converted = 0;
     for (int row = 0; row < 5; ++row) {
         for (int column = 0; column < 5; ++column) {
-            const double limit = value(limits, "a1_" + std::to_string(row + 1) + "_" + std::to_string(column + 1));
+            const double limit = number(limits, "a1_" + std::to_string(row + 1) + "_" + std::to_string(column + 1));
             const std::string text = record.at("tables").at("grid").at("rows").at(row).at(column + 1);
             EXPECT_EQ(text.find("of 100") != text.npos, limit == 0) << text << " where the limit is " << limit;
             if (limit == 0) continue;
@@ -350,17 +338,19 @@ end
 
 // Oracle: the Cramér–Rao bound 0.2869 of an independent program, the errors that means and deviations of runs have.
 TEST(lesson_04_statements, of_scatter_stay_within_what_the_runs_can_tell) {
-    const json record = record_of_run(script_of("04_estimators"));
+    const json record = record_of_lesson("04_estimators");
     const double bound = 0.2869, of_200 = 1 / std::sqrt(2.0 * 199), of_2000 = 1 / std::sqrt(2.0 * 1999);
-    EXPECT_NEAR(value(record, "std_error"), 100 * of_200, 1e-9);
-    for (const char* name : {"tf_bound", "tf_over", "iv_over"}) EXPECT_NEAR(value(record, name), 1, 4 * of_200) << name;
-    EXPECT_GT(value(record, "ls_over"), 1 + 4 * of_200);
-    EXPECT_GT(value(record, "root_std"), bound * (1 - 4 * of_2000));
-    EXPECT_LT(value(record, "root_std"), value(record, "three_std")) << "the filter nearest to A scatters less";
-    EXPECT_NEAR(value(record, "iv_more"), 100 * (value(record, "three_std") / bound - 1),
-                4 * value(record, "iv_more_error") + 4 * 100 * of_2000);
+    EXPECT_NEAR(number(record, "std_error"), 100 * of_200, 1e-9);
+    for (const char* name : {"tf_bound", "tf_over", "iv_over"})
+        EXPECT_NEAR(number(record, name), 1, 4 * of_200) << name;
+    EXPECT_GT(number(record, "ls_over"), 1 + 4 * of_200);
+    EXPECT_GT(number(record, "root_std"), bound * (1 - 4 * of_2000));
+    EXPECT_LT(number(record, "root_std"), number(record, "three_std")) << "the filter nearest to A scatters less";
+    EXPECT_NEAR(number(record, "iv_more"), 100 * (number(record, "three_std") / bound - 1),
+                4 * number(record, "iv_more_error") + 4 * 100 * of_2000);
     for (const char* name : {"low", "high"})
-        EXPECT_GT(value(record, std::string(name) + "_mean"), 4 + 2 * value(record, std::string(name) + "_mean_error"));
+        EXPECT_GT(number(record, std::string(name) + "_mean"),
+                  4 + 2 * number(record, std::string(name) + "_mean_error"));
 }
 
 }  // namespace test_lesson_statements

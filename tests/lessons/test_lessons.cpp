@@ -14,6 +14,7 @@
 #include "documents/document_rules.h"
 #include "documents/solutions.h"
 #include "documents/text_lines.h"
+#include "lesson_record.h"
 #include "line_ends.h"
 #include "numerics/rigs/crane.h"
 #include "numerics/rigs/thruster.h"
@@ -39,11 +40,17 @@ std::string text_of_pdf(const Workbench& bench, const std::string& file) {
     return text.output;
 }
 
+/// A lesson's report as a PDF, in a language. Made once for all tests.
+std::string shared_report(const std::string& lesson, const std::string& language = "en") {
+    std::vector<std::string> command{"report", lesson};
+    if (language != "en") command.insert(command.end(), {"--lang", language});
+    return shared_document(command, lesson + "." + language + ".pdf");
+}
+
 TEST_P(lessons, report_is_whole) {
-    const Workbench bench(Workbench::Memory::kShared);
-    const ChildResult made = bench.dynlab({"report", GetParam()});
-    ASSERT_EQ(made.exit_code, 0) << made.error_output;
-    const std::string text = text_of_pdf(bench, GetParam() + ".pdf");
+    const Workbench bench;
+    const std::string report = shared_report(GetParam());
+    const std::string text = text_of_pdf(bench, report);
     EXPECT_THAT(text, Not(HasSubstr("??")));
     EXPECT_THAT(text, Not(HasSubstr("SOLUTION")));
     const std::string own_report = DYNLAB_SOURCE_DIR "/lessons/" + GetParam() + "/report.en.md";
@@ -55,8 +62,8 @@ TEST_P(lessons, report_is_whole) {
     EXPECT_THAT(read_file(page_of_lesson(GetParam())), HasSubstr("</html>"));
     std::vector<std::string> sections = section_titles(read_file(source));
     sections.insert(sections.end(), {"Five questions to check yourself", "Answers to the questions"});
-    if (!slides) expect_full_pages(bench, GetParam() + ".pdf", sections);
-    expect_whole_quantities(bench, GetParam() + ".pdf");
+    if (!slides) expect_full_pages(bench, report, sections);
+    expect_whole_quantities(bench, report);
 }
 
 /// Of a lesson in the language of its sheet.
@@ -71,17 +78,14 @@ std::vector<std::string> sheet_titles(const std::string& slug, const std::string
 }
 
 TEST_P(lessons, sheets_fill_their_pages) {
-    const Workbench bench(Workbench::Memory::kShared);
+    const Workbench bench;
     for (const std::string language : {"en", "fr"}) {
         if (language == "fr" && !std::filesystem::exists(DYNLAB_SOURCE_DIR "/lessons/" + GetParam() + "/tasks.fr.lua"))
             continue;
-        std::vector<std::string> command{"sheet", GetParam(), "-o", "sheet.pdf"};
-        if (language == "fr") command.insert(command.end(), {"--lang", language});
-        const ChildResult made = bench.dynlab(command);
-        ASSERT_EQ(made.exit_code, 0) << made.error_output;
+        const std::string sheet = shared_sheet(GetParam(), language);
         SCOPED_TRACE(language);
-        expect_full_pages(bench, "sheet.pdf", sheet_titles(GetParam(), language));
-        expect_whole_quantities(bench, "sheet.pdf");
+        expect_full_pages(bench, sheet, sheet_titles(GetParam(), language));
+        expect_whole_quantities(bench, sheet);
     }
 }
 
@@ -105,23 +109,8 @@ TEST_P(lessons, texts_documents_and_copies_are_in_order) {
     }
 }
 
-TEST(lesson_01, readings_and_estimates_find_the_parameters_of_the_simulated_processes) {
-    const Workbench bench(Workbench::Memory::kShared);
-    const ChildResult run =
-        bench.dynlab({"run", DYNLAB_SOURCE_DIR "/lessons/01_process_models/lesson.lua", "--out", "made"});
-    ASSERT_EQ(run.exit_code, 0) << run.error_output;
-}
-
-double number(const nlohmann::json& record, const std::string& name) {
-    return record.at("values").at(name).at("number");
-}
-
 TEST(lesson_02, line_residuals_and_forecast_follow_the_textbook_formulas) {
-    const Workbench bench(Workbench::Memory::kShared);
-    const ChildResult run =
-        bench.dynlab({"run", DYNLAB_SOURCE_DIR "/lessons/02_least_squares/lesson.lua", "--out", "made"});
-    ASSERT_EQ(run.exit_code, 0) << run.error_output;
-    const auto record = nlohmann::json::parse(bench.read("made/record.json"));
+    const nlohmann::json record = record_of_lesson("02_least_squares");
 
     const CsvTable games = read_csv_file(DYNLAB_SOURCE_DIR "/data/winning_times/winning_times.csv");
     const auto column = [&games](const std::string& name) -> const Vector& {
@@ -151,10 +140,7 @@ TEST(lesson_02, line_residuals_and_forecast_follow_the_textbook_formulas) {
 // Oracles: the simulators' parameters as SOURCE.md states them, within four standard errors, the standard deviation of
 // the noise, and an independent program's estimates and fits for the hair dryer.
 TEST(lesson_03_workflow, models_agree_with_the_simulators_and_with_an_independent_program) {
-    const Workbench bench(Workbench::Memory::kShared);
-    const ChildResult run = bench.dynlab({"run", DYNLAB_SOURCE_DIR "/lessons/03_workflow/lesson.lua", "--out", "made"});
-    ASSERT_EQ(run.exit_code, 0) << run.error_output;
-    const auto record = nlohmann::json::parse(bench.read("made/record.json"));
+    const nlohmann::json record = record_of_lesson("03_workflow");
     const auto expect_near = [&record](const std::string& name, double truth) {
         EXPECT_NEAR(number(record, name), truth, 4 * number(record, name + "_std")) << name;
     };
@@ -214,11 +200,7 @@ void expect_study(const nlohmann::json& rows, const std::string& reference_file,
 }
 
 TEST(lesson_04, studies_agree_with_the_reference_and_own_programs_with_the_library) {
-    const Workbench bench(Workbench::Memory::kShared);
-    const ChildResult run =
-        bench.dynlab({"run", DYNLAB_SOURCE_DIR "/lessons/04_estimators/lesson.lua", "--out", "made"});
-    ASSERT_EQ(run.exit_code, 0) << run.error_output;
-    const auto record = nlohmann::json::parse(bench.read("made/record.json"));
+    const nlohmann::json record = record_of_lesson("04_estimators");
     const auto rows = [&record](const char* table) { return record.at("tables").at(table).at("rows"); };
 
     expect_study(rows("lambda"), "mc_sys2_0.2.json",
@@ -235,10 +217,7 @@ TEST(lesson_04, studies_agree_with_the_reference_and_own_programs_with_the_libra
 
 // Oracles: the simulator's parameters (crane_truth), the limits of the assignment, the fit that no linear model beats.
 TEST(lesson_03_crane, finds_the_crane_and_says_what_the_model_is_worth) {
-    const Workbench bench(Workbench::Memory::kShared);
-    const ChildResult run = bench.dynlab({"run", DYNLAB_SOURCE_DIR "/lessons/03_crane/lesson.lua", "--out", "made"});
-    ASSERT_EQ(run.exit_code, 0) << run.error_output;
-    const auto record = nlohmann::json::parse(bench.read("made/record.json"));
+    const nlohmann::json record = record_of_lesson("03_crane");
     const CraneTruth truth = crane_truth({});
 
     EXPECT_NEAR(number(record, "swing"), truth.natural_frequency, 0.02 * truth.natural_frequency);
@@ -281,14 +260,13 @@ TemplateFile report_of(const std::string& lesson, const std::string& language) {
     return read_template(DYNLAB_SOURCE_DIR "/lessons/" + lesson + "/report." + language + ".md");
 }
 
-/// Makes a lesson's report on the bench; returns its pages, none where LaTeX lacks the language.
+/// The pages of a lesson's report; none where LaTeX lacks the language.
 std::vector<std::string> pages_of(const Workbench& bench, const std::string& lesson, const std::string& language) {
     std::vector<std::string> pages;
     if (language == "fr" && bench.shell("kpsewhich french.ldf").exit_code != 0) return pages;
-    const ChildResult made = bench.dynlab({"report", lesson, "--lang", language});
-    EXPECT_EQ(made.exit_code, 0) << made.error_output;
-    expect_whole_quantities(bench, lesson + ".pdf");
-    std::istringstream text(text_of_pdf(bench, lesson + ".pdf"));
+    const std::string report = shared_report(lesson, language);
+    expect_whole_quantities(bench, report);
+    std::istringstream text(text_of_pdf(bench, report));
     for (std::string page; std::getline(text, page, '\f');) pages.push_back(page);
     const std::string all = std::accumulate(pages.begin(), pages.end(), std::string());
     for (const SectionRule& section : document_rules(report_of(lesson, language)).sections)
@@ -315,7 +293,8 @@ TEST_P(lesson_03_crane_report, keeps_to_six_pages_and_one_of_appendix) {
     const DocumentRules rules = document_rules(report_of("03_crane", language));
     ASSERT_EQ(static_cast<int>(pages.size()), *rules.pages + *rules.appendix_pages);
     EXPECT_THAT(pages.back(), HasSubstr(replaced(rules.sections.back().title(language), "'", "’")));
-    expect_full_pages(bench, "03_crane.pdf", section_titles(report_of("03_crane", language).body.text));
+    expect_full_pages(bench, shared_report("03_crane", language),
+                      section_titles(report_of("03_crane", language).body.text));
 }
 
 TEST_P(lesson_03_crane_report, types_no_result_in) {
@@ -330,7 +309,8 @@ TEST_P(lesson_05_slides, keep_to_twelve_with_the_eight_points_and_pass_the_check
     EXPECT_EQ(rules.sections.size(), 8u);
     EXPECT_EQ(*rules.pages, 12);
     EXPECT_LE(static_cast<int>(pages.size()), 12);
-    const ChildResult checked = bench.dynlab({"check", "05_thruster.pdf", "--template", "slides", "--json"});
+    const ChildResult checked =
+        bench.dynlab({"check", shared_report("05_thruster", GetParam()), "--template", "slides", "--json"});
     EXPECT_EQ(checked.exit_code, 0) << checked.output;
     EXPECT_TRUE(nlohmann::json::parse(checked.output).at("findings").empty()) << checked.output;
 }
@@ -369,10 +349,7 @@ TEST(lesson_03_crane_copy, has_the_sections_and_no_text_of_the_solution) {
 
 // Oracles: the simulator's parameters (thruster_truth, thruster_thrust), the bars of the assignment.
 TEST(lesson_05_thruster, finds_curve_and_delay_and_a_better_model_than_a_linear_one) {
-    const Workbench bench(Workbench::Memory::kShared);
-    const ChildResult run = bench.dynlab({"run", DYNLAB_SOURCE_DIR "/lessons/05_thruster/lesson.lua", "--out", "made"});
-    ASSERT_EQ(run.exit_code, 0) << run.error_output;
-    const auto record = nlohmann::json::parse(bench.read("made/record.json"));
+    const nlohmann::json record = record_of_lesson("05_thruster");
     const ThrusterParameters rig;
     const ThrusterTruth truth = thruster_truth(rig);
 
@@ -413,7 +390,6 @@ TEST(lesson_copies, are_french_throughout_where_french_is_asked_for) {
             return std::distance(std::sregex_iterator(text.begin(), text.end(), mark), std::sregex_iterator());
         };
         EXPECT_EQ(marks(script), marks(bench.read("english/analysis.lua"))) << "as many cells and questions";
-        EXPECT_EQ(bench.dynlab({"report", "mine"}).exit_code, 0);
     }
 }
 

@@ -5,16 +5,12 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "lesson_record.h"
 #include "numerics/rigs/crane.h"
 #include "numerics/rigs/two_tanks.h"
-#include "support/program.h"
 
 namespace dynlab::test {
 namespace test_physics_statements {
-
-double number(const nlohmann::json& record, const std::string& name) {
-    return record.at("values").at(name).at("number");
-}
 
 double cell(const nlohmann::json& record, const char* table, int row, int column) {
     return std::stod(record.at("tables").at(table).at("rows").at(row).at(column).get<std::string>());
@@ -33,10 +29,7 @@ double cell_error(const nlohmann::json& record, const char* table, int row, int 
 }
 
 TEST(lesson_06_physics, finds_what_the_linear_models_leave) {
-    const Workbench bench(Workbench::Memory::kShared);
-    const ChildResult run = bench.dynlab({"run", DYNLAB_SOURCE_DIR "/lessons/06_physics/lesson.lua", "--out", "made"});
-    ASSERT_EQ(run.exit_code, 0) << run.error_output;
-    const auto record = nlohmann::json::parse(bench.read("made/record.json"));
+    const nlohmann::json record = record_of_lesson("06_physics");
     const CraneTruth crane = crane_truth({});
     const double length = 9.81 / std::pow(crane.natural_frequency, 2);
 

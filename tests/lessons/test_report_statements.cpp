@@ -6,23 +6,11 @@
 #include <complex>
 #include <nlohmann/json.hpp>
 
+#include "lesson_record.h"
 #include "numerics/rigs/crane.h"
-#include "support/program.h"
 
 namespace dynlab::test {
 namespace test_report_statements {
-
-nlohmann::json record_of(const std::string& lesson) {
-    const Workbench bench(Workbench::Memory::kShared);
-    const ChildResult run =
-        bench.dynlab({"run", DYNLAB_SOURCE_DIR "/lessons/" + lesson + "/lesson.lua", "--out", "made"});
-    EXPECT_EQ(run.exit_code, 0) << run.error_output;
-    return nlohmann::json::parse(bench.read("made/record.json"));
-}
-
-double number(const nlohmann::json& record, const std::string& name) {
-    return record.at("values").at(name).at("number");
-}
 
 /// Frequency (rad/s) of the swinging poles of the crane on a moving trolley: equations of motion with a rigid belt, no
 /// inductance of the motor, no dry friction and small angles, as d/dt of (speed, angle, angle's rate).
@@ -54,7 +42,7 @@ double error_in_cell(const nlohmann::json& record, const char* table, int row, i
 }
 
 TEST(report_statements, crane_is_judged_by_repetitions_and_by_its_equations) {
-    const nlohmann::json record = record_of("03_crane");
+    const nlohmann::json record = record_of_lesson("03_crane");
     const CraneTruth truth = crane_truth({});
     const double gravity = CraneParameters{}.gravity;
     EXPECT_GT(number(record, "fit_theta"), number(record, "most_theta")) << "the text says that it was luck";

@@ -7,7 +7,10 @@
 #include "figures/gnuplot_renderer.h"
 #include "platform/temporary_folder.h"
 #include "scripting/interpreter/runtime.h"
+#include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/runtime/services.h"
+#include "support/environment_variable.h"
+#include "support/program.h"
 #include "workflow/lesson_catalogue.h"
 
 namespace test_script_parts {
@@ -19,20 +22,22 @@ struct LessonRun {
     TemporaryFolder out;
     ReportLanguage language;
     Runtime runtime;
-    explicit LessonRun(const PercentScript& script) : runtime(options(script), renderer) {
-        runtime.set_service(&language);
+    explicit LessonRun(const PercentScript& script, CallCache* calls = nullptr)
+        : runtime(options(script, calls), renderer) {
+        runtime.services().language = &language;
     }
-    RunOptions options(const PercentScript& script) const {
+    RunOptions options(const PercentScript& script, CallCache* calls) const {
         RunOptions chosen;
         chosen.script_folder = script.file.parent_path();
         chosen.out_folder = out.path();
         chosen.seed = script.header.seed;
+        chosen.call_cache = calls;
         return chosen;
     }
 };
 
-RunRecord in_parts(const PercentScript& script) {
-    LessonRun run(script);
+RunRecord in_parts(const PercentScript& script, CallCache* calls = nullptr) {
+    LessonRun run(script, calls);
     run.runtime.begin_parts(script);
     RunRecord record;
     for (const ScriptPart& part : script_parts(script)) {
@@ -48,12 +53,17 @@ PercentScript script_of(const std::string& source) {
 
 class lessons_in_parts : public testing::TestWithParam<const char*> {};
 
+// With the cache of long calls, as a live document has it.
 TEST_P(lessons_in_parts, give_the_same_record) {
+    const test::EnvironmentVariable cache_home("XDG_CACHE_HOME",
+                                               test::Workbench(test::Workbench::Memory::kShared).cache());
+    const Cache cache;
+    CallCache calls(cache);
     const PercentScript script = read_percent_script(find_lesson(GetParam()).script());
-    LessonRun whole(script);
+    LessonRun whole(script, &calls);
     const RunRecord expected = whole.runtime.run(script);
     ASSERT_FALSE(expected.error);
-    EXPECT_EQ(to_json(in_parts(script)), to_json(expected));
+    EXPECT_EQ(to_json(in_parts(script, &calls)), to_json(expected));
 }
 
 INSTANTIATE_TEST_SUITE_P(all, lessons_in_parts, testing::Values("01", "02", "04"),

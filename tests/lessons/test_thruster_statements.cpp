@@ -7,9 +7,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "lesson_record.h"
 #include "numerics/rigs/thruster.h"
 #include "numerics/signals/butterworth.h"
-#include "support/program.h"
 
 namespace dynlab::test {
 namespace test_thruster_statements {
@@ -114,19 +114,12 @@ Vector edges_of(const std::string& shape) {
     return edges;
 }
 
-nlohmann::json record_of_lesson() {
-    const Workbench bench(Workbench::Memory::kShared);
-    const ChildResult run = bench.dynlab({"run", DYNLAB_SOURCE_DIR "/lessons/05_thruster/lesson.lua", "--out", "made"});
-    EXPECT_EQ(run.exit_code, 0) << run.error_output;
-    return nlohmann::json::parse(bench.read("made/record.json"));
-}
-
 class thruster_statements : public testing::Test {
   protected:
-    static void SetUpTestSuite() { record_ = new nlohmann::json(record_of_lesson()); }
+    static void SetUpTestSuite() { record_ = new nlohmann::json(record_of_lesson("05_thruster")); }
     static void TearDownTestSuite() { delete record_; }
 
-    static double number(const std::string& name) { return record_->at("values").at(name).at("number"); }
+    static double number(const std::string& name) { return test::number(*record_, name); }
     static double cell(const char* table, int row, int column) {
         return std::stod(record_->at("tables").at(table).at("rows").at(row).at(column).get<std::string>());
     }

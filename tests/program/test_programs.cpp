@@ -12,8 +12,6 @@ namespace dynlab {
 namespace test_programs {
 
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::IsSubsetOf;
 using ::testing::Not;
 
 namespace fs = std::filesystem;
@@ -40,64 +38,54 @@ void put(const test::Workbench& work, const std::vector<std::string>& programs) 
     for (const std::string& name : programs) fs::copy_file(kFolder / name, work.path("bin/" + name));
 }
 
-TEST(programs, that_of_pages_knows_the_commands_of_all) {
+TEST(programs, dynlab_course_has_all_commands) {
     const test::Workbench work;
-    const std::set<std::string> all = commands_of(work, "dynlab-pages");
+    const std::set<std::string> all = commands_of(work, "dynlab-course");
     EXPECT_EQ(commands_of(work, "dynlab"), all);  // whose help it is
-    EXPECT_THAT(commands_of(work, "dynlab-course"), IsSubsetOf(all));
     EXPECT_GE(all.size(), 30u);
 }
 
-// oracle: what each does where the others are missing
-TEST(programs, each_command_is_done_by_the_program_with_the_fewest_libraries_that_has_it) {
-    const test::Workbench work;
-    const std::set<std::string> of_course = commands_of(work, "dynlab-course");
-    ASSERT_THAT(of_course, Not(IsEmpty()));
-    put(work, {"dynlab", "dynlab-course"});
-    for (const std::string& command : of_course)
-        EXPECT_EQ(work.shell("bin/dynlab " + command + " --help").exit_code, 0) << command;
-    for (const std::string command : {"run", "report", "hint", "lsp", "--version"})
-        EXPECT_EQ(work.shell("bin/dynlab " + command + " --help").exit_code, 0) << command;
-    fs::remove(work.path("bin/dynlab-course"));
-    fs::create_directories(work.path("own/lessons"));
-    for (const std::string command : {"run -e 'print(93)'", "lessons", "--course own lessons", "help tf"})
-        EXPECT_EQ(work.shell("bin/dynlab " + command).exit_code, 0) << command;
-    EXPECT_EQ(work.shell("echo 'print(93)' | bin/dynlab").output, "93\n");
-    for (const std::string& command : of_course)
-        EXPECT_EQ(work.shell("bin/dynlab " + command + " --help").exit_code, 3) << command;
-}
-
-TEST(programs, one_that_is_missing_is_told) {
+// oracle: what the lesson program does alone
+TEST(programs, lesson_program_alone_runs_lessons_and_tells_how_to_build_other_commands) {
     const test::Workbench work;
     put(work, {"dynlab"});
-    for (const auto& [words, missing] : {std::pair{"grade --help", "dynlab-course"},
-                                         {"--help", "dynlab-pages"},
-                                         {"preview x", "dynlab-pages"},
-                                         {"--view", "dynlab-pages"},
-                                         {"nonsense", "dynlab-pages"}}) {
-        const ChildResult told = work.shell(std::string("bin/dynlab ") + words);
-        EXPECT_EQ(told.exit_code, 3) << words;
-        EXPECT_THAT(
-            told.error_output,
-            HasSubstr(
-                missing +
-                std::string(
-                    ", a part of dynlab, cannot be started (No such file or directory): install dynlab again\n")));
+    fs::create_directories(work.path("own/lessons"));
+    for (const std::string command : {"run -e 'print(93)'", "lessons", "--course own lessons", "help tf",
+                                      "report --help", "hint --help", "lsp --help", "--version"})
+        EXPECT_EQ(work.shell("bin/dynlab " + command).exit_code, 0) << command;
+    EXPECT_EQ(work.shell("echo 'print(93)' | bin/dynlab").output, "93\n");
+    work.write("checks.lua", "check { id = 'a' }\n");
+    for (const std::string command : {"grade --help", "check --help", "course --help", "study --help", "preview x",
+                                      "manual x", "kernel --help", "--help", "--view", "nonsense", "lint checks.lua"}) {
+        const ChildResult missing = work.shell("bin/dynlab " + command);
+        EXPECT_EQ(missing.exit_code, 3) << command;
+        EXPECT_EQ(missing.error_output,
+                  "dynlab: cannot start " + work.path("bin/dynlab-course").string() +
+                      " (No such file or directory), which has this command. Install dynlab again.\n");
     }
+    work.write("share/dynlab/source", std::string(DYNLAB_SOURCE_DIR) + "\n");
+    const ChildResult missing = work.shell("bin/dynlab grade --help");
+    EXPECT_EQ(missing.exit_code, 3);
+    EXPECT_EQ(missing.error_output,
+              "dynlab: this command is not built yet (dynlab-course is missing). Build it with:\n  " DYNLAB_SOURCE_DIR
+              "/scripts/start\n");
 }
 
-TEST(programs, each_is_linked_with_what_its_commands_need) {
+TEST(programs, lesson_program_is_linked_without_course_pages_and_cluster) {
     const test::Workbench work;
     const auto libraries = [&](const std::string& program) {
         return work.shell("ldd " + (kFolder / program).string()).output;
     };
+    const char* const of_other_commands[] = {"poppler", "qpdf", "sqlite", "httplib", "zmq", "freetype"};
     EXPECT_THAT(libraries("dynlab"), HasSubstr("liblua"));
-    for (const char* of_others : {"poppler", "qpdf", "sqlite", "httplib", "zmq"})
-        EXPECT_THAT(libraries("dynlab"), Not(HasSubstr(of_others)));
-    for (const char* of_pages : {"httplib", "zmq"}) {
-        EXPECT_THAT(libraries("dynlab-course"), Not(HasSubstr(of_pages)));
-        EXPECT_THAT(libraries("dynlab-pages"), HasSubstr(of_pages));
+    for (const char* library : of_other_commands) {
+        EXPECT_THAT(libraries("dynlab"), Not(HasSubstr(library)));
+        EXPECT_THAT(libraries("dynlab-course"), HasSubstr(library));
     }
+    const std::string symbols = work.shell("nm -C " + (kFolder / "dynlab").string()).output;
+    EXPECT_THAT(symbols, HasSubstr("dynlab::workflow::make_report"));
+    for (const char* layer : {"dynlab::course::", "dynlab::app::", "Coordinator"})
+        EXPECT_THAT(symbols, Not(HasSubstr(layer))) << layer;
 }
 
 }  // namespace test_programs

@@ -12,7 +12,7 @@ inline RunRecord run(const std::string& code, RunOptions options = {}, const std
     GnuplotRenderer renderer;
     ReportLanguage report{language};
     Runtime runtime(std::move(options), renderer);
-    runtime.set_service(&report);
+    runtime.services().language = &report;
     return runtime.run_code(code, "lesson.lua");
 }
 

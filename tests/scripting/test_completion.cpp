@@ -1,5 +1,6 @@
 // Completion at the prompt. Oracles: the names the session itself defined, the catalogue of functions, and a counter
 // that shows whether a script's function was called.
+#include "scripting/interpreter/catalogue.h"
 #include "scripting/prompt/completion.h"
 
 #include <gmock/gmock.h>
@@ -23,7 +24,7 @@ class Session {
     }
     std::string run(const std::string& typed) {
         printed_.clear();
-        EXPECT_EQ(prompt_.run(read_statement(typed), "prompt").error, "");
+        EXPECT_EQ(prompt_.run(read_statement(typed, shown_calls()), "prompt").error, "");
         return printed_;
     }
     std::vector<std::string> names(const std::string& text) { return prompt_.complete_end(text).candidates; }

@@ -11,6 +11,7 @@
 #include "platform/atomic_file.h"
 #include "platform/utf8.h"
 #include "script_run.h"
+#include "scripting/interpreter/catalogue.h"
 #include "scripting/runtime/help.h"
 #include "scripting/runtime/help_layout.h"
 

@@ -9,10 +9,10 @@
 #include "platform/cache.h"
 #include "platform/temporary_folder.h"
 #include "script_run.h"
-#include "scripting/memoized_calls/call_cache.h"
-#include "scripting/memoized_calls/call_text.h"
+#include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/memoized_calls/value_archive.h"
 #include "scripting/objects/data_object.h"
+#include "support/environment_variable.h"
 
 namespace test_memoized_calls {
 
@@ -34,12 +34,6 @@ std::string archive_of_global(lua_State* L, const char* name) {
 
 class memoized_calls : public testing::Test {
   protected:
-    void SetUp() override {
-        setenv("XDG_CACHE_HOME", home_.path().c_str(), 1);
-        unsetenv("DYNLAB_NO_CACHE");
-    }
-    void TearDown() override { unsetenv("XDG_CACHE_HOME"); }
-
     struct Use {
         std::string printed;
         std::size_t computed, recalled;
@@ -56,6 +50,7 @@ class memoized_calls : public testing::Test {
         return {printed, calls.use().made, calls.use().recalled};
     }
     TemporaryFolder home_;
+    test::EnvironmentVariable cache_home_{"XDG_CACHE_HOME", home_.path()}, no_cache_{"DYNLAB_NO_CACHE", {}};
 };
 
 // A value that was written and read back is written as the same bytes again: no member of any class is lost or changed.
@@ -232,7 +227,7 @@ TEST_F(memoized_calls, calls_are_known_by_the_arguments_that_were_given) {
 TEST_F(memoized_calls, quick_calls_and_calls_without_a_cache_leave_nothing) {
     run_with_cache("for i = 1, 3 do srivc(d[{1, 200}], {1, 2, 0}) end\n", CallCache::Duration::max());
     EXPECT_FALSE(std::filesystem::exists(home_.path() / "dynlab/calls"));
-    setenv("DYNLAB_NO_CACHE", "1", 1);
+    no_cache_.set("1");
     const std::string study =
         "montecarlo{system = G0, input = u, Ts = 0.01, sigma = 0.2, runs = 200, estimators = {srivc = {{1, 2, 0}}}}\n";
     for (int i = 0; i < 2; ++i) {

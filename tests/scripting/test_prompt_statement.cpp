@@ -1,5 +1,6 @@
 // What is typed at the prompt. Oracles: Lua's grammar (reference manual 5.4, chapter 9), and for the rewritten locals
 // the definition: every statement gives what one script of all of them would give.
+#include "scripting/interpreter/catalogue.h"
 #include "scripting/runtime/prompt_statement.h"
 
 #include <gmock/gmock.h>
@@ -30,7 +31,7 @@ std::string session(const std::vector<std::string>& statements) {
     std::string text;
     PromptSession prompt("dynlab_out", [&text](const std::string& printed) { text += printed; });
     for (const std::string& typed : statements) {
-        const StatementResult result = prompt.run(read_statement(typed), "prompt");
+        const StatementResult result = prompt.run(read_statement(typed, shown_calls()), "prompt");
         if (!result.error.empty()) text += "ERROR " + result.error + '\n';
     }
     return text;
@@ -59,25 +60,25 @@ TEST(prompt_statement, takes_any_bytes_apart_without_loss) {
         end = token.end();
     }
     EXPECT_LE(end, bytes.size());
-    EXPECT_NE(read_statement(bytes).kind, Kind::kLeave);
+    EXPECT_NE(read_statement(bytes, shown_calls()).kind, Kind::kLeave);
 }
 
 TEST(prompt_statement, knows_what_must_go_on) {
     for (const char* open : {"function f(a)", "for k = 1, 3 do", "if a then", "x = (1", "x = {1,", "x = [[a", "2*(3",
                              "repeat", "f(function()", "--[[ a", "x =", "local t = {\n  a = 1,"})
-        EXPECT_EQ(read_statement(open).kind, Kind::kIncomplete) << open;
+        EXPECT_EQ(read_statement(open, shown_calls()).kind, Kind::kIncomplete) << open;
     for (const char* ready :
          {"x = 1", "1 + 1", "f()", "function f() end", "a.b", "x = 'open", "A'", "x = [1 2]", "end", ")"})
-        EXPECT_EQ(read_statement(ready).kind, Kind::kReady) << ready;
+        EXPECT_EQ(read_statement(ready, shown_calls()).kind, Kind::kReady) << ready;
     for (const char* empty : {"", "  \t", "-- a comment", "--[[ a\n b ]]"})
-        EXPECT_EQ(read_statement(empty).kind, Kind::kEmpty) << empty;
+        EXPECT_EQ(read_statement(empty, shown_calls()).kind, Kind::kEmpty) << empty;
 }
 
 TEST(prompt_statement, understands_habits) {
     for (const char* leave : {"quit", "exit", "quit()", " exit; "})
-        EXPECT_EQ(read_statement(leave).kind, Kind::kLeave) << leave;
+        EXPECT_EQ(read_statement(leave, shown_calls()).kind, Kind::kLeave) << leave;
     for (const char* other : {"quit = 1", "exit.a", "print(quit)"})
-        EXPECT_NE(read_statement(other).kind, Kind::kLeave) << other;
+        EXPECT_NE(read_statement(other, shown_calls()).kind, Kind::kLeave) << other;
     EXPECT_EQ(session({"= 2*3", "2*3", "2*3;", "1, 2"}), "6\n6\n1\t2\n");
     EXPECT_EQ(session({"help tf"}), session({"help('tf')"}));
     EXPECT_EQ(session({"help"}), session({"help()"}));

@@ -7,6 +7,7 @@
 
 #include "platform/temporary_folder.h"
 #include "script_run.h"
+#include "scripting/interpreter/catalogue.h"
 #include "scripting/runtime/help.h"
 
 namespace dynlab::test {

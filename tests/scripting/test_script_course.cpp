@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "script_run.h"
+#include "scripting/interpreter/catalogue.h"
 #include "scripting/runtime/help.h"
 
 namespace test_script_course {

@@ -1,8 +1,14 @@
 // Oracle: how the record was made, and srivc on the same record.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "numerics/estimators/srivc.h"
+#include "numerics/fit/assessment.h"
+#include "numerics/signals/prbs.h"
+#include "numerics/simulation/lsim.h"
 #include "script_run.h"
+#include "scripting/conversions/option_words.h"
 
 namespace test_script_estimators {
 
@@ -119,6 +125,25 @@ TEST(script_estimators, each_output_has_orders_of_its_own) {  // oracle: each ou
             "print(same(G.channels[1][1].num, srivc(data, {1, 2, 6}).num), #G.channels[2][1].den, "
             "#G.channels[2][1].num)"),
         "true\t4\t2\n");
+}
+
+// Oracle: the constant that was put into the record, and the same estimate by the C++ function.
+TEST(script_estimators, srivc_reports_the_doubts_of_the_cpp_function) {
+    const Vector u = prbs(7, 8);
+    const Vector ripple = (Vector::LinSpaced(u.size(), 0, static_cast<double>(u.size() - 1)).array().square()).sin();
+    const Vector y = lsim(TransferFunction(Vector{{2.0}}, Vector{{1.0, 4.0, 3.0}}), u, 0.05);
+    const IdData data(Matrix((y + 0.05 * ripple).array() + 3), Matrix(u), 0.05);
+    const Fit fit = srivc(data, TransferStructure::single(2, 0));
+    ASSERT_TRUE(fit.doubts.missed_option && fit.doubts.missed_option->start.offset);
+    ASSERT_TRUE(fit.doubts.assessment);
+    EXPECT_EQ(printed("local u = prbs(7, 8)\n"
+                      "local y = lsim(tf({2}, {1, 4, 3}), u, 0.05) + 0.05*sin(range(0, 1, #u - 1)^2) + 3\n"
+                      "local G = srivc(iddata(y, u, 0.05), {1, 2, 0})\n"
+                      "print(G.report.warnings[#G.report.warnings])\nprint(G.report.white)\n"
+                      "for i = 1, #G.param do print(string.format('%.6g %.6g', G.param[i], G.robust_std[i])) end"),
+              fmt::format("{}\n{}\n{:.6g} {:.6g}\n{:.6g} {:.6g}\n{:.6g} {:.6g}\n", in_lua_words(fit.warnings.back()),
+                          fit.doubts.assessment->white, fit.theta[0], fit.doubts.assessment->std[0], fit.theta[1],
+                          fit.doubts.assessment->std[1], fit.theta[2], fit.doubts.assessment->std[2]));
 }
 
 }  // namespace test_script_estimators

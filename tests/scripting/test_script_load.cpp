@@ -36,6 +36,38 @@ TEST_F(script_load, tells_what_was_guessed_and_feeds_fillmissing) {
     EXPECT_THAT(complains("print(load(\"a.txt\").y)"), HasSubstr("have no variable 'y'; they have time, u"));
 }
 
+TEST_F(script_load, names_the_file_and_the_line_that_cannot_be_read) {
+    write("cut.mat", std::string("MATLAB 5.0 MAT-file").append(140, ' '));
+    write("ragged.csv", "t,y\n0,1\n1\n");
+    write("word.csv", "t,y\n0,1\n1,two\n");
+    write("inf.csv", "t,y\n0,1\n1,Inf\n");
+    EXPECT_THAT(complains("load('cut.mat')"), HasSubstr("cut.mat"));
+    for (const char* name : {"ragged.csv", "word.csv", "inf.csv"})
+        EXPECT_THAT(complains("load('" + std::string(name) + "')"), HasSubstr(std::string(name) + ", line 3"));
+    EXPECT_THAT(complains("load('nowhere.mat')"), HasSubstr("nowhere.mat"));
+    EXPECT_THAT(complains("\nload('winning_tmies')"),
+                testing::AllOf(HasSubstr("lesson.lua:2"), HasSubstr("winning_times")));
+}
+
+TEST_F(script_load, data_of_no_use_are_refused_or_doubted_in_words) {
+    write("uneven.csv", "t,u,y\n0,1,2\n0.1,2,3\n0.3,3,4\n0.31,1,2\n0.5,1,2\n");
+    const std::string crane = "local e = load('crane').estimation ";
+    const std::pair<std::string, std::string> refused[] = {
+        {"local d = load('uneven.csv') iddata(d.y, d.u, d.t)", "{SamplingInstants = t}"},
+        {"local d = load('uneven.csv') arx(iddata(d.y, d.u, nil, {SamplingInstants = d.t}), {1, 1, 1})", "regular"},
+        {"srivc(iddata({0, 1, 0.5, 0.2, 1}, {1, 0, 0, 1, 0}, 0.1), {2, 2, 0})", "at least 12 samples are needed"},
+        {crane + "iddata(e, 0.02)", "the table holds t, theta, u, x"},
+    };
+    for (const auto& [code, words] : refused) EXPECT_THAT(complains(code), HasSubstr(words)) << code;
+    const std::pair<std::string, std::string> doubted[] = {
+        {"e.theta*180/math.pi, e.u, 0.02, {OutputUnit = 'rad'}", "probably in degrees"},
+        {"e.u, e.theta, 0.02", "probably exchanged"},
+        {"ones(#e.u), e.u, 0.02", "stays at 1 throughout"},
+    };
+    for (const auto& [data, words] : doubted)
+        EXPECT_THAT(says(crane + "advice(iddata(" + data + "))"), HasSubstr(words)) << data;
+}
+
 TEST_F(script_load, does_as_the_options_say) {
     write("a.dat", "made yesterday, by hand\n0 5\n1 6\n2 7\n");
     EXPECT_EQ(

@@ -10,6 +10,7 @@
 #include "platform/temporary_folder.h"
 #include "script_run.h"
 #include "scripting/objects/rig_drawing.h"
+#include "support/environment_variable.h"
 
 namespace test_script_motion {
 using namespace dynlab;
@@ -68,12 +69,11 @@ TEST(script_motion, keeps_signals_and_rig_in_one_figure) {
 TEST(script_motion, where_scripts_are_graded_draws_nothing_and_stops_nothing) {
     RunOptions graded;
     graded.graded = true;
-    ::setenv("DYNLAB_HOME", "/nowhere", 1);
+    const test::EnvironmentVariable home("DYNLAB_HOME", "/nowhere");
     for (const char* options : {"measured = s", "measured = t", "measured = {angle = t, more = t}, simulated = s"}) {
         const RunRecord record = test::run(kRecord + "motion{rig = 'crane', t = t, " + options + "}", graded);
         EXPECT_FALSE(record.error) << options << ": " << record.error->message;
     }
-    ::setenv("DYNLAB_HOME", DYNLAB_SOURCE_DIR, 1);
 }
 
 TEST(script_motion, says_what_is_missing) {

@@ -4,10 +4,13 @@
 
 #include <filesystem>
 #include <fstream>
+#include <set>
+#include <span>
 
 #include "platform/temporary_folder.h"
 #include "script_run.h"
 #include "scripting/conversions/numeric.h"
+#include "scripting/interpreter/catalogue.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/runtime/shown_calls.h"
 #include "scripting/runtime/shown_expressions.h"
@@ -40,13 +43,13 @@ TEST(shown_expressions, are_hidden_by_a_semicolon) {
 TEST(shown_expressions, keep_lines_in_messages_and_change_nothing_that_is_lua) {
     EXPECT_EQ(error_of("local x = 1\nx\nprint(y)"), "lesson.lua:3: there is no function or variable 'y'");
     for (const char* code : {"local x = 1\nprint(x)\n", "f(x)\n(g or h)(y)\n", "-- only a comment", ""})
-        EXPECT_EQ(with_shown_expressions(code), code);
+        EXPECT_EQ(with_shown_expressions(code, shown_calls()), code);
 }
 
 TEST(shown_expressions, leave_mistakes_as_they_are) {
     for (const char* code : {"local x = = 1", "hold on", "x y z", "for k = 1:10\nend", "print(1) end", "if x\nend",
                              "local v = [1 2 3]", "x = {1, 2", "x +", "a = b c", "if true then 1 + 1 end"})
-        EXPECT_EQ(with_shown_expressions(code), code);
+        EXPECT_EQ(with_shown_expressions(code, shown_calls()), code);
 }
 
 TEST(shown_expressions, calls_that_only_compute_are_shown_with_the_names_of_their_results) {
@@ -56,7 +59,7 @@ TEST(shown_expressions, calls_that_only_compute_are_shown_with_the_names_of_thei
     const char* unchanged[] = {
         "local x =\n  mean({1})", "f{\n  mean({1}),\n  2}", "return\n  mean({1})", "mean({1}).x = 2", "fit = {1}",
         "local p = pole(G)",      "x = y +\n  mean({1})"};
-    for (const char* code : unchanged) EXPECT_EQ(with_shown_calls(code), code);
+    for (const char* code : unchanged) EXPECT_EQ(with_shown_calls(code, shown_calls()), code);
 }
 
 TEST(shown_expressions, methods_that_give_a_value_are_shown) {
@@ -65,10 +68,11 @@ TEST(shown_expressions, methods_that_give_a_value_are_shown) {
         "[2 4]\n[6 7]\n");
     EXPECT_THAT(printed("local d = iddata(linspace(0, 1, 20), linspace(1, 2, 20), 0.1)\nd:split(0.5)"),
                 testing::ContainsRegex("10 samples(.|\n)*10 samples"));
-    for (const ObjectType* type : {&vector_type(), &matrix_type(), &Boxed<IdData>::type})
-        for (const Member& method : type->methods) {
+    const std::set<const ObjectType*> kinds = {&kVectorType, &kMatrixType, &Boxed<IdData>::type};
+    for (const TypeEntry& entry : catalogue_of_types())
+        for (const Member& method : kinds.contains(entry.type) ? entry.methods : std::span<const Member>()) {
             const std::string call = std::string("x:") + method.name + "(1)";
-            EXPECT_EQ(with_shown_calls(call) == call, std::string_view(method.name) == "set") << call;
+            EXPECT_EQ(with_shown_calls(call, shown_calls()) == call, std::string_view(method.name) == "set") << call;
         }
 }
 
@@ -102,14 +106,14 @@ TEST(shown_expressions, calls_that_draw_or_print_what_they_give_show_it_once) {
         EXPECT_EQ(run(data + call).figures.size(), 1u) << call;
     for (const char* code : {"advice(d)", "slider('a', 1, 0, 2)", "require('x')", "present(G)", "plot({1})", "print(1)",
                              "math.randomseed(1)", "selcstruc(V)"})
-        EXPECT_EQ(with_shown_calls(code), code);
+        EXPECT_EQ(with_shown_calls(code, shown_calls()), code);
 }
 
 TEST(shown_expressions, functions_of_the_script_s_own_are_not_taken_for_those_that_only_compute) {
     for (const char* code :
          {"local function damp(x)\n  return x\nend\ndamp(2)", "fit = function(x) return x end\nfit(2)",
           "local a, sum = 1, print\nsum(2)", "function mean(x) return x end\nmean(2)"})
-        EXPECT_EQ(with_shown_calls(code), code);
+        EXPECT_EQ(with_shown_calls(code, shown_calls()), code);
     EXPECT_EQ(printed("local r = {fit = 1, sum = 2}\nsum({1, 2})"), "3\n");
     // Names of blocks that are closed, or not there yet, hide nothing.
     EXPECT_EQ(printed("mean({1, 2, 3})\nfor _, mean in ipairs{1} do local a = mean end\nmean({3})"), "2\n3\n");
@@ -119,7 +123,7 @@ TEST(shown_expressions, functions_of_the_script_s_own_are_not_taken_for_those_th
     for (const char* code :
          {"for _, fit in ipairs{print} do\n  fit(1)\nend", "local function g(fit)\n  fit(1)\nend",
           "if true then\n  local sum = print\n  sum(1)\nend", "repeat\n  local mean = print\n  mean(1)\nuntil true"})
-        EXPECT_EQ(with_shown_calls(code), code);
+        EXPECT_EQ(with_shown_calls(code, shown_calls()), code);
 }
 
 TEST(shown_expressions, show_figures_too) {

@@ -7,6 +7,7 @@
 #include <regex>
 
 #include "documents/text_lines.h"
+#include "scripting/interpreter/catalogue.h"
 #include "scripting/lint/function_forms.h"
 #include "scripting/lint/lint.h"
 #include "scripting/lint/type_stubs.h"

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "numerics/estimators/procsrivc.h"
+#include "numerics/fit/assessment.h"
 #include "numerics/signals/prbs.h"
 #include "numerics/signals/random.h"
 #include "numerics/simulation/lsim.h"
-#include "numerics/validation/assessment.h"
 #include "numerics/validation/residual_tests.h"
 
 namespace test_residual_statistics {
@@ -87,6 +87,7 @@ ErrorStudy error_study(const Vector& u, double Ts, double pole, double size) {
     ProcsrivcOptions options;
     options.initial_state = InitialState::kZero;
     options.offset = Offset::kNone;
+    options.doubts = false;
     Matrix estimates(kRuns, 2);
     ErrorStudy study{Vector::Zero(2), Vector::Zero(2), Vector::Zero(2)};
     for (int run = 0; run < kRuns; ++run) {

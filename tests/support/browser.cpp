@@ -7,10 +7,12 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <array>
 #include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <thread>
+#include <vector>
 
 #include "platform/atomic_file.h"
 #include "platform/child_process.h"
@@ -44,31 +46,48 @@ ChildOptions driver(int port) {
     return options;
 }
 
-}  // namespace
-
-class Browser::Work {
+/// A running Chromium and its chromedriver.
+class Chromium {
   public:
-    Work(int width, int height, Kind kind)
-        : port_(free_port()), driver_(driver(port_), "chromium-driver"), client_("127.0.0.1", port_) {
+    explicit Chromium(Browser::Kind kind) : port_(free_port()), driver_(driver(port_), "chromium-driver") {
         client_.set_read_timeout(60, 0);
-        json arguments = {"--headless=new", "--disable-gpu", "--hide-scrollbars",
-                          fmt::format("--window-size={},{}", width, height)};
+        json arguments = {"--headless=new", "--disable-gpu", "--hide-scrollbars"};
         if (::geteuid() == 0) arguments.push_back("--no-sandbox");
         json options = {{"args", arguments}};
-        if (kind == Kind::kWithoutDesktop && std::filesystem::exists(kShell)) options["binary"] = kShell;
+        if (kind == Browser::Kind::kWithoutDesktop && std::filesystem::exists(kShell)) options["binary"] = kShell;
         const json wanted = {{"capabilities", {{"alwaysMatch", {{"goog:chromeOptions", options}}}}}};
         for (int i = 0; i < 1000 && !client_.Get("/status"); ++i) std::this_thread::sleep_for(10ms);
-        session_ = "/session/" + post("/session", wanted)["sessionId"].get<std::string>();
+        session_ = "/session/" + value(client_.Post("/session", wanted.dump(), kJson))["sessionId"].get<std::string>();
+        first_window_ = get("/window");
     }
-    ~Work() { client_.Delete(session_); }
+    ~Chromium() { client_.Delete(session_); }
 
-    json post(const std::string& path, const json& body) {
-        return value(client_.Post(path, body.dump(), "application/json"));
+    json command(const std::string& path, const json& body) {
+        return value(client_.Post(session_ + path, body.dump(), kJson));
     }
-    json command(const std::string& path, const json& body) { return post(session_ + path, body); }
     json get(const std::string& path) { return value(client_.Get(session_ + path)); }
+    void new_window(const char* type) {
+        const json window = command("/window/new", {{"type", type}});
+        command("/window", {{"handle", window["handle"]}});
+    }
+    /// Closes the windows of a test and deletes cookies, stored data and cached responses of all pages.
+    void forget() {
+        for (const json& window : get("/window/handles")) {
+            if (window == first_window_) continue;
+            command("/window", {{"handle", window}});
+            value(client_.Delete(session_ + "/window"));
+        }
+        command("/window", {{"handle", first_window_}});
+        devtools("Storage.clearDataForOrigin", {{"origin", "*"}, {"storageTypes", "all"}});
+        devtools("Network.clearBrowserCookies", json::object());
+        devtools("Network.clearBrowserCache", json::object());
+    }
+    json devtools(const std::string& name, const json& parameters) {
+        return command("/goog/cdp/execute", {{"cmd", name}, {"params", parameters}});
+    }
 
   private:
+    static constexpr const char* kJson = "application/json";
     static json value(const httplib::Result& reply) {
         if (!reply) throw EnvironmentError("chromedriver does not answer");
         json value = json::parse(reply->body)["value"];
@@ -78,19 +97,54 @@ class Browser::Work {
 
     int port_;
     ChildProcess driver_;
-    httplib::Client client_;
+    httplib::Client client_{"127.0.0.1", port_};
     std::string session_;
+    json first_window_;  ///< stays open and empty: Chromium ends with its last window
+};
+
+/// Those that no test uses now. A start takes a second, so the tests of a program use one Chromium in turn.
+std::vector<std::unique_ptr<Chromium>>& idle(Browser::Kind kind) {
+    static std::array<std::vector<std::unique_ptr<Chromium>>, 2> of_kind;
+    return of_kind[kind == Browser::Kind::kWhole];
+}
+
+}  // namespace
+
+class Browser::Work {
+  public:
+    Work(int width, int height, Kind kind) : kind_(kind) {
+        if (idle(kind).empty()) {
+            chromium_ = std::make_unique<Chromium>(kind);
+        } else {
+            chromium_ = std::move(idle(kind).back());
+            idle(kind).pop_back();
+        }
+        chromium_->new_window("window");
+        chromium_->command("/window/rect", {{"width", width}, {"height", height}});
+    }
+    ~Work() {
+        try {
+            chromium_->forget();
+            idle(kind_).push_back(std::move(chromium_));
+        } catch (const EnvironmentError&) {  // a Chromium that does not answer is not used again
+        }
+    }
+    Chromium& chromium() { return *chromium_; }
+
+  private:
+    Kind kind_;
+    std::unique_ptr<Chromium> chromium_;
 };
 
 Browser::Browser(int width, int height, Kind kind) : work_(std::make_unique<Work>(width, height, kind)) {}
 Browser::~Browser() = default;
 
 void Browser::open(const std::string& address) {
-    work_->command("/url", {{"url", address}});
+    work_->chromium().command("/url", {{"url", address}});
 }
 
 std::string Browser::evaluate(const std::string& script) {
-    return work_->command("/execute/sync", {{"script", script}, {"args", json::array()}}).dump();
+    return work_->chromium().command("/execute/sync", {{"script", script}, {"args", json::array()}}).dump();
 }
 
 bool Browser::comes(const std::string& expression, double seconds) {
@@ -110,26 +164,24 @@ void Browser::click(const std::string& selector) {
 }
 
 void Browser::new_tab() {
-    const json tab = work_->command("/window/new", {{"type", "tab"}});
-    work_->command("/window", {{"handle", tab["handle"]}});
+    work_->chromium().new_window("tab");
 }
 
 void Browser::prefer_dark() {
     const json dark = {{"name", "prefers-color-scheme"}, {"value", "dark"}};
-    work_->command("/goog/cdp/execute",
-                   {{"cmd", "Emulation.setEmulatedMedia"}, {"params", {{"features", json::array({dark})}}}});
+    work_->chromium().devtools("Emulation.setEmulatedMedia", {{"features", json::array({dark})}});
 }
 
 void Browser::act(const std::string& actions) {
-    work_->command("/actions", {{"actions", json::parse(actions)}});
+    work_->chromium().command("/actions", {{"actions", json::parse(actions)}});
 }
 
 std::string Browser::devtools(const std::string& command, const std::string& parameters) {
-    return work_->command("/goog/cdp/execute", {{"cmd", command}, {"params", json::parse(parameters)}}).dump();
+    return work_->chromium().devtools(command, json::parse(parameters)).dump();
 }
 
 void Browser::photograph(const std::string& file) {
-    const auto text = work_->get("/screenshot").get<std::string>();
+    const auto text = work_->chromium().get("/screenshot").get<std::string>();
     std::string bytes(text.size(), '\0');
     std::size_t size = 0;
     sodium_base642bin(reinterpret_cast<unsigned char*>(bytes.data()), bytes.size(), text.c_str(), text.size(), nullptr,

@@ -4,11 +4,13 @@
 
 namespace dynlab::test {
 
-/// A Chromium without a window, driven by chromedriver over HTTP (W3C WebDriver).
+/// A window of a Chromium that nobody sees, driven by chromedriver over HTTP (W3C WebDriver). A Chromium serves one
+/// Browser after another: each begins with a new window and without cookies, stored data and cached responses. Two
+/// that live at the same time have a Chromium each.
 class Browser {
   public:
     enum class Kind { kWithoutDesktop, kWhole };  ///< what pages do is the same in both
-    /// Throws EnvironmentError.
+    /// Width and height of the window in pixels. Throws EnvironmentError.
     explicit Browser(int width = 1280, int height = 900, Kind kind = Kind::kWithoutDesktop);
     ~Browser();
     void open(const std::string& address);

@@ -106,14 +106,20 @@ ChildResult Workbench::shell(const std::string& command) const {
     return run({"/bin/bash", "-c", command});
 }
 
-std::filesystem::path page_of_lesson(const std::string& lesson) {
-    const fs::path page = memory_of_tests() / "pages" / (lesson + ".html");
-    fs::create_directories(page.parent_path());
-    const std::string file = "'" + page.string();
+std::filesystem::path shared_document(const std::vector<std::string>& command, const std::string& name) {
+    const fs::path document = memory_of_tests() / "pages" / name;
+    fs::create_directories(document.parent_path());
+    std::string words;
+    for (const std::string& word : command) words += "'" + word + "' ";
+    const std::string file = "'" + document.string();
     const ChildResult made = Workbench(Workbench::Memory::kShared)
-                                 .shell("flock " + file + ".lock' \"$DYNLAB\" report " + lesson + " -o " + file + "'");
+                                 .shell("flock " + file + ".lock' \"$DYNLAB\" " + words + "-o " + file + "'");
     if (made.exit_code != 0) throw EnvironmentError(made.error_output);
-    return page;
+    return document;
+}
+
+std::filesystem::path page_of_lesson(const std::string& lesson) {
+    return shared_document({"report", lesson}, lesson + ".html");
 }
 
 }  // namespace dynlab::test

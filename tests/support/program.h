@@ -45,8 +45,10 @@ class Workbench {
     std::filesystem::path cache_;
 };
 
-/// The page that `dynlab report` makes of a lesson: once for all tests of this build, as long as nothing changes.
-/// Throws what the program says when it fails.
+/// The file that `dynlab COMMAND -o name` makes: once for all tests of this build, as long as nothing changes.
+/// Throws EnvironmentError with the program's message when it fails.
+std::filesystem::path shared_document(const std::vector<std::string>& command, const std::string& name);
+/// The page that `dynlab report` makes of a lesson.
 std::filesystem::path page_of_lesson(const std::string& lesson);
 
 }  // namespace dynlab::test

@@ -17,8 +17,9 @@
 #include "platform/terminal/aligned_table.h"
 #include "platform/terminal/progress.h"
 #include "platform/written_files.h"
+#include "scripting/interpreter/catalogue.h"
 #include "scripting/interpreter/runtime.h"
-#include "scripting/memoized_calls/call_cache.h"
+#include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/prompt/completion.h"
 #include "scripting/prompt/inspection.h"
 #include "scripting/runtime/context.h"
@@ -43,9 +44,7 @@ class CellWorld {
           renderer_(&cache_),
           listener_{[this](const std::string& latex) { expected_ = latex; }},
           runtime_(options(), renderer_) {
-        runtime_.set_service(&written_);
-        runtime_.set_service(&language_);
-        runtime_.set_service(&listener_);
+        runtime_.services() = {.language = &language_, .listener = &listener_, .written = &written_};
         ProgressBar::tell_instead([this](std::size_t done, std::size_t total) {
             const double part = total == 0 ? -1 : static_cast<double>(std::min(done, total)) / double(total);
             tell({.kind = "progress", .progress = part});
@@ -53,7 +52,7 @@ class CellWorld {
     }
 
     [[noreturn]] void serve() {
-        runtime_.run_statement(read_script_part(""), "start");  // from then on names can be completed
+        runtime_.run_statement(read_script_part("", {}), "start");  // from then on names can be completed
         while (const auto message = line_.receive()) {
             const CellOrder order = from_cbor<CellOrder>(message->bytes);
             forget_interrupts(std::numeric_limits<int>::max());
@@ -114,7 +113,7 @@ class CellWorld {
         const std::string name = fmt::format("cell [{}]", order.count);
         try {
             take_header(order.code, name);
-            const RunRecord record = runtime_.run_statement(read_script_part(order.code), name);
+            const RunRecord record = runtime_.run_statement(read_script_part(order.code, shown_calls()), name);
             show_reported(record);
             for (const std::string& figure : figures_in_order(record)) {
                 throw_if_interrupted();

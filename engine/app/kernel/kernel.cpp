@@ -65,7 +65,7 @@ std::optional<std::string> asked_about(const std::string& code) {
 }
 
 json completeness(const std::string& code) {
-    const PromptStatement cell = read_script_part(code);
+    const PromptStatement cell = read_script_part(code, {});
     if (cell.kind == PromptStatement::Kind::kIncomplete) return {{"status", "incomplete"}, {"indent", "  "}};
     return {{"status", asked_about(code) || !LuaReader().error_of(cell.code + "\n") ? "complete" : "invalid"}};
 }

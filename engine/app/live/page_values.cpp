@@ -40,42 +40,41 @@ json vector_json(NumericBlock& block) {
     return list;
 }
 
-json figure_json(lua_State* L, ScriptFigure& shown) {
+json figure_json(ScriptFigure& shown, bool comma) {
     shown.used = true;
-    const bool comma = service<PageValues>(L).decimal_comma;
     return json::parse(plot_data(comma ? in_french(shown.figure) : shown.figure, comma));
 }
 
 /// What a view says to its reader, by the name under which it says it; other texts are names and code.
-std::string told_on_page(lua_State* L, const std::string& name, const std::string& text) {
-    if (!service<PageValues>(L).decimal_comma) return text;
+std::string told_on_page(const std::string& name, const std::string& text, bool comma) {
+    if (!comma) return text;
     if (name == "words") return french_engine_sentences().translated(text);
     return name == "error" ? told_error(text, "fr") : text;
 }
 
-json value_json(lua_State* L, int index, int depth);
+json value_json(lua_State* L, int index, int depth, bool comma);
 
 /// A list where the keys are 1, 2, ...; else an object of those that are texts.
-json table_json(lua_State* L, int index, int depth) {
+json table_json(lua_State* L, int index, int depth, bool comma) {
     const auto length = static_cast<lua_Integer>(lua_rawlen(L, index));
     if (depth > kDeepest) return nullptr;
     luaL_checkstack(L, 4, "tables in tables");
     json list = json::array(), object = json::object();
     for (lua_Integer i = 1; i <= length; ++i) {
         lua_rawgeti(L, index, i);
-        list.push_back(value_json(L, lua_gettop(L), depth + 1));
+        list.push_back(value_json(L, lua_gettop(L), depth + 1, comma));
         lua_pop(L, 1);
     }
     for (lua_pushnil(L); lua_next(L, index) != 0; lua_pop(L, 1)) {
         if (lua_type(L, -2) != LUA_TSTRING) continue;
         const std::string name = lua_tostring(L, -2);
-        object[name] = lua_type(L, -1) == LUA_TSTRING ? json(told_on_page(L, name, lua_tostring(L, -1)))
-                                                      : value_json(L, lua_gettop(L), depth + 1);
+        object[name] = lua_type(L, -1) == LUA_TSTRING ? json(told_on_page(name, lua_tostring(L, -1), comma))
+                                                      : value_json(L, lua_gettop(L), depth + 1, comma);
     }
     return object.empty() ? list : object;
 }
 
-json value_json(lua_State* L, int index, int depth) {
+json value_json(lua_State* L, int index, int depth, bool comma) {
     switch (lua_type(L, index)) {
         case LUA_TBOOLEAN:
             return lua_toboolean(L, index) != 0;
@@ -84,20 +83,20 @@ json value_json(lua_State* L, int index, int depth) {
         case LUA_TSTRING:
             return lua_tostring(L, index);
         case LUA_TTABLE:
-            return table_json(L, index, depth);
+            return table_json(L, index, depth, comma);
         default:
             break;
     }
     if (NumericBlock* const block = to_vector(L, index)) return vector_json(*block);
     if (NumericBlock* const block = to_matrix(L, index)) return matrix_json(*block);
-    if (FigurePointer* const figure = to_object<FigurePointer>(L, index)) return figure_json(L, **figure);
+    if (FigurePointer* const figure = to_object<FigurePointer>(L, index)) return figure_json(**figure, comma);
     return nullptr;
 }
 
 int show(Call& call) {
-    const json value = value_json(call.state(), 2, 0);
-    service<PageValues>(call.state())
-        .show(call.text(1, "name"), value.dump(-1, ' ', false, json::error_handler_t::replace));
+    PageValues& page = call.owner<PageValues>();
+    const json value = value_json(call.state(), 2, 0, page.decimal_comma);
+    page.show(call.text(1, "name"), value.dump(-1, ' ', false, json::error_handler_t::replace));
     return 0;
 }
 

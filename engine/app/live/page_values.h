@@ -7,7 +7,7 @@
 
 namespace dynlab::inline app {
 
-/// A service of the runtime: what a script gives the page that runs it, by names, each as JSON.
+/// What page_functions() work on: what a script gives the page that runs it, by names, each as JSON.
 class PageValues {
   public:
     bool decimal_comma = false;  ///< numbers and sentences are written as French writes them

@@ -24,7 +24,7 @@
 #include "platform/memory.h"
 #include "platform/terminal/progress.h"
 #include "scripting/interpreter/runtime.h"
-#include "scripting/memoized_calls/call_cache.h"
+#include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/runtime/services.h"
 #include "workflow/process_copy.h"
 #include "workflow/run_script.h"
@@ -54,16 +54,15 @@ struct World {
 
     World(RunOptions options, const std::string& report_language, const std::string& prelude)
         : language{report_language}, runtime(with_memory(std::move(options), &calls), renderer) {
-        runtime.set_service(&language);
-        runtime.set_service(&page);
+        runtime.services().language = &language;
         page.decimal_comma = report_language == "fr";
         if (!prelude.empty()) {
-            runtime.add_functions(page_functions());
+            runtime.add_functions(page_functions(), page);
             const RunRecord made = runtime.run_code(prelude, "workbench");
             if (made.error) throw EnvironmentError(made.error->message);
         }
         sliders.clamped = true;  // it was chosen before the script had this range
-        runtime.set_service(&sliders);
+        runtime.services().sliders = &sliders;
     }
 
   private:

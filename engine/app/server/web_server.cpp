@@ -7,7 +7,6 @@
 #include <csignal>
 #include <memory>
 #include <mutex>
-#include <regex>
 #include <thread>
 
 #include "app/server/event_streams.h"
@@ -59,8 +58,11 @@ std::string cookie_of(const std::string& cookies, const std::string& name) {
 
 /// A pattern for httplib: the path itself, with * at its end for what follows.
 std::string pattern_of(const std::string& path) {
-    static const std::regex special(R"([.+(){}\[\]^$|\\])");
-    std::string pattern = std::regex_replace(path, special, "\\$&");
+    std::string pattern;
+    for (const char c : path) {
+        if (std::string_view(".+(){}[]^$|\\").find(c) != std::string_view::npos) pattern += '\\';
+        pattern += c;
+    }
     if (pattern.ends_with('*')) pattern.replace(pattern.size() - 1, 1, "[^/]*");
     return pattern;
 }

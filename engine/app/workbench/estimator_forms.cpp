@@ -1,8 +1,9 @@
 #include "app/workbench/estimator_forms.h"
 
+#include <re2/re2.h>
+
 #include <algorithm>
 #include <map>
-#include <regex>
 #include <set>
 
 #include "documents/words/sentence_catalogue.h"
@@ -14,29 +15,31 @@ namespace {
 
 /// The words of an option; where they only point to another page, that page's.
 std::string words_of(const std::string& option, const std::string& words) {
-    static const std::regex kElsewhere(R"(as for `(\w+)`)");
-    std::smatch elsewhere;
-    if (!std::regex_search(words, elsewhere, kElsewhere)) return words;
-    for (const auto& [name, there] : described_options(elsewhere[1]))
+    static const RE2 kElsewhere(R"(as for `(\w+)`)", RE2::Latin1);
+    std::string elsewhere;
+    if (!RE2::PartialMatch(words, kElsewhere, &elsewhere)) return words;
+    for (const auto& [name, there] : described_options(elsewhere))
         if (name == option) return words_of(option, there);
     return words;
 }
 
 FormField option_field(const std::string& name, const std::string& words) {
-    static const std::regex kChoice(R"(`("\w+")`( \([^)]*the default\))?)"),
+    static const RE2 kChoice(R"(`("\w+")`( \([^)]*the default\))?)", RE2::Latin1),
         kNumbers(
-            R"(\b(iterations?|change at which|bounds?|between which|seconds|rad/s|grid|number|numbers|delays?|coefficients|bins|samples|gain|frequency)\b)");
+            R"(\b(iterations?|change at which|bounds?|between which|seconds|rad/s|grid|number|numbers|delays?|coefficients|bins|samples|gain|frequency)\b)",
+            RE2::Latin1);
     FormField field{name, "text", {}, "", words};
-    for (std::sregex_iterator found(words.begin(), words.end(), kChoice), last; found != last; ++found) {
-        field.parts.push_back((*found)[1]);
-        if ((*found)[2].matched) field.initial = (*found)[1];
+    std::string choice, mark;
+    for (re2::StringPiece rest = words; RE2::FindAndConsume(&rest, kChoice, &choice, &mark);) {
+        field.parts.push_back(choice);
+        if (!mark.empty()) field.initial = choice;
     }
     if (field.parts.size() > 1)
         field.kind = "choice";
     else if (words.starts_with("true"))
         field.kind = "flag";
     else if (words.find("{") == std::string::npos && words.find("edges") == std::string::npos &&
-             std::regex_search(words, kNumbers))
+             RE2::PartialMatch(words, kNumbers))
         field.kind = "number";
     if (field.kind != "choice") field.parts.clear();
     return field;

@@ -1,17 +1,16 @@
 #include "app/workbench/session_script.h"
 
 #include <fmt/format.h>
+#include <re2/re2.h>
 
 #include <algorithm>
 #include <optional>
-#include <regex>
 #include <set>
 #include <span>
 
 #include "data_io/values/value_limits.h"
 #include "documents/text_lines.h"
 #include "numerics/number_text.h"
-#include "platform/text/regex_limit.h"
 #include "scripting/source/lua_tokens.h"
 
 namespace dynlab::inline app {
@@ -195,26 +194,24 @@ bool is_remark(const std::string& rest) {
 
 /// Whether a line begins as an assignment or a cell does, so that an unfinished statement cannot go on there.
 bool begins_anew(const std::string& line) {
-    static const std::regex kBegin(R"(^(-- %%|(local\s+)?[A-Za-z_]\w*(\s*,\s*[A-Za-z_]\w*)*\s*=[^=]))");
-    return std::regex_search(line.substr(0, kLongestForRegex), kBegin);
+    static const RE2 kBegin(R"(^(-- %%|(local\s+)?[A-Za-z_]\w*(\s*,\s*[A-Za-z_]\w*)*\s*=[^=]))", RE2::Latin1);
+    return RE2::PartialMatch(line, kBegin);
 }
 
 /// The first line of a statement that is no statement of Lua, with the lines behind it that can belong to it, where it
 /// gives names to something.
 std::optional<SessionStep> broken_step(const std::vector<std::string>& lines, int first) {
-    static const std::regex kNames(R"(^(local\s+)?([A-Za-z_]\w*(?:\s*,\s*[A-Za-z_]\w*)*)\s*=)"), kName(R"(\w+)");
-    std::smatch found;
-    const std::string& line_of_names = lines[static_cast<std::size_t>(first - 1)];
-    const std::string begin = line_of_names.substr(0, kLongestForRegex);
-    if (!std::regex_search(begin, found, kNames)) return {};
+    static const RE2 kNames(R"((local\s+)?([A-Za-z_]\w*(?:\s*,\s*[A-Za-z_]\w*)*)\s*=)", RE2::Latin1),
+        kName(R"((\w+))", RE2::Latin1);
+    re2::StringPiece rest = lines[static_cast<std::size_t>(first - 1)], names;
+    std::string local, name;
+    if (!RE2::Consume(&rest, kNames, &local, &names)) return {};
     SessionStep step;
     step.broken = true;
     step.first_line = step.last_line = first;
-    step.local = found[1].matched;
-    const std::string names = found[2];
-    for (std::sregex_iterator name(names.begin(), names.end(), kName), last; name != last; ++name)
-        step.names.push_back(name->str());
-    std::string text = trimmed(std::string_view(line_of_names).substr(static_cast<std::size_t>(found.length())));
+    step.local = !local.empty();
+    while (RE2::FindAndConsume(&names, kName, &name)) step.names.push_back(name);
+    std::string text = trimmed(rest);
     for (int line = first + 1; line <= static_cast<int>(lines.size()); ++line) {
         const std::string& more = lines[static_cast<std::size_t>(line - 1)];
         if (is_blank(more) || begins_anew(more)) break;

@@ -2,9 +2,9 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <re2/re2.h>
 
 #include <nlohmann/json.hpp>
-#include <regex>
 #include <thread>
 
 #include "app/live/background_work.h"
@@ -39,12 +39,11 @@ struct Subject {
 
 /// The first record that a lesson loads.
 std::string record_of_lesson(const Lesson& lesson) {
-    static const std::regex kLoad(R"(\bload\("([^"]+)\"\))");
-    const std::string source = read_text(lesson.script());
-    std::smatch found;
-    if (!std::regex_search(source, found, kLoad))
+    static const RE2 kLoad(R"(\bload\("([^"]+)\"\))", RE2::Latin1);
+    std::string record;
+    if (!RE2::PartialMatch(read_text(lesson.script()), kLoad, &record))
         throw EnvironmentError(fmt::format("lesson {} loads no record; name a data file or a data set", lesson.slug));
-    return found[1];
+    return record;
 }
 
 fs::path session_of(const std::string& name) {

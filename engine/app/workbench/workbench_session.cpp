@@ -286,7 +286,7 @@ void WorkbenchSession::forget_other_cells() {
 /// Whether the script ends in the middle of a statement, which whatever is appended would be taken to end.
 bool WorkbenchSession::ends_early(const std::string& text) const {
     const std::vector<ScriptPart> parts = script_parts(parse_percent_script(text, text_.file()));
-    return !parts.empty() && read_script_part(parts.back().code).kind == PromptStatement::Kind::kIncomplete;
+    return !parts.empty() && read_script_part(parts.back().code, {}).kind == PromptStatement::Kind::kIncomplete;
 }
 
 std::optional<std::string> WorkbenchSession::mistake() const {

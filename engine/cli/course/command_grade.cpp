@@ -6,8 +6,8 @@
 
 #include "cli/commands.h"
 #include "cli/course/grading_options.h"
+#include "cli/course/share_options.h"
 #include "cli/document_command.h"
-#include "cli/options/share_options.h"
 #include "course/grading/grading.h"
 #include "numerics/number_text.h"
 #include "platform/atomic_file.h"

@@ -1,10 +1,10 @@
 #include <fmt/format.h>
+#include <re2/re2.h>
 
 #include <iostream>
 #include <map>
 #include <memory>
 #include <optional>
-#include <regex>
 
 #include "cli/commands.h"
 #include "cli/options/script_options.h"
@@ -30,11 +30,11 @@ struct PackArguments {
 /// Whether the PDF is a draft, in which ?? stands where something is missing.
 bool is_draft(const fs::path& pdf) {
     // Beside signs and units, not behind a word as a doubled question mark is.
-    static const std::regex kGap(R"((^|[^A-Za-z?])\?\?([^?]|$))");
+    static const RE2 kGap(R"((^|[^A-Za-z?])\?\?([^?]|$))", RE2::Latin1);
     try {
         for (const PdfPage& page : read_pdf_layout(pdf).pages)
             for (const PdfWord& word : page.words)
-                if (!word.fixed_width && std::regex_search(word.text, kGap)) return true;
+                if (!word.fixed_width && RE2::PartialMatch(word.text, kGap)) return true;
     } catch (const PdfRefusal&) {  // then it was not made here
     }
     return false;

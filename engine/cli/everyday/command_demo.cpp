@@ -9,7 +9,7 @@
 #include "cli/commands.h"
 #include "platform/interrupt.h"
 #include "platform/text/read_number.h"
-#include "scripting/memoized_calls/call_cache.h"
+#include "scripting/memoized_calls/memoized_call.h"
 #include "workflow/demonstration.h"
 #include "workflow/error_text.h"
 #include "workflow/run_script.h"

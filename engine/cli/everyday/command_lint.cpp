@@ -6,7 +6,6 @@
 
 #include "cli/commands.h"
 #include "cli/options/script_options.h"
-#include "course/checks/check_functions.h"
 #include "documents/text_lines.h"
 #include "platform/error.h"
 #include "platform/terminal/terminal_text.h"
@@ -33,8 +32,8 @@ std::string text_of(const std::string& file) {
 }
 
 /// Files with checks have a language of their own.
-std::vector<std::string> names_in(const std::string& file) {
-    return fs::path(file).filename() == "checks.lua" ? names_of_check_functions() : std::vector<std::string>();
+std::vector<std::string> names_in(const std::string& file, const CheckNames& check_names) {
+    return fs::path(file).filename() == "checks.lua" ? check_names() : std::vector<std::string>();
 }
 
 /// Where editors find it; in a notebook, where people do.
@@ -43,13 +42,13 @@ std::string finding_place(const LintFinding& found, const std::string& file, con
     return cell.empty() ? fmt::format("{}:{}:{}", file, found.line, found.column) : fmt::format("{}, {}", file, cell);
 }
 
-int lint(const LintArguments& words) {
+int lint(const LintArguments& words, const CheckNames& check_names) {
     nlohmann::json all = nlohmann::json::array();
     std::string text;
     for (const std::string& given : words.files) {
         const std::string file = fs::is_directory(given) ? (fs::path(given) / "analysis.lua").string() : given;
         const std::string source = text_of(file);
-        for (const LintFinding& found : lint_script(source, file, names_in(file))) {
+        for (const LintFinding& found : lint_script(source, file, names_in(file, check_names))) {
             all.push_back({{"file", file},
                            {"line", found.line},
                            {"column", found.column},
@@ -78,7 +77,7 @@ std::string complaint_about(const std::string& given) {
 
 }  // namespace
 
-void add_lint(CLI::App& app, Action& action) {
+void add_lint(CLI::App& app, Action& action, const CheckNames& check_names) {
     auto words = std::make_shared<LintArguments>();
     CLI::App* command = app.add_subcommand("lint", "Look for mistakes in scripts without running them");
     command
@@ -91,9 +90,9 @@ void add_lint(CLI::App& app, Action& action) {
         "answers that the header does not declare or that are never handed in, each as FILE:LINE:COLUMN: what.\n"
         "Example:  dynlab lint analysis.lua\n"
         "Exit codes: 0 nothing was found, 1 something was, 2 wrong usage.");
-    command->callback([words, &action] {
+    command->callback([words, check_names, &action] {
         for (const std::string& file : words->files) refuse_other_files(file, "lint");
-        action = [words] { return lint(*words); };
+        action = [words, check_names] { return lint(*words, check_names); };
     });
 }
 

@@ -5,7 +5,7 @@
 #include "platform/atomic_file.h"
 #include "platform/terminal/terminal_text.h"
 #include "platform/written_files.h"
-#include "scripting/memoized_calls/call_cache.h"
+#include "scripting/memoized_calls/memoized_call.h"
 #include "workflow/error_text.h"
 #include "workflow/notebooks/figure_bundle.h"
 #include "workflow/notebooks/notebook.h"

@@ -1,12 +1,11 @@
 #include <fmt/format.h>
+#include <re2/re2.h>
 #include <unistd.h>
 
 #include <iostream>
-#include <regex>
 
 #include "cli/commands.h"
-#include "cli/options/script_options.h"
-#include "cli/options/share_options.h"
+#include "cli/options/run_command.h"
 #include "figures/french_texts.h"
 #include "figures/gnuplot_script.h"
 #include "platform/atomic_file.h"
@@ -15,39 +14,17 @@
 #include "platform/terminal/terminal_output.h"
 #include "platform/terminal/terminal_text.h"
 #include "platform/written_files.h"
-#include "scripting/memoized_calls/call_cache.h"
+#include "scripting/memoized_calls/memoized_call.h"
 #include "workflow/error_text.h"
 #include "workflow/given_script.h"
 #include "workflow/make_report.h"
 #include "workflow/notebooks/notebook.h"
 #include "workflow/run_script.h"
-#include "workflow/shares/shared_study.h"
 
 namespace dynlab::inline cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct RunArguments {
-    std::string file, code, out, on, spool;
-    int lease = 30;
-    bool interactive = false, view = false, force = false, gnuplot = false;
-    SeedOption seed;
-    SliderOption sliders;
-};
-
-/// Where a study's long calls are shared out: in the folder of its figures, which the other machines must see.
-SharedStudy::Request study_request(const RunArguments& words, const fs::path& out, std::uint32_t seed) {
-    SharedStudy::Request request;
-    request.script = words.file;
-    request.seed = seed;
-    request.on = words.on;
-    fs::create_directories(out);
-    request.spool = words.spool.empty() ? out / ".spool" : fs::path(words.spool);
-    request.key = out / ".spool.key";
-    request.lease_seconds = words.lease;
-    return request;
-}
 
 /// Where a script's files go: beside it, or where nothing may be written there (an installed lesson), here.
 fs::path folder_of(const fs::path& script) {
@@ -57,11 +34,11 @@ fs::path folder_of(const fs::path& script) {
 
 /// Figures of an earlier run, by the names that draw_figures gives: "03-step-figure-1.pdf".
 void remove_old_figures(const fs::path& folder) {
-    static const std::regex kDrawn("[0-9][0-9]+-.+\\.(pdf|gp)");
+    static const RE2 kDrawn(R"(\d\d+-.+\.(pdf|gp))", RE2::Latin1);
     std::error_code none;
     std::vector<fs::path> old;
     for (const auto& entry : fs::directory_iterator(folder, none))
-        if (entry.is_regular_file() && std::regex_match(entry.path().filename().string(), kDrawn))
+        if (entry.is_regular_file() && RE2::FullMatch(entry.path().filename().string(), kDrawn))
             old.push_back(entry.path());
     for (const fs::path& file : old) fs::remove(file, none);
 }
@@ -108,7 +85,9 @@ RunRecord run_showing_activity(RunRequest& request, GnuplotRenderer& renderer) {
     return run_script(request, renderer);
 }
 
-int run(const RunArguments& words) {
+}  // namespace
+
+int run_and_show(const RunArguments& words, RunSharing* sharing) {
     const bool from_file = !words.file.empty();
     RunRequest request;
     const fs::path file = from_file ? meant_script(words.file) : fs::path();
@@ -126,19 +105,17 @@ int run(const RunArguments& words) {
     WrittenFiles written(state_file("written"),
                          words.force ? WrittenFiles::Others::kReplaced : WrittenFiles::Others::kKept);
     GnuplotRenderer renderer(&cache);
-    std::optional<SharedStudy> study;
-    if (words.on.empty()) {
+    if (sharing == nullptr) {
         request.call_cache = &calls;
     } else {
-        request.seed = words.seed.value().value_or(request.script.header.seed);
-        request.shared = &study.emplace(study_request(words, out, *request.seed));
+        request.seed = request.seed.value_or(request.script.header.seed);
+        request.shared = &sharing->begin(out, *request.seed);
     }
     request.written = &written;
     RunRecord record = run_showing_activity(request, renderer);
-    if (study) {
-        if (!record.error) study->conclude();
-        for (const std::string& note : study->notes()) std::cerr << "dynlab: note: " << terminal_text(note) << '\n';
-    }
+    if (sharing != nullptr)
+        for (const std::string& note : sharing->end(!record.error))
+            std::cerr << "dynlab: note: " << terminal_text(note) << '\n';
     if (words.out.empty()) remove_old_figures(out);  // a folder that was named is somebody's
     save_figures(record, renderer, out, request.script.header.language);
     if (words.gnuplot) save_gnuplot_files(record, request.script.header.language);
@@ -152,8 +129,6 @@ int run(const RunArguments& words) {
     std::cerr << "dynlab: " << terminal_text(error_text(*record.error, request.script)) << '\n';
     return kFailed;
 }
-
-}  // namespace
 
 void add_run(CLI::App& app, Action& action, const FigureView& view) {
     auto words = std::make_shared<RunArguments>();
@@ -189,32 +164,8 @@ void add_run(CLI::App& app, Action& action, const FigureView& view) {
         refuse_other_files(words->file, "run");
         action = [words, view] {
             if (words->view) return open_prompt(words->file, view());
-            return words->interactive ? open_prompt(words->file, nullptr) : run(*words);
+            return words->interactive ? open_prompt(words->file, nullptr) : run_and_show(*words);
         };
-    });
-}
-
-void add_study(CLI::App& app, Action& action) {
-    auto words = std::make_shared<RunArguments>();
-    CLI::App* command = app.add_subcommand("study", "Run a script whose montecarlo and srivcstruc others share");
-    command->add_option("FILE", words->file, "The script")->required()->check(CLI::ExistingFile);
-    add_share_options(*command, words->on, words->spool, words->lease);
-    command->get_option("--on")->required();
-    command->add_option("--out", words->out, "Folder for figures, saved files and the run's record (record.json)")
-        ->type_name("DIR");
-    command->add_flag("--force", words->force, "Let the script replace files that no run of dynlab wrote");
-    words->seed.add_to(*command);
-    command->footer(
-        "Everything is as with dynlab run, to the last bit, but these calls are made in parts by all workers. Each "
-        "runs\n"
-        "the script up to the call, so that functions of yours are estimators as well as any; what comes before "
-        "should\n"
-        "be quick, and must not ask for the time. A study that was ended goes on with the parts that were made.\n"
-        "Example:  dynlab study bias.lua --on processes:8\n"
-        "Exit codes: 0 done, 1 the script failed, 2 wrong usage.");
-    command->callback([words, &action] {
-        refuse_other_files(words->file, "study");
-        action = [words] { return run(*words); };
     });
 }
 

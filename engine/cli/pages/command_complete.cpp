@@ -5,6 +5,7 @@
 #include "cli/commands.h"
 #include "cli/pages/next_words.h"
 #include "data_io/dataset_index.h"
+#include "scripting/interpreter/catalogue.h"
 #include "scripting/runtime/help.h"
 #include "workflow/demonstration.h"
 #include "workflow/lesson_catalogue.h"

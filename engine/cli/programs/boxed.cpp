@@ -1,23 +1,29 @@
-// dynlab-boxed: the part of `dynlab boxed` that grading asks for with each submission.
+// dynlab-boxed: runs scripts and checks, unpacks archives and makes documents in sandboxes, a process for each.
 #include <cstdio>
 #include <exception>
 #include <string_view>
 
-#include "cli/boxed_job.h"
+#include "cli/programs/boxed_job.h"
+#include "course/boxes/boxed_document.h"
+#include "course/boxes/unpack.h"
 #include "course/checks/check_descriptions.h"
 #include "platform/interrupt.h"
 #include "platform/memory.h"
 
-int main(int count, char** words) {
+int main(int count, char** args) {
     using namespace dynlab;
     keep_freed_memory();
     const InterruptScope interrupts;
-    const std::string_view work = count == 3 && std::string_view(words[1]) == "boxed" ? words[2] : "";
+    const std::string_view work = count == 3 && std::string_view(args[1]) == "boxed" ? args[2] : "";
     try {
         if (work == RunJob::kWork)
             do_boxed_job(run_for_grading);
         else if (work == ChecksJob::kWork)
             do_boxed_job(try_checks);
+        else if (work == UnpackJob::kWork)
+            do_boxed_job(unpack_archive);
+        else if (work == DocumentJob::kWork)
+            do_boxed_job(make_boxed_document);
         else
             return std::fputs("dynlab-boxed is for dynlab grade, not for people\n", stderr), 2;
         return 0;

@@ -1,10 +1,14 @@
-// dynlab-course: the commands for checking, grading and running a course, for dynlab to go on as.
-#include "cli/program.h"
-#include "platform/program_lookup.h"
+// dynlab-course: all commands, for dynlab to go on as.
+#include <iterator>
 
-int main(int count, char** words) {
+#include "cli/pages/figure_view.h"
+#include "cli/program.h"
+#include "course/checks/check_functions.h"
+
+int main(int count, char** args) {
     using namespace dynlab;
-    Commands commands = course_commands();
-    commands.emplace_back(add_boxed_version);
-    return Program(commands, [words]() -> FigureListener { go_on_as(kPagesProgram, words); }).run(count, words);
+    Commands commands = everyday_commands(view_in_browser, names_of_check_functions);
+    for (Commands more : {course_commands(), page_commands()})
+        commands.insert(commands.end(), std::move_iterator(more.begin()), std::move_iterator(more.end()));
+    return Program(commands, view_in_browser).run(count, args);
 }

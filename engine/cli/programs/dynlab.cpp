@@ -1,8 +1,9 @@
-// dynlab: what people start. What it has not is left to programs beside it, so that a script, a report and the prompt
-// begin without the libraries of PDF files, of the course's database and of pages.
-#include <algorithm>
+// dynlab: what people start. It has the commands of a lesson and the prompt, so that these begin without the libraries
+// of PDF files, of the course's database and of pages, and are built before all else; any other command it leaves to
+// dynlab-course.
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "cli/program.h"
 #include "platform/program_lookup.h"
@@ -11,25 +12,23 @@ namespace {
 
 using namespace dynlab;
 
-constexpr std::string_view kCourseCommands[] = {"check",      "pack",      "bundle",  "verify", "checks",      "grade",
-                                                "gradescope", "hand-back", "similar", "course", "test-lesson", "work"};
-
-/// The command, or what stands in its place; the option --course DIR may stand before it.
-std::string_view first_word(int count, char** words) {
+/// The command, or the first argument where there is none; the option --course DIR may precede it.
+std::string_view first_argument(int count, char** args) {
     int i = 1;
-    while (i < count && std::string_view(words[i]).starts_with("--course"))
-        i += std::string_view(words[i]) == "--course" ? 2 : 1;
-    return i < count ? words[i] : "";
+    while (i < count && std::string_view(args[i]).starts_with("--course"))
+        i += std::string_view(args[i]) == "--course" ? 2 : 1;
+    return i < count ? args[i] : "";
 }
 
 }  // namespace
 
-int main(int count, char** words) {
-    const auto figures = [words]() -> FigureListener { go_on_as(kPagesProgram, words); };
-    Program program(everyday_commands(figures), figures);
-    const std::string_view first = first_word(count, words);
+int main(int count, char** args) {
+    const FigureView view = [args]() -> FigureListener { go_on_as(kCourseProgram, args); };
+    const CheckNames check_names = [args]() -> std::vector<std::string> { go_on_as(kCourseProgram, args); };
+    Program program(everyday_commands(view, check_names), view);
+    const std::string_view first = first_argument(count, args);
     const bool is_here =
         first.empty() || first == "--view" || first == "--version" || program.has_command(std::string(first));
-    if (is_here) return program.run(count, words);
-    go_on_as(std::ranges::count(kCourseCommands, first) > 0 ? kCourseProgram : kPagesProgram, words);
+    if (is_here) return program.run(count, args);
+    go_on_as(kCourseProgram, args);
 }

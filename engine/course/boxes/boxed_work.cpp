@@ -26,9 +26,7 @@ std::string reason_of_end(const ChildResult& child, std::chrono::milliseconds ti
 }
 
 std::filesystem::path program_for(const std::string& work, const std::filesystem::path& dynlab) {
-    if (work == "unpack" || work == "document") return dynlab;
-    const std::filesystem::path other = dynlab.parent_path() / (work == "version" ? kCourseProgram : kBoxedProgram);
-    return std::filesystem::is_regular_file(other) ? other : dynlab;
+    return dynlab.parent_path() / (work == "version" ? kCourseProgram : kBoxedProgram);
 }
 
 BoxedResult<std::string> run_boxed_bytes(Box& box, const std::filesystem::path& program, const std::string& work,

@@ -24,8 +24,8 @@ struct BoxedResult {
 /// has.
 std::string reason_of_end(const ChildResult& child, std::chrono::milliseconds timeout);
 
-/// What does such work: `dynlab`, or where they lie beside it dynlab-boxed, which knows runs and checks only and starts
-/// most quickly, or dynlab-course, which makes versions.
+/// The program beside `dynlab` that does such work: dynlab-boxed, which starts most quickly, or dynlab-course, which
+/// makes versions.
 std::filesystem::path program_for(const std::string& work, const std::filesystem::path& dynlab);
 
 /// The bytes of it, as the box wrote them.
@@ -36,7 +36,7 @@ BoxedResult<std::string> run_boxed_bytes(Box& box, const std::filesystem::path& 
 /// Of what is read inside a box and of what comes out of it: texts are made UTF-8.
 ValueLimits boxed_limits(std::uint64_t bytes = Box::Limits{}.output_bytes);
 
-/// Runs one piece of work, `dynlab boxed WORK`, with `program` (dynlab) in the box, or dynlab-boxed; its output may
+/// Runs one piece of work, `boxed WORK`, in the box, by the program for it beside `program` (dynlab). Its output may
 /// have `output_bytes`.
 template <class Job>
 BoxedResult<typename Job::Result> run_boxed(Box& box, const std::filesystem::path& program, const Job& job,

@@ -10,7 +10,7 @@
 #include "platform/cache.h"
 #include "platform/confinement.h"
 #include "scripting/interpreter/runtime.h"
-#include "scripting/memoized_calls/call_cache.h"
+#include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/runtime/services.h"
 
 namespace dynlab::inline course {
@@ -77,7 +77,7 @@ GradedRun run_for_grading(const RunJob& job) {
         std::optional<CallCache> calls;
         if (job.recalls) options.call_cache = &calls.emplace(cache.emplace());
         Runtime runtime(options, renderer);
-        runtime.set_service(&language);
+        runtime.services().language = &language;
         const auto start = std::chrono::steady_clock::now();
         GradedRun run = graded_run(runtime.run(script), script);
         if (run.error) run.error = told_outside(*run.error, job.script.parent_path());

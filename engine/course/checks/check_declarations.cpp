@@ -36,7 +36,7 @@ double points_option(const Options& options, const std::string& id, double fallb
 
 int check(Call& call) {
     call.at_most(1);
-    CheckSession& session = service<CheckSession>(call.state());
+    CheckSession& session = call.owner<CheckSession>();
     const Options options(
         call, 1, {"id", "points", "about", "test", "hint", "rerun", "document", "mistakes", "by_hand", "rubric"});
     DeclaredCheck check;
@@ -78,7 +78,7 @@ std::vector<DeclaredCheck>::iterator declared(CheckSession& session, const std::
 
 int change_check(Call& call) {
     call.at_most(1);
-    CheckSession& session = service<CheckSession>(call.state());
+    CheckSession& session = call.owner<CheckSession>();
     const Options options(call, 1, {"id", "points", "about", "hint"});
     DeclaredCheck& check = *declared(session, options.text("id", ""));
     check.points = points_option(options, check.id, check.points);
@@ -89,14 +89,14 @@ int change_check(Call& call) {
 
 int drop_check(Call& call) {
     call.at_most(1);
-    CheckSession& session = service<CheckSession>(call.state());
+    CheckSession& session = call.owner<CheckSession>();
     session.checks.erase(declared(session, call.text(1, "id")));
     return 0;
 }
 
 int declare_rig(Call& call) {
     call.at_most(1);
-    CheckSession& session = service<CheckSession>(call.state());
+    CheckSession& session = call.owner<CheckSession>();
     const Options options(call, 1, {"name", "record", "truth"});
     const std::string name = options.text("name", "");
     if (!plain_id(name)) throw InvalidArgument("a rig needs a name of letters, digits and _: that of its data set");

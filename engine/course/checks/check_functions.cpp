@@ -21,7 +21,7 @@ namespace dynlab::inline course {
 namespace {
 
 CheckSession& session_of(const Call& call) {
-    return service<CheckSession>(call.state());
+    return call.owner<CheckSession>();
 }
 
 /// A judgement: {share =, message =}.

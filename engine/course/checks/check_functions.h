@@ -7,7 +7,7 @@
 namespace dynlab::inline course {
 
 /// What checks.lua may call besides everything that lessons may, and besides check_record_functions. Their state is the
-/// service CheckSession.
+/// CheckSession that they are added with.
 FunctionEntries check_declarations();      ///< check, change_check, drop_check, declare_rig
 FunctionEntries check_functions();         ///< near, points_between, all_of, any_of, differs, has_figure, ...
 FunctionEntries check_source_functions();  ///< source, calls

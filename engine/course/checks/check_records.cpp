@@ -32,7 +32,7 @@ void call_of_rig(const Call& call, int function, std::uint32_t specimen, std::ui
 
 /// _record(name, specimen, seed): a table of vectors, into the session.
 int record(Call& call) {
-    CheckSession& session = service<CheckSession>(call.state());
+    CheckSession& session = call.owner<CheckSession>();
     const std::string name = call.text(1, "name");
     const auto whole = [&](int index) { return static_cast<std::uint32_t>(call.size(index, "number")); };
     session.record.clear();
@@ -61,7 +61,7 @@ void note_hidden(CheckSession& session) {
 int hidden(Call& call) {
     call.at_most(1);
     const std::string name = call.text(1, "name");
-    CheckSession& session = service<CheckSession>(call.state());
+    CheckSession& session = call.owner<CheckSession>();
     note_hidden(session);
     for (const char* ending : {".mat", ".csv"}) {
         const std::filesystem::path file = session.hidden_folder / (name + ending);
@@ -110,7 +110,7 @@ std::pair<std::string, std::uint32_t> specimen_meant(const Call& call, CheckSess
 /// truth(name): of the hidden record; truth(b): of the record of the rerun; truth(a, name): of the record that the
 /// script read.
 int truth(Call& call) {
-    CheckSession& session = service<CheckSession>(call.state());
+    CheckSession& session = call.owner<CheckSession>();
     const auto [name, specimen] = specimen_meant(call, session);
     if (const auto own = session.rigs.find(name); own != session.rigs.end()) {
         if (own->second.truth == 0) throw InvalidArgument(fmt::format("the rig \"{}\" declares no truth", name));

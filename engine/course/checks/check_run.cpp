@@ -67,10 +67,9 @@ class ReadChecks {
         : runtime_(options_of_checks(job), renderer_) {
         session_.hidden_folder = job.hidden_folder;
         if (submission != nullptr) hand_over(*submission);
-        runtime_.set_service(&session_);
         for (const auto functions : {check_declarations, check_functions, check_source_functions,
                                      check_record_functions, verdict_function, record_function})
-            runtime_.add_functions(functions());
+            runtime_.add_functions(functions(), session_);
         for (const CheckFile& file : job.files) {
             session_.visible_file = file.visible;
             const RunRecord record = runtime_.run_code(file.source, file.name);

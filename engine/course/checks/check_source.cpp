@@ -56,7 +56,7 @@ bool names_field(const LuaTokens& tokens, std::string_view table, std::string_vi
 int calls(Call& call) {
     call.at_most(1);
     const std::string name = call.text(1, "name");
-    const LuaTokens tokens = lua_tokens(service<CheckSession>(call.state()).source);
+    const LuaTokens tokens = lua_tokens(call.owner<CheckSession>().source);
     const std::size_t dot = name.find('.');
     return call.give(dot == std::string::npos
                          ? names_function(tokens, name)
@@ -65,7 +65,7 @@ int calls(Call& call) {
 
 int source(Call& call) {
     call.at_most(0);
-    return call.give(service<CheckSession>(call.state()).source);
+    return call.give(call.owner<CheckSession>().source);
 }
 
 constexpr std::array kSourceFunctions = {

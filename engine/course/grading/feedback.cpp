@@ -1,10 +1,10 @@
 #include "course/grading/feedback.h"
 
 #include <fmt/format.h>
+#include <re2/re2.h>
 
 #include <algorithm>
 #include <cctype>
-#include <regex>
 #include <string_view>
 
 #include "course/findings/french_sentences.h"
@@ -90,12 +90,11 @@ class FeedbackText {
 
     /// French sets a space before a colon, which is none of "analysis.lua:3": there the place is code.
     std::string told_trouble() const {
-        static const std::regex place(R"([\w.-]+\.lua:\d+(?=: ))");
+        static const RE2 kPlace(R"(^([\w.-]+\.lua:\d+): )", RE2::Latin1);
         const std::string text = sentences_.translated(grade_.trouble);
-        std::smatch found;
-        if (grade_.language != "fr" || !std::regex_search(text, found, place, std::regex_constants::match_continuous))
-            return escaped(text);
-        return "`" + found.str() + "`" + escaped(found.suffix());
+        std::string place;
+        if (grade_.language != "fr" || !RE2::PartialMatch(text, kPlace, &place)) return escaped(text);
+        return "`" + place + "`" + escaped(text.substr(place.size()));
     }
 
     /// Quotation marks stay straight on paper: hints quote code.

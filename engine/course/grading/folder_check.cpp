@@ -1,11 +1,11 @@
 #include "course/grading/folder_check.h"
 
 #include <fmt/format.h>
+#include <re2/re2.h>
 
 #include <algorithm>
 #include <csignal>
 #include <optional>
-#include <regex>
 #include <thread>
 
 #include "course/grading/feedback.h"
@@ -34,7 +34,6 @@ namespace fs = std::filesystem;
 
 constexpr int kMissingProgramCode = 3;  ///< dynlab's exit code when pandoc or the like is not installed
 constexpr std::uint64_t kMostCheckOutput = 16u << 20, kLargestMade = 200u << 20;
-constexpr std::size_t kLongestStart = 200;  ///< of a line, where a question's number is looked for
 constexpr const char *kOwnScript = "analysis.lua", *kOwnNotebook = "analysis.ipynb";
 constexpr char kInBox[] = "/box/submission";
 
@@ -222,14 +221,13 @@ class FolderCheck {
             int line;                 ///< of the first
             std::string code, words;  ///< the marks that stand there
         };
-        static const std::regex kQuestion("\\*\\*(Question [0-9]{1,4})\\b");
+        static const RE2 kQuestion(R"(\*\*(Question \d{1,4})\b)", RE2::Latin1);
         std::vector<Blanks> found;
         std::string question;
         int number = 0;
         for (const std::string& line : lines_of(script.source)) {
             ++number;
-            const std::string begin = line.substr(0, kLongestStart);
-            if (std::smatch asked; std::regex_search(begin, asked, kQuestion)) question = asked[1];
+            RE2::PartialMatch(line, kQuestion, &question);
             const std::string text = trimmed(line);
             if (text.starts_with("-- #")) question.clear();  // a heading: what follows belongs to none
             for (const char* language : {"en", "fr"}) {

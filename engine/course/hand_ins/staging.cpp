@@ -1,9 +1,9 @@
 #include "course/hand_ins/staging.h"
 
 #include <fmt/format.h>
+#include <re2/re2.h>
 
 #include <algorithm>
-#include <regex>
 #include <set>
 
 #include "course/hand_ins/folder_copy.h"
@@ -175,11 +175,10 @@ class Stager {
     }
 
     void copy_loose(const LooseFile& file) const {
-        static const std::regex of_platform(R"(^(?:.*_)?analysis(?:-\d+)?(\.lua|\.ipynb)$)");
+        static const RE2 of_platform(R"((?:.*_)?analysis(?:-\d+)?(\.lua|\.ipynb))", RE2::Latin1);
         if (fs::file_size(file.path) > limits_.bytes) too_large();
-        std::smatch parts;
-        fs::path to =
-            root_ / (std::regex_match(file.name, parts, of_platform) ? "analysis" + parts[1].str() : file.name);
+        std::string ending;
+        fs::path to = root_ / (RE2::FullMatch(file.name, of_platform, &ending) ? "analysis" + ending : file.name);
         for (int i = 2; fs::exists(to); ++i) to = root_ / fmt::format("{} {}", i, file.name);
         fs::copy_file(file.path, to);
         fs::last_write_time(to, fs::last_write_time(file.path));

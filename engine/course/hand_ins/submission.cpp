@@ -1,10 +1,10 @@
 #include "course/hand_ins/submission.h"
 
 #include <fmt/format.h>
+#include <re2/re2.h>
 
 #include <algorithm>
 #include <map>
-#include <regex>
 #include <set>
 #include <sstream>
 
@@ -91,15 +91,15 @@ std::optional<std::string> value_of_line(const std::string& line, const std::str
 
 /// By the folder's name.
 std::map<std::string, std::vector<Submitter>> submitters_in(const fs::path& list) {
-    static const std::regex folder_line(R"(^(submission_\d+):\s*$)");
+    static const RE2 folder_line(R"((submission_\d+):\s*)", RE2::Latin1);
     std::map<std::string, std::vector<Submitter>> all;
     if (!is_plain_file(list)) return all;
     std::istringstream lines(read_text(list));
     std::vector<Submitter>* here = nullptr;
-    std::smatch parts;
+    std::string name_of_folder;
     for (std::string line; std::getline(lines, line);) {
-        if (std::regex_match(line, parts, folder_line)) {
-            here = &all[parts[1]];
+        if (RE2::FullMatch(line, folder_line, &name_of_folder)) {
+            here = &all[name_of_folder];
         } else if (here != nullptr) {
             const auto name = value_of_line(line, "name"), id = value_of_line(line, "sid"),
                        mail = value_of_line(line, "email");
@@ -216,23 +216,16 @@ std::optional<std::string> archive_stem(const std::string& name) {
 
 std::optional<std::string> read_lms_name(Submission& submission) {
     // What the platform wrote stands first; what comes after it is the student's own and may look the same.
-    static const std::regex canvas(R"(^([^_]+)(_LATE)?_(\d+)_(\d+)_(.*)$)");
-    static const std::regex moodle(R"(^(.+?)_(\d+)_assignsubmission_(?:file|onlinetext)_?(.*)$)");
-    std::smatch parts;
-    if (std::regex_match(submission.name, parts, canvas) && !is_word_for_group(parts[1])) {
-        const std::string own = parts[5];
-        submission.person = parts[1];
-        submission.late = parts[2].matched;
-        submission.lms_id = parts[3];
-        return own;
-    }
-    if (std::regex_match(submission.name, parts, moodle)) {
-        const std::string own = parts[3];
-        submission.person = parts[1];
-        submission.lms_id = parts[2];
-        return own;
-    }
-    return {};
+    static const RE2 canvas(R"(([^_]+)(_LATE)?_(\d+)_\d+_(.*))", RE2::Latin1);
+    static const RE2 moodle(R"((.+?)_(\d+)_assignsubmission_(?:file|onlinetext)_?(.*))", RE2::Latin1);
+    std::string person, late, id, own;
+    const bool of_canvas =
+        RE2::FullMatch(submission.name, canvas, &person, &late, &id, &own) && !is_word_for_group(person);
+    if (!of_canvas && !RE2::FullMatch(submission.name, moodle, &person, &id, &own)) return {};
+    if (of_canvas) submission.late = !late.empty();
+    submission.person = person;
+    submission.lms_id = id;
+    return own;
 }
 
 std::vector<Submission> submissions_in(const fs::path& folder, std::vector<std::string>& left_out,

@@ -121,7 +121,6 @@ std::uintmax_t write_autograder(const AutograderRequest& request, const fs::path
                     fmt::arg("checks", request.more_checks ? " --checks \"$source/checks\"" : ""));
     contents["secret"] = request.secret;
     for (const fs::path& program : programs_beside(request.program)) {
-        if (program.filename() == kPagesProgram) continue;  // nobody looks at pages there
         contents["program/" + program.filename().string()] = read_file(program);
         add_libraries(program, contents);
     }

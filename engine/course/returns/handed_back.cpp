@@ -1,11 +1,11 @@
 #include "course/returns/handed_back.h"
 
 #include <fmt/format.h>
+#include <re2/re2.h>
 
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <regex>
 
 #include "course/findings/french_sentences.h"
 #include "course/grading/feedback.h"
@@ -36,17 +36,17 @@ std::size_t needed_column(const TextTable& table, const char* name, const fs::pa
 
 /// The participant's number and name in "Anna Müller_900000_assignsubmission_file_".
 std::optional<std::pair<std::string, std::string>> moodle_participant(const std::string& submission) {
-    static const std::regex form(R"(^(.+?)_(\d+)_assignsubmission_file_?.*$)");
-    std::smatch parts;
-    if (!std::regex_match(submission, parts, form)) return {};
-    return std::pair(parts[2].str(), parts[1].str());
+    static const RE2 form(R"((.+?)_(\d+)_assignsubmission_file_?.*)", RE2::Latin1);
+    std::string name, number;
+    if (!RE2::FullMatch(submission, form, &name, &number)) return {};
+    return std::pair(number, name);
 }
 
 std::optional<std::string> canvas_number(const std::string& submission) {
-    static const std::regex form(R"(^[^_]+(?:_LATE)?_(\d+)_\d+_.*$)");
-    std::smatch parts;
-    if (!std::regex_match(submission, parts, form)) return {};
-    return parts[1].str();
+    static const RE2 form(R"([^_]+(?:_LATE)?_(\d+)_\d+_.*)", RE2::Latin1);
+    std::string number;
+    if (!RE2::FullMatch(submission, form, &number)) return {};
+    return number;
 }
 
 fs::path feedback_of(const fs::path& marks, const std::string& submission) {

@@ -1,7 +1,8 @@
 #include "course/review/pack_scores.h"
 
+#include <re2/re2.h>
+
 #include <algorithm>
-#include <regex>
 #include <vector>
 
 #include "platform/atomic_file.h"
@@ -49,7 +50,7 @@ std::size_t begin_of_scores(const std::string& text) {
 }  // namespace
 
 std::map<std::string, double> scores_in_script(std::string_view script) {
-    static const std::regex entry(R"((\w{1,80})\s{0,80}=\s{0,80}(\d{1,4}(?:\.\d{1,4})?)\s{0,80}[,;\n}])");
+    static const RE2 entry(R"((\w+)\s*=\s*(\d{1,4}(?:\.\d{1,4})?)\s*[,;\n}])", RE2::Latin1);
     const std::string text = without_comments(script);
     const std::size_t from = begin_of_scores(text);
     if (from == std::string::npos) return {};
@@ -57,8 +58,9 @@ std::map<std::string, double> scores_in_script(std::string_view script) {
     if (close == std::string::npos || close - from > kMostOfTable) return {};
     const std::string body = text.substr(from, close + 1 - from);
     std::map<std::string, double> scores;
-    for (std::sregex_iterator at(body.begin(), body.end(), entry), end; at != end; ++at)
-        scores[(*at)[1]] = std::stod((*at)[2]);
+    std::string name;
+    double score = 0;
+    for (re2::StringPiece rest = body; RE2::FindAndConsume(&rest, entry, &name, &score);) scores[name] = score;
     return scores;
 }
 

@@ -1,8 +1,9 @@
 #include "course/review/remark_traces.h"
 
+#include <re2/re2.h>
+
 #include <algorithm>
 #include <cctype>
-#include <regex>
 #include <set>
 
 #include "course/names/plain_words.h"
@@ -44,16 +45,21 @@ std::string place_name(const Place& place) {
 
 /// "Figures 2 and 3", "fig. 2", "Table 1", "éq. (4)", "section 3.1", "p. 2" in a text of anybody's.
 std::set<Place> places_in(const std::string& text) {
-    static const std::regex named(
+    // The next search begins right after the numbers: a match may hold one character more.
+    static const RE2 named(
         R"(\b(figures?|figs?|tables?|tableaux?|tab|equations?|eqs?|sections?|sec|pages?|pp?)[.]?\s?[(]?(\d{1,3}(?:[.]\d{1,3}){0,3})[)]?)"
-        R"((?:(?:,\s?|\s(?:and|et|or|ou|to|a)\s)[(]?(\d{1,3}(?:[.]\d{1,3}){0,3})[)]?(?![\d%]))?)");
+        R"((?:(?:,\s?|\s(?:and|et|or|ou|to|a)\s)[(]?(\d{1,3}(?:[.]\d{1,3}){0,3})[)]?(?:[^\d%]|$))?)",
+        RE2::Latin1);
     std::set<Place> places;
     const std::string plain = folded(text);
-    for (std::sregex_iterator match(plain.begin(), plain.end(), named), end; match != end; ++match) {
-        char kind = (*match)[1].str().front();
-        if ((*match)[1].str().starts_with("tab")) kind = 't';
-        places.insert({kind, (*match)[2]});
-        if ((*match)[3].matched) places.insert({kind, (*match)[3]});
+    std::size_t at = 0;
+    for (re2::StringPiece part[4]; named.Match(plain, at, plain.size(), RE2::UNANCHORED, part, 4);) {
+        const char kind = part[1][0];
+        for (const re2::StringPiece& number : {part[2], part[3]}) {
+            if (number.empty()) continue;
+            places.insert({kind, number.as_string()});
+            at = static_cast<std::size_t>(number.end() - plain.data());
+        }
     }
     return places;
 }

@@ -1,9 +1,9 @@
 #include "course/review/review_pairs.h"
 
 #include <fmt/format.h>
+#include <re2/re2.h>
 
 #include <algorithm>
-#include <regex>
 
 #include "platform/error.h"
 
@@ -13,10 +13,12 @@ namespace {
 /// The numbers behind "report" or "review" in a file's name, however they are joined: "review-report-07.pdf",
 /// "Review 68.pdf", "report_07.PDF", "Report47".
 std::vector<std::int64_t> report_numbers(const std::string& name) {
-    static const std::regex form("(?:report|review)[ _.#-]*([0-9]{1,6})(?![0-9])", std::regex::icase);
+    constexpr std::size_t kMostDigits = 6;
+    static const RE2 form("(?i)(?:report|review)[ _.#-]*([0-9]+)", RE2::Latin1);
     std::vector<std::int64_t> numbers;
-    for (std::sregex_iterator at(name.begin(), name.end(), form), end; at != end; ++at)
-        numbers.push_back(std::stoll((*at)[1]));
+    std::string digits;
+    for (re2::StringPiece rest = name; RE2::FindAndConsume(&rest, form, &digits);)
+        if (digits.size() <= kMostDigits) numbers.push_back(std::stoll(digits));
     return numbers;
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 #include "data_io/values/model_descriptions.h"
 #include "numerics/estimators/step_test.h"
+#include "numerics/fit/assessment.h"
 #include "numerics/fit/fit.h"
-#include "numerics/validation/assessment.h"
 #include "numerics/validation/monte_carlo.h"
 #include "numerics/validation/order_selection.h"
 
@@ -29,6 +29,8 @@ DYNLAB_DESCRIBE(TransferChannel, denominator, zeros, delay)
 DYNLAB_DESCRIBE(TransferStructure, outputs, inputs, poles, channels, free_delays)
 DYNLAB_DESCRIBE(StartCondition, state, offset)
 DYNLAB_DESCRIBE(FitIteration, theta, loss, change)
+DYNLAB_DESCRIBE(MissedOption, start, feedthrough, output, samples, fit_percent, better_fit_percent)
+DYNLAB_DESCRIBE(FitDoubts, missed_option, assessment)
 
 /// Of transfer functions: studies keep no other fits.
 template <Is<Fit> T, class V>
@@ -36,14 +38,14 @@ void describe(T& object, V& member) {
     auto& [structure, models, process, orders, polynomial, characteristic, noise, history, names, theta, std,
            covariance, noise_covariance, noise_variance, output_weights, fit_percent, prediction_fit_percent, loss,
            condition_number, at_bound, start, initial_values, offsets, removed, output, delay_grid, delay_loss,
-           termination, trace, warnings, message] = object;
+           termination, trace, doubts, warnings, message] = object;
     member("structure", structure), member("theta", theta), member("std", std), member("names", names);
     member("models", models), member("covariance", covariance), member("noise_variance", noise_variance);
     member("output_weights", output_weights);
     member("fit_percent", fit_percent), member("loss", loss), member("condition_number", condition_number);
     member("start", start), member("initial_values", initial_values), member("offsets", offsets);
     member("delay_grid", delay_grid), member("delay_loss", delay_loss), member("termination", termination);
-    member("trace", trace), member("warnings", warnings), member("message", message);
+    member("trace", trace), member("doubts", doubts), member("warnings", warnings), member("message", message);
 }
 
 DYNLAB_DESCRIBE(OrderCandidate, poles, zeros, delay, failure, estimate, r_squared, yic, aic, bic, fpe, log_condition,

@@ -1,10 +1,11 @@
 #include "documents/chunks/chunk_setter.h"
 
 #include <fmt/format.h>
+#include <re2/re2.h>
 
 #include <map>
 #include <optional>
-#include <regex>
+#include <set>
 
 #include "documents/characters.h"
 #include "documents/error.h"
@@ -42,10 +43,11 @@ void add_entries(const RunRecord& record, const std::string& markdown, DigestStr
 
 /// Whether the chunk has a slot that the record does not fill.
 bool lacks_entry(const RunRecord& record, const std::string& markdown) {
-    static const std::regex kSlot(
-        R"(`([\w-]{1,80})`\{\.value\}|\(figure:([\w-]{1,80})\)|\{\.(?:table|text) [^}]{0,80}name=([\w-]{1,80}))");
-    for (std::sregex_iterator slot(markdown.begin(), markdown.end(), kSlot), end; slot != end; ++slot) {
-        const std::string name = (*slot)[1].str() + (*slot)[2].str() + (*slot)[3].str();
+    static const RE2 kSlot(R"(`([\w-]+)`\{\.value\}|\(figure:([\w-]+)\)|\{\.(?:table|text) [^}]*name=([\w-]+))",
+                           RE2::Latin1);
+    std::string value, figure, block;
+    for (re2::StringPiece rest = markdown; RE2::FindAndConsume(&rest, kSlot, &value, &figure, &block);) {
+        const std::string name = value + figure + block;
         if (!record.values.contains(name) && !record.figures.contains(name) && !record.tables.contains(name) &&
             !record.texts.contains(name))
             return true;
@@ -55,9 +57,12 @@ bool lacks_entry(const RunRecord& record, const std::string& markdown) {
 
 /// Whether it says what stands at the end of the page: notes, and literature.
 bool has_notes(const std::string& markdown) {
-    static const std::regex kCitation(R"(@(?!fig:|tbl:|eq:|sec:)[A-Za-z_])");
-    return markdown.find("[^") != std::string::npos || markdown.find("^[") != std::string::npos ||
-           std::regex_search(markdown, kCitation);
+    static const RE2 kReference("@([A-Za-z_]+:?)", RE2::Latin1);
+    static const std::set<std::string> kOfLabels = {"fig:", "tbl:", "eq:", "sec:"};
+    std::string begin;
+    for (re2::StringPiece rest = markdown; RE2::FindAndConsume(&rest, kReference, &begin);)
+        if (!kOfLabels.contains(begin)) return true;
+    return markdown.find("[^") != std::string::npos || markdown.find("^[") != std::string::npos;
 }
 
 /// Between two marks; nothing when either is missing.

@@ -1,51 +1,43 @@
 #include "documents/chunks/chunks.h"
 
-#include <regex>
+#include <re2/re2.h>
 
 #include "documents/text_lines.h"
-#include "platform/text/regex_limit.h"
 
 namespace dynlab::inline documents {
 namespace {
-
-/// Longer lines are prose.
-bool matches(const std::string& line, const std::regex& pattern, std::smatch* found = nullptr) {
-    std::smatch unused;
-    return line.size() <= kLongestForRegex && std::regex_search(line, found ? *found : unused, pattern);
-}
 
 /// Follows fences, comments and tables with empty lines through the text.
 class OpenBlocks {
   public:
     void read(const std::string& line) {
         if (!code_fence_.empty()) {
-            static const std::regex kClosing(R"(^ {0,3}(`{3,}|~{3,})\s*$)");
-            std::smatch closing;
-            const bool closes = matches(line, kClosing, &closing) && closing.str(1)[0] == code_fence_[0] &&
-                                closing.str(1).size() >= code_fence_.size();
-            if (closes) code_fence_.clear();
+            static const RE2 kClosing(R"( {0,3}(`{3,}|~{3,})\s*)", RE2::Latin1);
+            std::string closing;
+            if (RE2::FullMatch(line, kClosing, &closing) && closing.starts_with(code_fence_)) code_fence_.clear();
             return;
         }
         if (in_comment_) {
             in_comment_ = line.find("-->") == std::string::npos;
             return;
         }
-        static const std::regex kCode(R"(^ {0,3}(`{3,}|~{3,}))"), kBlock(R"(^ {0,3}:{3,}\s*(\S?))"),
-            kRule(R"(^\s*-{3,}[ -]*$)");
-        std::smatch found;
-        if (matches(line, kCode, &found)) {
-            code_fence_ = found[1];
-        } else if (matches(line, kBlock, &found)) {
-            depth_ += found[1].length() > 0 ? 1 : -1;
+        static const RE2 kCode(R"(^ {0,3}(`{3,}|~{3,}))", RE2::Latin1), kBlock(R"(^ {0,3}:{3,}\s*(\S?))", RE2::Latin1),
+            kRule(R"(\s*-{3,}[ -]*)", RE2::Latin1);
+        const bool rule = RE2::FullMatch(line, kRule);
+        std::string begin_of_words;
+        if (RE2::PartialMatch(line, kCode, &code_fence_)) {
+            // The code ends in a later line.
+        } else if (RE2::PartialMatch(line, kBlock, &begin_of_words)) {
+            depth_ += begin_of_words.empty() ? -1 : 1;
         } else if (const std::size_t begin = line.find("<!--");
                    begin != std::string::npos && line.find("-->", begin) == std::string::npos) {
             in_comment_ = true;
-        } else if (matches(line, kRule) && after_empty_line_ && !in_table_) {
+        } else if (rule && after_empty_line_ && !in_table_) {
             in_table_ = true;
         } else if (in_table_ && is_blank(line) && after_rule_) {
             in_table_ = false;
         }
-        after_rule_ = matches(line, kRule);
+        after_rule_ = rule;
         after_empty_line_ = is_blank(line);
     }
     bool any() const { return !code_fence_.empty() || in_comment_ || in_table_ || depth_ > 0; }
@@ -58,14 +50,14 @@ class OpenBlocks {
 
 /// Whether a line that follows an empty one belongs to what stands before it.
 bool goes_on(const std::string& line) {
-    static const std::regex kGoesOn(R"(^(\s|[-*+] |\(?[0-9A-Za-z]{1,4}[.)] |\(@|:\s|~\s|[Tt]able:))");
-    return matches(line, kGoesOn);
+    static const RE2 kGoesOn(R"(^(\s|[-*+] |\(?[0-9A-Za-z]{1,4}[.)] |\(@|:\s|~\s|[Tt]able:))", RE2::Latin1);
+    return RE2::PartialMatch(line, kGoesOn);
 }
 
 /// Whether what follows belongs to this: the caption above a table.
 bool is_caption(const std::string& line) {
-    static const std::regex kCaption(R"(^([Tt]able)?:\s)");
-    return matches(line, kCaption);
+    static const RE2 kCaption(R"(^([Tt]able)?:\s)", RE2::Latin1);
+    return RE2::PartialMatch(line, kCaption);
 }
 
 }  // namespace

@@ -1,15 +1,14 @@
 #include "documents/words/sentence_catalogue.h"
 
 #include <fmt/format.h>
+#include <re2/re2.h>
 
 #include <algorithm>
-#include <regex>
 
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/program_lookup.h"
-#include "platform/text/regex_limit.h"
 
 namespace dynlab::inline documents {
 namespace {
@@ -71,11 +70,10 @@ bool ends_sentence(std::string_view text, std::size_t at) {
 
 /// How much of a text is file and line of a script's message; 0 for other texts.
 std::size_t place_in_script(std::string_view text) {
-    static const std::regex place(R"(^[^\s:]+(?::\d+|, cell \d+, line \d+): )");
-    std::cmatch found;
-    return std::regex_search(text.data(), text.data() + std::min(text.size(), kLongestForRegex), found, place)
-               ? static_cast<std::size_t>(found.length())
-               : 0;
+    static const RE2 place(R"([^\s:]+(?::\d+|, cell \d+, line \d+): )", RE2::Latin1);
+    re2::StringPiece rest = text;
+    RE2::Consume(&rest, place);
+    return text.size() - rest.size();
 }
 
 /// How much of a text is the name of the function that says the rest: "fit: ..."; 0 where it begins with none.
@@ -200,10 +198,10 @@ std::string SentenceCatalogue::told_line(std::string_view message) const {
     const std::string_view said = message.substr(place);
     const auto [names, found] = behind_names(said);
     std::string told(message.substr(0, place));
-    static const std::regex kCell(R"(cell \d+, line \d+)");  // of a notebook
-    if (std::smatch cell; std::regex_search(told, cell, kCell))
-        if (const std::string words = cell.str(); const std::optional<Fit> known = fitting(words, Extent::kAll))
-            told.replace(static_cast<std::size_t>(cell.position()), words.size(), written(*known));
+    static const RE2 kCell(R"((cell \d+, line \d+))", RE2::Latin1);  // of a notebook
+    if (std::string words; RE2::PartialMatch(told, kCell, &words))
+        if (const std::optional<Fit> known = fitting(words, Extent::kAll))
+            told = replaced(told, words, written(*known));
     return told + std::string(said.substr(0, names)) + (found ? written(*found) : std::string(said.substr(names)));
 }
 

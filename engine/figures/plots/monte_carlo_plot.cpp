@@ -1,11 +1,11 @@
 #include "figures/plots/monte_carlo_plot.h"
 
 #include <fmt/format.h>
+#include <re2/re2.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <regex>
 
 #include "figures/axis.h"
 #include "figures/histogram.h"
@@ -40,11 +40,10 @@ Index index_of_parameter(const MonteCarloResult& result, const std::string& name
 
 /// A parameter's name with its index lowered: a1 as a_{1}, Tp1 as T_{p1}, b0_u2 as b_{0,u2}; other names as they are.
 std::string symbol_of(const std::string& name) {
-    static const std::regex indexed("(?:([KT])(p[0-9]?|[wzd])|([A-Za-z]+)([0-9]+))(?:_([a-z0-9]+))?");
-    std::smatch part;
-    if (!std::regex_match(name, part, indexed)) return name;
-    return fmt::format("{}{}_{{{}{}{}{}}}", part[1].str(), part[3].str(), part[2].str(), part[4].str(),
-                       part[5].matched ? "," : "", part[5].str());
+    static const RE2 indexed("(?:([KT])(p[0-9]?|[wzd])|([A-Za-z]+)([0-9]+))(?:_([a-z0-9]+))?", RE2::Latin1);
+    std::string process, its_index, letters, number, channel;
+    if (!RE2::FullMatch(name, indexed, &process, &its_index, &letters, &number, &channel)) return name;
+    return process + letters + "_{" + its_index + number + (channel.empty() ? "" : ",") + channel + "}";
 }
 
 void check_study(const MonteCarlo& study) {

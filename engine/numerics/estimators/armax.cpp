@@ -7,6 +7,7 @@
 #include "numerics/estimators/iv4.h"
 #include "numerics/fit/discrete/discrete_fit.h"
 #include "numerics/fit/discrete/prediction_fit.h"
+#include "numerics/fit/doubts.h"
 #include "numerics/fit/equation_error.h"
 #include "numerics/linalg/polynomial.h"
 
@@ -85,11 +86,13 @@ Fit armax(const IdData& data, const PolynomialOrders& orders, const FitOptions& 
     options.validate();
     if (orders.nd > 0 || std::any_of(orders.nf.begin(), orders.nf.end(), [](int nf) { return nf > 0; }))
         throw InvalidArgument("armax has the orders na, nb, nc and nk only: nd and nf must be zero");
-    check_equation_error("armax", data, without_noise(orders));
-    const StartCondition nothing_assumed{InitialState::kEstimate, false};
-    const std::vector<SampledExperiment> experiments = sampled_experiments(data);
-    return fit_prediction("armax", PredictionModel(orders, nothing_assumed, experiments), nothing_assumed, data.Ts,
-                          starts(data, orders), options);
+    return finished_discrete_fit(data, options, [&](const IdData& seen, const FitOptions& wanted) {
+        check_equation_error("armax", seen, without_noise(orders));
+        const StartCondition nothing_assumed{InitialState::kEstimate, false};
+        const std::vector<SampledExperiment> experiments = sampled_experiments(seen);
+        return fit_prediction("armax", PredictionModel(orders, nothing_assumed, experiments), nothing_assumed, seen.Ts,
+                              starts(seen, orders), wanted);
+    });
 }
 
 }  // namespace dynlab::inline numerics

@@ -3,6 +3,7 @@
 #include "numerics/error.h"
 #include "numerics/fit/discrete/discrete_fit.h"
 #include "numerics/fit/discrete/prediction_fit.h"
+#include "numerics/fit/doubts.h"
 #include "numerics/fit/operating_points.h"
 
 namespace dynlab::inline numerics {
@@ -59,11 +60,7 @@ OutputErrorStart output_error_start(const IdData& data, const std::vector<Sample
     return {fit, output_errors(fit, experiments)};
 }
 
-}  // namespace
-
-Fit bj(const IdData& data, const PolynomialOrders& orders, const FitOptions& options) {
-    orders.validate();
-    if (orders.na > 0) throw InvalidArgument("bj has the orders nb, nc, nd, nf and nk only: na must be zero");
+Fit bj_fit(const IdData& data, const PolynomialOrders& orders, const FitOptions& options) {
     const CentredData centred = centred_for(data, options.offset);
     const std::vector<SampledExperiment> experiments = sampled_experiments(centred.data);
     const auto [first, errors] = output_error_start(data, experiments, orders, options);
@@ -74,6 +71,15 @@ Fit bj(const IdData& data, const PolynomialOrders& orders, const FitOptions& opt
         fit_prediction("bj", PredictionModel(orders, first.start, experiments), first.start, data.Ts, {start}, options);
     add_operating_points(fit, centred.removed);
     return fit;
+}
+
+}  // namespace
+
+Fit bj(const IdData& data, const PolynomialOrders& orders, const FitOptions& options) {
+    orders.validate();
+    if (orders.na > 0) throw InvalidArgument("bj has the orders nb, nc, nd, nf and nk only: na must be zero");
+    return finished_discrete_fit(
+        data, options, [&](const IdData& seen, const FitOptions& wanted) { return bj_fit(seen, orders, wanted); });
 }
 
 }  // namespace dynlab::inline numerics

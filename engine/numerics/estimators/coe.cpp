@@ -1,12 +1,15 @@
 #include "numerics/estimators/coe.h"
 
+#include "numerics/fit/doubts.h"
 #include "numerics/fit/transfer_search.h"
 
 namespace dynlab::inline numerics {
 
 Fit coe(const IdData& data, const TransferStructure& structure, const FitOptions& options, const SearchAids& aids) {
     options.validate();
-    return search_transfer("coe", data, structure, options, aids);
+    return finished_fit(data, options, [&](const IdData& seen, const FitOptions& wanted) {
+        return search_transfer("coe", seen, structure, wanted, aids);
+    });
 }
 
 }  // namespace dynlab::inline numerics

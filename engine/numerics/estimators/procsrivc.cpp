@@ -8,6 +8,7 @@
 #include "numerics/error.h"
 #include "numerics/fit/delay_scan.h"
 #include "numerics/fit/diagnosis.h"
+#include "numerics/fit/doubts.h"
 #include "numerics/fit/first_estimate.h"
 #include "numerics/fit/operating_points.h"
 #include "numerics/fit/output_error.h"
@@ -304,6 +305,7 @@ Fit procsrivc(const IdData& data, const ProcessStructure& structure, const Procs
     if (structure.zero) warn_of_zero(fit);
     if (structure.delay) warn_of_delay(fit, fit.theta[fit.theta.size() - 1], problem.range, "");
     set_message(fit, process_message(fit));
+    add_assessment(fit, data, options);
     return fit;
 }
 

@@ -7,6 +7,7 @@
 #include "numerics/error.h"
 #include "numerics/estimators/srivc.h"
 #include "numerics/fit/diagnosis.h"
+#include "numerics/fit/doubts.h"
 #include "numerics/fit/operating_points.h"
 #include "numerics/fit/output_error.h"
 #include "numerics/fit/transfer_refinement.h"
@@ -191,11 +192,11 @@ class Passes {
     std::vector<FitIteration> trace_;
 };
 
-void fill_noise(Fit& result, const Passes& passes, const NoiseOrders& orders) {
+void fill_noise(Fit& result, const Passes& passes, const NoiseOrders& orders, double Ts) {
     result.noise_covariance = passes.noise_.covariance;
     const Vector std = result.noise_covariance.diagonal().cwiseMax(0).cwiseSqrt();
     NoiseModel& noise = result.noise.emplace(
-        NoiseModel{passes.noise_.C, passes.noise_.D, Vector::Zero(orders.nc + 1), Vector::Zero(orders.nd + 1)});
+        NoiseModel{passes.noise_.C, passes.noise_.D, Vector::Zero(orders.nc + 1), Vector::Zero(orders.nd + 1), Ts});
     noise.C_std.tail(orders.nc) = std.head(orders.nc);
     noise.D_std.tail(orders.nd) = std.tail(orders.nd);
     const bool asked = orders.nc + orders.nd > 0;
@@ -207,17 +208,8 @@ void fill_noise(Fit& result, const Passes& passes, const NoiseOrders& orders) {
                                       " lies nearly on the unit circle: the noise drifts, or its orders do not suit.");
 }
 
-}  // namespace
-
-void NoiseOrders::validate() const {
-    if (nc < 0 || nd < 0)
-        throw InvalidArgument("nc and nd, the orders of the noise model, must not be negative, and are " +
-                              std::to_string(nc) + " and " + std::to_string(nd));
-}
-
-Fit rivc(const IdData& data, const TransferStructure& structure, const NoiseOrders& orders, const FitOptions& options) {
-    options.validate();
-    check(data, orders, structure);
+Fit rivc_fit(const IdData& data, const TransferStructure& structure, const NoiseOrders& orders,
+             const FitOptions& options) {
     check_transfer_data("rivc", data, structure);
     const Fit start = srivc(data, structure, options);
     FitOptions wanted = options;
@@ -239,9 +231,25 @@ Fit rivc(const IdData& data, const TransferStructure& structure, const NoiseOrde
     if (options.offset == Offset::kRemove) add_operating_points(result, centred.removed);
     result.delay_grid = start.delay_grid;
     result.delay_loss = start.delay_loss;
-    fill_noise(result, passes, orders);
+    fill_noise(result, passes, orders, data.Ts);
     describe_search(result, data, "RIVC", wanted, range);
     return result;
+}
+
+}  // namespace
+
+void NoiseOrders::validate() const {
+    if (nc < 0 || nd < 0)
+        throw InvalidArgument("nc and nd, the orders of the noise model, must not be negative, and are " +
+                              std::to_string(nc) + " and " + std::to_string(nd));
+}
+
+Fit rivc(const IdData& data, const TransferStructure& structure, const NoiseOrders& orders, const FitOptions& options) {
+    options.validate();
+    check(data, orders, structure);
+    return finished_fit(data, options, [&](const IdData& seen, const FitOptions& wanted) {
+        return rivc_fit(seen, structure, orders, wanted);
+    });
 }
 
 }  // namespace dynlab::inline numerics

@@ -1,13 +1,16 @@
 #include "numerics/estimators/sriv.h"
 
 #include "numerics/fit/discrete/discrete_fit.h"
+#include "numerics/fit/doubts.h"
 
 namespace dynlab::inline numerics {
 
 Fit sriv(const IdData& data, const PolynomialOrders& orders, const FitOptions& options) {
-    return fit_discrete_output("sriv", data, orders, options, [&](const DiscreteOutput& model, const Vector& y) {
-        return iterate_instruments(model, y, instrument_start(model, y, options.cancel), options.max_iterations,
-                                   options.tolerance, options.cancel);
+    return finished_discrete_fit(data, options, [&](const IdData& seen, const FitOptions& wanted) {
+        return fit_discrete_output("sriv", seen, orders, wanted, [&](const DiscreteOutput& model, const Vector& y) {
+            return iterate_instruments(model, y, instrument_start(model, y, wanted.cancel), wanted.max_iterations,
+                                       wanted.tolerance, wanted.cancel);
+        });
     });
 }
 

@@ -18,15 +18,20 @@ namespace dynlab::inline numerics {
 /// their own they give no more than a start: the estimate is then one Levenberg-Marquardt search of the output error
 /// over all parameters, the very same as coe makes (fit/transfer_search.h), with the same result. That search is tried
 /// as well where the passes do not settle, and its end is given if it lies lower. Non-convergence and doubtful results
-/// are told in `warnings`. Throws InvalidArgument for unsuitable data (check_transfer_data) or options. References:
-/// Young and Jakeman (1980); Young, Garnier and Gilson in Garnier and Wang (2008), chapter 4.
+/// are told in `warnings`, and the fit ends with its doubts (Fit::doubts): the option that it misses, whether its
+/// errors are white, and robust standard errors. Throws InvalidArgument for unsuitable data (check_transfer_data) or
+/// options. References: Young and Jakeman (1980); Young, Garnier and Gilson in Garnier and Wang (2008), chapter 4.
 /// `aids`: what is known already.
 Fit srivc(const IdData& data, const TransferStructure& structure, const FitOptions& options = {},
           const SearchAids& aids = {});
 
-/// The passes alone (srivc.cpp; the choice between them and the search: srivc/passes_or_search.cpp), from their first
-/// estimate to where they settle or end. Throws InvalidArgument for unsuitable data.
+/// The passes alone, from their first estimate to where they settle or end. Throws InvalidArgument for unsuitable data.
 Fit srivc_by_passes(const IdData& data, const TransferStructure& structure, const FitOptions& options);
+
+/// The estimate of the passes, or the end of a search of the output error over all parameters (search_transfer) if it
+/// lies lower. The search is made where the passes may have ended in a bad minimum: they did not settle, explain
+/// little, leave errors that follow the input, or gain nothing over a model with fewer poles or zeros.
+Fit search_where_passes_fail(Fit estimate, const IdData& data, const FitOptions& options, const SearchAids& aids);
 
 /// Whether they give the whole answer: fixed delays, a start from rest without offset, one denominator for each output,
 /// no fixed parameters and no weights.

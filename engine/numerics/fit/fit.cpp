@@ -27,6 +27,7 @@ FitOptions FitOptions::limited(int iterations, double limit) const {
     FitOptions other = *this;
     other.max_iterations = iterations;
     other.goes_on = false;
+    other.doubts = false;
     other.tolerance = limit;
     return other;
 }

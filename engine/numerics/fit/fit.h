@@ -16,6 +16,7 @@ namespace dynlab::inline numerics {
 struct PolynomialOrders;
 struct PolynomialModel;
 struct ProcessModel;
+struct Assessment;
 
 /// Why an iteration ended. None of these is an error: the best point found is always returned.
 enum class Termination {
@@ -51,11 +52,18 @@ struct FitOptions {
     std::map<std::string, double> fixed;  ///< searches: parameters that are not estimated, by name, in seconds
     Vector output_weights;                ///< of each output's errors; one over their standard deviations when empty
     bool precision = true;                ///< a search ends with the covariance
-    std::function<bool()> cancel;         ///< asked before every iteration, by several threads at once
+    /// A fit ends with its doubts: srivc, coe, rivc, oe, sriv, bj, armax and procsrivc. Studies of many fits ask for
+    /// none.
+    bool doubts = true;
+    bool start_is_given = false;  ///< initial state and offset are the user's own choice: no others are suggested
+    /// The model has an integrator besides its poles (fit/integrated_input.h): srivc, coe, rivc, oe, sriv, bj and
+    /// armax.
+    bool integration = false;
+    std::function<bool()> cancel;  ///< asked before every iteration, by several threads at once
 
     /// Throws InvalidArgument naming the option.
     void validate() const;
-    /// The same with other limits.
+    /// The same with other limits, for a step on the way to a fit: without doubts.
     FitOptions limited(int iterations, double limit) const;
     /// The same for a search that only shows where another begins: without covariance.
     FitOptions rough(int iterations, double limit) const;
@@ -65,6 +73,7 @@ struct FitOptions {
 /// are in powers of q^-1.
 struct NoiseModel {
     Vector C, D, C_std, D_std;
+    double Ts = 0;  ///< s, of the samples that q counts
 };
 
 /// The static part of a Hammerstein model: straight lines between K levels at the edges of bins.
@@ -78,6 +87,23 @@ struct StaticCharacteristic {
 struct ParameterHistory {
     Vector t;           ///< M, of samples of the record
     Matrix theta, std;  ///< M x d; NaN where the samples so far do not determine them
+};
+
+/// An option that a fit by the defaults misses, and the fit that it leads to (fit/missed_options.h).
+struct MissedOption {
+    StartCondition start{InitialState::kZero, false};  ///< initial state and offset to ask for
+    bool feedthrough = false;                          ///< to ask for as many zeros as poles instead
+    std::string output = {};                           ///< name of the output whose fit rises, where there are several
+    Index samples = 0;              ///< of a long record: of its beginning, which both fits are of; 0 for all
+    double fit_percent = 0;         ///< as it is; -infinity where the model's simulation overflows
+    double better_fit_percent = 0;  ///< with the option
+};
+
+/// What speaks against a fit: second opinions on it, which the estimators ask for unless FitOptions say otherwise.
+struct FitDoubts {
+    std::optional<MissedOption> missed_option;
+    /// Whether its errors are white, and robust standard errors; none for long records (fit/assessment.h).
+    std::shared_ptr<const Assessment> assessment;
 };
 
 /// The result of every estimator of transfer functions and difference equations. e are the errors that its model takes
@@ -115,6 +141,7 @@ struct Fit {
 
     Termination termination = Termination::kConverged;
     std::vector<FitIteration> trace;
+    FitDoubts doubts;
     std::vector<std::string> warnings;  ///< whole sentences
     std::string message;                ///< one sentence, then the warnings
 };

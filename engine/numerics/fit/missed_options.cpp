@@ -28,7 +28,6 @@ constexpr double kLostFit = 20;     // per cent, of a difference equation
 constexpr double kRidge = 1e-9;     // of a sum of squares of sensitivities
 constexpr double kFastestPole = 2;  // per sample: faster ones are as good as none
 constexpr double kLargestCorrelation = 0.999;
-const std::string kFirstWord = "With ", kThenFit = " the fit";
 constexpr double kLeastSquares = 1e-300;  // keeps logarithms finite without errors
 
 /// How well a model explains one output.
@@ -223,23 +222,23 @@ bool is_direct(const IdData& record, const TransferStructure& structure, const E
     return fastest * record.mean_step() > kFastestPole;
 }
 
-std::string option_text(const Remedy& remedy) {
-    if (remedy.feedthrough) return "as many zeros as poles";
+std::string option_text(const MissedOption& missed) {
+    if (missed.feedthrough) return "as many zeros as poles";
     std::string text;
-    if (remedy.condition.state != InitialState::kZero)
-        text = remedy.condition.state == InitialState::kSteady ? "`initial_state` = \"steady\""
-                                                               : "`initial_state` = \"estimate\"";
-    if (remedy.condition.offset) text += (text.empty() ? "" : " and ") + std::string("`offset` = \"estimate\"");
+    if (missed.start.state != InitialState::kZero)
+        text = missed.start.state == InitialState::kSteady ? "`initial_state` = \"steady\""
+                                                           : "`initial_state` = \"estimate\"";
+    if (missed.start.offset) text += (text.empty() ? "" : " and ") + std::string("`offset` = \"estimate\"");
     return text;
 }
 
-std::string reason_text(const Remedy& remedy) {
-    if (remedy.feedthrough) return "the output follows the input at once (a direct feedthrough)";
+std::string reason_text(const MissedOption& missed) {
+    if (missed.feedthrough) return "the output follows the input at once (a direct feedthrough)";
     std::string text;
-    if (remedy.condition.state == InitialState::kEstimate) text = "the record begins in the middle of a movement";
-    if (remedy.condition.state == InitialState::kSteady)
+    if (missed.start.state == InitialState::kEstimate) text = "the record begins in the middle of a movement";
+    if (missed.start.state == InitialState::kSteady)
         text = "the record begins at rest at the first value of the input, not at zero";
-    if (!remedy.condition.offset) return text;
+    if (!missed.start.offset) return text;
     return text + (text.empty() ? "" : ", and ") + "the output stands on a constant that no input explains";
 }
 
@@ -265,20 +264,14 @@ std::vector<Remedy> promised_remedies(const IdData& data, const IdData& record, 
     return remedies;
 }
 
-struct Told {
-    double gain = 0;  ///< points of fit
-    std::string sentence;
-};
-
-/// For one output, which messages call ` of NAME` or nothing.
-Told remedy_of(const IdData& data, const Fit& given, const FitOptions& options, bool may_be_direct,
-               const std::string& name) {
+/// For one output.
+std::optional<MissedOption> missed_by_output(const IdData& data, const Fit& given, const FitOptions& options) {
     const bool shorter = data.sample_count() > kFitted;
     const IdData beginning = shorter ? beginning_of(data, kFitted) : IdData();
     const IdData& record = shorter ? beginning : data;
     const std::vector<Remedy> remedies =
-        promised_remedies(data, record, given.structure, given.theta, given.fit_percent[0], may_be_direct);
-    if (remedies.empty()) return {};
+        promised_remedies(data, record, given.structure, given.theta, given.fit_percent[0], !options.integration);
+    if (remedies.empty()) return std::nullopt;
     const Explanation present = explanation_of(record, given);
     Explanation best = present;
     const Remedy* chosen = nullptr;
@@ -291,14 +284,12 @@ Told remedy_of(const IdData& data, const Fit& given, const FitOptions& options, 
         best = found;
         chosen = &remedy;
     }
-    if (!chosen) return {};
-    const std::string where =
-        shorter ? " of the first " + std::to_string(record.sample_count()) + " samples" : std::string();
-    const std::string instead =
-        std::isfinite(present.fit()) ? " instead of " + number_text(present.fit(), 4) + " %" : std::string();
-    return {best.fit() - present.fit(), kFirstWord + option_text(*chosen) + kThenFit + name + where + " is " +
-                                            number_text(best.fit(), 4) + " %" + instead + ": " + reason_text(*chosen) +
-                                            "."};
+    if (!chosen) return std::nullopt;
+    return MissedOption{.start = chosen->condition,
+                        .feedthrough = chosen->feedthrough,
+                        .samples = shorter ? record.sample_count() : 0,
+                        .fit_percent = present.fit(),
+                        .better_fit_percent = best.fit()};
 }
 
 bool by_defaults(const Fit& fit) {
@@ -306,32 +297,26 @@ bool by_defaults(const Fit& fit) {
            fit.termination != Termination::kCancelled;
 }
 
-bool has_further_poles(const Fit& fit) {  // those of an appended integrator
-    const Index own = fit.structure.poles[static_cast<std::size_t>(fit.structure.channels.front().denominator)];
-    return fit.models.front().pole_count() > own;
-}
-
 }  // namespace
 
-std::optional<std::string> missed_option(const IdData& data, const Fit& fit, const FitOptions& options) {
+std::optional<MissedOption> missed_option(const IdData& data, const Fit& fit, const FitOptions& options) {
     if (!by_defaults(fit)) return std::nullopt;
-    const bool may_be_direct = !has_further_poles(fit);
-    Told told;
-    if (fit.structure.outputs == 1) {
-        told = remedy_of(data, fit, options, may_be_direct, "");
-    } else if (outputs_are_separate(fit.structure)) {
-        for (Index output = 0; output < fit.structure.outputs; ++output) {
-            const OutputProblem problem = output_problem(data, fit.structure, output);
-            Fit own;
-            own.structure = problem.structure;
-            own.theta = fit.theta(problem.places);
-            own.fit_percent = Vector::Constant(1, fit.fit_percent[output]);
-            Told other = remedy_of(problem.data, own, options, may_be_direct,
-                                   " of " + data.output_names[static_cast<std::size_t>(output)]);
-            if (other.gain > told.gain) told = std::move(other);
-        }
+    if (fit.structure.outputs == 1) return missed_by_output(data, fit, options);
+    std::optional<MissedOption> most;
+    if (!outputs_are_separate(fit.structure)) return most;
+    const auto gain = [](const MissedOption& one) { return one.better_fit_percent - one.fit_percent; };
+    for (Index output = 0; output < fit.structure.outputs; ++output) {
+        const OutputProblem problem = output_problem(data, fit.structure, output);
+        Fit own;
+        own.structure = problem.structure;
+        own.theta = fit.theta(problem.places);
+        own.fit_percent = Vector::Constant(1, fit.fit_percent[output]);
+        std::optional<MissedOption> missed = missed_by_output(problem.data, own, options);
+        if (!missed || !(gain(*missed) > (most ? gain(*most) : 0))) continue;
+        missed->output = data.output_names[static_cast<std::size_t>(output)];
+        most = std::move(missed);
     }
-    return told.sentence.empty() ? std::nullopt : std::optional(told.sentence);
+    return most;
 }
 
 namespace {
@@ -383,8 +368,8 @@ class DiscreteLookAhead {
 
 }  // namespace
 
-std::optional<std::string> missed_discrete_option(const IdData& data, const Fit& fit, const FitOptions& options,
-                                                  const std::function<Fit(const FitOptions&)>& again) {
+std::optional<MissedOption> missed_discrete_option(const IdData& data, const Fit& fit, const FitOptions& options,
+                                                   const std::function<Fit(const FitOptions&)>& again) {
     if (!by_defaults(fit) || !fit.orders || !(fit.fit_percent.size() == 1)) return std::nullopt;
     const IdData beginning = data.sample_count() > kLookedAt ? beginning_of(data, kLookedAt) : data;
     const std::vector<SampledExperiment> experiments = sampled_experiments(beginning);
@@ -417,23 +402,18 @@ std::optional<std::string> missed_discrete_option(const IdData& data, const Fit&
             continue;  // too few samples for it
         }
     }
-    const Remedy remedy{{}, chosen, false};
-    const std::string option = option_text(remedy);
-    if (option.empty()) return std::nullopt;
-    return kFirstWord + option + kThenFit + " is " + number_text(best.fit(), 4) + " % instead of " +
-           number_text(present.fit(), 4) + " %: " + reason_text(remedy) + ".";
+    if (chosen.state == fit.start.state && chosen.offset == fit.start.offset) return std::nullopt;
+    return MissedOption{.start = chosen, .fit_percent = present.fit(), .better_fit_percent = best.fit()};
 }
 
-void warn_of_missed_option(Fit& fit, const IdData& data, const FitOptions& options) {
-    const std::optional<std::string> sentence = missed_option(data, fit, options);
-    if (!sentence) return;
-    add_warning(fit, *sentence);
-}
-
-std::string missed_option_among(const std::vector<std::string>& warnings) {
-    for (const std::string& warning : warnings)
-        if (warning.starts_with(kFirstWord) && warning.find(kThenFit) != std::string::npos) return warning;
-    return "";
+std::string sentence_of(const MissedOption& missed) {
+    const std::string of_output = missed.output.empty() ? "" : " of " + missed.output;
+    const std::string where =
+        missed.samples > 0 ? " of the first " + std::to_string(missed.samples) + " samples" : std::string();
+    const std::string instead =
+        std::isfinite(missed.fit_percent) ? " instead of " + number_text(missed.fit_percent, 4) + " %" : std::string();
+    return "With " + option_text(missed) + " the fit" + of_output + where + " is " +
+           number_text(missed.better_fit_percent, 4) + " %" + instead + ": " + reason_text(missed) + ".";
 }
 
 }  // namespace dynlab::inline numerics

@@ -11,4 +11,18 @@ double simulation_loss(const IdData& data, const TransferStructure& structure, c
 /// beyond all bounds is -infinity, and a warning says so.
 void measure_simulation(Fit& fit, const IdData& data);
 
+/// Whether the errors of a fit of one input and one output follow the input of up to 20 samples before (and its delay,
+/// the last 200 lags of these): the sum over these lags that is chi-squared distributed for white errors which do not
+/// is far beyond chance.
+bool errors_follow_input(const IdData& data, const Fit& fit);
+
+/// Whether they do so and change from sample to sample as what a pole leaves that swings within few samples: the
+/// squares of the errors' differences are a tenth or more of their own (for a sine of w radians a sample they are 2 (1
+/// - cos w)). Slow errors, such as those of a linear model of a nonlinear system, are nothing that a difference
+/// equation would mend.
+bool fast_errors_follow_input(const IdData& data, const Fit& fit);
+
+/// Whether the errors follow themselves: their autocorrelations of 20 lags (Box and Pierce 1970) are far beyond chance.
+bool errors_are_coloured(const IdData& data, const Fit& fit);
+
 }  // namespace dynlab::inline numerics

@@ -11,6 +11,7 @@
 #include "numerics/fit/operating_points.h"
 #include "numerics/fit/output_error.h"
 #include "numerics/fit/search_starts.h"
+#include "numerics/fit/simulation_error.h"
 #include "numerics/fit/srivc_iteration.h"
 #include "numerics/fit/transfer_refinement.h"
 #include "numerics/linalg/side_by_side.h"

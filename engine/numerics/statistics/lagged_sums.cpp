@@ -4,6 +4,8 @@
 #include <boost/math/special_functions/beta.hpp>
 #include <cstdlib>
 
+#include "numerics/signals/correlation.h"
+
 namespace dynlab::inline numerics {
 
 namespace {
@@ -62,6 +64,18 @@ double explained_part_upper_tail(double part, double directions, double dimensio
     using Policy = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
     if (directions <= 0 || dimension <= directions) return 1;
     return boost::math::ibetac(directions / 2, (dimension - directions) / 2, std::clamp(part, 0.0, 1.0), Policy());
+}
+
+double total_size(const std::vector<Vector>& records) {
+    double N = 0;
+    for (const Vector& x : records) N += static_cast<double>(x.size());
+    return N;
+}
+
+Vector lagged_covariances(const std::vector<Vector>& x, const std::vector<Vector>& y, Index lags) {
+    Vector sums = Vector::Zero(2 * lags + 1);
+    for (std::size_t i = 0; i < x.size(); ++i) sums += lagged_products(x[i], y[i], lags);
+    return sums / total_size(x);
 }
 
 }  // namespace dynlab::inline numerics

@@ -20,4 +20,10 @@ Matrix lagged_sum_covariance(const VectorView& g, const VectorView& Re, const st
 /// tends to chi-squared with many dimensions. 1 without a direction or where they span all dimensions.
 double explained_part_upper_tail(double part, double directions, double dimension);
 
+/// Number of values in all records together.
+double total_size(const std::vector<Vector>& records);
+
+/// (1/N) sum_k x(k + lag) y(k) over all records, lags -lags..lags, N values in all.
+Vector lagged_covariances(const std::vector<Vector>& x, const std::vector<Vector>& y, Index lags);
+
 }  // namespace dynlab::inline numerics

@@ -40,6 +40,7 @@ class DelayProfile {
         structure_.free_delays = false;
         options_.initial_state = condition.state;
         options_.offset = condition.offset ? Offset::kEstimate : Offset::kNone;
+        options_.doubts = false;
     }
 
     void fit_each(int threads) {

@@ -135,8 +135,8 @@ std::string validation_doubt(const OrderSelection& selection, const Places& soun
 
 /// With the blank before it: which option its fit lacks.
 std::string missed_by(const OrderCandidate& candidate) {
-    const std::string missed = missed_option_among(candidate.estimate.warnings);
-    return missed.empty() ? "" : " " + missed + " Then compare the structures anew.";
+    const std::optional<MissedOption>& missed = candidate.estimate.doubts.missed_option;
+    return missed ? " " + sentence_of(*missed) + " Then compare the structures anew." : "";
 }
 
 OrderChoice recommend(const OrderSelection& selection, const Places& estimated) {

@@ -11,7 +11,9 @@
 
 #include "numerics/error.h"
 #include "numerics/estimators/srivc.h"
+#include "numerics/fit/doubts.h"
 #include "numerics/fit/integrated_input.h"
+#include "numerics/fit/missed_options.h"
 #include "numerics/fit/search_starts.h"
 #include "numerics/linalg/side_by_side.h"
 #include "numerics/validation/compare.h"
@@ -110,14 +112,15 @@ void measure(OrderCandidate& candidate, const IdData& data, const OrderSelection
     const double rounding = kRoundingShare * outputs.measured.squaredNorm() / samples;
     candidate.evidence = samples * std::log(std::max(mean_square, rounding)) + count * std::log(samples);
     candidate.undetermined = undetermined_parameters(estimate);
-    candidate.cancellation = has_cancellation(estimate, options.integration);
+    candidate.cancellation = has_cancellation(estimate, options.estimation.integration);
     candidate.converged = estimate.termination == Termination::kConverged;
     candidate.unstable =
-        !options.integration && std::any_of(estimate.models.begin(), estimate.models.end(),
-                                            [](const TransferFunction& model) { return !model.stable(); });
+        !options.estimation.integration && std::any_of(estimate.models.begin(), estimate.models.end(),
+                                                       [](const TransferFunction& model) { return !model.stable(); });
     if (options.validation == nullptr) return;
-    candidate.validation_fit = options.integration ? validation_fit_with_integrator(*options.validation, estimate)
-                                                   : validation_fit(*options.validation, estimate, offset);
+    candidate.validation_fit = options.estimation.integration
+                                   ? validation_fit_with_integrator(*options.validation, estimate)
+                                   : validation_fit(*options.validation, estimate, offset);
 }
 
 /// `poorer`: fits of all structures that are a step poorer, or none.
@@ -127,9 +130,12 @@ OrderCandidate candidate_of(const IdData& data, const TransferStructure& structu
     candidate.poles = structure.poles.front();
     candidate.zeros = structure.channels.front().zeros;
     candidate.delay = structure.channels.front().delay;
-    candidate.integrator = options.integration;
+    candidate.integrator = options.estimation.integration;
+    FitOptions estimation = options.estimation;
+    estimation.integration = estimation.doubts =
+        false;  // `data` are integrated; of the choice alone doubts are looked for
     try {
-        candidate.estimate = srivc(data, structure, options.estimation, {{}, {}, std::move(poorer)});
+        candidate.estimate = srivc(data, structure, estimation, {{}, {}, std::move(poorer)});
         if (!candidate.estimate.theta.allFinite()) throw InvalidArgument("a parameter is not finite");
         measure(candidate, data, options);
     } catch (const std::exception& error) {
@@ -188,6 +194,12 @@ std::vector<const Fit*> poorer_fits(const std::vector<TransferStructure>& struct
     return fits;
 }
 
+void doubt_the_choice(OrderSelection& selection, const IdData& data, const FitOptions& options) {
+    if (!options.doubts || options.start_is_given || options.integration) return;
+    Fit& chosen = selection.candidates[choose_order(selection).place].estimate;
+    add_missed_option(chosen, missed_option(data, chosen, options));
+}
+
 }  // namespace
 
 std::vector<TransferStructure> order_grid(std::pair<int, int> poles, std::pair<int, int> zeros,
@@ -215,8 +227,8 @@ std::vector<TransferStructure> order_grid(std::pair<int, int> poles, std::pair<i
 OrderSelection select_order(const IdData& data, const std::vector<TransferStructure>& candidates,
                             const OrderSelectionOptions& options) {
     check_selection(data, candidates, options);
-    const IdData integrated = options.integration ? integrated_inputs(data) : IdData();
-    const IdData& seen = options.integration ? integrated : data;
+    const IdData integrated = options.estimation.integration ? integrated_inputs(data) : IdData();
+    const IdData& seen = options.estimation.integration ? integrated : data;
     OrderSelection selection;
     selection.samples = data.sample_count();
     selection.validated = options.validation != nullptr;
@@ -263,12 +275,13 @@ OrderSelection select_order(const IdData& data, const std::vector<TransferStruct
         for (std::size_t i = 0; i < level.size(); ++i) selection.candidates[level[i]] = std::move(tried.at(i));
     }
     const auto estimated = [](const OrderCandidate& candidate) { return candidate.failure.empty(); };
-    if (options.integration)
+    if (options.estimation.integration)
         for (OrderCandidate& candidate : selection.candidates)
             if (estimated(candidate)) append_integrator(candidate.estimate);
     if (!selection.cancelled && std::none_of(selection.candidates.begin(), selection.candidates.end(), estimated))
         throw InvalidArgument("none of the structures could be estimated; the first one says: " +
                               selection.candidates.front().failure);
+    if (!selection.cancelled) doubt_the_choice(selection, data, options.estimation);
     return selection;
 }
 

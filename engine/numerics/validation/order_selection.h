@@ -45,8 +45,7 @@ struct OrderSelection {
 struct OrderSelectionOptions {
     const IdData* validation = nullptr;                   ///< another record of the same channels
     int threads = 0;                                      ///< all cores when 0; never more than there are
-    FitOptions estimation = {};                           ///< the same for every structure
-    bool integration = false;                             ///< every structure has an integrator besides its poles
+    FitOptions estimation = {};                           ///< the same for every structure, an integrator among it
     std::function<void(std::size_t done)> progress = {};  ///< called by one thread at a time
     std::function<bool()> cancel = {};                    ///< asked before every candidate, by one thread at a time
     /// Who has the structures of one level estimated (as many poles and zeros together), where others share them.
@@ -65,8 +64,10 @@ std::vector<TransferStructure> order_grid(std::pair<int, int> poles, std::pair<i
 /// A second record is simulated as compare_all() does it with the initial state estimated, for that is the record's
 /// own, and with the offset that the estimation was asked for. Equal numbers for any number of threads. Throws
 /// InvalidArgument for other data, no candidates, and when none of them could be estimated.
-/// With `integration` inputs are held (zoh), the record begins at rest, and a second record's initial state is that of
-/// the integrator too, so that an offset of its output is part of it.
+/// The choice by kRecommended gets the option that its fit misses (fit/missed_options.h), if estimation.doubts is true;
+/// no candidate is assessed.
+/// With estimation.integration inputs are held (zoh), the record begins at rest, and a second record's initial state is
+/// that of the integrator too, so that an offset of its output is part of it.
 OrderSelection select_order(const IdData& data, const std::vector<TransferStructure>& candidates,
                             const OrderSelectionOptions& options = {});
 

@@ -10,7 +10,6 @@
 #include "numerics/fit/diagnosis.h"
 #include "numerics/linalg/decompositions.h"
 #include "numerics/number_text.h"
-#include "numerics/signals/correlation.h"
 #include "numerics/statistics/distributions.h"
 #include "numerics/statistics/lagged_sums.h"
 #include "numerics/validation/prediction.h"
@@ -32,77 +31,16 @@ Vector centred(const VectorView& x) {
     return x.array() - x.mean();
 }
 
-Signals centred(const Signals& signals) {
-    Signals all;
-    for (const Vector& x : signals) all.push_back(centred(x));
-    return all;
-}
-
 Signals centred_column(const std::vector<Matrix>& signals, Index column) {
     Signals all;
     for (const Matrix& x : signals) all.push_back(centred(x.col(column)));
     return all;
 }
 
-double sample_count(const Signals& signals) {
-    double N = 0;
-    for (const Vector& x : signals) N += static_cast<double>(x.size());
-    return N;
-}
-
-// (1/N) sum_k x(k + lag) y(k) over all experiments, lags -lags..lags.
-Vector covariances(const Signals& x, const Signals& y, Index lags) {
-    Vector sums = Vector::Zero(2 * lags + 1);
-    for (std::size_t i = 0; i < x.size(); ++i) sums += lagged_products(x[i], y[i], lags);
-    return sums / sample_count(x);
-}
-
 Index longest(const Signals& signals) {
     Index most = 0;
     for (const Vector& x : signals) most = std::max(most, x.size());
     return most;
-}
-
-std::string probability_text(double p) {
-    return p < 0.001 ? "p < 0.001" : "p = " + number_text(p, 2);
-}
-
-std::string percent_text(double confidence) {
-    return number_text(100 * confidence, 4) + " %";
-}
-
-// The variance of the lag's sample autocorrelation of a white signal, times N + 2 over N (Ljung and Box 1978).
-double lag_variance(const Signals& e, Index lag) {
-    double pairs = 0;
-    for (const Vector& x : e) pairs += static_cast<double>(std::max<Index>(0, x.size() - lag));
-    const double N = sample_count(e);
-    return pairs / (N * (N + 2));
-}
-
-// R holds the covariances of e, lags 0..lags.
-WhitenessTest test_whiteness(const Signals& e, const VectorView& R, double confidence, ErrorKind kind) {
-    WhitenessTest test;
-    const Index lags = R.size() - 1;
-    if (R[0] == 0) return test;  // nothing but a constant
-    test.correlation = R / R[0];
-    test.bound = normal_half_width(confidence) / std::sqrt(sample_count(e));
-    for (Index lag = 1; lag <= lags; ++lag) {
-        const double variance = lag_variance(e, lag);
-        if (variance == 0) continue;
-        ++test.degrees;
-        test.statistic += test.correlation[lag] * test.correlation[lag] / variance;
-        if (std::abs(test.correlation[lag]) > test.bound) ++test.outside;
-    }
-    if (test.degrees == 0) return test;
-    test.p_value = chi_squared_upper_tail(test.statistic, static_cast<double>(test.degrees));
-    test.white = test.p_value >= 1 - confidence;
-    const std::string subject = std::string("The ") + error_name(kind);
-    test.verdict = test.white ? subject + " is white (Ljung-Box " + probability_text(test.p_value) + " over " +
-                                    counted(lags, "lag") + ")."
-                              : subject + " is not white (Ljung-Box " + probability_text(test.p_value) + "; " +
-                                    std::to_string(test.outside) + " of " + std::to_string(lags) +
-                                    " lags lie beyond the " + percent_text(confidence) + " bound).";
-    return test;
 }
 
 // R_e at lags -reach..reach, and g(h) = sum_k R_e(k) R_u(k + h), h = 0..lags.
@@ -116,7 +54,8 @@ ProductCovariances product_covariances(const Signals& e, const Signals& u, Index
     const Index reach = longest(e) / 4;
     ProductCovariances product{{}, Vector(lags + 1)};
     Vector Ru;
-    tbb::parallel_invoke([&] { product.Re = covariances(e, e, reach); }, [&] { Ru = covariances(u, u, reach + lags); });
+    tbb::parallel_invoke([&] { product.Re = lagged_covariances(e, e, reach); },
+                         [&] { Ru = lagged_covariances(u, u, reach + lags); });
     for (Index k = -reach; k <= reach; ++k)
         product.Re[reach + k] *= 1 - static_cast<double>(std::abs(k)) / static_cast<double>(reach + 1);
     for (Index h = 0; h <= lags; ++h) product.g[h] = product.Re.dot(Ru.segment(lags + h, 2 * reach + 1));
@@ -189,14 +128,14 @@ std::vector<TestedInput> tested_inputs(const Signals& e, const IdData& data, Ind
             inputs[j].u.push_back(centred(experiment.u.col(static_cast<Index>(j))));
     tbb::parallel_for(std::size_t{0}, 2 * inputs.size() + 1, [&](std::size_t i) {
         if (i == 0) {
-            R = covariances(e, e, lags).tail(lags + 1);
+            R = lagged_covariances(e, e, lags).tail(lags + 1);
             return;
         }
         TestedInput& input = inputs[(i - 1) / 2];
         if (i % 2 == 1)
-            input.own = covariances(input.u, input.u, lags).tail(lags + 1);
+            input.own = lagged_covariances(input.u, input.u, lags).tail(lags + 1);
         else
-            input.with_error = covariances(e, input.u, lags);
+            input.with_error = lagged_covariances(e, input.u, lags);
     });
     return inputs;
 }
@@ -205,7 +144,7 @@ std::vector<TestedInput> tested_inputs(const Signals& e, const IdData& data, Ind
 IndependenceTest test_independence(const Signals& e, double variance, const TestedInput& tested, const IdData& data,
                                    Index input, bool white, const ResidualOptions& options) {
     const Index lags = options.lags;
-    const double N = sample_count(e);
+    const double N = total_size(e);
     IndependenceTest test;
     test.input = input;
     const double Re = variance, Ru = tested.own[0];
@@ -252,7 +191,7 @@ OutputResiduals test_output(const std::vector<Matrix>& errors, const IdData& dat
                             const ResidualOptions& options) {
     OutputResiduals result;
     const Signals e = centred_column(errors, output);
-    const double N = sample_count(e);
+    const double N = total_size(e);
     double output_power = 0, squares = 0;
     for (std::size_t k = 0; k < errors.size(); ++k) {
         result.mean += errors[k].col(output).sum() / N;
@@ -271,7 +210,7 @@ OutputResiduals test_output(const std::vector<Matrix>& errors, const IdData& dat
                          " output equals the measured one to rounding, so nothing is left to test.";
         return result;
     }
-    result.whiteness = test_whiteness(e, R, options.confidence, kind);
+    result.whiteness = whiteness_of_covariances(e, R, options.confidence, error_name(kind));
     result.verdict = name + ": " + result.whiteness.verdict;
     for (Index j = 0; j < data.input_count(); ++j) {
         const TestedInput& tested = inputs[static_cast<std::size_t>(j)];
@@ -314,23 +253,6 @@ ResidualTests tests_of(const IdData& data, std::vector<Matrix> errors, ErrorKind
     }
     return tests;
 }
-
-}  // namespace
-
-void ResidualOptions::validate() const {
-    if (lags < 1) throw InvalidArgument("lags must be at least 1, and is " + std::to_string(lags));
-    if (!(confidence > 0 && confidence < 1))
-        throw InvalidArgument("confidence must lie between 0 and 1, such as 0.99, and is " + number_text(confidence));
-}
-
-WhitenessTest whiteness_test(const std::vector<Vector>& errors, const ResidualOptions& options) {
-    options.validate();
-    const Signals e = centred(errors);
-    const Index lags = std::max<Index>(1, std::min(options.lags, longest(e) / 2));
-    return test_whiteness(e, covariances(e, e, lags).tail(lags + 1), options.confidence, ErrorKind::kOutput);
-}
-
-namespace {
 
 // Adds what all of it says together to each output's verdict.
 template <class Standing>

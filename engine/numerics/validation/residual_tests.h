@@ -3,31 +3,13 @@
 #include <vector>
 
 #include "numerics/signals/iddata.h"
+#include "numerics/statistics/whiteness.h"
 #include "numerics/validation/compare.h"
 #include "numerics/validation/model_verdict.h"
 
 namespace dynlab::inline numerics {
 
 struct Predictions;
-
-struct ResidualOptions {
-    Index lags = 25;
-    double confidence = 0.99;  ///< of the bounds; a test rejects below 1 - confidence
-
-    /// Throws InvalidArgument naming the option.
-    void validate() const;
-};
-
-/// Is the output error of one output predictable from its own past?
-struct WhitenessTest {
-    Vector correlation;              ///< lags 0..L, normalised: the first is 1
-    double bound = 0;                ///< a white error stays within +-bound with the wanted confidence, lag by lag
-    double statistic = 0;            ///< Ljung-Box, chi-squared with `degrees` if white
-    Index degrees = 0, outside = 0;  ///< outside: lags 1..L beyond the bound
-    double p_value = 1;
-    bool white = true;
-    std::string verdict;  ///< one sentence
-};
 
 /// Does the error of one output depend on one input?
 struct IndependenceTest {
@@ -80,9 +62,5 @@ ResidualTests residual_tests(const IdData& data, const std::vector<TransferFunct
 /// The same on the errors e of predictions one step ahead, which are white where the noise model is right.
 ResidualTests prediction_error_tests(const IdData& data, const Predictions& predictions,
                                      const ResidualOptions& options = {});
-
-/// The whiteness test alone, of one output's errors in one or several uninterrupted records; for records too short for
-/// the lags fewer are tested.
-WhitenessTest whiteness_test(const std::vector<Vector>& errors, const ResidualOptions& options = {});
 
 }  // namespace dynlab::inline numerics

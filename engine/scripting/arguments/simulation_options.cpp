@@ -48,8 +48,7 @@ NoisyModel noisy_model_argument(const Call& call, int index, const char* what) {
     if (!model->estimate || !model->estimate->noise) return noisy;
     noisy.C = model->estimate->noise->C;
     noisy.D = model->estimate->noise->D;
-    for (const auto& [name, value] : model->estimate->numbers)
-        if (name == "Ts") noisy.noise_Ts = value;
+    noisy.noise_Ts = model->estimate->noise->Ts;
     return noisy;
 }
 

@@ -2,10 +2,11 @@
 #include <lua.hpp>
 
 #include "scripting/runtime/function_entry.h"
+#include "scripting/runtime/type_entry.h"
 
 namespace dynlab::inline scripting {
 
-/// The functions of each area; catalogue_of_functions() joins them in the order of help().
+/// The functions of each area; catalogue_of_functions() (interpreter/catalogue.h) joins them in the order of help().
 FunctionEntries vector_functions();
 FunctionEntries column_statistics();
 FunctionEntries element_functions();
@@ -47,5 +48,18 @@ FunctionEntries report_functions();
 FunctionEntries answer_functions();
 FunctionEntries program_functions();
 FunctionEntries help_functions();
+
+/// The kinds of objects; catalogue_of_types() joins them with those of objects/.
+TypeEntries vector_types();
+TypeEntries matrix_types();
+TypeEntries complex_types();
+TypeEntries data_types();
+TypeEntries response_types();
+TypeEntries model_types();
+TypeEntries idgrey_types();
+TypeEntries greyest_types();
+TypeEntries regression_types();
+TypeEntries study_types();
+TypeEntries figure_types();
 
 }  // namespace dynlab::inline scripting

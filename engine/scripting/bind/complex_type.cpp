@@ -1,5 +1,6 @@
 #include <array>
 
+#include "scripting/bind/bindings.h"
 #include "scripting/conversions/table_fields.h"
 #include "scripting/objects/model.h"
 #include "scripting/runtime/text_form.h"
@@ -31,10 +32,14 @@ constexpr std::array kComplexVectorOperators = {
     Member{"__len", field<ComplexVector, [](const ComplexVector& z) { return z.size(); }>},
     Member{"__tostring", field<ComplexVector, complex_vector_text>}};
 
+constexpr std::array kComplexTypes = {
+    TypeEntry{&Boxed<Complex>::type, kNumberFields, {}, kNumberOperators},
+    TypeEntry{&Boxed<ComplexVector>::type, kVectorFields, {}, kComplexVectorOperators, guarded<vector_element>}};
+
 }  // namespace
 
-const ObjectType Boxed<Complex>::type{"complex number", kNumberFields, {}, kNumberOperators};
-const ObjectType Boxed<ComplexVector>::type{
-    "complex vector", kVectorFields, {}, kComplexVectorOperators, guarded<vector_element>};
+TypeEntries complex_types() {
+    return kComplexTypes;
+}
 
 }  // namespace dynlab::inline scripting

@@ -3,6 +3,7 @@
 
 #include "numerics/number_text.h"
 #include "numerics/signals/preprocess.h"
+#include "scripting/bind/bindings.h"
 #include "scripting/bind/preprocess_bindings.h"
 #include "scripting/conversions/table_fields.h"
 #include "scripting/conversions/told_sentences.h"
@@ -122,18 +123,6 @@ std::string data_text(const IdData& data) {
                        experiments > 1 ? fmt::format(", {} experiments", experiments) : "");
 }
 
-void add_texts(DigestStream& digest, const std::vector<std::string>& texts) {
-    const std::size_t count = texts.size();
-    digest.add(&count, sizeof count);
-    for (const std::string& text : texts) digest.add_part(text);
-}
-
-template <class Numbers>
-void add_numbers(DigestStream& digest, const Numbers& numbers) {
-    const Index size[] = {numbers.rows(), numbers.cols()};
-    digest.add(size, sizeof size).add(numbers.data(), sizeof(double) * static_cast<std::size_t>(numbers.size()));
-}
-
 constexpr std::array kDataTypeFields = {
     Member{"y", guarded<give_channels<&Experiment::y>>},
     Member{"u", guarded<give_channels<&Experiment::u>>},
@@ -166,53 +155,13 @@ constexpr std::array kDataTypeMethods = {
 };
 constexpr std::array kDataTypeOperators = {Member{"__tostring", told_field<IdData, data_text>}};
 
+constexpr std::array kDataTypes = {
+    TypeEntry{&Boxed<IdData>::type, kDataTypeFields, kDataTypeMethods, kDataTypeOperators, guarded<part_by_table>}};
+
 }  // namespace
 
-const ObjectType Boxed<IdData>::type{"iddata", kDataTypeFields, kDataTypeMethods, kDataTypeOperators,
-                                     guarded<part_by_table>};
-
-std::size_t Boxed<IdData>::outside_bytes(const IdData& data) {
-    std::size_t numbers = 0;
-    for (const Experiment& experiment : data.experiments)
-        numbers += static_cast<std::size_t>(experiment.y.size() + experiment.u.size() + experiment.t.size() +
-                                            experiment.r.size());
-    return numbers * sizeof(double) + data.experiments.size() * sizeof(Experiment);
-}
-
-Digest Boxed<IdData>::digest(const IdData& data) {
-    DigestStream digest;
-    const auto& [experiments, Ts, hold, input_names, output_names, input_units, output_units, time_unit] = data;
-    digest.add(&Ts, sizeof Ts).add(&hold, sizeof hold).add_part(time_unit);
-    for (const auto* texts : {&input_names, &output_names, &input_units, &output_units}) add_texts(digest, *texts);
-    for (const auto& [y, u, t, start_time, name, r] : experiments) {
-        digest.add(&start_time, sizeof start_time).add_part(name);
-        add_numbers(digest, y);
-        add_numbers(digest, u);
-        add_numbers(digest, t);
-        add_numbers(digest, r);
-    }
-    return digest.digest();
-}
-
-const IdData& signals_of_argument(const Call& call, int index, const char* what) {
-    const IdData* data = index <= call.count() ? to_object<IdData>(call.state(), index) : nullptr;
-    if (data == nullptr) wrong_argument(call.state(), index, what, Boxed<IdData>::type.name);
-    return *data;
-}
-
-template <>
-Access<IdData>& object_argument<IdData>(const Call& call, int index, const char* what) {
-    const IdData& data = signals_of_argument(call, index, what);
-    if (data.output_count() > 0) return data;
-    throw InvalidArgument(
-        fmt::format("argument {} ({}) must have an output, and these data hold inputs only, which is enough for sim, "
-                    "simsd and idplot",
-                    index, what));
-}
-
-int give_data(const Call& call, IdData data) {
-    push_object(call.state(), std::move(data));
-    return 1;
+TypeEntries data_types() {
+    return kDataTypes;
 }
 
 }  // namespace dynlab::inline scripting

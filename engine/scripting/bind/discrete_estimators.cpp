@@ -6,12 +6,8 @@
 #include "numerics/estimators/iv4.h"
 #include "numerics/estimators/oe.h"
 #include "numerics/estimators/sriv.h"
-#include "numerics/fit/diagnosis.h"
 #include "numerics/fit/integrated_input.h"
-#include "numerics/fit/missed_options.h"
-#include "scripting/arguments/estimation.h"
-#include "scripting/arguments/order_vector.h"
-#include "scripting/arguments/transfer_arguments.h"
+#include "scripting/arguments/estimator_arguments.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/data_object.h"
@@ -37,29 +33,16 @@ int only_value(const std::vector<int>& entry, const OrderEntry& what) {
         fmt::format("{} is one number of {} for all inputs, but {} were given", what.name, what.meaning, entry.size()));
 }
 
-/// The data of an estimation with an integrator: the running sum of the input stands for the input.
-IdData data_for(const IdData& data, bool integration) {
-    return integration ? summed_inputs(data) : data;
-}
-
 template <auto kMethod>
 int estimate_equation_error(Call& call) {
     call.at_most(3);
     const IdData& data = object_argument<IdData>(call, 1, "data");
     const auto orders = order_lists(call, 2, kArxOrders);
     const bool integration = Options(call, 3, {"Integration"}).flag("Integration", false);
-    Fit result = kMethod(data_for(data, integration),
+    Fit result = kMethod(integration ? summed_inputs(data) : data,
                          PolynomialOrders::arx(only_value(orders[0], kDiscreteNa), orders[1], orders[2]));
     if (integration) append_integrator(result);
-    return give_fit(call, estimate_of(call.function_name(), result), result);
-}
-
-/// With robust standard errors, where the record is not too long for them.
-int give_assessed(Call& call, const IdData& data, Fit result, bool integration) {
-    Estimate estimate = estimate_of(call.function_name(), result);
-    estimate.set_assessment(assess_if_affordable(data, result));
-    if (integration) append_integrator(result);
-    return give_fit(call, std::move(estimate), result);
+    return give_fit(call, call.function_name(), result);
 }
 
 /// oe, sriv and bj.
@@ -67,15 +50,7 @@ template <auto kMethod>
 int estimate_simulation(Call& call, const PolynomialOrders& orders) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
     const Options options(call, 3, {"InitialState", "Offset", "MaxIter", "Tol", "Integration"});
-    FitOptions wanted;
-    read_fit_options(options, wanted);
-    const bool integration = options.flag("Integration", false);
-    const IdData seen = data_for(data, integration);
-    Fit result = kMethod(seen, orders, wanted);
-    const auto again = [&](const FitOptions& other) { return kMethod(seen, orders, other); };
-    if (orders.nc + orders.nd == 0)
-        if (const auto sentence = missed_discrete_option(seen, result, wanted, again)) add_warning(result, *sentence);
-    return give_assessed(call, seen, std::move(result), integration);
+    return give_fit(call, call.function_name(), kMethod(data, orders, fit_options(options, Purpose::kModel)));
 }
 
 template <auto kMethod>
@@ -93,11 +68,7 @@ int estimate_armax(Call& call) {
     PolynomialOrders orders = PolynomialOrders::arx(only_value(lists[0], kDiscreteNa), lists[1], lists[3]);
     orders.nc = only_value(lists[2], kDiscreteNc);
     const Options options(call, 3, {"MaxIter", "Tol", "Integration"});
-    FitOptions wanted;
-    read_fit_options(options, wanted);
-    const bool integration = options.flag("Integration", false);
-    const IdData seen = data_for(data, integration);
-    return give_assessed(call, seen, armax(seen, orders, wanted), integration);
+    return give_fit(call, "armax", armax(data, orders, fit_options(options, Purpose::kModel)));
 }
 
 int estimate_bj(Call& call) {

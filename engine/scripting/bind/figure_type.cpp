@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "numerics/number_text.h"
+#include "scripting/bind/bindings.h"
 #include "scripting/conversions/table_fields.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/panel_options.h"
@@ -214,31 +215,13 @@ constexpr std::array kFigureTypeMethods = {Member{"add", guarded<add_curve>},
                                            Member{"set", guarded<set_options>}};
 constexpr std::array kFigureTypeOperators = {Member{"__tostring", guarded<figure_to_text>}};
 
+constexpr std::array kFigureTypes = {
+    TypeEntry{&Boxed<FigurePointer>::type, kFigureTypeFields, kFigureTypeMethods, kFigureTypeOperators}};
+
 }  // namespace
 
-const ObjectType Boxed<FigurePointer>::type{"figure", kFigureTypeFields, kFigureTypeMethods, kFigureTypeOperators};
-
-std::size_t Boxed<FigurePointer>::outside_bytes(const FigurePointer& figure) {
-    std::size_t bytes = sizeof(ScriptFigure);
-    for (const Panel& panel : figure->figure.panels)
-        for (const Curve& curve : panel.curves)
-            bytes += sizeof(Curve) +
-                     sizeof(double) * static_cast<std::size_t>(curve.x.size() + curve.y.size() + curve.y_upper.size());
-    return bytes;
-}
-
-int give_figure(const Call& call, Figure figure) {
-    figure.validate();
-    auto pointer = std::make_shared<ScriptFigure>(ScriptFigure{std::move(figure), false, {}});
-    push_object(call.state(), pointer);
-    call.context().recorder.add_figure(pointer);
-    return 1;
-}
-
-ScriptFigure& used_figure(const Call& call, int index, const char* what) {
-    ScriptFigure& figure = *object_argument<FigurePointer>(call, index, what);
-    figure.used = true;
-    return figure;
+TypeEntries figure_types() {
+    return kFigureTypes;
 }
 
 }  // namespace dynlab::inline scripting

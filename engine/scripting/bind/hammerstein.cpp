@@ -1,7 +1,7 @@
 #include <array>
 
 #include "numerics/estimators/hammerstein.h"
-#include "scripting/arguments/transfer_arguments.h"
+#include "scripting/arguments/estimator_arguments.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/data_object.h"
@@ -20,8 +20,7 @@ int estimate_hammerstein(Call& call) {
     wanted.bins = static_cast<int>(options.size("Bins", wanted.bins));
     if (options.has("Breakpoints")) wanted.breakpoints = options.vector("Breakpoints");
     const TransferStructure structure = structure_of_counts(call, options, wanted)(data);
-    const Fit result = hammerstein(data, structure, wanted);
-    return give_fit(call, estimate_of("hammerstein", result), result);
+    return give_fit(call, "hammerstein", hammerstein(data, structure, wanted));
 }
 
 constexpr std::array kHammersteinFunctions = {

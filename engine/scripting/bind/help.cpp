@@ -5,7 +5,6 @@
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/model.h"
 #include "scripting/runtime/help.h"
-#include "scripting/runtime/services.h"
 #include "scripting/runtime/text_form.h"
 
 namespace dynlab::inline scripting {
@@ -44,8 +43,8 @@ int show(Call& call) {
             line += (line.empty() ? "" : "\t") + text_for_reading(L, i);
     }
     if (line.empty()) return 0;
-    const auto listener = service_or_default<ValueListener>(L);
-    if (listener.expect) listener.expect(call.count() == 1 ? formula_of(L, 1) : "");
+    const ValueListener* const listener = call.context().services.listener;
+    if (listener != nullptr && listener->expect) listener->expect(call.count() == 1 ? formula_of(L, 1) : "");
     call.print_lines(line + '\n');
     return 0;
 }

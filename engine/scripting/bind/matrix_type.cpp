@@ -1,5 +1,6 @@
 #include <array>
 
+#include "scripting/bind/bindings.h"
 #include "scripting/conversions/boxed.h"
 #include "scripting/conversions/numeric.h"
 #include "scripting/conversions/numeric_operators.h"
@@ -120,12 +121,13 @@ constexpr std::array kMatrixTypeOperators = {
     Member{"__len", guarded<refuse_length>},
 };
 
+constexpr std::array kMatrixTypes = {
+    TypeEntry{&kMatrixType, kMatrixTypeFields, kMatrixTypeMethods, kMatrixTypeOperators, guarded<read_matrix_element>}};
+
 }  // namespace
 
-const ObjectType& matrix_type() {
-    static const ObjectType type{"matrix", kMatrixTypeFields, kMatrixTypeMethods, kMatrixTypeOperators,
-                                 guarded<read_matrix_element>};
-    return type;
+TypeEntries matrix_types() {
+    return kMatrixTypes;
 }
 
 }  // namespace dynlab::inline scripting

@@ -4,6 +4,7 @@
 #include <limits>
 #include <span>
 
+#include "scripting/bind/bindings.h"
 #include "scripting/conversions/table_fields.h"
 #include "scripting/conversions/told_sentences.h"
 #include "scripting/objects/fit_model.h"
@@ -109,7 +110,7 @@ double noise_variance_of(const Model& model) {
 
 const Assessment& assessment_of(const Model& model) {
     const Estimate& estimate = estimate_in(model);
-    if (estimate.assessment) return *estimate.assessment;
+    if (estimate.doubts.assessment) return *estimate.doubts.assessment;
     throw InvalidArgument(fmt::format("{} gives no robust standard errors", estimate.method));
 }
 
@@ -248,10 +249,15 @@ constexpr std::array kStructureFields = {Member{"structure", field<ProcessStruct
                                          Member{"Td", kFreeParameter}};
 constexpr std::array kStructureOperators = {Member{"__tostring", field<ProcessStructure, free_structure_text>}};
 
+constexpr std::array kModelTypes = {
+    TypeEntry{&Boxed<Model>::type, kModelTypeFields, {}, kModelTypeOperators},
+    TypeEntry{&Boxed<ProcessStructure>::type, kStructureFields, {}, kStructureOperators},
+    TypeEntry{&Boxed<StateSpace>::type, kSystemFields, {}, kSystemOperators}};
+
 }  // namespace
 
-const ObjectType Boxed<Model>::type{"model", kModelTypeFields, {}, kModelTypeOperators};
-const ObjectType Boxed<ProcessStructure>::type{"process structure", kStructureFields, {}, kStructureOperators};
-const ObjectType Boxed<StateSpace>::type{"state-space model", kSystemFields, {}, kSystemOperators};
+TypeEntries model_types() {
+    return kModelTypes;
+}
 
 }  // namespace dynlab::inline scripting

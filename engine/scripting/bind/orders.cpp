@@ -5,12 +5,9 @@
 #include "figures/plots/arx_order_plot.h"
 #include "figures/plots/delay_plot.h"
 #include "figures/plots/order_plot.h"
-#include "numerics/fit/missed_options.h"
 #include "numerics/validation/delay_search.h"
 #include "platform/terminal/progress.h"
-#include "scripting/arguments/estimation.h"
-#include "scripting/arguments/order_vector.h"
-#include "scripting/arguments/transfer_arguments.h"
+#include "scripting/arguments/estimator_arguments.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/conversions/table_fields.h"
 #include "scripting/conversions/told_sentences.h"
@@ -18,6 +15,7 @@
 #include "scripting/memoized_calls/shared_pieces.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/figure_object.h"
+#include "scripting/objects/fit_model.h"
 #include "scripting/objects/study_objects.h"
 #include "scripting/objects/study_text.h"
 
@@ -95,12 +93,6 @@ bool is_list(const Call& call, int index) {
     return found;
 }
 
-FitOptions estimation_options(const Options& options) {
-    FitOptions wanted;
-    read_fit_options(options, wanted);
-    return wanted;
-}
-
 /// The second record, or nothing.
 const IdData* validation_record(const Options& options) {
     if (!options.has("validate")) return nullptr;
@@ -123,19 +115,15 @@ int try_structures(Call& call) {
     const std::vector<TransferStructure> structures = listed ? listed_structures(call, data) : grid_of(options, data);
     OrderSelectionOptions wanted;
     wanted.validation = validation_record(options);
-    wanted.integration = options.flag("Integration", false);
     wanted.threads = static_cast<int>(options.size("threads", 0));
     wanted.cancel = call.cancel();
-    wanted.estimation = estimation_options(options);
+    wanted.estimation = fit_options(options, Purpose::kModel);
     wanted.elsewhere = shared_out<OrderCandidate>(call.state(), "srivcstruc");
     if (wanted.elsewhere) wanted.threads = 1;  // each of those who share it has a core
     ProgressBar bar("order search", structures.size());
     wanted.progress = [&bar](std::size_t done) { bar.advance(done); };
     OrderTable table{select_order(data, structures, wanted), {}};
     poll_stop(call.state());
-    if (!wanted.integration && !(options.has("InitialState") && options.has("Offset")))
-        warn_of_missed_option(table.selection.candidates[choose_order(table.selection).place].estimate, data,
-                              wanted.estimation);
     table.choice = choose_order(table.selection);
     push_object(call.state(), std::move(table));
     return 1;
@@ -163,7 +151,7 @@ int select_structure(Call& call) {
     const OrderChoice choice = choose_order(table.selection, criterion);
     call.print(told(call, order_table_text(table.selection, choice)));
     const OrderCandidate& candidate = table.selection.candidates[choice.place];
-    give_transfer_estimate(call, "srivc", candidate.estimate, !candidate.integrator);
+    give_fit(call, "srivc", candidate.estimate);
     give_figure(call, order_plot(table.selection, criterion, choice));
     return 2;
 }
@@ -216,7 +204,7 @@ void push_search(const Call& call, const IdData& data, const DelaySearch& search
     set_field(call, "poles", search.candidate.poles);
     set_field(call, "zeros", search.candidate.zeros);
     set_field(call, "message", told(call, search.explanation));
-    give_transfer_estimate(call, "srivc", search.candidate.estimate, true);
+    give_fit(call, "srivc", search.candidate.estimate);
     lua_setfield(L, -2, "model");
 }
 
@@ -229,7 +217,7 @@ int estimate_delay(Call& call) {
     DelaySearchOptions wanted;
     wanted.poles = range_of(options, "poles", wanted.poles);
     wanted.zeros = range_of(options, "zeros", wanted.zeros);
-    wanted.estimation = estimation_options(options);
+    wanted.estimation = fit_options(options, Purpose::kModel);
     wanted.threads = static_cast<int>(options.size("threads", 0));
     wanted.cancel = call.cancel();
     ProgressBar bar("delay search", order_grid(wanted.poles, wanted.zeros, {0.0}).size());

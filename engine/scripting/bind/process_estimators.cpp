@@ -3,7 +3,7 @@
 #include "figures/step_construction.h"
 #include "numerics/estimators/procsrivc.h"
 #include "numerics/estimators/step_test.h"
-#include "scripting/arguments/transfer_arguments.h"
+#include "scripting/arguments/estimator_arguments.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/data_object.h"
@@ -61,10 +61,7 @@ int estimate_process_model(Call& call) {
     const ProcessStructure structure = process_structure_argument(call, 2);
     ProcsrivcOptions wanted;
     read_fit_options(Options(call, 3, {"InitialState", "Offset", "TdMin", "TdMax", "NumTd", "MaxIter", "Tol"}), wanted);
-    const Fit result = procsrivc(data, structure, wanted);
-    Estimate estimate = estimate_of("procsrivc", result);
-    estimate.set_assessment(assess_if_affordable(data, result));
-    return give_fit(call, std::move(estimate), result);
+    return give_fit(call, "procsrivc", procsrivc(data, structure, wanted));
 }
 
 constexpr const char* kStep = "step tests";

@@ -125,7 +125,8 @@ int run_file(Call& call) {
             "scripts are run at the prompt, where their variables stay; in a script write require(name)");
     const std::filesystem::path file = script_at(call.text(1, "path"));
     const std::string text = read_text(file);
-    const PromptStatement script = read_statement(with_shown_expressions(text));
+    const ShownCalls& shown = *call.context().shown_calls;
+    const PromptStatement script = read_statement(with_shown_expressions(text, shown), shown);
     announce_variables(L, script.variables);
     const std::string chunk = "@" + file.string();
     if (luaL_loadbufferx(L, script.code.data(), script.code.size(), chunk.c_str(), "t") != LUA_OK)

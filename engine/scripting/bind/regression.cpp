@@ -20,7 +20,7 @@ struct RegressionFit {
 
 template <>
 struct Boxed<RegressionFit> {
-    static const ObjectType type;
+    static constexpr ObjectType type{"regression"};
     static std::size_t outside_bytes(const RegressionFit& fit) {
         return 4 * sizeof(double) * static_cast<std::size_t>(fit.regression.residuals.size());
     }
@@ -204,9 +204,14 @@ constexpr std::array kRegressionFunctions = {
                   "least squares by steepest descent, with the loss after every step", guarded<descend>},
 };
 
+constexpr std::array kRegressionTypes = {
+    TypeEntry{&Boxed<RegressionFit>::type, kRegressionFields, {}, kRegressionOperators}};
+
 }  // namespace
 
-const ObjectType Boxed<RegressionFit>::type{"regression", kRegressionFields, {}, kRegressionOperators};
+TypeEntries regression_types() {
+    return kRegressionTypes;
+}
 
 FunctionEntries regression_functions() {
     return kRegressionFunctions;

@@ -7,7 +7,6 @@
 #include "scripting/conversions/arguments.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/runtime/sandbox.h"
-#include "scripting/runtime/services.h"
 #include "scripting/runtime/text_form.h"
 
 namespace dynlab::inline scripting {
@@ -122,7 +121,7 @@ int report_text(Call& call) {
 
 int report_language(Call& call) {
     call.at_most(0);
-    return call.give(service_or_default<ReportLanguage>(call.state()).code);
+    return call.give(call.context().services.language_code());
 }
 
 void check_range(const std::string& name, const RecordedSlider& slider) {
@@ -157,7 +156,8 @@ int slider(Call& call) {
     slider.label = options.text("label", name);
     if (slider.step && slider.logarithmic)
         throw InvalidArgument(fmt::format("the slider \"{}\" has log = true: it takes no step", name));
-    const auto values = service_or_default<SliderValues>(call.state());
+    const SliderValues* const given = call.context().services.sliders;
+    const SliderValues values = given != nullptr ? *given : SliderValues();
     const auto found = values.chosen.find(name);
     slider.value = found == values.chosen.end() ? slider.initial : found->second;
     if (values.clamped && slider.from < slider.to) slider.value = std::clamp(slider.value, slider.from, slider.to);
@@ -176,7 +176,7 @@ void push_guesses(lua_State* L) {
 }
 
 bool in_french(const Call& call) {
-    return service_or_default<ReportLanguage>(call.state()).code == "fr";
+    return call.context().services.language_code() == "fr";
 }
 
 std::string with_unit(double value, const std::string& unit) {

@@ -8,6 +8,7 @@
 #include "numerics/validation/residual_tests.h"
 #include "scripting/arguments/simulation_options.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/conversions/option_words.h"
 #include "scripting/conversions/table_fields.h"
 #include "scripting/conversions/told_sentences.h"
 #include "scripting/objects/data_object.h"
@@ -70,7 +71,9 @@ ModelDoubts doubts_of(const Call& call, int index) {
     const Model* model = to_object<Model>(call.state(), index);
     if (model == nullptr || !model->estimate) return {};
     const Estimate& estimate = *model->estimate;
-    return {undetermined_names(estimate.names, estimate.theta, estimate.std), missed_option_among(estimate.warnings)};
+    const std::optional<MissedOption>& missed = estimate.doubts.missed_option;
+    return {undetermined_names(estimate.names, estimate.theta, estimate.std),
+            missed ? in_lua_words(sentence_of(*missed)) : std::string()};
 }
 
 /// Of the model at argument 2.

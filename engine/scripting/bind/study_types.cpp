@@ -1,10 +1,11 @@
 #include <array>
 
 #include "figures/plots/monte_carlo_plot.h"
-#include "scripting/arguments/estimation.h"
+#include "scripting/bind/bindings.h"
 #include "scripting/conversions/table_fields.h"
 #include "scripting/conversions/told_sentences.h"
 #include "scripting/objects/figure_object.h"
+#include "scripting/objects/fit_model.h"
 #include "scripting/objects/study_objects.h"
 #include "scripting/objects/study_text.h"
 
@@ -100,7 +101,7 @@ int push_candidate(const Call& call, const OrderCandidate& candidate) {
     set_field(call, "undetermined", candidate.undetermined);
     set_field(call, "cancellation", candidate.cancellation);
     set_field(call, "converged", candidate.converged);
-    give_transfer_estimate(call, "srivc", candidate.estimate, !candidate.integrator);
+    give_fit(call, "srivc", candidate.estimate);
     lua_setfield(L, -2, "model");
     return 1;
 }
@@ -161,30 +162,14 @@ constexpr std::array kArxTableFields = {Member{"rows", guarded<arx_rows>}, Membe
                                         Member{"recommendation", told_field<ArxSelection, arx_recommendation>}};
 constexpr std::array kArxTableOperators = {Member{"__tostring", told_field<ArxSelection, arx_text>}};
 
+constexpr std::array kStudyTypes = {TypeEntry{&Boxed<ArxSelection>::type, kArxTableFields, {}, kArxTableOperators},
+                                    TypeEntry{&Boxed<MonteCarlo>::type, kStudyFields, kStudyMethods, kStudyOperators},
+                                    TypeEntry{&Boxed<OrderTable>::type, kTableFields, {}, kTableOperators}};
+
 }  // namespace
 
-const ObjectType Boxed<ArxSelection>::type{"table of ARX orders", kArxTableFields, {}, kArxTableOperators};
-const ObjectType Boxed<MonteCarlo>::type{"Monte Carlo study", kStudyFields, kStudyMethods, kStudyOperators};
-const ObjectType Boxed<OrderTable>::type{"table of orders", kTableFields, {}, kTableOperators};
-
-std::size_t Boxed<ArxSelection>::outside_bytes(const ArxSelection& table) {
-    return table.candidates.size() * sizeof(ArxCandidate);
-}
-
-std::size_t Boxed<MonteCarlo>::outside_bytes(const MonteCarlo& study) {
-    std::size_t numbers = 0;
-    for (const MonteCarloResult& result : study.results)
-        numbers += static_cast<std::size_t>(result.theta.size() + result.std.size() + result.bound.size());
-    return numbers * sizeof(double) + study.results.size() * sizeof(MonteCarloResult);
-}
-
-std::size_t Boxed<OrderTable>::outside_bytes(const OrderTable& table) {
-    std::size_t bytes = 0;
-    for (const OrderCandidate& candidate : table.selection.candidates) {
-        const auto d = static_cast<std::size_t>(candidate.parameters());
-        bytes += sizeof(OrderCandidate) + sizeof(double) * d * (d + candidate.estimate.trace.size());
-    }
-    return bytes;
+TypeEntries study_types() {
+    return kStudyTypes;
 }
 
 }  // namespace dynlab::inline scripting

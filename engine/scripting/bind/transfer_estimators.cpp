@@ -4,11 +4,10 @@
 #include "numerics/estimators/ivsvf.h"
 #include "numerics/estimators/lssvf.h"
 #include "numerics/estimators/srivc.h"
-#include "numerics/fit/integrated_input.h"
-#include "numerics/fit/missed_options.h"
 #include "numerics/fit/simulation_error.h"
-#include "scripting/arguments/transfer_arguments.h"
+#include "scripting/arguments/estimator_arguments.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/bind/estimation_readers.h"
 #include "scripting/bind/frequency/frequency_bindings.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/data_object.h"
@@ -47,65 +46,49 @@ int estimate_filtered(Call& call) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
     Fit result = read_filtered<kMethod, kInstruments, kMomentFunctionals>(call)(data);
     measure_simulation(result, data);
-    Estimate estimate = estimate_of(call.function_name(), result);
-    estimate.carx = true;
-    return give_fit(call, std::move(estimate), result);
-}
-
-int give_refined(Call& call, const IdData& data, const TransferRequest& request) {
-    Fit result = request.estimate(data);
-    const IdData integrated = request.integration ? integrated_inputs(data) : IdData();
-    const IdData& seen = request.integration ? integrated : data;
-    if (!request.start_is_given) warn_of_missed_option(result, seen, request.wanted);
-    Estimate estimate = estimate_of(call.function_name(), result);
-    estimate.of_coefficients = !request.integration;
-    estimate.set_assessment(assess_if_affordable(seen, result));
-    return give_fit(call, std::move(estimate), result);
+    return give_fit(call, call.function_name(), result, FitForm::kEquationError);
 }
 
 template <auto kMethod>
-TransferRequest refined_request(const StartedStructure& started, const Options& options, const FitOptions& wanted) {
-    return transfer_request(options, wanted, [=](const IdData& data) {
+Estimation refined_estimation(const StartedStructure& started, const FitOptions& wanted) {
+    return [=](const IdData& data) {
         const TransferStructure structure = started.structure(data);
         SearchAids aids = started.aids;
         if (aids.delays.size() == 1) aids.delays.resize(structure.channels.size(), aids.delays.front());
         return kMethod(data, structure, wanted, aids);
-    });
+    };
 }
 
 /// srivc and coe: orders and fixed delays in samples.
 template <auto kMethod>
-TransferRequest read_refined(const Call& call) {
+Estimation read_refined(const Call& call, Purpose purpose) {
     call.at_most(3);
     const auto orders = order_lists(call, 2, kOutputErrorOrders);
     const Options options(call, 3,
                           {"lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol", "CommonDenominator",
                            "Integration", "Stable", "Fixed", "OutputWeights"});
-    FitOptions wanted;
-    read_fit_options(options, wanted);
-    return refined_request<kMethod>({structure_of_orders(kOutputErrorOrders, orders, sharing_of(options)), {}}, options,
-                                    wanted);
+    return refined_estimation<kMethod>({structure_of_orders(kOutputErrorOrders, orders, sharing_of(options)), {}},
+                                       fit_options(options, purpose));
 }
 
 /// tfsrivc and tfcoe: numbers of poles and zeros, and a delay that is estimated unless it is given.
 template <auto kMethod>
-TransferRequest read_transfer_function(const Call& call) {
+Estimation read_transfer_function(const Call& call, Purpose purpose) {
     const int last = holds_model(call, 2) ? 3 : 4;
     call.at_most(last);
     const Options options(
         call, last,
         {"lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol", "CommonDenominator", "Integration", "TdMin",
          "TdMax", "NumTd", "IODelay", "Td0", "Stable", "Fixed", "OutputWeights"});
-    FitOptions wanted;
-    read_fit_options(options, wanted);
-    return refined_request<kMethod>(started_structure(call, options, wanted), options, wanted);
+    const FitOptions wanted = fit_options(options, purpose);
+    return refined_estimation<kMethod>(started_structure(call, options, wanted), wanted);
 }
 
 template <auto kRead>
 int estimate_refined(Call& call) {
     if (holds_response(call, 1)) return fit_response(call);
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    return give_refined(call, data, kRead(call));
+    return give_fit(call, call.function_name(), kRead(call, Purpose::kModel)(data));
 }
 
 int estimate_by_least_squares(Call& call) {
@@ -113,20 +96,14 @@ int estimate_by_least_squares(Call& call) {
     return estimate_filtered<lssvf, false, false>(call);
 }
 
-template <auto kRead>
-Estimation read_transfer_estimation(const Call& call) {
-    return kRead(call).estimate;
-}
-
-constexpr NamedReader kTransferEstimatorsReaders[] = {
-    {"lssvf", read_filtered<lssvf, false, false>},
-    {"ivsvf", read_filtered<ivsvf, true, false>},
-    {"lsgpmf", read_filtered<lssvf, false, true>},
-    {"ivgpmf", read_filtered<ivsvf, true, true>},
-    {"srivc", read_transfer_estimation<read_refined<srivc>>},
-    {"coe", read_transfer_estimation<read_refined<coe>>},
-    {"tfsrivc", read_transfer_estimation<read_transfer_function<srivc>>},
-    {"tfcoe", read_transfer_estimation<read_transfer_function<coe>>}};
+constexpr NamedReader kTransferEstimatorsReaders[] = {{"lssvf", read_filtered<lssvf, false, false>},
+                                                      {"ivsvf", read_filtered<ivsvf, true, false>},
+                                                      {"lsgpmf", read_filtered<lssvf, false, true>},
+                                                      {"ivgpmf", read_filtered<ivsvf, true, true>},
+                                                      {"srivc", read_for_study<read_refined<srivc>>},
+                                                      {"coe", read_for_study<read_refined<coe>>},
+                                                      {"tfsrivc", read_for_study<read_transfer_function<srivc>>},
+                                                      {"tfcoe", read_for_study<read_transfer_function<coe>>}};
 
 constexpr const char* kTransferEstimatorsArea = "continuous time";
 constexpr std::array kTransferEstimatorsFunctions = {
@@ -161,12 +138,6 @@ constexpr std::array kTransferEstimatorsFunctions = {
 
 EstimationReaders transfer_estimation_readers() {
     return kTransferEstimatorsReaders;
-}
-
-int give_transfer_estimate(const Call& call, const char* method, const Fit& estimate, bool of_coefficients) {
-    Estimate own = estimate_of(method, estimate);
-    own.of_coefficients = of_coefficients;
-    return give_fit(call, std::move(own), estimate);
 }
 
 FunctionEntries transfer_estimator_functions() {

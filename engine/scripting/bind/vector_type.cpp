@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "numerics/number_text.h"
+#include "scripting/bind/bindings.h"
 #include "scripting/conversions/boxed.h"
 #include "scripting/conversions/numeric.h"
 #include "scripting/conversions/numeric_operators.h"
@@ -192,16 +193,14 @@ constexpr std::array kMaskOperators = {Member{"__len", guarded<mask_length>},
                                        Member{"__band", guarded<mask_both>}, Member{"__bor", guarded<mask_either>},
                                        Member{"__bnot", guarded<mask_opposite>}};
 
+constexpr std::array kVectorTypes = {
+    TypeEntry{&kVectorType, {}, kVectorMethods, kVectorOperators, guarded<read_element>},
+    TypeEntry{&kMaskType, {}, {}, kMaskOperators, guarded<mask_element>}};
+
 }  // namespace
 
-const ObjectType& vector_type() {
-    static const ObjectType type{"vector", {}, kVectorMethods, kVectorOperators, guarded<read_element>};
-    return type;
-}
-
-const ObjectType& mask_type() {
-    static const ObjectType type{"mask", {}, {}, kMaskOperators, guarded<mask_element>};
-    return type;
+TypeEntries vector_types() {
+    return kVectorTypes;
 }
 
 }  // namespace dynlab::inline scripting

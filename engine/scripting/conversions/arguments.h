@@ -25,6 +25,11 @@ class Call {
     int count() const { return arguments_; }
     bool given(int index) const { return index <= arguments_ && !lua_isnoneornil(state_, index); }
     const char* function_name() const;  ///< the Lua name of the running function
+    /// The object that the running function was added to the runtime with (Runtime::add_functions).
+    template <class T>
+    T& owner() const {
+        return *static_cast<T*>(lua_touserdata(state_, lua_upvalueindex(2)));
+    }
     int type(int index) const { return index <= arguments_ ? lua_type(state_, index) : LUA_TNONE; }
     void at_most(int arguments) const;  ///< throws when the script gave more
 

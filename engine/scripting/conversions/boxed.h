@@ -10,9 +10,10 @@
 
 namespace dynlab::inline scripting {
 
-/// Each boxed C++ class says which object type it is and how many bytes it holds outside Lua:
-///   template <> struct Boxed<IdData> { static const ObjectType type; static std::size_t outside_bytes(const IdData&);
-///   };
+/// Each boxed C++ class says which object type it is (its members are a TypeEntry) and how many bytes it holds outside
+/// Lua:
+///   template <> struct Boxed<IdData> { static constexpr ObjectType type{"iddata"};
+///                                      static std::size_t outside_bytes(const IdData&); };
 /// A class of large objects that nobody changes once they are pushed may also say `static Digest digest(const T&)`, of
 /// all its content: its objects are then handed out as constant, and the digest of each is computed once.
 template <class T>

@@ -98,13 +98,13 @@ std::string numbered_from_one(Index count) {
 
 NumericBlock& push_vector(lua_State* L, Index size) {
     auto& block =
-        push_block<NumericBlock>(L, bytes_of(size, 1), fmt::format("a vector of {} values", size), vector_type());
+        push_block<NumericBlock>(L, bytes_of(size, 1), fmt::format("a vector of {} values", size), kVectorType);
     block = {size, 1};
     return block;
 }
 
 void push_named_vector(lua_State* L, const Vector& values, const std::vector<std::string>& names) {
-    auto& block = push_block<NumericBlock>(L, bytes_of(values.size(), 1), "a vector with names", vector_type(), 1);
+    auto& block = push_block<NumericBlock>(L, bytes_of(values.size(), 1), "a vector with names", kVectorType, 1);
     block = {values.size(), 1};
     block.vector() = values;
     lua_createtable(L, 0, static_cast<int>(names.size()));
@@ -117,26 +117,26 @@ void push_named_vector(lua_State* L, const Vector& values, const std::vector<std
 
 NumericBlock& push_matrix(lua_State* L, Index rows, Index columns) {
     auto& block = push_block<NumericBlock>(L, bytes_of(rows, columns), fmt::format("a {} x {} matrix", rows, columns),
-                                           matrix_type());
+                                           kMatrixType);
     block = {rows, columns};
     return block;
 }
 
 MaskBlock& push_mask(lua_State* L, Index size) {
     auto& block =
-        push_block<MaskBlock>(L, static_cast<double>(size), fmt::format("a mask of {} values", size), mask_type());
+        push_block<MaskBlock>(L, static_cast<double>(size), fmt::format("a mask of {} values", size), kMaskType);
     block = {size};
     return block;
 }
 
 NumericBlock* to_vector(lua_State* L, int index) {
-    return block_at<NumericBlock>(L, index, vector_type());
+    return block_at<NumericBlock>(L, index, kVectorType);
 }
 NumericBlock* to_matrix(lua_State* L, int index) {
-    return block_at<NumericBlock>(L, index, matrix_type());
+    return block_at<NumericBlock>(L, index, kMatrixType);
 }
 MaskBlock* to_mask(lua_State* L, int index) {
-    return block_at<MaskBlock>(L, index, mask_type());
+    return block_at<MaskBlock>(L, index, kMaskType);
 }
 
 void make_vector_of_table(lua_State* L, int index, const std::string& label) {

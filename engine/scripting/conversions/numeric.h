@@ -48,10 +48,7 @@ std::string numbered_from_one(Index count);
 /// Pushes a vector whose values can be read by these names, too: v.k1.
 void push_named_vector(lua_State* L, const Vector& values, const std::vector<std::string>& names);
 
-/// What scripts can do with vectors, matrices and masks.
-const ObjectType& vector_type();
-const ObjectType& matrix_type();
-const ObjectType& mask_type();
+inline constexpr ObjectType kVectorType{"vector"}, kMatrixType{"matrix"}, kMaskType{"mask"};
 
 /// Replaces a table of numbers at stack index `index` by a vector; entries may also be vectors, which are joined.
 /// `label` names the table in messages.

@@ -36,10 +36,11 @@ bool is_library_function(lua_State* L, const std::string& name) {
     return found;
 }
 
-std::string unknown_member_message(lua_State* L, const ObjectType& type, const std::string& key) {
+std::string unknown_member_message(lua_State* L, const TypeEntry& members, const std::string& key) {
+    const ObjectType& type = *members.type;
     std::vector<std::string> names;
-    for (const Member& member : type.fields) names.emplace_back(member.name);
-    for (const Member& member : type.methods) names.emplace_back(member.name);
+    for (const Member& member : members.fields) names.emplace_back(member.name);
+    for (const Member& member : members.methods) names.emplace_back(member.name);
     const auto near = nearest_word(key, names);
     std::string message = fmt::format("{} has no field or method '{}'", article(type.name), key);
     const std::string singular = key.ends_with('s') ? key.substr(0, key.size() - 1) : key;
@@ -72,10 +73,10 @@ std::string_view page_of(std::string_view kind) {
     return found == kPages.end() ? kind : found->second;
 }
 
-/// __index; upvalues: methods, fields, the type.
+/// __index; upvalues: methods, fields, the entry of the type.
 int read_member(lua_State* L) {
-    const auto& type = *static_cast<const ObjectType*>(lua_touserdata(L, lua_upvalueindex(3)));
-    if (lua_type(L, 2) != LUA_TSTRING && type.element != nullptr) return type.element(L);
+    const auto& entry = *static_cast<const TypeEntry*>(lua_touserdata(L, lua_upvalueindex(3)));
+    if (lua_type(L, 2) != LUA_TSTRING && entry.element != nullptr) return entry.element(L);
     lua_pushvalue(L, 2);
     if (lua_rawget(L, lua_upvalueindex(1)) != LUA_TNIL) return 1;
     lua_pushvalue(L, 2);
@@ -85,6 +86,7 @@ int read_member(lua_State* L) {
         return 1;
     }
     lua_settop(L, 2);
+    const ObjectType& type = *entry.type;
     if (lua_type(L, 2) != LUA_TSTRING)
         raise_error(L, fmt::format("{} has no elements; help(\"{}\") tells what it has{}", article(type.name),
                                    page_of(type.name),
@@ -99,7 +101,7 @@ int read_member(lua_State* L) {
         if (!lua_isnil(L, -1)) return 1;
         lua_settop(L, 2);
     }
-    raise_error(L, unknown_member_message(L, type, lua_tostring(L, 2)));
+    raise_error(L, unknown_member_message(L, entry, lua_tostring(L, 2)));
 }
 
 int refuse_writing(lua_State* L) {
@@ -120,28 +122,33 @@ void set_with_type(lua_State* L, const char* name, lua_CFunction function, const
 }
 
 void make_metatable(lua_State* L, const ObjectType& type) {
-    lua_createtable(L, 0, static_cast<int>(type.operators.size()) + 5);
+    const TypeEntry& members = members_of(L, type);
+    lua_createtable(L, 0, static_cast<int>(members.operators.size()) + 5);
     lua_pushstring(L, type.name);
     lua_setfield(L, -2, "__name");
     lua_pushstring(L, type.name);
     lua_setfield(L, -2, "__metatable");
     set_with_type(L, "__newindex", refuse_writing, type);
     set_with_type(L, "__concat", refuse_joining, type);
-    for (const Member& member : type.operators) {
+    for (const Member& member : members.operators) {
         lua_pushlightuserdata(L, const_cast<char*>(member.name));
         lua_pushcclosure(L, member.function, 1);
         lua_setfield(L, -2, member.name);
     }
     lua_pushlightuserdata(L, const_cast<ObjectType*>(&type));
     lua_rawsetp(L, -2, &type_key);
-    push_members(L, type.methods);
-    push_members(L, type.fields);
-    lua_pushlightuserdata(L, const_cast<ObjectType*>(&type));
+    push_members(L, members.methods);
+    push_members(L, members.fields);
+    lua_pushlightuserdata(L, const_cast<TypeEntry*>(&members));
     lua_pushcclosure(L, read_member, 3);
     lua_setfield(L, -2, "__index");
 }
 
 }  // namespace
+
+const TypeEntry& members_of(lua_State* L, const ObjectType& type) {
+    return *context_of(L).types.at(&type);
+}
 
 void push_metatable(lua_State* L, const ObjectType& type) {
     if (lua_rawgetp(L, LUA_REGISTRYINDEX, &type) != LUA_TNIL) return;

@@ -4,7 +4,6 @@
 
 #include "documents/words/sentence_catalogue.h"
 #include "scripting/conversions/option_words.h"
-#include "scripting/runtime/services.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -19,7 +18,7 @@ std::string told_line(const std::string& line) {
 
 std::string told(const Call& call, const std::string& text) {
     const std::string english = in_lua_words(text);
-    if (service_or_default<ReportLanguage>(call.state()).code != "fr") return english;
+    if (call.context().services.language_code() != "fr") return english;
     std::string french;
     for (std::size_t begin = 0; begin < english.size();) {
         const std::size_t end = std::min(english.find('\n', begin), english.size());

@@ -51,7 +51,7 @@ bool step_into_table(lua_State* L, std::string_view name) {
 /// The same for an object: a field is computed by its own function, whose refusal counts as missing.
 bool step_into_object(lua_State* L, std::string_view name) {
     const ObjectType* type = object_type(L, -1);
-    for (const Member& member : type != nullptr ? type->fields : std::span<const Member>()) {
+    for (const Member& member : type != nullptr ? members_of(L, *type).fields : std::span<const Member>()) {
         if (member.name != name) continue;
         lua_pushlightuserdata(L, const_cast<char*>(member.name));
         lua_pushcclosure(L, member.function, 1);
@@ -101,7 +101,8 @@ std::vector<std::string> member_names(lua_State* L, MemberKind kind) {
     const int top = lua_gettop(L);
     if (const ObjectType* type = object_type(L, -1)) {
         const int object = lua_gettop(L);
-        for (const Member& member : kind == MemberKind::kField ? type->fields : type->methods) {
+        const TypeEntry& members = members_of(L, *type);
+        for (const Member& member : kind == MemberKind::kField ? members.fields : members.methods) {
             lua_pushvalue(L, object);
             if (kind == MemberKind::kMethod || step_into_object(L, member.name)) names.emplace_back(member.name);
             lua_settop(L, object);

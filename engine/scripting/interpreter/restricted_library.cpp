@@ -1,3 +1,5 @@
+#include "scripting/interpreter/restricted_library.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>

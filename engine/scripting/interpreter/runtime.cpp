@@ -7,6 +7,8 @@
 
 #include "numerics/error.h"
 #include "platform/error.h"
+#include "scripting/interpreter/catalogue.h"
+#include "scripting/interpreter/restricted_library.h"
 #include "scripting/runtime/call_chain.h"
 #include "scripting/runtime/context.h"
 #include "scripting/runtime/errors.h"
@@ -44,12 +46,18 @@ int final_message(lua_State* L) {
 
 int open_library(lua_State* L) {
     open_safe_libraries(L);
+    add_restricted_functions(L);
     lua_setfield(L, LUA_REGISTRYINDEX, "dynlab.library");
     return 0;
 }
 
+struct OwnedFunctions {
+    FunctionEntries entries;
+    void* owner;
+};
+
 /// Sets a function, "report.value" as field of the table `report`, in the table on top.
-void register_function(lua_State* L, const FunctionEntry& entry) {
+void register_function(lua_State* L, const FunctionEntry& entry, void* owner) {
     const int top = lua_gettop(L);
     const char* name = entry.name;
     if (const char* dot = std::strchr(name, '.')) {
@@ -58,15 +66,16 @@ void register_function(lua_State* L, const FunctionEntry& entry) {
         name = dot + 1;
     }
     lua_pushlightuserdata(L, const_cast<char*>(entry.name));
-    lua_pushcclosure(L, entry.function, 1);
+    lua_pushlightuserdata(L, owner);
+    lua_pushcclosure(L, entry.function, 2);
     lua_setfield(L, -2, name);
     lua_settop(L, top);
 }
 
 int register_functions(lua_State* L) {
-    const auto& entries = *static_cast<const FunctionEntries*>(lua_touserdata(L, 1));
+    const auto& added = *static_cast<const OwnedFunctions*>(lua_touserdata(L, 1));
     lua_getfield(L, LUA_REGISTRYINDEX, "dynlab.library");
-    for (const FunctionEntry& entry : entries) register_function(L, entry);
+    for (const FunctionEntry& entry : added.entries) register_function(L, entry, added.owner);
     return 0;
 }
 
@@ -140,24 +149,27 @@ Runtime::Runtime(RunOptions options, GnuplotRenderer& renderer)
         if (line > 0) context->refusal_line = line;
     };
     call_protected(L, open_library);
-    add_functions(catalogue_of_functions());
+    for (const TypeEntry& entry : catalogue_of_types()) context_->types.emplace(entry.type, &entry);
+    context_->shown_calls = &shown_calls();
+    add_functions(catalogue_of_functions(), nullptr);
 }
 
 Runtime::~Runtime() {
     lua_close(context_->main);
 }
 
-void Runtime::add_functions(FunctionEntries entries) {
-    call_protected(context_->main, register_functions, &entries);
+void Runtime::add_functions(FunctionEntries entries, void* owner) {
+    const OwnedFunctions added{entries, owner};
+    call_protected(context_->main, register_functions, &added);
     for (const FunctionEntry& entry : entries) context_->functions.push_back(&entry);
 }
 
-void Runtime::set_service_pointer(std::size_t key, void* service) {
-    context_->services[key] = service;
+Services& Runtime::services() {
+    return context_->services;
 }
 
 RunRecord Runtime::run(const PercentScript& script) {
-    return run_recorded(script, [&] { run_source(with_shown_expressions(script.source), nullptr); });
+    return run_recorded(script, [&] { run_source(with_shown_expressions(script.source, shown_calls()), nullptr); });
 }
 
 RunRecord Runtime::run_code(const std::string& code, const std::string& name) {
@@ -176,7 +188,8 @@ void Runtime::begin_parts(const PercentScript& script) {
 RunRecord Runtime::run_part(const PercentScript& script, const ScriptPart& part) {
     prepare(script);
     context_->recorder.follow(script);
-    run_with_variables(read_script_part(std::string(static_cast<std::size_t>(part.first_line) - 1, '\n') + part.code));
+    run_with_variables(
+        read_script_part(std::string(static_cast<std::size_t>(part.first_line) - 1, '\n') + part.code, shown_calls()));
     RunRecord record = context_->recorder.so_far();
     throw_if_stopped();
     return record;

@@ -2,7 +2,6 @@
 #include <functional>
 #include <memory>
 #include <string>
-#include <typeinfo>
 
 #include "documents/percent_script.h"
 #include "documents/run_record.h"
@@ -10,6 +9,7 @@
 #include "scripting/runtime/prompt_statement.h"
 #include "scripting/runtime/run_options.h"
 #include "scripting/runtime/script_parts.h"
+#include "scripting/runtime/services.h"
 
 namespace dynlab::inline scripting {
 
@@ -25,12 +25,13 @@ class Runtime {
     Runtime(const Runtime&) = delete;
     Runtime& operator=(const Runtime&) = delete;
 
-    /// Adds functions of a later layer; their C++ side finds its own state by `service`. Call before the first run.
-    void add_functions(FunctionEntries entries);
+    /// Adds functions of a later layer, with the object of this program that they work on, which is
+    /// `call.owner<T>()` to them and must outlive the runtime. Call before the first run.
     template <class T>
-    void set_service(T* service) {
-        set_service_pointer(typeid(T).hash_code(), service);
+    void add_functions(FunctionEntries entries, T& owner) {
+        add_functions(entries, static_cast<void*>(&owner));
     }
+    Services& services();  ///< for programs to fill
 
     /// Runs the whole script as one chunk, so that its locals span cells; output, figures and times go to the cell at
     /// the line the main chunk has reached. An error of the script is in the record, with file and line. Throws
@@ -52,7 +53,7 @@ class Runtime {
     lua_State* state();                ///< for layers that hand values over (answers, prompt)
 
   private:
-    void set_service_pointer(std::size_t key, void* service);
+    void add_functions(FunctionEntries entries, void* owner);
     void prepare(const PercentScript& script);
     void begin_recording(const PercentScript& script);
     void run_with_variables(const PromptStatement& statement);

@@ -1,11 +1,13 @@
 #include "scripting/lint/function_forms.h"
 
+#include <re2/re2.h>
+
 #include <algorithm>
-#include <regex>
 #include <set>
 
 #include "documents/text_lines.h"
 #include "scripting/conversions/option_words.h"
+#include "scripting/interpreter/catalogue.h"
 #include "scripting/runtime/help.h"
 #include "scripting/source/lua_tokens.h"
 
@@ -29,14 +31,15 @@ std::vector<std::string> argument_items(std::string_view page) {
 
 /// "`MaxIter`, `Tol`: words; `NumTd`: words" as names with their words.
 void add_described(const std::string& item, std::vector<std::pair<std::string, std::string>>& described) {
-    static const std::regex kNames(R"((^|[;.] |\bor )((`\w+`(, | and )?)+):)"), kName(R"(`(\w+)`)");
-    std::vector<std::smatch> heads(std::sregex_iterator(item.begin(), item.end(), kNames), {});
-    for (std::size_t i = 0; i < heads.size(); ++i) {
-        const auto begin = heads[i][0].second;
-        const auto end = i + 1 < heads.size() ? heads[i + 1][0].first : item.end();
-        const std::string words = trimmed(std::string(begin, end)), names = heads[i][2];
-        for (std::sregex_iterator name(names.begin(), names.end(), kName), last; name != last; ++name)
-            described.emplace_back((*name)[1], words);
+    static const RE2 kNames(R"((.*?)(?:^|[;.] |\bor )((?:`\w+`(?:, | and )?)+):)", RE2::Latin1),
+        kName(R"(`(\w+)`)", RE2::Latin1);
+    re2::StringPiece rest = item, before, names, next;
+    for (bool more = RE2::FindAndConsume(&rest, kNames, &before, &names); more; names = next) {
+        re2::StringPiece words = rest;
+        more = RE2::FindAndConsume(&rest, kNames, &before, &next);
+        if (more) words = before;
+        std::string name;
+        while (RE2::FindAndConsume(&names, kName, &name)) described.emplace_back(name, trimmed(words));
     }
 }
 

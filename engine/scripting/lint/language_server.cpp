@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "scripting/interpreter/catalogue.h"
 #include "scripting/lint/function_forms.h"
 #include "scripting/lint/lint.h"
 #include "scripting/runtime/errors.h"

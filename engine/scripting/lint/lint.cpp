@@ -14,6 +14,7 @@
 #include "figures/gnuplot_renderer.h"
 #include "scripting/answers/answer_value.h"
 #include "scripting/conversions/option_words.h"
+#include "scripting/interpreter/catalogue.h"
 #include "scripting/interpreter/runtime.h"
 #include "scripting/lint/function_forms.h"
 #include "scripting/lint/script_walk.h"
@@ -82,7 +83,7 @@ class Linter {
     }
 
     bool is_lua() {
-        const std::string read = with_shown_expressions(source_);
+        const std::string read = with_shown_expressions(source_, shown_calls());
         LuaReader reader;
         if (const auto misread = misread_line_of(read)) {
             add(offset_of_line(misread->line), "syntax", misread->sentence);

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "documents/text_lines.h"
+#include "scripting/interpreter/catalogue.h"
 #include "scripting/lint/function_forms.h"
 #include "scripting/source/lua_tokens.h"
 

@@ -6,7 +6,7 @@ namespace dynlab::inline scripting {
 
 template <>
 struct Boxed<IdData> {
-    static const ObjectType type;
+    static constexpr ObjectType type{"iddata"};
     static std::size_t outside_bytes(const IdData& data);
     static Digest digest(const IdData& data);
 };

@@ -6,7 +6,7 @@ namespace dynlab::inline scripting {
 
 template <>
 struct Boxed<FigurePointer> {
-    static const ObjectType type;
+    static constexpr ObjectType type{"figure"};
     static std::size_t outside_bytes(const FigurePointer& figure);
 };
 

@@ -28,6 +28,7 @@ void add_transfer_fields(Estimate& estimate, const Fit& fit) {
 
 void add_noise_fields(Estimate& estimate, const Fit& fit) {
     estimate.noise = std::make_shared<NoiseModel>(*fit.noise);
+    estimate.numbers.emplace_back("Ts", fit.noise->Ts);
     estimate.vectors.insert(estimate.vectors.end(), {{"C_std", fit.noise->C_std}, {"D_std", fit.noise->D_std}});
     estimate.matrices.emplace_back("noise_covariance", fit.noise_covariance);
 }
@@ -49,11 +50,19 @@ void add_polynomial_fields(Estimate& estimate, const Fit& fit) {
 }
 
 void add_characteristic_fields(Estimate& estimate, const StaticCharacteristic& characteristic) {
-    estimate.of_coefficients = false;
     estimate.numbers.emplace_back("linear_fit_percent", characteristic.linear_fit_percent);
     estimate.vectors = {{"breakpoints", characteristic.breakpoints},
                         {"levels", characteristic.levels},
                         {"levels_std", characteristic.levels_std}};
+}
+
+/// Whether theta and covariance are those of the coefficients of the model: not behind a characteristic, nor next to
+/// an integrator.
+bool is_of_coefficients(const Fit& fit) {
+    if (fit.characteristic) return false;
+    if (fit.process || fit.structure.channels.empty()) return true;
+    const Index own = fit.structure.poles[static_cast<std::size_t>(fit.structure.channels.front().denominator)];
+    return fit.models.front().pole_count() == own;
 }
 
 }  // namespace
@@ -82,15 +91,18 @@ void push_report(const Call& call, const Estimate& estimate) {
     for (const auto& [name, value] : estimate.numbers) set_field(call, name.c_str(), value);
     for (const auto& [name, values] : estimate.vectors) set_field(call, name.c_str(), values);
     for (const auto& [name, values] : estimate.matrices) set_field(call, name.c_str(), values);
-    if (estimate.assessment) {
-        set_field(call, "white", estimate.assessment->white);
-        set_field(call, "residual_verdict", told(call, estimate.assessment->verdict));
+    if (const auto& assessment = estimate.doubts.assessment) {
+        set_field(call, "white", assessment->white);
+        set_field(call, "residual_verdict", told(call, assessment->verdict));
     }
     set_field(call, "warnings", told(call, estimate.warnings));
 }
 
-Estimate estimate_of(const char* method, const Fit& fit) {
+Estimate estimate_of(const char* method, const Fit& fit, FitForm form) {
     Estimate estimate = basic_estimate(method, fit);
+    estimate.carx = form == FitForm::kEquationError;
+    estimate.of_coefficients = is_of_coefficients(fit);
+    estimate.doubts = fit.doubts;
     estimate.vectors.clear();  // those of each kind of fit
     estimate.numbers.insert(estimate.numbers.end(), {{"noise_variance", fit.noise_variance[0]},
                                                      {"iterations", static_cast<double>(fit.trace.size())}});
@@ -103,7 +115,11 @@ Estimate estimate_of(const char* method, const Fit& fit) {
     return estimate;
 }
 
-int give_fit(const Call& call, Estimate estimate, const Fit& fit) {
+int give_fit(const Call& call, const char* method, const Fit& fit, FitForm form) {
+    return give_estimate(call, estimate_of(method, fit, form), fit);
+}
+
+int give_estimate(const Call& call, Estimate estimate, const Fit& fit) {
     Model model{fit.polynomial ? fit.polynomial->transfer_function() : fit.models.front()};
     if (fit.models.size() > 1) {
         model.channels = fit.models;

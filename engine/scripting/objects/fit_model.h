@@ -9,11 +9,16 @@ Estimate basic_estimate(const char* method, const Fit& fit);
 /// Pushes the table G.report of such an estimate.
 void push_report(const Call& call, const Estimate& estimate);
 
+/// The equation of a fit of transfer functions: y = B/F u + e, or A y = B u + e, whose models have fields A and B.
+enum class FitForm { kOutputError, kEquationError };
+
 /// What a script can ask of a fit; its sentences name the options as scripts do. `method` is the Lua name.
-Estimate estimate_of(const char* method, const Fit& fit);
+Estimate estimate_of(const char* method, const Fit& fit, FitForm form = FitForm::kOutputError);
 
 /// Pushes the fitted model with all its channels.
-int give_fit(const Call& call, Estimate estimate, const Fit& fit);
+int give_fit(const Call& call, const char* method, const Fit& fit, FitForm form = FitForm::kOutputError);
+/// The same with what a method says besides.
+int give_estimate(const Call& call, Estimate estimate, const Fit& fit);
 /// The same of a fit with states, which has no theta.
 int give_system(const Call& call, Estimate estimate, const Fit& fit, const StateSpace& system);
 

@@ -7,11 +7,13 @@ namespace dynlab::inline scripting {
 /// A measured frequency response: what idfrd, bla, spa and etfe give.
 template <>
 struct Boxed<FrequencyData> {
-    static const ObjectType type;
+    static constexpr ObjectType type{"idfrd"};
     static std::size_t outside_bytes(const FrequencyData& data);
 };
 
 /// Whether one stands at a stack index.
-bool holds_response(const Call& call, int index);
+inline bool holds_response(const Call& call, int index) {
+    return index <= call.count() && to_object<FrequencyData>(call.state(), index) != nullptr;
+}
 
 }  // namespace dynlab::inline scripting

@@ -9,7 +9,7 @@ namespace dynlab::inline scripting {
 /// A grey-box model as idgrey makes it.
 template <>
 struct Boxed<GreyModel> {
-    static const ObjectType type;
+    static constexpr ObjectType type{"grey-box model"};
     static std::size_t outside_bytes(const GreyModel&) { return 4096; }
 };
 
@@ -18,7 +18,7 @@ using GreyEstimate = std::shared_ptr<const GreyFit>;
 
 template <>
 struct Boxed<GreyEstimate> {
-    static const ObjectType type;
+    static constexpr ObjectType type{"grey-box estimate"};
     static std::size_t outside_bytes(const GreyEstimate& estimate);
 };
 

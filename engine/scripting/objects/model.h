@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "numerics/estimators/step_test.h"
+#include "numerics/fit/assessment.h"
 #include "numerics/fit/fit.h"
 #include "numerics/models/polynomial_model.h"
 #include "numerics/models/process_model.h"
 #include "numerics/models/state_space.h"
-#include "numerics/validation/assessment.h"
 #include "numerics/validation/uncertainty.h"
 #include "scripting/conversions/boxed.h"
 
@@ -32,17 +32,15 @@ struct Estimate {
         true;           ///< theta and covariance are those of G's coefficients, with the delay where it is free
     bool carx = false;  ///< of the equation A(p) y = B(p) u + e: G has fields A and B
     std::shared_ptr<const StepTestResult> step_test = {};  ///< of the graphical methods
-    /// Whiteness of the output errors and robust standard errors, where a method has them assessed.
-    std::shared_ptr<const Assessment> assessment = {};
+    FitDoubts doubts = {};
     std::shared_ptr<const NoiseModel> noise = {};          ///< of rivc
     std::shared_ptr<const ParameterHistory> history = {};  ///< of recursive methods
 
-    void set_assessment(std::optional<Assessment> found) {
-        if (found) assessment = std::make_shared<Assessment>(std::move(*found));
-    }
-    bool errors_are_coloured() const { return assessment && !assessment->white; }
+    bool errors_are_coloured() const { return doubts.assessment && !doubts.assessment->white; }
     /// The robust covariance when the output errors are coloured.
-    const Matrix& trusted_covariance() const { return errors_are_coloured() ? assessment->covariance : covariance; }
+    const Matrix& trusted_covariance() const {
+        return errors_are_coloured() ? doubts.assessment->covariance : covariance;
+    }
 };
 
 /// A model as scripts hold it: a transfer function, with its process parameters, polynomials and estimate where it has
@@ -66,25 +64,25 @@ struct Model {
 
 template <>
 struct Boxed<Model> {
-    static const ObjectType type;
+    static constexpr ObjectType type{"model"};
     static std::size_t outside_bytes(const Model& model);
 };
 
 template <>
 struct Boxed<StateSpace> {
-    static const ObjectType type;
+    static constexpr ObjectType type{"state-space model"};
     static std::size_t outside_bytes(const StateSpace& system);
 };
 
 template <>
 struct Boxed<Complex> {
-    static const ObjectType type;
+    static constexpr ObjectType type{"complex number"};
     static std::size_t outside_bytes(const Complex&) { return 0; }
 };
 
 template <>
 struct Boxed<ComplexVector> {
-    static const ObjectType type;
+    static constexpr ObjectType type{"complex vector"};
     static std::size_t outside_bytes(const ComplexVector& v) {
         return sizeof(Complex) * static_cast<std::size_t>(v.size());
     }

@@ -41,8 +41,8 @@ std::string parameter_lines(const Model& model) {
         text += fmt::format("  {:<5} {:>12}", parameters.names[i],
                             to_the_error(parameters.values[index], has_error ? parameters.std[index] : 0, 3, 6));
         if (has_error) text += error_text(parameters.std, index);
-        if (coloured && model.estimate->assessment->std[index] > 0)
-            text += fmt::format("  (robust ± {})", number_text(model.estimate->assessment->std[index], 3));
+        if (coloured && model.estimate->doubts.assessment->std[index] > 0)
+            text += fmt::format("  (robust ± {})", number_text(model.estimate->doubts.assessment->std[index], 3));
         text += '\n';
     }
     return text;
@@ -136,7 +136,7 @@ std::string estimate_lines(const Estimate& estimate) {
     }
     text += ".\n";
     if (!estimate.message.empty()) text += estimate.message + "\n";
-    if (estimate.errors_are_coloured()) text += estimate.assessment->verdict + "\n";
+    if (estimate.errors_are_coloured()) text += estimate.doubts.assessment->verdict + "\n";
     return text;
 }
 

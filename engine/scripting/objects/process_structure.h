@@ -7,7 +7,7 @@ namespace dynlab::inline scripting {
 /// A process model before it has values.
 template <>
 struct Boxed<ProcessStructure> {
-    static const ObjectType type;
+    static constexpr ObjectType type{"process structure"};
     static std::size_t outside_bytes(const ProcessStructure&) { return 0; }
 };
 

@@ -33,9 +33,14 @@ constexpr std::array kSimulatedFields = {
 };
 constexpr std::array kSimulatedOperators = {Member{"__tostring", field<SimulatedModel, equations_text>}};
 
+constexpr std::array kSimulatedTypes = {
+    TypeEntry{&Boxed<SimulatedModel>::type, kSimulatedFields, {}, kSimulatedOperators}};
+
 }  // namespace
 
-const ObjectType Boxed<SimulatedModel>::type{"simulated model", kSimulatedFields, {}, kSimulatedOperators};
+TypeEntries simulated_types() {
+    return kSimulatedTypes;
+}
 
 std::size_t Boxed<SimulatedModel>::outside_bytes(const SimulatedModel& model) {
     const Estimate& estimate = *model.estimate;

@@ -17,9 +17,11 @@ struct SimulatedModel {
 
 template <>
 struct Boxed<SimulatedModel> {
-    static const ObjectType type;
+    static constexpr ObjectType type{"simulated model"};
     static std::size_t outside_bytes(const SimulatedModel& model);
 };
+
+TypeEntries simulated_types();
 
 /// The object of an argument, nullptr for anything else.
 const SimulatedModel* simulated_model(const Call& call, int index);

@@ -14,20 +14,20 @@ struct OrderTable {
 
 template <>
 struct Boxed<OrderTable> {
-    static const ObjectType type;
+    static constexpr ObjectType type{"table of orders"};
     static std::size_t outside_bytes(const OrderTable& table);
 };
 
 /// What arxstruc gives.
 template <>
 struct Boxed<ArxSelection> {
-    static const ObjectType type;
+    static constexpr ObjectType type{"table of ARX orders"};
     static std::size_t outside_bytes(const ArxSelection& table);
 };
 
 template <>
 struct Boxed<MonteCarlo> {
-    static const ObjectType type;
+    static constexpr ObjectType type{"Monte Carlo study"};
     static std::size_t outside_bytes(const MonteCarlo& study);
 };
 

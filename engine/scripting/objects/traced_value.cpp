@@ -51,7 +51,13 @@ constexpr std::array kTracedOperators = {Member{"__add", guarded<operate<Operati
                                          Member{"__eq", guarded<refuse_order>},
                                          Member{"__tostring", guarded<text_of>}};
 
+constexpr std::array kTracedTypes = {TypeEntry{&Boxed<TracedValue>::type, {}, {}, kTracedOperators, guarded<input_of>}};
+
 }  // namespace
+
+TypeEntries traced_types() {
+    return kTracedTypes;
+}
 
 std::optional<Node> traced_node(lua_State* L, int index, const std::shared_ptr<Trace>& trace) {
     if (lua_type(L, index) == LUA_TNUMBER) return trace->tape.constant(lua_tonumber(L, index));
@@ -80,7 +86,5 @@ int give_traced_operation(const Call& call, const std::shared_ptr<Trace>& trace,
     }
     return give_traced(call, trace, trace->tape.apply(operation, nodes[0], nodes[1], nodes[2]));
 }
-
-const ObjectType Boxed<TracedValue>::type{"traced value", {}, {}, kTracedOperators, guarded<input_of>};
 
 }  // namespace dynlab::inline scripting

@@ -23,9 +23,11 @@ struct TracedValue {
 
 template <>
 struct Boxed<TracedValue> {
-    static const ObjectType type;
+    static constexpr ObjectType type{"traced value"};
     static std::size_t outside_bytes(const TracedValue&) { return 0; }
 };
+
+TypeEntries traced_types();
 
 /// The expression of the value at a stack index, a traced value of `trace` or a number; nothing for anything else, or
 /// for a value of another trace.

@@ -1,8 +1,9 @@
 #include "scripting/prompt/completion.h"
 
+#include <re2/re2.h>
+
 #include <algorithm>
 #include <filesystem>
-#include <regex>
 
 #include "data_io/dataset_index.h"
 #include "scripting/conversions/value_members.h"
@@ -70,11 +71,11 @@ const FunctionEntry* find_function(lua_State* L, const std::string& name) {
 
 /// The names before "=" inside the braces of a signature: "lsim(G, u, {hold = ..., x0 =})" has hold and x0.
 std::vector<std::string> options_of(const FunctionEntry& entry) {
-    static const std::regex option(R"(([A-Za-z_]\w*) *=)");
+    static const RE2 option(R"(([A-Za-z_]\w*) *=)", RE2::Latin1);
     std::vector<std::string> names;
-    const std::string signature = entry.signature;
-    for (std::sregex_iterator found(signature.begin(), signature.end(), option), end; found != end; ++found)
-        names.push_back((*found)[1].str() + " = ");
+    std::string name;
+    for (re2::StringPiece rest = entry.signature; RE2::FindAndConsume(&rest, option, &name);)
+        names.push_back(name + " = ");
     return names;
 }
 

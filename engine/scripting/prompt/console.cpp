@@ -11,6 +11,7 @@
 #include "platform/interrupt.h"
 #include "platform/terminal/terminal_output.h"
 #include "platform/terminal/terminal_text.h"
+#include "scripting/interpreter/catalogue.h"
 #include "scripting/prompt/line_editor.h"
 #include "scripting/prompt/prompt_session.h"
 #include "scripting/runtime/errors.h"
@@ -37,7 +38,7 @@ class Prompt {
 
     void run(const std::string& first) {
         end_when_terminated();
-        if (!first.empty()) run(read_statement(first));
+        if (!first.empty()) run(read_statement(first, shown_calls()));
         while (take_line(editor_.read(pending_.empty() ? kPrompt : kContinuation))) {
         }
     }
@@ -58,7 +59,7 @@ class Prompt {
             give_up();
             return true;
         }
-        PromptStatement statement = read_statement(pending_ + line.text);
+        PromptStatement statement = read_statement(pending_ + line.text, shown_calls());
         if (statement.kind == PromptStatement::Kind::kIncomplete) {
             pending_ += line.text + '\n';
             return true;
@@ -148,7 +149,7 @@ bool run_statements_of(std::istream& input, const std::filesystem::path& figure_
                            '\n');  // so that messages count the input's lines
         }
         pending += line + '\n';
-        const PromptStatement statement = read_statement(pending);
+        const PromptStatement statement = read_statement(pending, shown_calls());
         if (statement.kind == PromptStatement::Kind::kIncomplete && !at_end) continue;
         pending.clear();
         if (statement.kind == PromptStatement::Kind::kLeave) return all_well;

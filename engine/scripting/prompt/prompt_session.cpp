@@ -43,7 +43,7 @@ PromptSession::PromptSession(fs::path figure_folder, std::function<void(const st
       figure_folder_(std::move(figure_folder)),
       see_(std::move(see)),
       runtime_(options_of_prompt(std::move(print)), renderer_) {
-    runtime_.set_service(&written_);
+    runtime_.services().written = &written_;
 }
 
 StatementResult PromptSession::run(const PromptStatement& statement, const std::string& name) {

@@ -3,7 +3,6 @@
 #include <lua.hpp>
 #include <map>
 #include <string>
-#include <typeinfo>
 #include <utility>
 #include <vector>
 
@@ -12,6 +11,9 @@
 #include "scripting/runtime/memory_account.h"
 #include "scripting/runtime/recorder.h"
 #include "scripting/runtime/run_options.h"
+#include "scripting/runtime/services.h"
+#include "scripting/runtime/shown_calls.h"
+#include "scripting/runtime/type_entry.h"
 
 namespace dynlab::inline scripting {
 
@@ -30,8 +32,10 @@ struct RuntimeContext {
     MemoryAccount memory;
     RandomStream random;
     Recorder recorder;
-    std::vector<const FunctionEntry*> functions;  ///< all that scripts can call, later layers' too
-    std::map<std::size_t, void*> services;
+    std::vector<const FunctionEntry*> functions;          ///< all that scripts can call, later layers' too
+    std::map<const ObjectType*, const TypeEntry*> types;  ///< all kinds of objects that scripts can hold
+    const ShownCalls* shown_calls = nullptr;              ///< calls that show their values where they stand alone
+    Services services;
 
     lua_State* main = nullptr;
     std::string script_name;  ///< as messages show it
@@ -51,19 +55,6 @@ struct RuntimeContext {
 };
 
 RuntimeContext& context_of(lua_State* L);
-
-template <class T>
-T& service(lua_State* L) {
-    return *static_cast<T*>(context_of(L).services.at(typeid(T).hash_code()));
-}
-
-/// Of a service that not every program gives its scripts.
-template <class T>
-T service_or_default(lua_State* L) {
-    const auto& services = context_of(L).services;
-    const auto found = services.find(typeid(T).hash_code());
-    return found == services.end() ? T{} : *static_cast<const T*>(found->second);
-}
 
 /// Line of the main chunk that runs now, 0 when none does.
 int main_chunk_line(RuntimeContext& context);

@@ -1,7 +1,6 @@
 #pragma once
 #include <lua.hpp>
 #include <span>
-#include <vector>
 
 namespace dynlab::inline scripting {
 
@@ -15,8 +14,5 @@ struct FunctionEntry {
 };
 
 using FunctionEntries = std::span<const FunctionEntry>;
-
-/// Every function that this layer gives to scripts, area by area: what help() lists, what each needs a help page for.
-const std::vector<FunctionEntry>& catalogue_of_functions();
 
 }  // namespace dynlab::inline scripting

@@ -1,11 +1,11 @@
 #include "scripting/runtime/help.h"
 
 #include <fmt/format.h>
+#include <re2/re2.h>
 
 #include <algorithm>
 #include <array>
 #include <iterator>
-#include <regex>
 #include <sstream>
 
 #include "documents/text_lines.h"
@@ -42,6 +42,16 @@ std::string help_row(const std::string& name, const std::string& summary, std::s
 bool begins_a_word(const std::string& text, const std::string& word) {
     for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + 1))
         if (at == 0 || !std::isalpha(static_cast<unsigned char>(text[at - 1]))) return true;
+    return false;
+}
+
+/// Whether the text contains `word` with neither a letter nor an underscore beside it.
+bool contains_word(std::string_view text, std::string_view word) {
+    const auto continues = [&](std::size_t i) {
+        return i < text.size() && (std::isalpha(static_cast<unsigned char>(text[i])) || text[i] == '_');
+    };
+    for (auto at = text.find(word); at != text.npos; at = text.find(word, at + 1))
+        if (!(at > 0 && continues(at - 1)) && !continues(at + word.size())) return true;
     return false;
 }
 
@@ -87,11 +97,11 @@ std::string list_of(const std::vector<Found>& found, std::size_t width) {
 /// What is written here for a function of MATLAB or another program, and the pages of what it calls.
 std::string matlab_answer(const std::string& name, const char* hint, const FunctionList& functions, std::size_t width) {
     std::string text = filled(fmt::format("{} is a word of other programs; here: {}.", name, hint), width) + '\n';
-    static const std::regex kCall("([a-z][a-z_0-9.]*)[({]");
-    const std::string words = hint;
+    static const RE2 kCall("([a-z][a-z_0-9.]*)[({]", RE2::Latin1);
+    std::string called;
     std::vector<std::string> shown;
-    for (std::sregex_iterator i(words.begin(), words.end(), kCall), end; i != end; ++i) {
-        const FunctionEntry* entry = entry_of((*i)[1].str(), functions);
+    for (re2::StringPiece rest = hint; RE2::FindAndConsume(&rest, kCall, &called);) {
+        const FunctionEntry* entry = entry_of(called, functions);
         if (entry == nullptr || std::ranges::find(shown, entry->name) != shown.end()) continue;
         text += (shown.empty() ? "\n" : "") + help_row(entry->name, entry->summary, width);
         shown.emplace_back(entry->name);
@@ -138,12 +148,11 @@ std::optional<std::string> lua_answer(const std::string& word, std::size_t width
     const auto page = find_help_page("lua");
     if (!page) return std::nullopt;
     const std::string guide(page->text);
-    const std::regex whole("(^|[^A-Za-z_])" + std::regex_replace(word, std::regex("\\."), "\\.") + "([^A-Za-z_]|$)");
     for (auto begin = guide.find("\n## "); begin != std::string::npos;) {
         const auto end = guide.find("\n## ", begin + 1);
         const std::string part = guide.substr(begin + 1, end == std::string::npos ? end : end - begin - 1);
         const auto code = part.find("```lua");
-        if (code != std::string::npos && std::regex_search(part.substr(code), whole))
+        if (code != std::string::npos && contains_word(std::string_view(part).substr(code), word))
             return laid_out(fmt::format("`{}` belongs to Lua itself.\n\n{}\nhelp lua tells the rest.\n", word, part),
                             width);
         begin = end;

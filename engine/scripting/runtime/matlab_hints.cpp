@@ -1,14 +1,13 @@
 #include "scripting/runtime/matlab_hints.h"
 
 #include <fmt/format.h>
+#include <re2/re2.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <regex>
 #include <string_view>
 
-#include "platform/text/regex_limit.h"
 #include "platform/utf8.h"
 
 namespace dynlab::inline scripting {
@@ -126,24 +125,23 @@ bool has_assignment_condition(const std::string& code) {
 }
 
 std::string element_hint(const std::string& code) {
-    static const std::regex kWholeLine(R"(\w[\[(]\s*(:\s*,|[\w.]+\s*,\s*:\s*[\])]))");
-    if (std::regex_search(code, kWholeLine)) return "the row i of a matrix is A:row(i), the column j is A:col(j)";
-    static const std::regex kTakenOut(R"(=\s*\[\s*\]\s*;?\s*$)");
-    if (std::regex_search(code, kTakenOut) && contains(code, ")"))
+    static const RE2 kWholeLine(R"(\w[\[(]\s*(:\s*,|[\w.]+\s*,\s*:\s*[\])]))", RE2::Latin1);
+    if (RE2::PartialMatch(code, kWholeLine)) return "the row i of a matrix is A:row(i), the column j is A:col(j)";
+    static const RE2 kTakenOut(R"(=\s*\[\s*\]\s*;?\s*$)", RE2::Latin1);
+    if (RE2::PartialMatch(code, kTakenOut) && contains(code, ")"))
         return "a vector keeps its length; v:select(mask) or v:select({1, 3}) gives the elements that stay";
     if (contains(code, "[end") || contains(code, "(end"))
         return "the last element is x[#x]; vector{x, y} appends y to x";
-    static const std::regex kTwoPlaces(R"(\w\[\s*[\w.:]+\s*,)");
-    if (std::regex_search(code, kTwoPlaces)) return "the element in row 1 and column 2 is A[{1, 2}]";
+    static const RE2 kTwoPlaces(R"(\w\[\s*[\w.:]+\s*,)", RE2::Latin1);
+    if (RE2::PartialMatch(code, kTwoPlaces)) return "the element in row 1 and column 2 is A[{1, 2}]";
     if (contains(code, "?")) return "write if ... then ... else ... end instead of ?";
-    static const std::regex kElementSet(R"(^\s*(local\s+)?([A-Za-z_]\w*)\(([\w\s,:#]+)\)\s*=[^=].*)");
-    std::smatch element;
-    if (std::regex_match(code, element, kElementSet))
-        return element[3].str().find(',') == std::string::npos
-                   ? fmt::format("an element is written {}[{}]", element[2].str(), element[3].str())
-                   : fmt::format("an element of a matrix is written {}[{{{}}}]", element[2].str(), element[3].str());
-    static const std::regex kImaginary(R"((^|[^\w.])\d+(\.\d*)?[ij]\b)");
-    if (std::regex_search(code, kImaginary))
+    static const RE2 kElementSet(R"(\s*(?:local\s+)?([A-Za-z_]\w*)\(([\w\s,:#]+)\)\s*=[^=].*)", RE2::Latin1);
+    std::string name, place;
+    if (RE2::FullMatch(code, kElementSet, &name, &place))
+        return contains(place, ",") ? fmt::format("an element of a matrix is written {}[{{{}}}]", name, place)
+                                    : fmt::format("an element is written {}[{}]", name, place);
+    static const RE2 kImaginary(R"((^|[^\w.])\d+(\.\d*)?[ij]\b)", RE2::Latin1);
+    if (RE2::PartialMatch(code, kImaginary))
         return "there are no complex numbers to calculate with; those that functions give have the fields re, im, abs, "
                "arg";
     return {};
@@ -185,19 +183,20 @@ std::string block_hint(const std::string& code) {
 
 /// Commands of words alone: hold on, close all, clear x y; step G; ?lsim.
 std::string command_hint(const std::string& code, const std::string& near) {
-    static const std::regex kAsked(R"(\s*\?\s*(\w+)\s*)"), kTwoWords(R"(\s*([A-Za-z_]\w*)[ \t]+(\w+)[\s;]*)");
-    std::smatch words;
-    if (std::regex_match(code, words, kAsked)) return fmt::format("help is asked for by help(\"{}\")", words[1].str());
+    static const RE2 kAsked(R"(\s*\?\s*(\w+)\s*)", RE2::Latin1),
+        kTwoWords(R"(\s*([A-Za-z_]\w*)[ \t]+(\w+)[\s;]*)", RE2::Latin1);
+    std::string first, second;
+    if (RE2::FullMatch(code, kAsked, &first)) return fmt::format("help is asked for by help(\"{}\")", first);
     const bool words_only = std::ranges::all_of(
         code, [](char c) { return name_character(c) || std::string_view(" \t\r;").find(c) != std::string_view::npos; });
     const char* hint = words_only ? matlab_name_hint(first_word(code)) : nullptr;
     if (hint != nullptr) return hint;
     const std::string block = block_hint(code);
-    if (block.empty() && std::regex_match(code, words, kTwoWords) && words[2] == near && words[1] != "local" &&
-        words[1] != "return" && words[1] != "goto" && words[1] != "function")
-        return words[1] == "help" || words[1] == "load" || words[1] == "run" || words[1] == "require"
-                   ? fmt::format("a call is written {}(\"{}\")", words[1].str(), words[2].str())
-                   : fmt::format("a call is written {}({})", words[1].str(), words[2].str());
+    if (block.empty() && RE2::FullMatch(code, kTwoWords, &first, &second) && second == near && first != "local" &&
+        first != "return" && first != "goto" && first != "function")
+        return first == "help" || first == "load" || first == "run" || first == "require"
+                   ? fmt::format("a call is written {}(\"{}\")", first, second)
+                   : fmt::format("a call is written {}({})", first, second);
     return {};
 }
 
@@ -246,7 +245,6 @@ bool begins_foreign_comment(const std::string& line) {
 }
 
 std::string matlab_syntax_hint(const std::string& line, const std::string& near) {
-    if (line.size() > kLongestForRegex) return {};
     const std::string code = code_only(line);
     if (std::string hint = command_hint(code, near); !hint.empty()) return hint;
     const auto first = code.find_first_not_of(" \t");
@@ -263,10 +261,9 @@ std::string matlab_syntax_hint(const std::string& line, const std::string& near)
         return "a range is range(first, last) or range(first, step, last), a part of a vector v:range(i, j)";
     if (contains(code, "%") || contains(code, "# ")) return kCommentHint;
     if (contains(code, "\\")) return "A\\b is written solve(A, b)";
-    static const std::regex kBeginsWithDigit(R"(\d+[A-Za-z_]\w*)");
-    if (std::regex_match(near, kBeginsWithDigit)) return "a name begins with a letter";
-    static const std::regex kContinue(R"(\bcontinue\b)");
-    if (std::regex_search(code, kContinue)) return matlab_name_hint("continue");
+    static const RE2 kBeginsWithDigit(R"(\d+[A-Za-z_]\w*)", RE2::Latin1), kContinue(R"(\bcontinue\b)", RE2::Latin1);
+    if (RE2::FullMatch(near, kBeginsWithDigit)) return "a name begins with a letter";
+    if (RE2::PartialMatch(code, kContinue)) return matlab_name_hint("continue");
     if (contains(code, "@(")) return "a function is written function(x) return x^2 end";
     return {};
 }

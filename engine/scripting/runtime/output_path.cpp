@@ -26,8 +26,7 @@ fs::path output_path(const RuntimeContext& context, const std::string& path) {
     if (!lies_below(file, context.options.out_folder) && !lies_below(file, context.options.script_folder))
         throw InvalidArgument(
             fmt::format("'{}' lies outside the script's folder and the output folder; scripts write only there", path));
-    if (const auto written = context.services.find(typeid(WrittenFiles).hash_code()); written != context.services.end())
-        static_cast<WrittenFiles*>(written->second)->take(file);
+    if (context.services.written != nullptr) context.services.written->take(file);
     std::error_code failure;
     fs::create_directories(file.parent_path(), failure);
     if (failure)

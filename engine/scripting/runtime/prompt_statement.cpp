@@ -1,12 +1,11 @@
 #include "scripting/runtime/prompt_statement.h"
 
+#include <re2/re2.h>
+
 #include <algorithm>
 #include <optional>
-#include <regex>
 #include <string_view>
 
-#include "platform/text/regex_limit.h"
-#include "scripting/runtime/shown_calls.h"
 #include "scripting/runtime/shown_expressions.h"
 #include "scripting/source/lua_reader.h"
 #include "scripting/source/lua_tokens.h"
@@ -90,10 +89,10 @@ class LocalsToAssignments {
 
 /// The word typed by habit as Lua; nothing when it is not one.
 std::optional<std::string> without_habit(const std::string& source, const Tokens& tokens) {
-    static const std::regex help(R"(\s*help(\s+([\w.]+))?\s*;?\s*)");
-    std::smatch words;
-    if (tokens.size() <= 5 && source.size() <= kLongestForRegex && std::regex_match(source, words, help))
-        return words[2].matched ? "help(\"" + words[2].str() + "\")" : "help()";
+    static const RE2 help(R"(\s*help(?:\s+([\w.]+))?\s*;?\s*)", RE2::Latin1);
+    std::string topic;
+    if (tokens.size() <= 5 && RE2::FullMatch(source, help, &topic))
+        return topic.empty() ? "help()" : "help(\"" + topic + "\")";
     if (tokens.size() <= 2 && (tokens.front().is("who") || tokens.front().is("whos")) &&
         (tokens.size() == 1 || tokens.back().is(";")))
         return "who()";
@@ -116,10 +115,10 @@ void keep_locals(PromptStatement& statement, const std::string& source, const To
 
 }  // namespace
 
-PromptStatement read_script_part(const std::string& source) {
+PromptStatement read_script_part(const std::string& source, const ShownCalls& shown) {
     PromptStatement statement;
     statement.source = source;
-    statement.code = with_shown_expressions(source);
+    statement.code = with_shown_expressions(source, shown);
     statement.silent = true;
     statement.kind = PromptStatement::Kind::kReady;
     const Syntax syntax = syntax_of(statement.code);
@@ -129,7 +128,7 @@ PromptStatement read_script_part(const std::string& source) {
     return statement;
 }
 
-PromptStatement read_statement(const std::string& source) {
+PromptStatement read_statement(const std::string& source, const ShownCalls& shown) {
     PromptStatement statement;
     statement.source = statement.code = source;
     const Tokens tokens = lua_tokens(statement.source);
@@ -143,7 +142,7 @@ PromptStatement read_statement(const std::string& source) {
     const std::string expression = "return " + without_habit(source, tokens).value_or(source);
     const Syntax as_expression = syntax_of(expression);
     if (as_expression == Syntax::kRight) {
-        const std::string named = with_shown_calls(source);
+        const std::string named = with_shown_calls(source, shown);
         statement.code = named.starts_with("do ") ? named : expression;
         return statement;
     }

@@ -2,6 +2,8 @@
 #include <string>
 #include <vector>
 
+#include "scripting/runtime/shown_calls.h"
+
 namespace dynlab::inline scripting {
 
 /// What was typed at the prompt, one line or several, made ready to run.
@@ -21,9 +23,10 @@ struct PromptStatement {
     bool silent = false;                 ///< ended by a semicolon: values are not shown
 };
 
-/// Takes `= x`, `help NAME`, `help`, `quit` and `exit` (with or without brackets) as the habits they are.
-PromptStatement read_statement(const std::string& source);
+/// Takes `= x`, `help NAME`, `help`, `quit` and `exit` (with or without brackets) as the habits they are. `shown`: the
+/// functions whose calls show their values.
+PromptStatement read_statement(const std::string& source, const ShownCalls& shown);
 /// A piece of a script instead: its values are shown where with_shown_expressions says so, and no word is a habit.
-PromptStatement read_script_part(const std::string& source);
+PromptStatement read_script_part(const std::string& source, const ShownCalls& shown);
 
 }  // namespace dynlab::inline scripting

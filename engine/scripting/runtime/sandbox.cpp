@@ -53,7 +53,6 @@ void open_safe_libraries(lua_State* L) {
     remove_field(L, "string", "dump");
     remove_field(L, "math", "randomseed");  // rng(seed) seeds the one stream there is
     add_protected_calls(L);
-    add_restricted_functions(L);
 }
 
 }  // namespace dynlab::inline scripting

@@ -18,10 +18,6 @@ void push_library(lua_State* L);
 /// Expects the table of functions on top.
 void add_protected_calls(lua_State* L);
 
-/// Replacements for functions of string and table that could loop in C for ever or fill the memory, print, tostring,
-/// pairs in a repeatable order, math.random from the run's stream. Expects the table of functions on top.
-void add_restricted_functions(lua_State* L);
-
 /// Sets field `name` of the table on top to a C function.
 void set_function(lua_State* L, const char* name, lua_CFunction function);
 

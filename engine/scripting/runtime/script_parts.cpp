@@ -27,7 +27,7 @@ std::vector<ScriptPart> script_parts(const PercentScript& script) {
         ScriptPart& part = parts.back();
         part.cells.push_back(cell.id);
         part.code = lines_between(lines, part.first_line, cell.last_line());
-        goes_on = read_script_part(part.code).kind == PromptStatement::Kind::kIncomplete;
+        goes_on = read_script_part(part.code, {}).kind == PromptStatement::Kind::kIncomplete;
     }
     return parts;
 }

@@ -2,24 +2,51 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <vector>
+
+namespace dynlab::inline platform {
+class WrittenFiles;
+}
 
 namespace dynlab::inline scripting {
 
-/// A service of the runtime: the language of the document that is made, for report.language(); "en" without it.
+/// The language of the document that is made, for report.language().
 struct ReportLanguage {
     std::string code = "en";
 };
 
-/// A service of the runtime: what was chosen instead of the numbers that a script gives its sliders, by their names.
+/// What was chosen instead of the numbers that a script gives its sliders, by their names.
 struct SliderValues {
     std::map<std::string, double> chosen;
     bool clamped = false;  ///< what lies outside a slider's range is its nearest end, not an error
 };
 
-/// A service of programs that show values otherwise than text: hears of each just before it is printed, with its
-/// formula in LaTeX where it has one.
+/// Of programs that show values otherwise than text: hears of each just before it is printed, with its formula in LaTeX
+/// where it has one.
 struct ValueListener {
     std::function<void(const std::string& latex)> expect;
+};
+
+/// Of programs whose scripts share their long calls with other machines.
+class SharedPieces {
+  public:
+    using Some = std::function<std::string(std::size_t first, std::size_t count)>;
+
+    virtual ~SharedPieces() = default;
+    /// What `some` gives for the parts that `pieces` are made in, in their order, whoever made them. `what`: the call's
+    /// name.
+    virtual std::vector<std::string> all(const std::string& what, std::size_t pieces, const Some& some) = 0;
+};
+
+/// What a program gives the scripts of a Runtime, which it must outlive; null for what it does not give.
+struct Services {
+    const ReportLanguage* language = nullptr;  ///< English without
+    const SliderValues* sliders = nullptr;     ///< every slider has the script's own number without
+    const ValueListener* listener = nullptr;
+    WrittenFiles* written = nullptr;  ///< refuses to replace files; all may be replaced without
+    SharedPieces* shared = nullptr;   ///< calls are made here without
+
+    std::string language_code() const { return language != nullptr ? language->code : ReportLanguage().code; }
 };
 
 }  // namespace dynlab::inline scripting

@@ -1,12 +1,9 @@
 #include "scripting/runtime/shown_calls.h"
 
 #include <algorithm>
-#include <map>
 #include <optional>
 #include <utility>
-#include <vector>
 
-#include "scripting/runtime/function_entry.h"
 #include "scripting/source/lua_reader.h"
 #include "scripting/source/lua_tokens.h"
 
@@ -45,24 +42,6 @@ std::vector<std::string> names_of(const std::vector<std::string_view>& results) 
         if (i % 2 == 0) names.emplace_back(tokens[i].text);
     }
     return names.size() > 1 ? names : std::vector<std::string>{};
-}
-
-using ShownCalls = std::map<std::string_view, std::vector<std::string>>;
-
-/// The functions of the catalogue whose values are shown, each with the names of these where they are several. Those
-/// that give a figure have drawn it, and printed what it says.
-const ShownCalls& shown_calls() {
-    static const ShownCalls calls = [] {
-        ShownCalls all;
-        for (const FunctionEntry& entry : catalogue_of_functions()) {
-            const std::vector<std::string_view> results = results_of(entry.signature);
-            if (results.empty() || results.front().find("fig") != std::string_view::npos) continue;
-            all[entry.name] = names_of(results);
-        }
-        for (const char* name : kForTheirEffect) all.erase(name);
-        return all;
-    }();
-    return calls;
 }
 
 /// Whether what stands before can be the end of a statement, or the beginning of a block.
@@ -150,30 +129,44 @@ bool is_value_method(const std::vector<LuaToken>& tokens, std::size_t i) {
 
 }  // namespace
 
-std::string with_shown_calls(const std::string& source) {
+ShownCalls::ShownCalls(FunctionEntries functions) {
+    for (const FunctionEntry& entry : functions) {
+        const std::vector<std::string_view> results = results_of(entry.signature);
+        if (results.empty() || results.front().find("fig") != std::string_view::npos) continue;
+        names_[entry.name] = names_of(results);
+    }
+    for (const char* name : kForTheirEffect) names_.erase(name);
+}
+
+const std::vector<std::string>* ShownCalls::find(std::string_view function) const {
+    const auto found = names_.find(function);
+    return found == names_.end() ? nullptr : &found->second;
+}
+
+std::string with_shown_calls(const std::string& source, const ShownCalls& shown) {
     const std::vector<LuaToken> tokens = lua_tokens(source);
     std::string code = source;
     int calls = 0;
     for (std::size_t first = tokens.size(); first-- > 0 && calls < kMostCalls;) {
-        const auto known = shown_calls().find(tokens[first].text);
+        const std::vector<std::string>* const names_of_values = shown.find(tokens[first].text);
         const bool method = is_value_method(tokens, first), library = method || of_lua_library(tokens, first);
-        if ((known == shown_calls().end() && !library) || !begins_statement(source, tokens, first)) continue;
+        if ((names_of_values == nullptr && !library) || !begins_statement(source, tokens, first)) continue;
         const std::optional<std::size_t> last = end_of_call(tokens, library ? first + 2 : first);
         if (!last || !next_begins_statement(source, tokens, *last + 1)) continue;
         ++calls;
         if (!method && has_own_meaning(source, tokens, tokens[first].text, first)) continue;
         const std::size_t begin = tokens[first].begin, length = tokens[*last].end() - begin;
         const std::string call = code.substr(begin, length);
-        std::string shown = "dynlab.show(" + call + ")";
-        if (!library && !known->second.empty()) {
+        std::string shown_call = "dynlab.show(" + call + ")";
+        if (!library && !names_of_values->empty()) {
             std::string names, fields;
-            for (const std::string& name : known->second) {
+            for (const std::string& name : *names_of_values) {
                 names += (names.empty() ? "" : ", ") + name;
                 fields += name + " = " + name + ", ";
             }
-            shown = "do local " + names + " = " + call + " dynlab.show({" + fields + "}) end";
+            shown_call = "do local " + names + " = " + call + " dynlab.show({" + fields + "}) end";
         }
-        code.replace(begin, length, shown);
+        code.replace(begin, length, shown_call);
     }
     return LuaReader().error_of(code) ? source : code;
 }

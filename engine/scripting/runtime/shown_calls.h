@@ -1,13 +1,31 @@
 #pragma once
+#include <map>
 #include <string>
+#include <string_view>
+#include <vector>
+
+#include "scripting/runtime/function_entry.h"
 
 namespace dynlab::inline scripting {
 
+/// The functions whose values are shown where their call stands alone: those of a table of functions whose signature
+/// has results. Those that draw or print them, or are called for what they do, are not among them.
+class ShownCalls {
+  public:
+    ShownCalls() = default;  ///< none
+    explicit ShownCalls(FunctionEntries functions);
+
+    /// The names of the values where they are several, no names for one value; nullptr for other functions.
+    const std::vector<std::string>* find(std::string_view function) const;
+
+  private:
+    std::map<std::string_view, std::vector<std::string>> names_;
+};
+
 /// The source with every call, alone in its lines, of a function that only computes made into one that shows what it
-/// gives, several results with their names: "damp(G)" as MATLAB shows it. These are the functions of the catalogue
-/// whose signature has results; those that draw or print them, or are called for what they do, stay as they are. So
-/// does a call with a semicolon behind it, and that of a name that the script itself has defined before it, in a block
-/// that is open there or for all.
-std::string with_shown_calls(const std::string& source);
+/// gives, several results with their names: "damp(G)" as MATLAB shows it. A call with a semicolon behind it stays as it
+/// is, and so does that of a name that the script itself has defined before it, in a block that is open there or for
+/// all.
+std::string with_shown_calls(const std::string& source, const ShownCalls& shown);
 
 }  // namespace dynlab::inline scripting

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "scripting/runtime/errors.h"
-#include "scripting/runtime/shown_calls.h"
 #include "scripting/source/lua_reader.h"
 #include "scripting/source/lua_tokens.h"
 
@@ -113,8 +112,8 @@ std::string with_shown_values(const std::string& source) {
 
 }  // namespace
 
-std::string with_shown_expressions(const std::string& source) {
-    return with_shown_calls(with_shown_values(source));
+std::string with_shown_expressions(const std::string& source, const ShownCalls& shown) {
+    return with_shown_calls(with_shown_values(source), shown);
 }
 
 std::optional<int> line_with_semicolon_rows(const std::string& source) {

@@ -2,6 +2,8 @@
 #include <optional>
 #include <string>
 
+#include "scripting/runtime/shown_calls.h"
+
 namespace dynlab::inline scripting {
 
 /// The source with every expression that stands where a statement belongs made into a call that shows its value, as the
@@ -10,8 +12,8 @@ namespace dynlab::inline scripting {
 ///     x + 1;       becomes  local _ = x + 1;
 /// An expression begins a line and ends one, or ends before a semicolon or the end of a block; it may go over several
 /// lines. All other text keeps its place and line. A source that Lua can read comes back as it is, and so does one that
-/// stays wrong.
-std::string with_shown_expressions(const std::string& source);
+/// stays wrong. `shown`: the functions whose calls show their values, too.
+std::string with_shown_expressions(const std::string& source, const ShownCalls& shown);
 
 /// The line in which the rows of matrix{...} are set apart by semicolons, as MATLAB writes them: Lua takes a semicolon
 /// for a comma, so that one long row would come of it.

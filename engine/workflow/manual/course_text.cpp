@@ -1,8 +1,8 @@
 #include "workflow/manual/course_text.h"
 
 #include <fmt/format.h>
+#include <re2/re2.h>
 
-#include <regex>
 #include <set>
 
 #include "documents/error.h"
@@ -10,7 +10,7 @@
 #include "figures/gnuplot_renderer.h"
 #include "platform/atomic_file.h"
 #include "platform/cache.h"
-#include "scripting/memoized_calls/call_cache.h"
+#include "scripting/memoized_calls/memoized_call.h"
 #include "workflow/make_report.h"
 #include "workflow/run_cache.h"
 #include "workflow/run_script.h"
@@ -39,14 +39,12 @@ RunRecord run_for_paper(const ReportRequest& request, const fs::path& folder, co
     return record;
 }
 
-std::string with_own_names_in_line(const std::string& line, const std::string& prefix) {
-    static const std::regex label("([#@](?:fig|tbl|eq|sec):)"), figure("(\\]\\(figure:)"),
-        slot("(\\{\\.(?:table|text) name=)"), value("`([^`]+)`\\{\\.value\\}");
-    const std::string behind = "$1" + prefix;
-    std::string own = std::regex_replace(line, label, behind);
-    own = std::regex_replace(own, figure, behind);
-    own = std::regex_replace(own, slot, behind);
-    return std::regex_replace(own, value, "`" + prefix + "$1`{.value}");
+std::string with_own_names_in_line(std::string line, const std::string& prefix) {
+    static const RE2 name(R"([#@](?:fig|tbl|eq|sec):|\]\(figure:|\{\.(?:table|text) name=)", RE2::Latin1),
+        value(R"(`([^`]+)`\{\.value\})", RE2::Latin1);
+    RE2::GlobalReplace(&line, name, R"(\0)" + prefix);
+    RE2::GlobalReplace(&line, value, "`" + prefix + R"(\1`{.value})");
+    return line;
 }
 
 /// Markdown that can stand beside that of others: labels of figures, tables, equations and sections, references to them

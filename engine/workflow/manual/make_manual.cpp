@@ -12,6 +12,7 @@
 #include "platform/cache.h"
 #include "platform/program_lookup.h"
 #include "platform/temporary_folder.h"
+#include "scripting/interpreter/catalogue.h"
 #include "scripting/runtime/help.h"
 #include "workflow/demonstration.h"
 #include "workflow/make_report.h"

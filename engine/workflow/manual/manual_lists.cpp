@@ -1,9 +1,9 @@
 #include "workflow/manual/manual_lists.h"
 
 #include <fmt/format.h>
+#include <re2/re2.h>
 
 #include <algorithm>
-#include <regex>
 
 #include "documents/text_lines.h"
 
@@ -45,9 +45,10 @@ struct ShownFigure {
 };
 
 /// Links of a caption lead to places of its own page: their words stay.
-std::string without_links(const std::string& html) {
-    static const std::regex tag("</?a( [^>]*)?>");
-    return std::regex_replace(html, tag, "");
+std::string without_links(std::string html) {
+    static const RE2 tag("</?a( [^>]*)?>", RE2::Latin1);
+    RE2::GlobalReplace(&html, tag, "");
+    return html;
 }
 
 /// The figures of a page, each with the block of code that stands before it.

@@ -1,16 +1,17 @@
 #include "workflow/manual/manual_text.h"
 
 #include <fmt/format.h>
+#include <re2/re2.h>
 
 #include <algorithm>
 #include <functional>
-#include <regex>
 #include <set>
 
 #include "documents/text_lines.h"
 #include "numerics/estimators/catalogue.h"
 #include "platform/atomic_file.h"
 #include "platform/text/small_letters.h"
+#include "scripting/interpreter/catalogue.h"
 #include "scripting/runtime/help.h"
 #include "workflow/demonstration.h"
 #include "workflow/lesson_catalogue.h"
@@ -62,11 +63,10 @@ void append_page(const ManualText& page, MarkdownText& all,
 /// files.
 std::string places_that_teach(const std::vector<std::string>& functions) {
     const std::string names = fmt::format("{}", fmt::join(functions, "|"));
-    const std::regex call("(^|[^A-Za-z_0-9.:])(" + names + ")[({]");
+    const RE2 call("(^|[^A-Za-z_0-9.:])(" + names + ")[({]", RE2::Latin1);
     std::string places;
     const auto look = [&](const std::string& name, const std::filesystem::path& script) {
-        const std::string text = read_text(script);
-        if (std::regex_search(text, call)) places += (places.empty() ? "" : ", ") + name;
+        if (RE2::PartialMatch(read_text(script), call)) places += (places.empty() ? "" : ", ") + name;
     };
     for (const Lesson& lesson : lessons()) look(lesson.slug, lesson.script());
     for (const Demonstration& demonstration : demonstrations()) look(demonstration.script.stem(), demonstration.script);

@@ -11,6 +11,7 @@
 #include "platform/error.h"
 #include "platform/temporary_folder.h"
 #include "sample_variables.h"
+#include "support/environment_variable.h"
 
 namespace dynlab {
 namespace test_dataset_index {
@@ -24,19 +25,13 @@ using testing::HasSubstr;
 class dataset_index : public testing::Test {
   protected:
     void SetUp() override {
-        home_before_ = getenv("DYNLAB_HOME");
-        kept_ = home_before_ ? home_before_ : "";
         folder_before_ = fs::current_path();
-        setenv("DYNLAB_HOME", home_.path().c_str(), 1);
         fs::current_path(project_.path());
         add_set(home_.path() / "data", "heat_exchanger", "Course file: heatexchanger_data.mat\n");
         add_set(home_.path() / "data", "step_response", "Text.\nCourse file: step_reponse_data.mat, step_data.mat\n");
         fs::create_directories(home_.path() / "data/not_a_set");
     }
-    void TearDown() override {
-        home_before_ ? setenv("DYNLAB_HOME", kept_.c_str(), 1) : unsetenv("DYNLAB_HOME");
-        fs::current_path(folder_before_);
-    }
+    void TearDown() override { fs::current_path(folder_before_); }
 
     static void add_set(const fs::path& data, const std::string& name, const std::string& source) {
         fs::create_directories(data / name);
@@ -62,8 +57,7 @@ class dataset_index : public testing::Test {
     }
 
     TemporaryFolder home_, project_, scripts_;
-    const char* home_before_ = nullptr;
-    std::string kept_;
+    test::EnvironmentVariable home_variable_{"DYNLAB_HOME", home_.path()};
     fs::path folder_before_;
 };
 

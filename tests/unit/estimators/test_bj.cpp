@@ -3,9 +3,9 @@
 
 #include "numerics/estimators/bj.h"
 #include "numerics/estimators/oe.h"
+#include "numerics/fit/assessment.h"
 #include "numerics/fit/discrete/prediction_model.h"
 #include "numerics/fit/output_error.h"
-#include "numerics/validation/assessment.h"
 #include "support/difference_equation.h"
 #include "support/thrown_message.h"
 

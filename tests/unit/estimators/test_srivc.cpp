@@ -158,4 +158,85 @@ TEST(srivc, tells_of_delays_that_held_inputs_cannot_show) {
     EXPECT_EQ(srivc(data, proper).message.find(doubt), std::string::npos);
 }
 
+TEST(srivc, passes_suffice_for_fixed_delays_from_rest_with_one_denominator) {  // oracle: the rule of srivc.h
+    const TransferStructure plain = TransferStructure::single(2, 0);
+    EXPECT_TRUE(srivc_passes_suffice(plain, {}));
+    EXPECT_TRUE(srivc_passes_suffice(TransferStructure::grid(1, 2, Denominators::kPerOutput, {2}, {0}, {0, 0}), {}));
+    EXPECT_FALSE(srivc_passes_suffice(TransferStructure::grid(1, 2, Denominators::kPerChannel, {2}, {0}, {0, 0}), {}));
+    TransferStructure delayed = plain;
+    delayed.free_delays = true;
+    EXPECT_FALSE(srivc_passes_suffice(delayed, {}));
+    FitOptions moving, offset, held;
+    moving.initial_state = InitialState::kEstimate;
+    offset.offset = Offset::kEstimate;
+    held.fixed = {{"a1", 3}};
+    for (const FitOptions& options : {moving, offset, held}) EXPECT_FALSE(srivc_passes_suffice(plain, options));
+}
+
+// oracle: the passes alone
+TEST(srivc, result_equals_the_passes_where_they_settle) {
+    const IdData data = course_record(0.4, 11);
+    const TransferStructure structure = TransferStructure::single(2, 0);
+    EXPECT_EQ(srivc(data, structure).theta, srivc_by_passes(data, structure, {}).theta);
+}
+
+TEST(srivc, search_from_a_given_start_ends_at_the_same_minimum) {  // oracle: the least loss is the same from anywhere
+    const IdData data = course_record(0.4, 11);
+    const TransferStructure structure = TransferStructure::single(2, 0);
+    SearchAids aids;
+    aids.start = Vector(srivc(data, structure).theta * 1.2);
+    EXPECT_LT(relative_difference(srivc(data, structure, {}, aids).theta, srivc(data, structure).theta), 1e-5);
+}
+
+// oracle: nested models; with its third pole far away the larger one is the smaller one
+TEST(srivc, superfluous_poles_leave_the_fit_as_good) {
+    const TransferFunction truth(Vector::Constant(1, 2.0), Eigen::Vector3d(1, 4, 3));
+    const Vector u = prbs(7, 8);
+    const Vector x = lsim(truth, u, 0.05);
+    for (const std::uint32_t seed : {1, 2, 3}) {
+        const IdData data(x + 0.1 * RandomStream(seed).normal(x.size()), u, 0.05);
+        for (const int poles : {3, 4}) {
+            const Fit large = srivc(data, TransferStructure::single(poles, 0));
+            EXPECT_LT(large.loss, 1.01 * srivc(data, kCourse).loss) << poles << ": " << large.message;
+        }
+    }
+}
+
+// oracle: nested models
+TEST(srivc, passes_in_a_bad_minimum_are_followed_by_a_search) {
+    const TransferFunction G(values({-6400, 1600}), values({1, 5, 408, 416, 1600}));
+    constexpr double kTs = 0.05;
+    const Vector u = prbs(8, 3), x = lsim(G, u, kTs);
+    for (std::uint32_t seed = 1; seed <= 3; ++seed) {
+        const Vector y = x + 0.35 * RandomStream(seed).normal(x.size());
+        const IdData data{Matrix(y), Matrix(u), kTs};
+        const Fit two = srivc(data, TransferStructure::single(2, 0)),
+                  three = srivc(data, TransferStructure::single(3, 0));
+        EXPECT_LE(three.loss, two.loss) << seed;
+    }
+}
+
+// oracle: the passes' own end; an estimate that is good is given back as it is
+TEST(srivc, good_passes_are_the_result) {
+    const TransferFunction truth(Vector::Constant(1, 2.0), Eigen::Vector3d(1, 4, 3));
+    const Vector u = prbs(7, 8);
+    const Vector x = lsim(truth, u, 0.05);
+    const IdData data(x + 0.1 * RandomStream(1).normal(x.size()), u, 0.05);
+    const Fit passes = srivc_by_passes(data, kCourse, {});
+    EXPECT_EQ(search_where_passes_fail(passes, data, {}, {}).theta, passes.theta);
+}
+
+// oracle: the same minimum by the passes
+TEST(srivc, search_alone_ends_where_good_passes_end) {
+    const TransferFunction truth(Vector::Constant(1, 2.0), Eigen::Vector3d(1, 4, 3));
+    const Vector u = prbs(7, 8);
+    const Vector x = lsim(truth, u, 0.05);
+    const IdData data(x + 0.1 * RandomStream(2).normal(x.size()), u, 0.05);
+    FitOptions options;
+    options.tolerance = 1e-10;
+    const Fit passes = srivc_by_passes(data, kCourse, options),
+              searched = search_transfer("srivc", data, kCourse, options);
+    EXPECT_LT((searched.theta - passes.theta).norm(), 1e-6 * passes.theta.norm());
+}
+
 }  // namespace test_srivc

@@ -15,6 +15,7 @@
 #include "platform/cache.h"
 #include "platform/interrupt.h"
 #include "platform/temporary_folder.h"
+#include "support/environment_variable.h"
 
 namespace test_gnuplot_renderer {
 
@@ -76,9 +77,8 @@ TEST(gnuplot_renderer, equal_figures_make_equal_files) {
 // Oracle: the file that gnuplot drew, and that no gnuplot runs for it again.
 TEST(gnuplot_renderer, takes_what_was_drawn_before_from_its_cache) {
     const TemporaryFolder folder, cache;
-    setenv("XDG_CACHE_HOME", cache.path().c_str(), 1);
+    const test::EnvironmentVariable cache_home("XDG_CACHE_HOME", cache.path());
     const Cache store;
-    unsetenv("XDG_CACHE_HOME");
     for (const std::string kind : {".pdf", ".svg", ".png"}) {
         GnuplotRenderer first(&store);
         draw_one(first, sine(), folder.path() / ("a" + kind));
@@ -101,9 +101,8 @@ TEST(gnuplot_renderer, takes_what_was_drawn_before_from_its_cache) {
 // Oracle: the file of the later figure, drawn alone.
 TEST(gnuplot_renderer, a_file_drawn_twice_is_the_later_figure) {
     const TemporaryFolder folder, cache;
-    setenv("XDG_CACHE_HOME", cache.path().c_str(), 1);
+    const test::EnvironmentVariable cache_home("XDG_CACHE_HOME", cache.path());
     const Cache store;
-    unsetenv("XDG_CACHE_HOME");
     GnuplotRenderer renderer(&store);
     const auto alone = draw_one(renderer, sine("later"), folder.path() / "alone.svg");
     renderer.draw(sine("earlier"), folder.path() / "a.svg", FigureFormat::kSvg);
@@ -184,8 +183,6 @@ TEST(gnuplot_renderer, figures_not_finished_leave_nothing) {
 // Oracle: a program in gnuplot's place that ends at once, complains, or is not there.
 class WithGnuplotReplaced : public testing::Test {
   protected:
-    WithGnuplotReplaced() : path_(std::getenv("PATH")) { setenv("PATH", folder_.path().c_str(), 1); }
-    ~WithGnuplotReplaced() override { setenv("PATH", path_.c_str(), 1); }
     void replace_by(const std::string& script) {
         const auto program = folder_.path() / "gnuplot";
         std::ofstream(program) << "#!/bin/sh\n" << script;
@@ -203,7 +200,7 @@ class WithGnuplotReplaced : public testing::Test {
         return "";
     }
     TemporaryFolder folder_, out_;
-    std::string path_;
+    test::EnvironmentVariable path_{"PATH", folder_.path()};
 };
 using gnuplot_renderer_replaced = WithGnuplotReplaced;
 

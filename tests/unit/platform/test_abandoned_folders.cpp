@@ -9,29 +9,16 @@
 
 #include "platform/atomic_file.h"
 #include "platform/temporary_folder.h"
+#include "support/environment_variable.h"
 
 namespace dynlab {
 namespace test_abandoned_folders {
 namespace fs = std::filesystem;
 
-/// TMPDIR is another folder while it lives.
-class OtherTmpdir {
-  public:
-    explicit OtherTmpdir(const fs::path& folder) {
-        const char* const before = std::getenv("TMPDIR");
-        before_ = before ? before : "";
-        ::setenv("TMPDIR", folder.c_str(), 1);
-    }
-    ~OtherTmpdir() { before_.empty() ? ::unsetenv("TMPDIR") : ::setenv("TMPDIR", before_.c_str(), 1); }
-
-  private:
-    std::string before_;
-};
-
 // oracle: a process that is killed removes nothing, and one that lives is not disturbed
 TEST(abandoned_folders, what_a_killed_process_left_is_removed_and_nothing_else) {
     const TemporaryFolder parent;
-    const OtherTmpdir tmpdir(parent.path());
+    const test::EnvironmentVariable tmpdir("TMPDIR", parent.path());
     const TemporaryFolder in_use;
     fs::create_directories(parent.path() / "dynlab-mine");
     fs::create_directories(parent.path() / "others-ABCDEF");

@@ -11,6 +11,7 @@
 
 #include "platform/atomic_file.h"
 #include "platform/temporary_folder.h"
+#include "support/environment_variable.h"
 
 namespace dynlab {
 namespace test_cache {
@@ -20,12 +21,6 @@ using namespace std::chrono_literals;
 
 class cache : public testing::Test {
   protected:
-    void SetUp() override {
-        setenv("XDG_CACHE_HOME", home_.path().c_str(), 1);
-        unsetenv("DYNLAB_NO_CACHE");
-    }
-    void TearDown() override { unsetenv("XDG_CACHE_HOME"); }
-
     static fs::path add(const Cache& store, const std::string& key, std::size_t bytes) {
         const fs::path folder = store.prepare();
         write_file_atomically(folder / "content", std::string(bytes, 'c'));
@@ -41,6 +36,7 @@ class cache : public testing::Test {
 
     const std::string bytes_ = std::string("any\0bytes\xff", 10);
     TemporaryFolder home_;
+    test::EnvironmentVariable cache_home_{"XDG_CACHE_HOME", home_.path()}, no_cache_{"DYNLAB_NO_CACHE", {}};
 };
 
 TEST_F(cache, finds_what_was_committed_and_nothing_else) {
@@ -127,23 +123,23 @@ TEST_F(cache, survives_many_writers_at_once) {
 }
 
 TEST_F(cache, is_private_when_switched_off_or_impossible) {
-    setenv("DYNLAB_NO_CACHE", "1", 1);
+    no_cache_.set("1");
     const Cache off;
     add(off, "test/a", 10);
     EXPECT_TRUE(off.find("test/a"));
     EXPECT_FALSE(fs::exists(home_.path() / "dynlab"));
-    unsetenv("DYNLAB_NO_CACHE");
+    no_cache_.set({});
     write_file_atomically(home_.path() / "plain", "x");
-    setenv("XDG_CACHE_HOME", (home_.path() / "plain").c_str(), 1);
+    cache_home_.set(home_.path() / "plain");
     EXPECT_EQ(Cache().root(), off.root());
 }
 
 TEST_F(cache, lasts_only_where_later_runs_find_it) {
     EXPECT_TRUE(Cache().lasting());
-    setenv("DYNLAB_NO_CACHE", "1", 1);
+    no_cache_.set("1");
     EXPECT_FALSE(Cache().lasting());
-    unsetenv("DYNLAB_NO_CACHE");
-    setenv("XDG_CACHE_HOME", "/proc/none", 1);
+    no_cache_.set({});
+    cache_home_.set("/proc/none");
     EXPECT_FALSE(Cache().lasting());
 }
 

@@ -8,6 +8,7 @@
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/temporary_folder.h"
+#include "support/environment_variable.h"
 
 namespace dynlab {
 namespace test_program_lookup {
@@ -15,26 +16,13 @@ namespace test_program_lookup {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-class EnvironmentVariable {
-  public:
-    EnvironmentVariable(const char* name, const std::string& value) : name_(name) {
-        if (const char* before = getenv(name)) before_ = before;
-        setenv(name, value.c_str(), 1);
-    }
-    ~EnvironmentVariable() { before_ ? setenv(name_, before_->c_str(), 1) : unsetenv(name_); }
-
-  private:
-    const char* name_;
-    std::optional<std::string> before_;
-};
-
 TEST(program_lookup, finds_the_first_program_in_path_that_can_be_run) {
     const TemporaryFolder a, b;
     write_file_atomically(a.path() / "tool", "");
     write_file_atomically(b.path() / "tool", "");
     fs::create_directory(a.path() / "folder");
     fs::permissions(b.path() / "tool", fs::perms(0755));
-    const EnvironmentVariable path("PATH", a.path().string() + ":" + b.path().string());
+    const test::EnvironmentVariable path("PATH", a.path().string() + ":" + b.path().string());
     EXPECT_EQ(find_program("tool"), b.path() / "tool");
     EXPECT_EQ(find_program((b.path() / "tool").string()), b.path() / "tool");
     EXPECT_FALSE(find_program((a.path() / "tool").string()));
@@ -66,7 +54,7 @@ TEST(program_lookup, built_program_finds_the_source_tree_above_it) {
 
 TEST(program_lookup, dynlab_home_comes_first_and_must_be_right) {
     const TemporaryFolder home;
-    const EnvironmentVariable variable("DYNLAB_HOME", home.path().string());
+    const test::EnvironmentVariable variable("DYNLAB_HOME", home.path().string());
     EXPECT_THROW(shared_folder(), EnvironmentError);
     fs::create_directory(home.path() / "data");
     EXPECT_EQ(shared_folder(), home.path());

@@ -39,8 +39,9 @@ TEST(session_key, lies_in_a_file_that_its_owner_alone_may_read) {
     const TemporaryFolder folder;
     const auto file = folder.path() / "key";
     const SessionKey key = SessionKey::fresh();
-    ::umask(0);
+    const mode_t before = ::umask(0);
     key.save(file);
+    ::umask(before);
     struct stat status {};
     ASSERT_EQ(::stat(file.c_str(), &status), 0);
     EXPECT_EQ(status.st_mode & 0777, 0600u);

@@ -1,4 +1,5 @@
 #include "platform/temporary_folder.h"
+#include "support/environment_variable.h"
 
 #include <gtest/gtest.h>
 
@@ -28,18 +29,15 @@ TEST(temporary_folder, is_private_and_goes_with_all_it_holds) {
 
 TEST(temporary_folder, lies_below_tmpdir) {
     const TemporaryFolder parent;
-    const char* before = getenv("TMPDIR");
-    const std::string kept = before ? before : "";
-    setenv("TMPDIR", parent.path().c_str(), 1);
+    const test::EnvironmentVariable tmpdir("TMPDIR", parent.path());
     EXPECT_EQ(TemporaryFolder().path().parent_path(), parent.path());
-    setenv("TMPDIR", "/none/such", 1);
+    tmpdir.set("/none/such");
     try {
         const TemporaryFolder impossible;
         ADD_FAILURE();
     } catch (const EnvironmentError& error) {
         EXPECT_STREQ(error.what(), "cannot make a temporary folder in /none/such: no such file or directory");
     }
-    before ? setenv("TMPDIR", kept.c_str(), 1) : unsetenv("TMPDIR");
 }
 
 }  // namespace test_temporary_folder

@@ -7,7 +7,6 @@
 #include "numerics/error.h"
 #include "numerics/estimators/srivc.h"
 #include "numerics/fit/integrated_input.h"
-#include "numerics/fit/missed_options.h"
 #include "numerics/signals/prbs.h"
 #include "numerics/signals/random.h"
 #include "numerics/simulation/lsim.h"
@@ -87,7 +86,7 @@ TEST(order_selection, structures_with_an_integrator_are_judged_with_it) {
     other.experiments.front().y.array() += 20;
     OrderSelectionOptions options;
     options.validation = &other;
-    options.integration = true;
+    options.estimation.integration = true;
     const OrderSelection selection = select_order(data, order_grid({1, 2}, {0, 1}, {0.0}), options);
     const OrderCandidate best = chosen(selection);
     EXPECT_EQ(best.poles, 1);
@@ -124,7 +123,7 @@ TEST(order_selection, an_unstable_model_is_recommended_only_where_all_are) {  //
 TEST(order_selection, a_zero_at_the_origin_tells_that_there_is_no_integrator) {  // oracle: the simulated system
     const IdData data = record(kSecondOrder, prbs(7, 8), 0.05, 30, 1);
     OrderSelectionOptions options;
-    options.integration = true;
+    options.estimation.integration = true;
     const OrderSelection selection = select_order(data, order_grid({2, 2}, {0, 1}, {0.0}), options);
     EXPECT_TRUE(selection.candidates[1].cancellation);
     EXPECT_FALSE(select_order(data, order_grid({2, 2}, {0, 0}, {0.0})).candidates[0].cancellation);
@@ -274,14 +273,18 @@ TEST(order_selection, the_recommendation_names_the_option_that_is_missed) {  // 
         const IdData data(Matrix(y.array() + constant), Matrix(u), 0.1);
         OrderSelectionOptions options;
         options.estimation = estimation;
-        OrderSelection selection = select_order(data, order_grid({1, 2}, {0, 1}, {0.0}), options);
-        warn_of_missed_option(selection.candidates[choose_order(selection).place].estimate, data, estimation);
-        return choose_order(selection).explanation;
+        return choose_order(select_order(data, order_grid({1, 2}, {0, 1}, {0.0}), options)).explanation;
     };
     FitOptions asked;
     asked.offset = Offset::kEstimate;
     EXPECT_THAT(recommendation(3, {}), HasSubstr("With `offset` = \"estimate\" the fit is 9"));
     EXPECT_THAT(recommendation(3, asked), testing::Not(HasSubstr("With `")));
+    FitOptions given;
+    given.start_is_given = true;
+    EXPECT_THAT(recommendation(3, given), testing::Not(HasSubstr("With `")));
+    FitOptions alone;
+    alone.doubts = false;
+    EXPECT_THAT(recommendation(3, alone), testing::Not(HasSubstr("With `")));
     EXPECT_THAT(recommendation(0, {}), testing::Not(HasSubstr("With `")));
 }
 

@@ -7,7 +7,6 @@
 #include "numerics/signals/prbs.h"
 #include "numerics/signals/random.h"
 #include "numerics/simulation/lsim.h"
-#include "numerics/statistics/distributions.h"
 #include "numerics/validation/residual_tests.h"
 
 namespace test_residual_tests {
@@ -46,18 +45,6 @@ TEST(residual_tests, correlations_equal_their_definition) {  // oracle: the defi
     }
     EXPECT_NEAR(output.mean, N_e.mean(), 1e-10);
     EXPECT_NEAR(output.variance, e.squaredNorm() / static_cast<double>(N), 1e-10);
-}
-
-TEST(residual_tests, ljung_box_equals_its_formula) {  // oracle: the formula of Ljung and Box
-    const Vector e = ar1(300, 0.1, 4);
-    const auto test = whiteness_test({e});
-    double Q = 0;
-    for (Index lag = 1; lag <= 25; ++lag)
-        Q += 300.0 * 302 * std::pow(test.correlation[lag], 2) / static_cast<double>(300 - lag);
-    EXPECT_NEAR(test.statistic, Q, 1e-10);
-    EXPECT_EQ(test.degrees, 25);
-    EXPECT_NEAR(test.p_value, chi_squared_upper_tail(Q, 25), 1e-14);
-    EXPECT_NEAR(test.bound, 2.5758293 / std::sqrt(300), 1e-7);
 }
 
 TEST(residual_tests, white_noise_on_the_true_model_passes) {  // oracle: how the record was made

@@ -119,15 +119,17 @@ Fit direct(const IdData& data, const TransferStructure& structure, const FitOpti
 Fit clsrivc(const IdData& data, const TransferStructure& structure, const FitOptions& options,
             const LoopKnowledge& known, LoopRoute route) {
     options.validate();
+    FitOptions own = options;
+    own.doubts = false;  // they would be of a fit in open loop
     check_loop_data("clsrivc", data, structure);
-    if (route == LoopRoute::kDirect) return direct(data, structure, options);
+    if (route == LoopRoute::kDirect) return direct(data, structure, own);
     if (route == LoopRoute::kIndirect && !known.controller)
         throw InvalidArgument("clsrivc: the indirect route takes the controller out of the loop, so it must be known");
     const LoopSignals signals("clsrivc", data, known);
-    if (route == LoopRoute::kTwoStage) return two_stage(data, structure, options, signals);
-    Fit estimate = by_passes(data, structure, options, signals);
+    if (route == LoopRoute::kTwoStage) return two_stage(data, structure, own, signals);
+    Fit estimate = by_passes(data, structure, own, signals);
     if (route == LoopRoute::kAuxiliary || estimate.termination == Termination::kCancelled) return estimate;
-    return search_loop(std::move(estimate), data, options, signals);
+    return search_loop(std::move(estimate), data, own, signals);
 }
 
 }  // namespace dynlab::inline numerics

@@ -7,8 +7,8 @@
 
 #include "numerics/criteria/frequency_output.h"
 #include "numerics/error.h"
-#include "numerics/estimators/frequency/frequency_start.h"
 #include "numerics/fit/diagnosis.h"
+#include "numerics/fit/frequency_start.h"
 #include "numerics/fit/output_error.h"
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/least_squares.h"

@@ -8,7 +8,7 @@
 
 #include "numerics/criteria/grey_output.h"
 #include "numerics/error.h"
-#include "numerics/estimators/grey_box/missed_start.h"
+#include "numerics/estimators/grey_box/missed_initial_state.h"
 #include "numerics/fit/diagnosis.h"
 #include "numerics/fit/output_error.h"
 #include "numerics/linalg/decompositions.h"

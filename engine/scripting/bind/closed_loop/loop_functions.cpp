@@ -4,9 +4,10 @@
 #include "numerics/estimators/closed_loop/clivsvf.h"
 #include "numerics/estimators/closed_loop/clsrivc.h"
 #include "numerics/number_text.h"
+#include "scripting/arguments/estimator_arguments.h"
 #include "scripting/arguments/loop_arguments.h"
-#include "scripting/arguments/transfer_arguments.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/bind/estimation_readers.h"
 #include "scripting/conversions/told_sentences.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/data_object.h"
@@ -72,16 +73,12 @@ Estimation read_clsrivc(const Call& call) {
 
 int estimate_clivsvf(Call& call) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    const Fit result = read_clivsvf(call)(data);
-    Estimate estimate = estimate_of(call.function_name(), result);
-    estimate.carx = true;
-    return give_fit(call, std::move(estimate), result);
+    return give_fit(call, "clivsvf", read_clivsvf(call)(data), FitForm::kEquationError);
 }
 
 int estimate_clsrivc(Call& call) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    const Fit result = read_clsrivc(call)(data);
-    return give_fit(call, estimate_of(call.function_name(), result), result);
+    return give_fit(call, "clsrivc", read_clsrivc(call)(data));
 }
 
 constexpr NamedReader kLoopReaders[] = {{"clivsvf", read_clivsvf}, {"clsrivc", read_clsrivc}};

@@ -5,6 +5,7 @@
 #include "numerics/estimators/frequency/bla.h"
 #include "numerics/number_text.h"
 #include "numerics/simulation/frequency_response.h"
+#include "scripting/bind/bindings.h"
 #include "scripting/conversions/table_fields.h"
 #include "scripting/conversions/told_sentences.h"
 #include "scripting/objects/frequency_object.h"
@@ -98,17 +99,12 @@ constexpr std::array kResponseOperators = {
     Member{"__tostring", field<FrequencyData, response_text>},
     Member{"__len", field<FrequencyData, [](const FrequencyData& d) { return d.w.size(); }>}};
 
+constexpr std::array kResponseTypes = {TypeEntry{&Boxed<FrequencyData>::type, kResponseFields, {}, kResponseOperators}};
+
 }  // namespace
 
-const ObjectType Boxed<FrequencyData>::type{"idfrd", kResponseFields, {}, kResponseOperators};
-
-std::size_t Boxed<FrequencyData>::outside_bytes(const FrequencyData& data) {
-    const Index levels = data.excited.w.size() + data.odd.w.size() + data.even.w.size();
-    return sizeof(double) * static_cast<std::size_t>(8 * data.w.size() + 2 * data.realised.size() + 4 * levels);
-}
-
-bool holds_response(const Call& call, int index) {
-    return index <= call.count() && to_object<FrequencyData>(call.state(), index) != nullptr;
+TypeEntries response_types() {
+    return kResponseTypes;
 }
 
 }  // namespace dynlab::inline scripting

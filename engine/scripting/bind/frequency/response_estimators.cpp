@@ -2,7 +2,7 @@
 #include <string_view>
 
 #include "numerics/estimators/frequency/frequency_fit.h"
-#include "scripting/arguments/transfer_arguments.h"
+#include "scripting/arguments/estimator_arguments.h"
 #include "scripting/bind/frequency/frequency_bindings.h"
 #include "scripting/objects/fit_model.h"
 #include "scripting/objects/frequency_object.h"
@@ -33,11 +33,10 @@ TransferStructure ordered_structure(const Call& call, const FrequencyData& respo
     return structure_of_orders(entries, orders, Denominators::kPerOutput)(channels_of(response));
 }
 
-int give_response_fit(const Call& call, const FrequencyData& response, const Fit& fit, bool carx) {
-    Estimate estimate = estimate_of(call.function_name(), fit);
+int give_response_fit(const Call& call, const FrequencyData& response, const Fit& fit, FitForm form) {
+    Estimate estimate = estimate_of(call.function_name(), fit, form);
     estimate.numbers.emplace_back("frequencies", static_cast<double>(response.w.size()));
-    estimate.carx = carx;
-    return give_fit(call, std::move(estimate), fit);
+    return give_estimate(call, std::move(estimate), fit);
 }
 
 TransferStructure structure_for_response(const Call& call, const FrequencyData& response, FitOptions& wanted) {
@@ -58,7 +57,8 @@ int fit_response(Call& call) {
     const FrequencyData& response = object_argument<FrequencyData>(call, 1, "F");
     FitOptions wanted;
     const TransferStructure structure = structure_for_response(call, response, wanted);
-    return give_response_fit(call, response, frequency_fit(call.function_name(), response, structure, wanted), false);
+    return give_response_fit(call, response, frequency_fit(call.function_name(), response, structure, wanted),
+                             FitForm::kOutputError);
 }
 
 int filter_response(Call& call) {
@@ -67,7 +67,7 @@ int filter_response(Call& call) {
     const TransferStructure structure = ordered_structure(call, response, kCarxOrders);
     SvfOptions wanted;
     wanted.lambda = call.number(3, "lambda");
-    return give_response_fit(call, response, frequency_lssvf(response, structure, wanted), true);
+    return give_response_fit(call, response, frequency_lssvf(response, structure, wanted), FitForm::kEquationError);
 }
 
 }  // namespace dynlab::inline scripting

@@ -133,9 +133,13 @@ constexpr std::array kGreyestFunctions = {
                   "parameters of differential equations that physics gives", guarded<estimate_grey_box>},
 };
 
+constexpr std::array kGreyestTypes = {TypeEntry{&Boxed<GreyEstimate>::type, kEstimateFields, {}, kEstimateOperators}};
+
 }  // namespace
 
-const ObjectType Boxed<GreyEstimate>::type{"grey-box estimate", kEstimateFields, {}, kEstimateOperators};
+TypeEntries greyest_types() {
+    return kGreyestTypes;
+}
 
 FunctionEntries greyest_functions() {
     return kGreyestFunctions;

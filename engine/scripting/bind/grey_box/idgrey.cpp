@@ -249,9 +249,13 @@ constexpr std::array kIdgreyFunctions = {
                   "a model of differential equations, with parameters to be estimated", guarded<make_grey_model>},
 };
 
+constexpr std::array kIdgreyTypes = {TypeEntry{&Boxed<GreyModel>::type, kGreyModelFields, {}, kGreyModelOperators}};
+
 }  // namespace
 
-const ObjectType Boxed<GreyModel>::type{"grey-box model", kGreyModelFields, {}, kGreyModelOperators};
+TypeEntries idgrey_types() {
+    return kIdgreyTypes;
+}
 
 FunctionEntries idgrey_functions() {
     return kIdgreyFunctions;

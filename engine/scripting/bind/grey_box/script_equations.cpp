@@ -1,8 +1,9 @@
 #include "scripting/bind/grey_box/script_equations.h"
 
+#include <re2/re2.h>
+
 #include <array>
 #include <cmath>
-#include <regex>
 #include <set>
 #include <utility>
 
@@ -56,12 +57,11 @@ Matrices<Value> read_matrices(lua_State* L, Index n, const Read& read) {
 
 /// Lua's own mathematics takes numbers alone: the message says what to write in its place.
 std::string with_remedy(const std::string& message) {
-    static const std::regex kOfMath(R"(bad argument #\d+ to '(\w+)' \(number expected, got)");
+    static const RE2 kOfMath(R"(bad argument #\d+ to '(\w+)' \(number expected, got)", RE2::Latin1);
     static const std::set<std::string> kFollowed = {"sin", "cos",  "tan", "atan", "exp",
                                                     "log", "sqrt", "abs", "max",  "min"};
-    std::smatch found;
-    if (!std::regex_search(message, found, kOfMath)) return message;
-    const std::string name = found[1];
+    std::string name;
+    if (!RE2::PartialMatch(message, kOfMath, &name)) return message;
     return fmt::format("{}; math.{} takes numbers alone: {}", message, name,
                        kFollowed.contains(name) ? fmt::format("write {}(...) without math, which can be followed", name)
                                                 : "it has no derivatives and cannot be followed");

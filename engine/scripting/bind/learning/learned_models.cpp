@@ -3,7 +3,7 @@
 #include "numerics/estimators/learning/dmdc.h"
 #include "numerics/estimators/learning/narx.h"
 #include "numerics/estimators/learning/sindy.h"
-#include "scripting/arguments/order_vector.h"
+#include "scripting/arguments/estimator_arguments.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/bind/learning/lua_library.h"
 #include "scripting/memoized_calls/memoized_call.h"

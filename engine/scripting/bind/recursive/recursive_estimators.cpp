@@ -5,8 +5,9 @@
 #include "numerics/estimators/recursive/rlssvf.h"
 #include "numerics/estimators/recursive/rsrivc.h"
 #include "numerics/fit/simulation_error.h"
-#include "scripting/arguments/transfer_arguments.h"
+#include "scripting/arguments/estimator_arguments.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/bind/estimation_readers.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/figure_object.h"
@@ -67,9 +68,7 @@ int estimate_recursively(Call& call) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
     Fit result = read_recursive<kMethod, kCarx>(call)(data);
     measure_simulation(result, data);
-    Estimate estimate = estimate_of(call.function_name(), result);
-    estimate.carx = kCarx;
-    return give_fit(call, std::move(estimate), result);
+    return give_fit(call, call.function_name(), result, kCarx ? FitForm::kEquationError : FitForm::kOutputError);
 }
 
 /// A number or a vector for each parameter that has a name in the table.

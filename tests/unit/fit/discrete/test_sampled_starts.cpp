@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "numerics/fit/simulation_error.h"
 #include "numerics/fit/transfer_refinement.h"
 #include "numerics/fit/transfer_search.h"
 #include "numerics/linalg/polynomial.h"

@@ -1,0 +1,78 @@
+#include "numerics/statistics/whiteness.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "numerics/error.h"
+#include "numerics/number_text.h"
+#include "numerics/statistics/distributions.h"
+#include "numerics/statistics/lagged_sums.h"
+
+namespace dynlab::inline numerics {
+
+namespace {
+
+std::string percent_text(double confidence) {
+    return number_text(100 * confidence, 4) + " %";
+}
+
+// The variance of the lag's sample autocorrelation of a white signal, times N + 2 over N (Ljung and Box 1978).
+double lag_variance(const std::vector<Vector>& e, Index lag) {
+    double pairs = 0;
+    for (const Vector& x : e) pairs += static_cast<double>(std::max<Index>(0, x.size() - lag));
+    const double N = total_size(e);
+    return pairs / (N * (N + 2));
+}
+
+}  // namespace
+
+std::string probability_text(double p) {
+    return p < 0.001 ? "p < 0.001" : "p = " + number_text(p, 2);
+}
+
+WhitenessTest whiteness_of_covariances(const std::vector<Vector>& e, const VectorView& R, double confidence,
+                                       const std::string& error_name) {
+    WhitenessTest test;
+    const Index lags = R.size() - 1;
+    if (R[0] == 0) return test;  // nothing but a constant
+    test.correlation = R / R[0];
+    test.bound = normal_half_width(confidence) / std::sqrt(total_size(e));
+    for (Index lag = 1; lag <= lags; ++lag) {
+        const double variance = lag_variance(e, lag);
+        if (variance == 0) continue;
+        ++test.degrees;
+        test.statistic += test.correlation[lag] * test.correlation[lag] / variance;
+        if (std::abs(test.correlation[lag]) > test.bound) ++test.outside;
+    }
+    if (test.degrees == 0) return test;
+    test.p_value = chi_squared_upper_tail(test.statistic, static_cast<double>(test.degrees));
+    test.white = test.p_value >= 1 - confidence;
+    const std::string subject = "The " + error_name;
+    test.verdict = test.white ? subject + " is white (Ljung-Box " + probability_text(test.p_value) + " over " +
+                                    counted(lags, "lag") + ")."
+                              : subject + " is not white (Ljung-Box " + probability_text(test.p_value) + "; " +
+                                    std::to_string(test.outside) + " of " + std::to_string(lags) +
+                                    " lags lie beyond the " + percent_text(confidence) + " bound).";
+    return test;
+}
+
+void ResidualOptions::validate() const {
+    if (lags < 1) throw InvalidArgument("lags must be at least 1, and is " + std::to_string(lags));
+    if (!(confidence > 0 && confidence < 1))
+        throw InvalidArgument("confidence must lie between 0 and 1, such as 0.99, and is " + number_text(confidence));
+}
+
+WhitenessTest whiteness_test(const std::vector<Vector>& errors, const ResidualOptions& options) {
+    options.validate();
+    std::vector<Vector> e;
+    Index longest = 0;
+    for (const Vector& record : errors) {
+        e.emplace_back(record.array() - record.mean());
+        longest = std::max(longest, record.size());
+    }
+    const Index lags = std::max<Index>(1, std::min(options.lags, longest / 2));
+    return whiteness_of_covariances(e, lagged_covariances(e, e, lags).tail(lags + 1), options.confidence,
+                                    "output error");
+}
+
+}  // namespace dynlab::inline numerics

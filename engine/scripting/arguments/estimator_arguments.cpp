@@ -1,0 +1,247 @@
+#include "scripting/arguments/estimator_arguments.h"
+
+#include <cmath>
+
+#include "numerics/fit/integrated_input.h"
+#include "numerics/number_text.h"
+#include "scripting/arguments/simulation_options.h"
+#include "scripting/objects/data_object.h"
+#include "scripting/objects/model.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+constexpr double kLargestOrder = 1e6;
+
+std::string meaning_of(std::span<const OrderEntry> entries) {
+    std::vector<std::string> names, meanings;
+    for (const OrderEntry& entry : entries) {
+        names.emplace_back(entry.name);
+        meanings.push_back(fmt::format("{}: {}", entry.name, entry.meaning));
+    }
+    return fmt::format("{{{}}} ({})", fmt::join(names, ", "), fmt::join(meanings, "; "));
+}
+
+int checked_order(double value, int index, std::span<const OrderEntry> entries, const char* name) {
+    if (std::floor(value) != value || value < 0 || value > kLargestOrder)
+        refuse_orders(index, entries, fmt::format("{} is {:.10g}, and must be a whole number from 0 on", name, value));
+    return static_cast<int>(value);
+}
+
+/// The number, table or vector on top of the stack as a list.
+std::vector<int> entry_list(lua_State* L, int index, std::span<const OrderEntry> entries, const char* name) {
+    if (lua_type(L, -1) == LUA_TNUMBER) return {checked_order(lua_tonumber(L, -1), index, entries, name)};
+    std::vector<int> list;
+    if (NumericBlock* vector = to_vector(L, -1)) {
+        for (const double value : vector->vector()) list.push_back(checked_order(value, index, entries, name));
+        return list;
+    }
+    if (lua_type(L, -1) != LUA_TTABLE)
+        refuse_orders(index, entries, fmt::format("{} is {}", name, given_text(L, lua_gettop(L))));
+    const auto count = static_cast<lua_Integer>(lua_rawlen(L, -1));
+    if (count == 0) refuse_orders(index, entries, fmt::format("{} is an empty table", name));
+    for (lua_Integer i = 1; i <= count; ++i) {
+        lua_rawgeti(L, -1, i);
+        if (lua_type(L, -1) != LUA_TNUMBER)
+            refuse_orders(index, entries, fmt::format("{} holds {}", name, given_text(L, lua_gettop(L))));
+        list.push_back(checked_order(lua_tonumber(L, -1), index, entries, name));
+        lua_pop(L, 1);
+    }
+    return list;
+}
+
+}  // namespace
+
+std::vector<std::vector<int>> order_lists(const Call& call, int index, std::span<const OrderEntry> entries) {
+    lua_State* L = call.state();
+    const auto wrong_count = [&](Index count) {
+        const bool many = count > static_cast<Index>(entries.size()) + 1;
+        refuse_orders(
+            index, entries,
+            fmt::format("it has {}{}", counted(count, "entry", "entries"),
+                        many ? "; with several inputs an entry is a list of one value for each, such as {1, 1}" : ""));
+    };
+    std::vector<std::vector<int>> lists;
+    if (index <= call.count()) {
+        if (NumericBlock* vector = to_vector(L, index)) {
+            const auto values = vector->vector();
+            if (values.size() != static_cast<Index>(entries.size())) wrong_count(values.size());
+            for (Index i = 0; i < values.size(); ++i)
+                lists.push_back({checked_order(values[i], index, entries, entries[static_cast<std::size_t>(i)].name)});
+            return lists;
+        }
+        if (call.type(index) == LUA_TTABLE) {
+            const auto count = static_cast<std::size_t>(lua_rawlen(L, index));
+            if (count != entries.size()) wrong_count(static_cast<Index>(count));
+            for (std::size_t i = 0; i < count; ++i) {
+                lua_rawgeti(L, index, static_cast<lua_Integer>(i + 1));
+                lists.push_back(entry_list(L, index, entries, entries[i].name));
+                lua_pop(L, 1);
+            }
+            return lists;
+        }
+    }
+    refuse_orders(index, entries, call.given(index) ? given_text(L, index) + " was given" : "it is missing");
+}
+
+void refuse_orders(int index, std::span<const OrderEntry> entries, const std::string& wrong) {
+    throw InvalidArgument(fmt::format("argument {} (orders) must be {}, but {}", index, meaning_of(entries), wrong));
+}
+
+namespace {
+
+/// Orders of all channels as they are, those of inputs repeated for each output.
+template <class Value>
+std::vector<Value> for_channels(const std::vector<Value>& of_inputs, const IdData& data) {
+    const auto channels = static_cast<std::size_t>(data.output_count() * data.input_count());
+    if (of_inputs.size() == 1 || of_inputs.size() == channels) return of_inputs;
+    std::vector<Value> all;
+    for (Index output = 0; output < data.output_count(); ++output)
+        all.insert(all.end(), of_inputs.begin(), of_inputs.end());
+    return all;
+}
+
+/// A whole number, or a list of one for each input or for each channel.
+std::vector<int> counts_argument(const Call& call, int index, const char* what) {
+    if (call.type(index) != LUA_TTABLE && !call.holds_vector(index)) return {static_cast<int>(call.size(index, what))};
+    const auto values = call.vector(index, what);
+    std::vector<int> counts;
+    for (const double value : values) {
+        if (!(value >= 0) || value != std::floor(value))
+            throw InvalidArgument(fmt::format("argument {} ({}) must hold whole numbers from 0 on", index, what));
+        counts.push_back(static_cast<int>(value));
+    }
+    return counts;
+}
+
+/// A number of seconds or one for each input or channel.
+std::vector<double> seconds_option(const Options& options, const char* name) {
+    if (options.push(name) && lua_type(options.call().state(), -1) == LUA_TNUMBER) return {options.number(name, 0)};
+    const auto delays = options.vector(name);
+    return {delays.begin(), delays.end()};
+}
+
+std::size_t index_of_entry(std::span<const OrderEntry> entries, std::string_view name) {
+    std::size_t index = 0;
+    while (index < entries.size() && name != entries[index].name) ++index;
+    return index;
+}
+
+/// At least one pole, and as many coefficients as a proper model has; lists of unequal lengths are paired as
+/// TransferStructure::grid() does or refuses to.
+void check_coefficients(std::span<const OrderEntry> entries, std::string_view poles_name, const std::vector<int>& poles,
+                        const std::vector<int>& coefficients) {
+    for (const int n : poles)
+        if (n < 1) refuse_orders(2, entries, fmt::format("{} is {}, and must be at least 1", poles_name, n));
+    for (std::size_t i = 0; i < coefficients.size(); ++i) {
+        const int nb = coefficients[i];
+        const int n = i < poles.size() ? poles[i] : poles.back();
+        if (nb < 1 || nb > n + 1)
+            refuse_orders(
+                2, entries,
+                fmt::format("nb is {}, and with {} = {} must lie between 1 and {}", nb, poles_name, n, n + 1));
+    }
+}
+
+std::vector<double> delays_of(const std::vector<int>& samples, const IdData& data) {
+    std::vector<double> delays;
+    for (const int nk : samples) {
+        if (nk > 0 && !data.regular())
+            throw InvalidArgument("nk counts samples of delay, which irregularly sampled data do not have: give 0");
+        delays.push_back(nk * data.Ts);
+    }
+    return delays;
+}
+
+TransferStructure structure_for(const IdData& data, Denominators sharing, const std::vector<int>& poles,
+                                const std::vector<int>& zeros, const std::vector<double>& delays) {
+    return TransferStructure::grid(data.output_count(), data.input_count(), sharing, for_channels(poles, data),
+                                   for_channels(zeros, data), for_channels(delays, data));
+}
+
+}  // namespace
+
+StructureMaker structure_of_orders(std::span<const OrderEntry> entries, const std::vector<std::vector<int>>& orders,
+                                   Denominators sharing) {
+    const std::string_view poles_entry = index_of_entry(entries, kNa.name) < entries.size() ? kNa.name : kNf.name;
+    const auto list = [&](std::string_view name) { return orders[index_of_entry(entries, name)]; };
+    check_coefficients(entries, poles_entry, list(poles_entry), list(kNb.name));
+    std::vector<int> zeros = list(kNb.name);
+    for (int& count : zeros) --count;
+    return [poles = list(poles_entry), zeros, samples = list(kNk.name), sharing](const IdData& data) {
+        return structure_for(data, sharing, poles, zeros, delays_of(samples, data));
+    };
+}
+
+StructureMaker structure_of_counts(const Call& call, const Options& options, const FitOptions& wanted) {
+    std::vector<double> delays{wanted.least_delay};
+    if (options.has("IODelay")) delays = seconds_option(options, "IODelay");
+    const bool free_delays = !options.has("IODelay") && wanted.largest_delay.value_or(1) > wanted.least_delay;
+    return [poles = counts_argument(call, 2, "np"), zeros = counts_argument(call, 3, "nz"), delays,
+            sharing = sharing_of(options), free_delays](const IdData& data) {
+        TransferStructure structure = structure_for(data, sharing, poles, zeros, delays);
+        structure.free_delays = free_delays;
+        return structure;
+    };
+}
+
+StartedStructure started_structure(const Call& call, const Options& options, const FitOptions& wanted) {
+    if (!holds_model(call, 2)) {
+        StartedStructure started{structure_of_counts(call, options, wanted), {}};
+        if (options.has("Td0")) started.aids.delays = seconds_option(options, "Td0");
+        return started;
+    }
+    for (const char* name : {"IODelay", "Td0"})
+        if (options.has(name))
+            throw InvalidArgument(
+                fmt::format("option '{}' does not go with a start model: it has its own delay", name));
+    SearchAids aids;
+    const auto outputs = static_cast<Index>(object_argument<Model>(call, 2, "start model").outputs);
+    const auto structure = TransferStructure::of_models(channels_argument(call, 2, "start model"), outputs, aids.start);
+    return {[structure](const IdData& data) {
+                if (data.input_count() != structure.inputs || data.output_count() != structure.outputs)
+                    throw InvalidArgument(
+                        fmt::format("the start model has {} input(s) and {} output(s), and the data have {} and {}",
+                                    structure.inputs, structure.outputs, data.input_count(), data.output_count()));
+                return structure;
+            },
+            aids};
+}
+
+Denominators sharing_of(const Options& options) {
+    return options.flag("CommonDenominator", false) ? Denominators::kCommon : Denominators::kPerChannel;
+}
+
+Hold hold_y_of(const Options& options) {
+    return options.choice("hold_y", {"foh", "zoh"}, 0) == 0 ? Hold::kFoh : Hold::kZoh;
+}
+
+void read_fit_options(const Options& options, FitOptions& wanted) {
+    wanted.lambda = options.optional_number("lambda");
+    wanted.hold_y = hold_y_of(options);
+    if (options.has("InitialState")) wanted.initial_state = parse_initial_state(options.text("InitialState", ""));
+    if (options.has("Offset")) wanted.offset = parse_offset(options.text("Offset", ""));
+    wanted.least_delay = options.number("TdMin", wanted.least_delay);
+    wanted.largest_delay = options.optional_number("TdMax");
+    wanted.delay_count = static_cast<int>(options.size("NumTd", wanted.delay_count));
+    wanted.max_iterations = static_cast<int>(options.size("MaxIter", wanted.max_iterations));
+    wanted.goes_on = !options.has("MaxIter");
+    wanted.tolerance = options.number("Tol", wanted.tolerance);
+    if (options.has("Stable")) wanted.stable = options.flag("Stable", false);
+    wanted.fixed = options.numbers_by_name("Fixed");
+    if (options.has("OutputWeights")) wanted.output_weights = options.vector("OutputWeights");
+    wanted.start_is_given = options.has("InitialState") && options.has("Offset");
+    wanted.integration = options.flag("Integration", false);
+    wanted.cancel = options.call().cancel();
+    wanted.validate();
+    if (wanted.integration) wanted = options_with_integrator(std::move(wanted));
+}
+
+FitOptions fit_options(const Options& options, Purpose purpose) {
+    FitOptions wanted;
+    wanted.doubts = purpose == Purpose::kModel;
+    read_fit_options(options, wanted);
+    return wanted;
+}
+
+}  // namespace dynlab::inline scripting

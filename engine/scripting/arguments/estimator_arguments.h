@@ -1,0 +1,81 @@
+#pragma once
+#include <functional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "numerics/fit/transfer_search.h"
+#include "scripting/conversions/arguments.h"
+
+namespace dynlab::inline scripting {
+
+/// What the bindings of estimators have in common: orders, structures, options, estimations that are ready to be made.
+
+/// An estimation as a script asked for it, its arguments checked: ready for any data, in any thread.
+using Estimation = std::function<Fit(const IdData&)>;
+
+/// Reads the arguments of one method from the second on; the first, where the data stand, is not looked at.
+using EstimationReader = Estimation (*)(const Call& call);
+
+/// The readers of a file of bindings, by the methods' Lua names.
+using NamedReader = std::pair<const char*, EstimationReader>;
+using EstimationReaders = std::span<const NamedReader>;
+
+// ---- Orders
+
+/// One entry of an order vector and what it means in messages.
+struct OrderEntry {
+    const char* name;
+    const char* meaning;
+};
+
+/// The orders {2, 1, 1} of a model, or {2, {1, 2}, {1, 1}} with several inputs: a list for each entry. Throws
+/// InvalidArgument that says what the entries mean for another number of them, a value that is not whole, or a negative
+/// one.
+std::vector<std::vector<int>> order_lists(const Call& call, int index, std::span<const OrderEntry> entries);
+
+/// Throws InvalidArgument: what the entries of the orders at argument `index` mean, and what is wrong with these.
+[[noreturn]] void refuse_orders(int index, std::span<const OrderEntry> entries, const std::string& wrong);
+
+// ---- Transfer functions in continuous time
+
+inline constexpr OrderEntry kNa{"na", "poles"};
+inline constexpr OrderEntry kNb{"nb", "coefficients of B"};
+inline constexpr OrderEntry kNf{"nf", "poles"};
+inline constexpr OrderEntry kNk{"nk", "samples of delay"};
+
+/// Makes the structure for any data, in any thread, from arguments that were read and checked. Their lists have one
+/// entry for all inputs or one for each, which hold for every output, or one for each channel. Throws InvalidArgument
+/// where the data do not suit.
+using StructureMaker = std::function<TransferStructure(const IdData&)>;
+/// From the orders at argument 2. The entries hold kNb, kNk, and na or nf.
+StructureMaker structure_of_orders(std::span<const OrderEntry> entries, const std::vector<std::vector<int>>& orders,
+                                   Denominators sharing);
+/// From np and nz at arguments 2 and 3; the delay is free unless IODelay or TdMax = TdMin (in `wanted`) says otherwise.
+StructureMaker structure_of_counts(const Call& call, const Options& options, const FitOptions& wanted);
+
+/// A structure, and where the search for its parameters begins.
+struct StartedStructure {
+    StructureMaker structure;
+    SearchAids aids;
+};
+/// From np and nz as above, with the delays of Td0, or from a start model at argument 2.
+StartedStructure started_structure(const Call& call, const Options& options, const FitOptions& wanted);
+
+/// The option CommonDenominator.
+Denominators sharing_of(const Options& options);
+Hold hold_y_of(const Options& options);
+/// The options of fits, those of them that the binding knows; for others `wanted` keeps what it holds.
+void read_fit_options(const Options& options, FitOptions& wanted);
+
+/// A fit is the script's own model, or one of many in a study, which asks for no doubts.
+enum class Purpose { kModel, kStudy };
+FitOptions fit_options(const Options& options, Purpose purpose);
+/// The EstimationReader of a function that reads for either purpose.
+template <Estimation (*kRead)(const Call&, Purpose)>
+Estimation read_for_study(const Call& call) {
+    return kRead(call, Purpose::kStudy);
+}
+
+}  // namespace dynlab::inline scripting

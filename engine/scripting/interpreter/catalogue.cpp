@@ -1,0 +1,56 @@
+#include "scripting/interpreter/catalogue.h"
+
+#include "scripting/bind/bindings.h"
+#include "scripting/objects/simulated_model.h"
+#include "scripting/objects/traced_value.h"
+
+namespace dynlab::inline scripting {
+
+const std::vector<FunctionEntry>& catalogue_of_functions() {
+    static const std::vector<FunctionEntry> catalogue = [] {
+        std::vector<FunctionEntry> all;
+        for (FunctionEntries area : {data_functions(),        preprocess_functions(),
+                                     saving_functions(),      rig_functions(),
+                                     vector_functions(),      column_statistics(),
+                                     element_functions(),     linear_algebra(),
+                                     vector_comparisons(),    random_functions(),
+                                     signal_functions(),      model_functions(),
+                                     simulation_functions(),  noisy_simulation_functions(),
+                                     estimator_functions(),   transfer_estimator_functions(),
+                                     noise_model_functions(), loop_functions(),
+                                     recursive_functions(),   discrete_estimator_functions(),
+                                     subspace_functions(),    hammerstein_functions(),
+                                     idgrey_functions(),      greyest_functions(),
+                                     learning_functions(),    nonparametric_functions(),
+                                     frequency_functions(),   advice_functions(),
+                                     regression_functions(),  validation_functions(),
+                                     residual_functions(),    prediction_functions(),
+                                     interval_functions(),    order_functions(),
+                                     study_functions(),       figure_functions(),
+                                     control_functions(),     report_functions(),
+                                     answer_functions(),      program_functions(),
+                                     help_functions()})
+            all.insert(all.end(), area.begin(), area.end());
+        return all;
+    }();
+    return catalogue;
+}
+
+const std::vector<TypeEntry>& catalogue_of_types() {
+    static const std::vector<TypeEntry> catalogue = [] {
+        std::vector<TypeEntry> all;
+        for (TypeEntries types : {vector_types(), matrix_types(), complex_types(), data_types(), response_types(),
+                                  model_types(), simulated_types(), idgrey_types(), greyest_types(), traced_types(),
+                                  regression_types(), study_types(), figure_types()})
+            all.insert(all.end(), types.begin(), types.end());
+        return all;
+    }();
+    return catalogue;
+}
+
+const ShownCalls& shown_calls() {
+    static const ShownCalls calls(catalogue_of_functions());
+    return calls;
+}
+
+}  // namespace dynlab::inline scripting

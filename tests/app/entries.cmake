@@ -1,0 +1,1 @@
+set_tests_properties(kernel_of_many_cells PROPERTIES LABELS long)

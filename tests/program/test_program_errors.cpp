@@ -1,0 +1,164 @@
+// The program as a user meets it when something is wrong: what it says, its exit code, and that nothing half-written
+// stays.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/program.h"
+
+namespace dynlab::test {
+namespace test_program_errors {
+using testing::ContainsRegex;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr const char* kReportHeader = "---\ntitle: A report\n---\n\n";
+
+/// A folder as `dynlab new` makes it, with this analysis and this text.
+void write_folder(const Workbench& bench, const std::string& analysis, const std::string& report) {
+    bench.write("mine/analysis.lua", analysis);
+    bench.write("mine/report.md", kReportHeader + report);
+}
+
+void expect_failure(const ChildResult& result, int code, const std::string& part) {
+    EXPECT_EQ(result.exit_code, code) << result.output << result.error_output;
+    EXPECT_THAT(result.error_output, HasSubstr(part));
+    EXPECT_THAT(result.error_output, Not(HasSubstr("terminate called")));
+}
+
+TEST(program_errors, script_that_fails_gives_the_report_up_to_there_and_its_error) {
+    const Workbench bench;
+    write_folder(bench, "-- %%\nprint('before')\n-- %%\nerror('on purpose')\n-- %%\nprint('after')\n",
+                 "::: {.cells}\n:::\n\nFit `fit`{.value}\n");
+    const std::vector<std::string> make = {"report", "mine", "-o", "out.md"};
+    for (int repeat = 0; repeat < 2; ++repeat) {  // such a report is never up to date
+        const ChildResult result = bench.dynlab(make);
+        expect_failure(result, 1, "analysis.lua:4: on purpose");
+        EXPECT_THAT(result.output, HasSubstr("out.md (up to the error)"));
+    }
+    const std::string report = bench.read("out.md");
+    EXPECT_THAT(report, ContainsRegex("\nbefore\n(.|\n)*on purpose(.|\n)*nothing below was run(.|\n)*print"));
+    EXPECT_THAT(report, Not(HasSubstr("\nafter\n")));
+    EXPECT_THAT(report, HasSubstr("**\\[fit\\]**"));
+}
+
+TEST(program_errors, script_that_fails_is_told_even_where_no_report_can_be_made) {
+    const Workbench bench;
+    write_folder(bench, "error('on purpose')\n", "![A](absent.png)\n");
+    const ChildResult result = bench.dynlab({"report", "mine"});
+    expect_failure(result, 1, "on purpose\n    error('on purpose')\nThe report up to there cannot be made: ");
+    EXPECT_THAT(bench.files(), ElementsAre("mine"));
+}
+
+TEST(program_errors, control_c_ends_an_endless_loop_and_leaves_nothing) {
+    const Workbench bench;
+    write_folder(bench, "while true do pcall(function() while true do end end) end\n", "::: {.cells}\n:::\n");
+    // The loop has begun when the program has used far more processor time (hundredths of a second) than a start takes.
+    const ChildResult result = bench.shell(
+        "\"$DYNLAB\" report mine & until [ \"$(cut -d ' ' -f 14 /proc/$!/stat)\" -ge 30 ] || ! kill -0 $!; do\n"
+        "sleep 0.02; done; kill -INT $!; wait $!");
+    expect_failure(result, 130, "interrupted");
+    EXPECT_THAT(bench.files(), ElementsAre("mine"));
+}
+
+TEST(program_errors, characters_latex_cannot_print_are_named) {
+    const Workbench bench;
+    write_folder(bench, "print(1)\n", "A cat: \xF0\x9F\x90\x88\n");
+    expect_failure(bench.dynlab({"report", "mine"}), 1, "U+1F408");
+}
+
+TEST(program_errors, latex_failure_tells_the_first_real_error) {
+    const Workbench bench;
+    write_folder(bench, "print(1)\n", "# Results\n\n$$ x^1^2 $$\n");
+    const ChildResult result = bench.dynlab({"report", "mine"});
+    expect_failure(result, 1, "Double superscript");
+    EXPECT_THAT(bench.files(), ElementsAre("mine"));
+}
+
+TEST(program_errors, output_that_cannot_be_written_is_named) {
+    const Workbench bench;
+    bench.write("a_file", "x");
+    write_folder(bench, "print(1)\n", "Text.\n");
+    expect_failure(bench.dynlab({"report", "mine", "-o", "a_file/report.pdf"}), 1, "cannot write report.pdf");
+    expect_failure(bench.dynlab({"report", "mine", "-o", "report.docx"}), 1, ".pdf");
+}
+
+TEST(program_errors, full_disk_leaves_the_old_report) {
+    const Workbench bench;
+    write_folder(bench, "print(1)\n", "Text.\n");
+    // A file system of 16 KiB in a mount namespace of its own; the PDF needs more.
+    const ChildResult result = bench.shell(
+        "mkdir disk; unshare --mount --map-root-user bash -c '"
+        "mount -t tmpfs -o size=16k tmpfs disk && echo old > disk/report.pdf; "
+        "\"$DYNLAB\" report mine -o disk/report.pdf; code=$?; ls -A disk; cat disk/report.pdf; exit $code'");
+    expect_failure(result, 1, "cannot write report.pdf");
+    EXPECT_THAT(result.error_output, HasSubstr("o space left"));
+    EXPECT_EQ(result.output, "report.pdf\nold\n");
+}
+
+TEST(program_errors, missing_programs_are_told_with_the_package) {
+    for (const auto& [program, package] :
+         {std::pair{"gnuplot", "gnuplot-nox"}, {"pandoc", "pandoc"}, {"pdflatex", "texlive-latex-base"}}) {
+        Workbench bench;
+        write_folder(bench, "plot({1, 2}, {3, 4})\n", "::: {.cells}\n:::\n");
+        bench.hide_program(program);
+        const ChildResult result = bench.dynlab({"report", "mine"});
+        expect_failure(result, 3, program);
+        EXPECT_THAT(result.error_output, HasSubstr(std::string("sudo apt install ") + package));
+        EXPECT_THAT(bench.files(), ElementsAre("mine"));
+    }
+}
+
+// The messages themselves: tests/unit/cli/test_usage_message.cpp and tests/unit/workflow/test_given_script.cpp.
+TEST(program_errors, wrong_words_are_told_in_all_programs_and_nothing_is_written) {
+    const Workbench bench;
+    write_folder(bench, "-- %%\nprint(1)\n", "Text\n");
+    bench.write("mine/report.pdf", "%PDF the good one");
+    bench.write("capital/Analysis.lua", "print(1)\n");
+    expect_failure(bench.dynlab({"run"}), 2, "a script FILE or -e CODE");
+    expect_failure(bench.dynlab({"raport", "mine"}), 2,
+                   "dynlab: there is no command 'raport'; did you mean 'report'?\nRun with --help");
+    expect_failure(bench.dynlab({"course", "statu", "here"}), 2,
+                   "dynlab: dynlab course has no command 'statu'; did you mean 'status'?\n");
+    for (const std::string command : {"report", "check"})
+        expect_failure(bench.dynlab({command, "mine/report.md"}), 2,
+                       "dynlab: report.md is the report's text: give the folder, dynlab " + command + " mine\n");
+    expect_failure(bench.dynlab({"run", "absent.lua"}), 1, "absent.lua");
+    expect_failure(bench.dynlab({"report", "miner"}), 1,
+                   "there is no lesson or folder 'miner'; did you mean 'mine'? the lessons are ");
+    expect_failure(bench.dynlab({"lint", "capital"}), 2, "in the folder capital, but Analysis.lua: call it");
+    EXPECT_EQ(bench.read("mine/report.pdf"), "%PDF the good one");
+    EXPECT_THAT(bench.files(), ElementsAre("capital", "mine"));
+}
+
+TEST(program_errors, a_bibliography_that_is_a_link_to_elsewhere_is_not_packed) {
+    const Workbench bench;
+    bench.write("outside.bib", "@book{secret, author={Outsider, O.}, title={A secret}, year={2020}}\n");
+    bench.write("mine/analysis.lua",
+                "-- ---\n-- bibliography: link.bib\n-- ---\n-- %% [markdown]\n-- As in @secret.\n");
+    std::filesystem::create_symlink("../outside.bib", bench.path("mine/link.bib"));
+    for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+             {"pack", "mine/analysis.lua"}, {"weave", "mine/analysis.lua", "-o", "mine.html"}})
+        expect_failure(bench.dynlab(words), 1, "link.bib: the bibliography lies outside the folder of this file");
+    EXPECT_THAT(bench.files(), ElementsAre("mine", "outside.bib"));
+}
+
+TEST(program_errors, lint_reads_notebooks_and_names_their_cells) {
+    const Workbench bench;
+    bench.write("a.lua", "-- %%\nx = 1\n\n-- %%\nprint(x)\nprint(meen(x))\n");
+    ASSERT_EQ(bench.dynlab({"notebook", "a.lua"}).exit_code, 0);
+    const ChildResult found = bench.dynlab({"lint", "a.ipynb"});
+    EXPECT_EQ(found.exit_code, 1);
+    EXPECT_THAT(found.output, testing::StartsWith("a.ipynb, cell 2, line 2: "));
+    EXPECT_THAT(found.output, HasSubstr("meen"));
+}
+
+TEST(program_errors, a_folder_that_cannot_be_made_is_told_as_other_files_are) {
+    const Workbench bench;
+    bench.write("block", "a file");
+    expect_failure(bench.dynlab({"run", "-e", "print(1)", "--out", "block/out"}), 1,
+                   "dynlab: cannot make the folder block/out: not a directory\n");
+}
+
+}  // namespace test_program_errors
+}  // namespace dynlab::test

@@ -1,0 +1,53 @@
+// The script that a word of the command line means. Oracle: the names of the files.
+#include "workflow/given_script.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "workflow/lesson_catalogue.h"
+#include "workflow/make_report.h"
+#include "workflow_run.h"
+
+namespace dynlab::test {
+namespace test_given_script {
+using testing::HasSubstr;
+
+TEST(given_script, that_is_missing_is_looked_for_under_nearly_its_name) {
+    const WorkFolder work;
+    work.write("capital/Analysis.lua", "print(1)\n");
+    work.write("second/analysis (2).lua", "print(1)\n");
+    work.write("text/analysis.lua", "print(1)\n");
+    work.write("text/Report.md", "Text\n");
+    work.write("whole/analysis.lua", "print(1)\n");
+    EXPECT_EQ(meant_script(work.path("whole")), work.path("whole/analysis.lua"));
+    EXPECT_THAT(error_of([&] { meant_script(work.path("capital")); }),
+                HasSubstr("capital, but Analysis.lua: call it analysis.lua"));
+    EXPECT_THAT(error_of([&] { meant_script(work.path("second")); }),
+                HasSubstr("second, but analysis (2).lua: call it"));
+    EXPECT_THAT(error_of([&] { report_of(work.path("capital")); }),
+                HasSubstr("capital has no analysis.lua, but Analysis.lua: call it"));
+    EXPECT_THAT(error_of([&] { report_of(work.path("text")); }),
+                HasSubstr("text has no report.md, but Report.md: call it report.md"));
+    EXPECT_THAT(error_of([&] { find_lesson(work.path("capital")); }), HasSubstr("capital"));
+}
+
+TEST(given_script, that_is_no_script_is_refused_with_the_command_to_type) {
+    const WorkFolder work;
+    work.write("mine/analysis.lua", "print(1)\n");
+    work.write("mine/report.md", "Text\n");
+    work.write("mine/report.pdf", "%PDF");
+    work.write("data.csv", "t,y\n0,1\n");
+    for (const std::string command : {"report", "run", "lint", "pack", "check"})
+        EXPECT_EQ(
+            why_no_script(work.path("mine/report.md"), command),
+            "report.md is the report's text: give the folder, dynlab " + command + " " + work.path("mine").string());
+    EXPECT_THAT(why_no_script(work.path("mine/report.pdf"), "weave"),
+                HasSubstr("report.pdf is the report's PDF: give the folder, dynlab weave "));
+    EXPECT_EQ(why_no_script(work.path("data.csv"), "run"),
+              "data.csv is a table of data: give a script (.lua) or a notebook (.ipynb)");
+    EXPECT_EQ(why_no_script(work.path("mine"), "run"), "");
+    EXPECT_EQ(why_no_script(work.path("mine/analysis.lua"), "run"), "");
+}
+
+}  // namespace test_given_script
+}  // namespace dynlab::test

@@ -1,0 +1,227 @@
+// Scripts that identify a model from a data file. Oracles: the system that made the data, and the definition of each
+// defect in a file.
+#include "workflow/identify.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <sstream>
+
+#include "numerics/error.h"
+#include "workflow_run.h"
+
+namespace dynlab::test {
+namespace test_identification_script {
+using testing::AllOf;
+using testing::HasSubstr;
+
+/// Records of 2/(s^2 + 4s + 3) (x, with a delay of 0.33 s in late) and (s + 2)/(s^2 + 0.8s + 4) (theta), in files that
+/// state their sampling in different ways.
+constexpr const char* kRecords = R"lua(
+local u, Ts = prbs(7, 8), 0.05
+local t = linspace(0, (#u - 1)*Ts, #u)
+local x, theta = lsim(tf({2}, {1, 4, 3}), u, Ts), lsim(tf({1, 2}, {1, 0.8, 4}), u, Ts)
+local late = lsim(tf({2}, {1, 4, 3}, {IODelay = 0.33}), u, Ts)
+save_csv("even.csv", {t = t, u = u, x = x, theta = theta, late = late}, {units = {x = "m", theta = "rad"}})
+save_csv("stated.csv", {u = u, x = x}, {Ts = Ts})
+save_csv("silent.csv", {u = u, x = x})
+save_mat("stated.mat", {u = u, x = x, Ts = Ts, short = u:range(1, 5), A = eye(2)})
+local instants = cumsum(0.02 + 0.06*rand(800))
+local w = sin(0.7*instants) + sin(1.9*instants)
+save_csv("headers.csv", {["Time (ms)"] = 1000*t, ["voltage [V]"] = u, x = x
+}, {columns = {"Time (ms)", "voltage [V]", "x"}})
+save_csv("clock.csv", {clock = t/60, u = u, x = x}, {units = {clock = "min"}})
+save_mat("matrix.mat", {y = matrix{theta, x}, u = u, Ts = Ts})
+save_csv("uneven.csv", {time = instants, u = w, x = lsim(tf({2}, {1, 4, 3}), w, instants)})
+local cut = 1*x
+for k = 1, #x do cut[k] = math.min(x[k], 0.2) end
+save_csv("cut.csv", {t = t, u = u, x = cut})
+local v, z = prbs(8, 4), rbs(1020, 4)
+save_csv("two.csv", {valve = v, heat = z, x = lsim(tf({2}, {1, 4, 3}), v, Ts) + lsim(tf({5}, {1, 1, 5}), z, Ts)},
+         {Ts = Ts, units = {valve = "V"}})
+)lua";
+
+class identification_script : public testing::Test {
+  protected:
+    static void SetUpTestSuite() {
+        files_ = new WorkFolder;
+        const auto made = files_->run(kRecords).record;
+        ASSERT_FALSE(made.error) << made.error->message;
+        std::istringstream lines(files_->read("stated.csv"));
+        std::string holes;
+        int number = 0;
+        for (std::string line; std::getline(lines, line); holes += line + '\n')
+            if (++number > 100 && number % 97 == 0) line.erase(line.rfind(',') + 1);  // the last column is x
+        files_->write("holes.csv", holes);
+    }
+    static void TearDownTestSuite() { delete files_; }
+
+    static IdentifyRequest of(const std::string& file, const std::string& output = "x") {
+        IdentifyRequest request;
+        request.data = files_->path(file);
+        request.inputs = {"u"};
+        request.outputs = {output};
+        return request;
+    }
+    static ScriptRun run(const IdentifyRequest& request) {
+        ScriptRun made = files_->run(dynlab::identification_script(request));
+        EXPECT_FALSE(made.record.error) << made.record.error->message;
+        return made;
+    }
+    static std::string printed(const IdentifyRequest& request) { return run(request).printed; }
+    static std::string refusal(const IdentifyRequest& request) {
+        return error_of([&] { dynlab::identification_script(request); });
+    }
+
+    static WorkFolder* files_;
+};
+WorkFolder* identification_script::files_ = nullptr;
+
+const auto kSystem = HasSubstr("s^2 + 4 s + 3");
+
+TEST_F(identification_script, finds_the_system_however_a_file_states_its_sampling) {
+    for (const char* file : {"even.csv", "stated.csv", "stated.mat", "clock.csv"})
+        EXPECT_THAT(printed(of(file)), AllOf(kSystem, HasSubstr("fit to the estimation data: 100.00 %"))) << file;
+    IdentifyRequest silent = of("silent.csv");
+    silent.Ts = 0.05;
+    EXPECT_THAT(printed(silent), kSystem);
+    IdentifyRequest named = of("even.csv");
+    named.time = "t";
+    EXPECT_THAT(printed(named), kSystem);
+    IdentifyRequest headers = of("headers.csv");
+    for (const char* input : {"voltage", "voltage [V]"}) {
+        headers.inputs = {input};
+        EXPECT_THAT(printed(headers), kSystem) << input;
+    }
+    EXPECT_THAT(printed(of("matrix.mat", "y2")), kSystem);
+}
+
+TEST_F(identification_script, takes_several_inputs) {
+    IdentifyRequest two = of("two.csv");
+    two.inputs = {"valve", "heat"};
+    const auto [record, text] = run(two);
+    EXPECT_THAT(text, AllOf(kSystem, HasSubstr("s^2 + s + 5"), HasSubstr("fit to the estimation data: 100.00 %")));
+    EXPECT_EQ(record.values.at("input").text, "valve, heat");
+    EXPECT_EQ(record.values.at("input_2").text, "heat");
+    EXPECT_TRUE(record.figures.contains("responses_of_2"));
+    two.inputs = {"valve", "cold"};
+    EXPECT_THAT(refusal(two), HasSubstr("'cold'"));
+}
+
+TEST_F(identification_script, fills_missing_samples_and_reports_doubts_about_the_data) {
+    EXPECT_THAT(printed(of("holes.csv")),
+                AllOf(HasSubstr("holes.csv: numbers are missing"), HasSubstr("fit to the estimation data: 9")));
+    EXPECT_THAT(printed(of("cut.csv")), HasSubstr("! "));  // as advice() marks a finding
+}
+
+TEST_F(identification_script, takes_uneven_instants_as_they_are) {
+    const std::string script = dynlab::identification_script(of("uneven.csv"));
+    EXPECT_THAT(script, HasSubstr("SamplingInstants = record_t"));
+    EXPECT_THAT(files_->run(script).printed, HasSubstr("fit to the estimation data: 100.00 %"));
+}
+
+TEST_F(identification_script, estimates_a_delay_or_takes_the_given_one) {
+    for (const std::optional<double> delay : {std::optional<double>(), std::optional(0.33)}) {
+        IdentifyRequest late = of("even.csv", "late");
+        late.delay = delay;
+        EXPECT_THAT(printed(late), AllOf(HasSubstr("Delay: 0.33 s"), kSystem)) << delay.value_or(-1);
+    }
+}
+
+TEST_F(identification_script, finds_the_number_of_poles) {
+    IdentifyRequest any = of("even.csv", "theta");
+    any.poles.reset();
+    const auto [record, text] = run(any);
+    EXPECT_THAT(text, AllOf(HasSubstr("2 poles"), HasSubstr("s^2 + 0.8 s + 4")));
+    EXPECT_EQ(record.values.at("poles").number, 2);
+    EXPECT_EQ(record.values.at("zeros").number, 1);
+    IdentifyRequest late = of("even.csv", "late");
+    late.poles.reset(), late.delay.reset();
+    late.zeros = 0;
+    EXPECT_THAT(printed(late), AllOf(HasSubstr("Delay: 0.33 s"), kSystem));
+}
+
+TEST_F(identification_script, makes_a_model_of_each_output_and_tries_it_on_other_data) {
+    IdentifyRequest both = of("even.csv");
+    both.outputs = {"x", "theta"};
+    both.zeros = 1;
+    both.validation = files_->path("even.csv");
+    const auto [record, text] = run(both);
+    EXPECT_THAT(text, AllOf(kSystem, HasSubstr("s^2 + 0.8 s + 4"), HasSubstr("fit to the validation data: 100.00 %")));
+    EXPECT_EQ(record.values.at("output_1").text, "x");
+    EXPECT_EQ(record.values.at("output_2").text, "theta");
+}
+
+TEST_F(identification_script, names_cannot_act_as_code) {
+    const std::string name = "a\"]] .. os.exit(7) --`{b}$x.csv";
+    files_->write(name, files_->read("stated.csv"));
+    EXPECT_THAT(printed(of(name)), kSystem);
+}
+
+TEST_F(identification_script, a_request_that_a_file_cannot_serve_names_the_columns_of_the_file) {
+    IdentifyRequest request = of("even.csv");
+    request.outputs = {"x", "teta"};
+    EXPECT_THAT(refusal(request),
+                AllOf(HasSubstr("'teta'"), HasSubstr("did you mean 'theta'?"), HasSubstr("late, t, theta, u, x")));
+    request = of("even.csv");
+    request.inputs = {"v"};
+    EXPECT_THAT(refusal(request), HasSubstr("'v'"));
+    request = of("even.csv");
+    request.time = "late";
+    EXPECT_THAT(refusal(request), HasSubstr("the time 'late' must increase, but sample"));
+    EXPECT_THAT(refusal(of("silent.csv")), HasSubstr("silent.csv"));
+    EXPECT_THAT(refusal(of("stated.mat", "short")), AllOf(HasSubstr("'short' has 5"), HasSubstr("'u' has")));
+    EXPECT_THAT(refusal(of("matrix.mat", "y3")), HasSubstr("u, y1, y2"));
+    request = of("stated.mat");
+    request.inputs = {"A"};
+    EXPECT_THAT(refusal(request), HasSubstr("'A'"));
+    request = of("even.csv", "theta");
+    request.validation = files_->path("stated.mat");
+    EXPECT_THAT(refusal(request), HasSubstr("stated.mat has no column of numbers 'theta'"));
+    request.validation = files_->path("none.csv");
+    EXPECT_THAT(refusal(request), HasSubstr("none.csv"));
+    EXPECT_THAT(refusal(of("nowhere.csv")), HasSubstr("nowhere.csv"));
+    request = of("");
+    request.data = "crane";
+    request.outputs = {"y"};
+    EXPECT_THAT(refusal(request),
+                AllOf(HasSubstr("'u'"), HasSubstr("estimation.t, estimation.theta, estimation.u, estimation.x")));
+    request = of("even.csv");
+    request.delay = 1e6;
+    const auto stopped = files_->run(dynlab::identification_script(request)).record.error;
+    ASSERT_TRUE(stopped);
+    EXPECT_THAT(stopped->message, HasSubstr("delay"));
+}
+
+TEST(identify_request, of_orders_delay_or_names_that_make_no_sense_is_refused) {
+    const auto refused = [](const std::function<void(IdentifyRequest&)>& change, const std::string& words) {
+        IdentifyRequest request;
+        request.data = "d.csv";
+        request.inputs = {"u"}, request.outputs = {"x"};
+        EXPECT_EQ(error_of([&] { request.validate(); }), "");
+        change(request);
+        EXPECT_THROW(request.validate(), InvalidArgument) << words;
+        EXPECT_THAT(error_of([&] { request.validate(); }), HasSubstr(words));
+    };
+    refused([](auto& r) { r.outputs.clear(); }, "at least one output");
+    refused([](auto& r) { r.inputs.clear(); }, "at least one input");
+    refused([](auto& r) { r.inputs = {"u", "v", "u"}; }, "the input 'u' is given twice");
+    refused([](auto& r) { r.outputs = {"x", "x"}; }, "the output 'x' is given twice");
+    refused([](auto& r) { r.outputs = {"u"}; }, "cannot be both input and output");
+    refused([](auto& r) { r.poles = 0; }, "at least 1, not 0");
+    refused([](auto& r) { r.zeros = 3; }, "from 0 to that of the poles, 2; it is 3");
+    refused([](auto& r) { r.zeros = -1; }, "it is -1");
+    refused([](auto& r) { r.delay = -1; }, "must be at least 0 s, not -1");
+    refused([](auto& r) { r.delay = NAN; }, "the delay must be at least 0 s");
+    refused([](auto& r) { r.Ts = 0; }, "Ts must be greater than 0 s");
+    refused([](auto& r) { r.Ts = 1, r.time = "t"; }, "not both");
+    refused([](auto& r) { r.poles.reset(), r.delay = 0.3; }, "or the delay auto");
+    refused([](auto& r) { r.poles.reset(), r.zeros = 4; }, "there must be fewer zeros");
+    refused([](auto& r) { r.poles.reset(), r.zeros = -1; }, "it is -1");
+    refused([](auto& r) { r.poles.reset(), r.inputs = {"u", "v"}; }, "with several give the number");
+}
+
+}  // namespace test_identification_script
+}  // namespace dynlab::test
