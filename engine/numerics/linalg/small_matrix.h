@@ -8,8 +8,6 @@ namespace dynlab::inline numerics {
 // n is zero, so that loops over rows have a length that the compiler knows: machine vectors, without a template for
 // every n.
 
-constexpr int kMostSmall = 8;
-
 template <int room>
 struct SmallVector {
     alignas(room * sizeof(double)) double at[room] = {};
