@@ -1,5 +1,5 @@
 #pragma once
-#include "data_io/values/described.h"
+#include "data_io/values/array_descriptions.h"
 #include "figures/figure.h"
 
 namespace dynlab::inline documents {

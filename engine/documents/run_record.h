@@ -2,12 +2,15 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
-#include "figures/figure.h"
+namespace dynlab::inline figures {
+struct Figure;
+}
 
 namespace dynlab::inline documents {
 
@@ -27,12 +30,12 @@ struct RecordedTable {
 /// `report.figure`, or a figure a cell made and dropped (then `name` is "<cell id>-figure-K" and the caption
 /// is the figure's title).
 struct RecordedFigure {
-    Figure figure;
-    std::string caption;         ///< Markdown, read as safely as a template
-    std::filesystem::path file;  ///< where it was drawn, once it was
-    std::size_t order = 0;       ///< in the order in which the script made its figures
-    std::string plot = {};       ///< what a page draws it from (documents/html/plot_data.h), where it was drawn for one
-    std::string axes = {};       ///< words_of_axes(), which stay where the figure itself is not kept
+    std::shared_ptr<const Figure> figure;  ///< none in a record that was read
+    std::string caption;                   ///< Markdown, read as safely as a template
+    std::filesystem::path file;            ///< where it was drawn, once it was
+    std::size_t order = 0;                 ///< in the order in which the script made its figures
+    std::string plot = {};  ///< what a page draws it from (documents/html/plot_data.h), where it was drawn for one
+    std::string axes = {};  ///< words_of_axes(), which stay where the figure itself is not kept
 };
 
 /// `report.text`: Markdown written by the script.

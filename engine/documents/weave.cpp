@@ -9,6 +9,7 @@
 #include "documents/solutions.h"
 #include "documents/text_lines.h"
 #include "documents/words/sentence_catalogue.h"
+#include "figures/figure.h"
 #include "figures/french_texts.h"
 
 namespace dynlab::inline documents {
@@ -122,7 +123,8 @@ class Weaver {
         std::string caption;
         if (figure != record_.figures.end() && figure->second.caption.empty()) {
             const bool french = script_.header.language == "fr";
-            caption = figure->second.axes.empty() ? words_of_axes(figure->second.figure, french) : figure->second.axes;
+            const RecordedFigure& made = figure->second;
+            caption = made.axes.empty() && made.figure ? words_of_axes(*made.figure, french) : made.axes;
             if (caption.empty()) caption = fmt::format("{} `{}`", french ? "De la cellule" : "From the cell", cell.id);
         }
         add(fmt::format("![{}](figure:{}){{#fig:{}}}", caption, name, name), cell.last_line());

@@ -5,6 +5,8 @@
 #include <string_view>
 #include <utility>
 
+#include "figures/figure.h"
+
 namespace dynlab::inline figures {
 namespace {
 

@@ -1,9 +1,9 @@
 #pragma once
 #include <string>
 
-#include "figures/figure.h"
-
 namespace dynlab::inline figures {
+
+struct Figure;
 
 /// The text with commas in its decimal numbers: "fit 93.2 %" becomes "fit 93,2 %"; "1.2.3" and "a.1" stay.
 std::string with_decimal_commas(const std::string& text);

@@ -2,11 +2,12 @@
 #include <filesystem>
 #include <memory>
 
-#include "figures/figure.h"
 #include "platform/cache.h"
 #include "platform/error.h"
 
 namespace dynlab::inline figures {
+
+struct Figure;
 
 /// A figure could not be drawn: names its file and says what gnuplot complained of.
 class FigureError : public EnvironmentError {

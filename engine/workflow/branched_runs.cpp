@@ -61,7 +61,7 @@ class BranchingRun {
         for (auto part = parts_.begin(); part != first; ++part) {
             const RunRecord record = world_.runtime.run_part(request_.script, *part);
             if (part + 1 != first) continue;
-            for (const auto& [name, figure] : record.figures) before_[name] = cbor_of(figure.figure);
+            for (const auto& [name, figure] : record.figures) before_[name] = cbor_of(*figure.figure);
         }
         for (const SliderNumbers& choice : choices)
             if (!send_record(pipe_, sent_by_a_copy(choice, first))) ::_exit(1);
@@ -95,10 +95,9 @@ class BranchingRun {
         const bool french = request_.script.header.language == "fr";
         for (auto& [name, figure] : record.figures) {
             const auto was = before_.find(name);
-            const bool unchanged = was != before_.end() && was->second == cbor_of(figure.figure);
-            if (!unchanged) figure.plot = plot_data(french ? in_french(figure.figure) : figure.figure, french);
-            figure.axes = words_of_axes(figure.figure, french);
-            figure.figure = Figure(Panel());
+            const bool unchanged = was != before_.end() && was->second == cbor_of(*figure.figure);
+            if (!unchanged) figure.plot = plot_data(french ? in_french(*figure.figure) : *figure.figure, french);
+            figure.axes = words_of_axes(*figure.figure, french);
         }
         return record;
     }

@@ -232,8 +232,8 @@ class DataLooker {
         return curve;
     }
 
-    std::optional<Figure> figure() const {
-        if (samples_ < 2) return std::nullopt;
+    std::shared_ptr<const Figure> figure() const {
+        if (samples_ < 2) return nullptr;
         const bool timed = time_ && !spacing_of(instants()).disorder;
         const Vector x = timed ? Vector(instants() * time_->seconds)
                                : Vector(Vector::LinSpaced(samples_, 1, static_cast<double>(samples_)));
@@ -249,10 +249,10 @@ class DataLooker {
             figure.panels.push_back(std::move(panel));
             if (figure.panels.size() == kMostPanels) break;
         }
-        if (figure.panels.empty()) return std::nullopt;
+        if (figure.panels.empty()) return nullptr;
         figure.rows = static_cast<int>(figure.panels.size());
         figure.panels.back().x_label = timed ? axis_label(time_->name, "s") : "sample";
-        return figure;
+        return std::make_shared<const Figure>(std::move(figure));
     }
 
     static constexpr Index kMostPanels = 8;

@@ -1,16 +1,20 @@
 #pragma once
-#include <optional>
+#include <memory>
 #include <string>
 
 #include "data_io/tables/import_options.h"
-#include "figures/figure.h"
+
+namespace dynlab::inline figures {
+struct Figure;
+}
 
 namespace dynlab::inline workflow {
 
 /// What `dynlab look` shows of a data file.
 struct DataLook {
-    std::string text;              ///< what was read: notes, columns with units and ranges, sampling, gaps, first rows
-    std::optional<Figure> figure;  ///< the signals over time (over the samples where it is unknown); at most eight
+    std::string text;  ///< what was read: notes, columns with units and ranges, sampling, gaps, first rows
+    std::shared_ptr<const Figure>
+        figure;  ///< the signals over time (over the samples where it is unknown); at most eight
 };
 
 /// `name`: a data file or a data set. Throws EnvironmentError as load_data().

@@ -134,10 +134,10 @@ void draw_figures(RunRecord& record, GnuplotRenderer& renderer, const std::files
     for (const std::string& name : figures_in_order(record)) {
         RecordedFigure& figure = record.figures.at(name);
         figure.file = folder / (figure_file_stem(name, ++number) + extension(format));
-        const Figure shown = french ? in_french(figure.figure) : figure.figure;
+        const Figure shown = french ? in_french(*figure.figure) : *figure.figure;
         renderer.draw(shown, figure.file, format, french);
         if (format == FigureFormat::kSvg) figure.plot = plot_data(shown, french);
-        figure.axes = words_of_axes(figure.figure, french);
+        figure.axes = words_of_axes(*figure.figure, french);
     }
 }
 

@@ -1,5 +1,6 @@
 // The page on which a prompt's figures appear. Oracle: what a browser shows of it.
 #include "app/live/figure_viewer.h"
+#include "figures/figure.h"
 
 #include <gtest/gtest.h>
 

@@ -9,6 +9,7 @@
 
 #include "documents/document.h"
 #include "documents/html/plot_data.h"
+#include "figures/figure.h"
 #include "platform/temporary_folder.h"
 #include "support/browser.h"
 

@@ -7,6 +7,7 @@
 
 #include "document_fixture.h"
 #include "documents/html/plot_data.h"
+#include "figures/figure.h"
 #include "support/browser.h"
 
 namespace dynlab {

@@ -9,6 +9,7 @@
 
 #include "documents/html/plot_data.h"
 #include "documents/html/slider_page.h"
+#include "figures/figure.h"
 #include "platform/atomic_file.h"
 #include "platform/temporary_folder.h"
 #include "support/browser.h"

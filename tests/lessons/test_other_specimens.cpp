@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <regex>
 
+#include "figures/figure.h"
 #include "figures/gnuplot_renderer.h"
 #include "numerics/rigs/specimen.h"
 #include "platform/temporary_folder.h"
@@ -39,7 +40,7 @@ std::vector<double> numbers_of(const RunRecord& run, const std::string& table, s
 
 /// But for noise below a level of zero, where a paper begins.
 void expect_on_paper(const RunRecord& run, const std::string& name, double noise) {
-    const Panel& paper = run.figures.at(name).figure.panels.at(0);
+    const Panel& paper = run.figures.at(name).figure->panels.at(0);
     ASSERT_TRUE(paper.y_range) << name;
     const auto& samples = paper.curves.at(0).y;
     const auto [least, most] = std::minmax_element(samples.begin(), samples.end());

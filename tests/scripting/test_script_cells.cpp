@@ -71,9 +71,9 @@ TEST(script_cells, capture_only_figures_that_are_not_used_elsewhere) {
         "f:mark(1, 1, 'start')\n");
     ASSERT_FALSE(record.error) << record.error->message;
     EXPECT_EQ(record.figures.at("raw").caption, "Raw data");
-    EXPECT_EQ(record.figures.at("raw").figure.panels[0].annotations.at(0).text, "start");
-    EXPECT_EQ(record.figures.at("a-figure-1").figure.panels.size(), 2u);
-    EXPECT_EQ(record.figures.at("a-figure-2").figure.panels[0].curves[0].y[0], 6);
+    EXPECT_EQ(record.figures.at("raw").figure->panels[0].annotations.at(0).text, "start");
+    EXPECT_EQ(record.figures.at("a-figure-1").figure->panels.size(), 2u);
+    EXPECT_EQ(record.figures.at("a-figure-2").figure->panels[0].curves[0].y[0], 6);
     EXPECT_EQ(record.figures.size(), 3u);
 }
 
@@ -114,7 +114,7 @@ TEST(script_cells, handles_tell_where_the_numbers_of_sliders_put_them) {
         "f:handle{x = function(T) return 10/T end, x_slider = 'T', y = function(K) return 0.632*K end, y_slider = 'K', "
         "text = '63 %'}\nreport.figure('f', f)\n");
     ASSERT_FALSE(record.error) << record.error->message;
-    const Annotation& handle = record.figures.at("f").figure.panels[0].annotations.at(0);
+    const Annotation& handle = record.figures.at("f").figure->panels[0].annotations.at(0);
     EXPECT_EQ(handle.x, 5);
     EXPECT_DOUBLE_EQ(handle.y, 0.632 * 3);
     EXPECT_EQ(handle.text, "63 %");
@@ -129,7 +129,7 @@ TEST(script_cells, handles_tell_where_the_numbers_of_sliders_put_them) {
     for (Index i = 0; i < along.values.size(); ++i) EXPECT_DOUBLE_EQ(along.places[i], 10 / along.values[i]);
     EXPECT_FALSE(handle.scales[1].horizontal);
     EXPECT_DOUBLE_EQ(handle.scales[1].places[20], 6.32);
-    const Figure again = from_cbor<Figure>(cbor_of(record.figures.at("f").figure));  // as caches keep it
+    const Figure again = from_cbor<Figure>(cbor_of(*record.figures.at("f").figure));  // as caches keep it
     ASSERT_EQ(again.panels.at(0).annotations.at(0).scales.size(), 2u);
     EXPECT_EQ(again.panels[0].annotations[0].scales[0].places, along.places);
 }
@@ -187,7 +187,7 @@ TEST(script_cells, other_ranges_are_counted_anew) {
             "-- %% id=a\nlocal f = plot({1, 2, 3}, {1, 2, 3}, 'a', {style = 'points', x_range = {0, 2.5}, title = '" +
             given + "'})\nf:set{" + set + "}\n");
         EXPECT_FALSE(record.error);
-        return record.figures.at("a-figure-1").figure.panels.at(0).title;
+        return record.figures.at("a-figure-1").figure->panels.at(0).title;
     };
     EXPECT_EQ(title("1 of 3 outside", "x_range = {0, 1.5}"), "2 of 3 outside");
     EXPECT_EQ(title("1 of 3 outside", "x_range = {0, 5}"), "");
@@ -202,7 +202,7 @@ TEST(script_cells, show_curves_as_described) {
         "x_range = {0, 2},\n"
         "references = {{y = 2, label = 'level'}}})\n");
     ASSERT_FALSE(record.error) << record.error->message;
-    const Panel& panel = record.figures.at("a-figure-1").figure.panels.at(0);
+    const Panel& panel = record.figures.at("a-figure-1").figure->panels.at(0);
     EXPECT_EQ(panel.curves.at(0).label, "a");
     EXPECT_EQ(panel.curves.at(0).style, CurveStyle::kPoints);
     EXPECT_EQ(panel.curves.at(1).y[1], 4);

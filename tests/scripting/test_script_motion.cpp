@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "documents/document.h"
+#include "figures/figure.h"
 #include "platform/atomic_file.h"
 #include "platform/temporary_folder.h"
 #include "script_run.h"
@@ -57,7 +58,7 @@ TEST(script_motion, keeps_signals_and_rig_in_one_figure) {
                                        "report.figure('m', motion{rig = 'crane', t = t, measured = s,\n"
                                        "simulated = s, instants = {0.5, 1.5}, title = 'Both', width = 12}, '')");
     ASSERT_FALSE(record.error) << record.error->message;
-    const Figure& figure = record.figures.at("m").figure;
+    const Figure& figure = *record.figures.at("m").figure;
     ASSERT_TRUE(figure.motion);
     EXPECT_EQ(figure.panels[1].y_label, "position (m)");
     EXPECT_EQ(figure.panels[2].curves.size(), 2u);

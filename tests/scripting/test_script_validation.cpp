@@ -5,6 +5,7 @@
 #include <cmath>
 #include <regex>
 
+#include "figures/figure.h"
 #include "script_run.h"
 
 namespace test_script_validation {
@@ -124,7 +125,7 @@ TEST(script_validation, figures_carry_bands_unless_refused) {
         EXPECT_FALSE(record.error) << record.error->message;
         std::size_t count = 0;
         for (const auto& [name, figure] : record.figures)
-            for (const Panel& panel : figure.figure.panels)
+            for (const Panel& panel : figure.figure->panels)
                 for (const Curve& curve : panel.curves)
                     count += curve.style == CurveStyle::kBand || curve.label == "90 % confidence";
         return count;

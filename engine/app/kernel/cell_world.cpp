@@ -118,7 +118,7 @@ class CellWorld {
             for (const std::string& figure : figures_in_order(record)) {
                 throw_if_interrupted();
                 tell({.kind = "display",
-                      .data = figure_bundle(record.figures.at(figure).figure, renderer_, language_.code == "fr")});
+                      .data = figure_bundle(*record.figures.at(figure).figure, renderer_, language_.code == "fr")});
             }
             renderer_.finish();  // what the cell saved itself
             give_value("result");

@@ -17,6 +17,7 @@
 #include "data_io/values/cbor_values.h"
 #include "documents/html/plot_data.h"
 #include "documents/weave.h"
+#include "figures/figure.h"
 #include "figures/french_texts.h"
 #include "figures/gnuplot_renderer.h"
 #include "platform/cache.h"
@@ -169,12 +170,12 @@ class RunnerProcess {
         for (auto& [name, figure] : record.figures) {
             figure.file = folder / (digest_of(name).hex() + ".svg");
             if (all || !world_->drawn.contains(name)) {
-                const Figure shown = french ? in_french(figure.figure) : figure.figure;
+                const Figure shown = french ? in_french(*figure.figure) : *figure.figure;
                 renderer.draw(shown, figure.file, FigureFormat::kSvg, french);
                 world_->drawn[name] = plot_data(shown, french);
             }
             figure.plot = world_->drawn.at(name);
-            figure.axes = words_of_axes(figure.figure, french);
+            figure.axes = words_of_axes(*figure.figure, french);
         }
         renderer.finish();
     }

@@ -61,7 +61,7 @@ void save_gnuplot_files(const RunRecord& record, const std::string& language) {
         const std::string drawn = file.filename().string();
         write_file_atomically(
             file.replace_extension(".gp"),
-            gnuplot_file(french ? in_french(figure.figure) : figure.figure, FigureFormat::kPdf, drawn, french));
+            gnuplot_file(french ? in_french(*figure.figure) : *figure.figure, FigureFormat::kPdf, drawn, french));
     }
 }
 

@@ -268,7 +268,7 @@ RecordedFigure histogram_of(const Vector& points, double possible) {
     options.x_label = fmt::format("points of {}", points_text(possible));
     options.y_label = "submissions";
     RecordedFigure figure;
-    figure.figure = histogram(points, options);
+    figure.figure = std::make_shared<const Figure>(histogram(points, options));
     figure.caption = "Points";
     return figure;
 }

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "numerics/linalg/types.h"
+
 namespace dynlab::inline data_io {
 namespace {
 

@@ -77,8 +77,6 @@ concept StoredAsOther = requires {
     typename StoredAs<T>::Form;
 };
 template <class T>
-concept Dense = std::derived_from<T, Eigen::PlainObjectBase<T>>;
-template <class T>
 concept Maybe = !std::is_arithmetic_v<T> && requires(const T& value) {
     *value;
     static_cast<bool>(value);
@@ -93,10 +91,11 @@ concept Map = requires {
     typename T::mapped_type;
 };
 template <class T>
-concept List = !std::same_as<T, std::string> && !Dense<T> && !Map<T> && requires(T & value) {
+concept List = !std::same_as<T, std::string> && !Map<T> && requires(T & value) {
     value.emplace_back();
 };
-/// Written and read by functions of its own, write_whole_value and read_whole_value.
+/// Written and read by functions of its own, write_whole_value and read_whole_value; those of vectors and matrices are
+/// in array_descriptions.h.
 template <class T>
 concept Custom = requires(ValueWriter& writer, const T& value) {
     write_whole_value(writer, value);

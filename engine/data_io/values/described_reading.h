@@ -58,14 +58,6 @@ void read_members(ValueReader& reader, T& value) {
 }
 
 template <class T>
-T read_array(ValueReader& reader) {
-    const NumberArray numbers = reader.array(form_of_array<T>());
-    T value(numbers.rows, numbers.columns);
-    if (numbers.bytes() > 0) std::memcpy(value.data(), numbers.numbers, numbers.bytes());
-    return value;
-}
-
-template <class T>
 T read_fresh(ValueReader& reader) {
     T value = blank<T>();
     read_value(reader, value);
@@ -135,12 +127,6 @@ void read_value(ValueReader& reader, T& value) {
         value = static_cast<T>(reader.one_of(names_of(T{})));
     } else if constexpr (std::same_as<T, std::string>) {
         value = reader.text();
-    } else if constexpr (std::same_as<T, Complex>) {
-        const ComplexVector one = read_array<ComplexVector>(reader);
-        if (one.size() != 1) reader.refuse("one complex number was wanted");
-        value = one[0];
-    } else if constexpr (value_kinds::Dense<T>) {
-        value = read_array<T>(reader);
     } else if constexpr (value_kinds::Maybe<T>) {
         read_maybe(reader, value);
     } else if constexpr (value_kinds::Pair<T>) {

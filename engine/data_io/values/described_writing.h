@@ -4,15 +4,6 @@
 namespace dynlab::inline data_io {
 
 /// How described.h's functions for writing are made of the pieces of value_stream.h.
-template <value_kinds::Dense T>
-constexpr ArrayForm form_of_array() {
-    constexpr bool vector = T::ColsAtCompileTime == 1;
-    if constexpr (std::same_as<typename T::Scalar, Complex>)
-        return vector ? ArrayForm::kComplexVector : ArrayForm::kComplexMatrix;
-    else
-        return vector ? ArrayForm::kVector : ArrayForm::kMatrix;
-}
-
 class MemberWriter {
   public:
     explicit MemberWriter(ValueWriter& writer) : writer_(writer) {}
@@ -67,10 +58,6 @@ void write_value(ValueWriter& writer, const T& value) {
         writer.text(names_of(T{}).at(static_cast<std::size_t>(value)));
     } else if constexpr (std::same_as<T, std::string>) {
         writer.text(value);
-    } else if constexpr (std::same_as<T, Complex>) {
-        writer.array({ArrayForm::kComplexVector, 1, 1, &value});
-    } else if constexpr (value_kinds::Dense<T>) {
-        writer.array({form_of_array<T>(), value.rows(), value.cols(), value.data()});
     } else if constexpr (value_kinds::Maybe<T>) {
         if (value)
             write_value(writer, *value);

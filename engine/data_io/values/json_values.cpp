@@ -4,6 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "numerics/linalg/types.h"
+
 namespace dynlab::inline data_io {
 namespace {
 

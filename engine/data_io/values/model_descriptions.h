@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <string>
 
-#include "data_io/values/described.h"
+#include "data_io/values/array_descriptions.h"
 #include "numerics/error.h"
 #include "numerics/models/frequency_data.h"
 #include "numerics/models/polynomial_model.h"

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "data_io/values/value_limits.h"
-#include "numerics/linalg/types.h"
 
 namespace dynlab::inline data_io {
 
@@ -17,12 +16,12 @@ enum class ArrayForm { kVector, kMatrix, kComplexVector, kComplexMatrix };
 /// Numbers in columns; complex ones as real and imaginary part in turn.
 struct NumberArray {
     ArrayForm form;
-    Index rows, columns;
+    std::ptrdiff_t rows, columns;
     const void* numbers;
 
     bool is_complex() const { return form == ArrayForm::kComplexVector || form == ArrayForm::kComplexMatrix; }
     std::size_t bytes() const {
-        return static_cast<std::size_t>(rows * columns) * (is_complex() ? sizeof(Complex) : sizeof(double));
+        return static_cast<std::size_t>(rows * columns) * sizeof(double) * (is_complex() ? 2 : 1);
     }
 };
 

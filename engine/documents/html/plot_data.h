@@ -1,7 +1,9 @@
 #pragma once
 #include <string>
 
-#include "figures/figure.h"
+namespace dynlab::inline figures {
+struct Figure;
+}
 
 namespace dynlab::inline documents {
 

@@ -70,8 +70,8 @@ void PromptSession::save_figures(const RunRecord& record, StatementResult& resul
     }
     for (const auto& [name, figure] : record.figures) {
         const fs::path file = figure_folder_ / fmt::format("{}{}.pdf", kStem, ++*last_figure_);
-        renderer_.draw(figure.figure, file, FigureFormat::kPdf);
-        if (see_) see_(file.filename().string(), figure.figure);
+        renderer_.draw(*figure.figure, file, FigureFormat::kPdf);
+        if (see_) see_(file.filename().string(), *figure.figure);
         files.push_back(file);
     }
     renderer_.finish();

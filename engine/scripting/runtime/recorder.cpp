@@ -114,7 +114,7 @@ void Recorder::capture_figures(const std::string& cell, const std::vector<Piece>
         const Figure& figure = piece.figure->figure;
         const std::string caption =
             !figure.title.empty() || figure.panels.empty() ? figure.title : figure.panels.front().title;
-        record_.figures[name] = {figure, caption, {}, piece.figure->order};
+        record_.figures[name] = {std::make_shared<const Figure>(figure), caption, {}, piece.figure->order};
         outputs.push_back({std::move(printed), name});
         printed.clear();
     }
@@ -127,7 +127,8 @@ RunRecord Recorder::finish() {
         std::chrono::duration<double>(std::chrono::steady_clock::now() - timed_since_).count();
     for (const auto& [cell, pieces] : pieces_) capture_figures(cell, pieces);
     for (const auto& [name, reported] : reported_)
-        record_.figures[name] = {reported.figure->figure, reported.caption, {}, reported.figure->order};
+        record_.figures[name] = {
+            std::make_shared<const Figure>(reported.figure->figure), reported.caption, {}, reported.figure->order};
     pieces_.clear();
     reported_.clear();
     numbered_.clear();

@@ -9,6 +9,7 @@
 
 #include "documents/percent_script.h"
 #include "documents/run_record.h"
+#include "figures/figure.h"
 
 namespace dynlab::inline scripting {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "figures/figure.h"
 #include "figures/french_texts.h"
 #include "platform/atomic_file.h"
 #include "platform/temporary_folder.h"

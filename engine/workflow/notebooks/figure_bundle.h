@@ -1,7 +1,6 @@
 #pragma once
 #include <string>
 
-#include "figures/figure.h"
 #include "figures/gnuplot_renderer.h"
 
 namespace dynlab::inline workflow {

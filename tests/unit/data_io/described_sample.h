@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "data_io/values/described.h"
+#include "data_io/values/array_descriptions.h"
 
 namespace dynlab {
 

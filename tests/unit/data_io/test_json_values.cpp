@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "data_io/values/array_descriptions.h"
 #include "data_io/values/json_values.h"
 #include "described_sample.h"
 

@@ -1,6 +1,7 @@
 // What pages draw figures from. Oracles: the samples given; per column of the frame, the extremes of all samples; the
 // places that gnuplot is told for the printed figure.
 #include "documents/html/plot_data.h"
+#include "figures/figure.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "figures/figure.h"
 #include "figures/gnuplot_script.h"
 
 namespace dynlab::test {

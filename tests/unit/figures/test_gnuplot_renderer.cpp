@@ -10,6 +10,7 @@
 #include <fstream>
 #include <random>
 
+#include "figures/figure.h"
 #include "numerics/error.h"
 #include "platform/atomic_file.h"
 #include "platform/cache.h"
