@@ -69,8 +69,9 @@ TEST(doubts, start_that_is_given_is_not_questioned) {
 }
 
 TEST(doubts, assessment_sees_the_colour_that_errors_were_given) {
-    EXPECT_TRUE(srivc(record_with(0), kStructure).doubts.assessment->white);
-    const Fit fit = srivc(record_with(0, true), kStructure);
+    const Fit plain = srivc(record_with(0), kStructure), fit = srivc(record_with(0, true), kStructure);
+    ASSERT_TRUE(plain.doubts.assessment);
+    EXPECT_TRUE(plain.doubts.assessment->white);
     ASSERT_TRUE(fit.doubts.assessment);
     EXPECT_FALSE(fit.doubts.assessment->white);
     EXPECT_GT(fit.doubts.assessment->std[2], 1.5 * fit.std[2]);
@@ -126,8 +127,8 @@ TEST(doubts, fits_of_studies_are_the_same_without_doubts) {
 // Oracle: the integrated record, to whose model the integrator is appended by hand.
 TEST(doubts, integration_is_a_fit_of_the_integrated_input) {
     const Vector u = prbs(8, 6);
-    const Vector y = lsim(TransferFunction(values({3}), values({1, 2, 0})), u, kTs) +
-                     0.02 * RandomStream(9).normal(u.size());
+    const Vector y =
+        lsim(TransferFunction(values({3}), values({1, 2, 0})), u, kTs) + 0.02 * RandomStream(9).normal(u.size());
     const IdData data{Matrix(y), Matrix(u), kTs};
     const TransferStructure structure = TransferStructure::single(1, 0);
     FitOptions wanted;
@@ -138,6 +139,7 @@ TEST(doubts, integration_is_a_fit_of_the_integrated_input) {
     EXPECT_EQ(fit.theta, by_hand.theta);
     EXPECT_EQ(fit.models.front().den(), by_hand.models.front().den());
     EXPECT_EQ(fit.models.front().pole_count(), 2);
+    ASSERT_TRUE(fit.doubts.assessment);
     EXPECT_TRUE(fit.doubts.assessment->white);
     wanted.offset = Offset::kRemove;
     EXPECT_THROW(srivc(data, structure, wanted), InvalidArgument);
