@@ -4,11 +4,10 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
-#include <vector>
 
 namespace dynlab::inline numerics {
 
@@ -22,82 +21,13 @@ Matrix triangle_of(const Eigen::HouseholderQR<Matrix>& qr) {
 
 }  // namespace
 
-namespace {
-
-/// Turns two columns by an angle.
-void rotate(double c, double s, double* x, double* y, Index size) {
-    for (Index i = 0; i < size; ++i) {
-        const double turned = c * x[i] - s * y[i];
-        y[i] = s * x[i] + c * y[i];
-        x[i] = turned;
-    }
-}
-
-double dot(const double* x, const double* y, Index size) {
-    return Eigen::Map<const Vector>(x, size).dot(Eigen::Map<const Vector>(y, size));
-}
-
-/// Makes the columns of the square X orthogonal by rotations, pair by pair, and applies these to `turned` as well.
-void make_orthogonal(Matrix& X, Matrix& turned) {
-    constexpr int kMostSweeps = 60;
-    const Index n = X.cols();
-    const double rounding = std::sqrt(static_cast<double>(n)) * std::numeric_limits<double>::epsilon();
-    bool changed = true;
-    for (int sweep = 0; changed && sweep < kMostSweeps; ++sweep) {
-        changed = false;
-        for (Index i = 0; i < n; ++i)
-            for (Index j = i + 1; j < n; ++j) {
-                double *const x = X.col(i).data(), *const y = X.col(j).data();
-                const double xx = dot(x, x, n), yy = dot(y, y, n), xy = dot(x, y, n);
-                if (!(std::abs(xy) > rounding * std::sqrt(xx) * std::sqrt(yy))) continue;
-                const double cotangent = (yy - xx) / (2 * xy);
-                const double t = std::copysign(1 / (std::abs(cotangent) + std::hypot(1, cotangent)), cotangent);
-                const double c = 1 / std::hypot(1, t);
-                rotate(c, c * t, x, y, n);
-                rotate(c, c * t, turned.col(i).data(), turned.col(j).data(), n);
-                changed = true;
-            }
-    }
-}
-
-}  // namespace
-
-/// One-sided, of the transposed triangle of a pivoted QR decomposition: A P = Q R, R' J = V S, so A = Q J S (P V)'.
 SingularValues jacobi_svd(const MatrixView& A) {
-    if (A.rows() < A.cols()) {
-        SingularValues transposed = jacobi_svd(A.transpose());
-        transposed.U.swap(transposed.V);
-        return transposed;
-    }
-    const Index n = A.cols();
-    const double largest = A.size() > 0 ? A.cwiseAbs().maxCoeff() : 0;
-    const double unit = largest > 0 ? std::exp2(std::ilogb(largest)) : 1;  // squares neither overflow nor vanish
-    const Eigen::ColPivHouseholderQR<Matrix> qr(A / unit);
-    Matrix X = Matrix::Zero(n, n), J = Matrix::Identity(n, n);
-    for (Index j = 0; j < n; ++j) X.row(j).tail(n - j) = qr.matrixQR().row(j).tail(n - j);
-    X.transposeInPlace();
-    make_orthogonal(X, J);
-    const Vector lengths = X.colwise().stableNorm().transpose();
-    std::vector<Index> order(static_cast<std::size_t>(n));
-    std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [&](Index i, Index j) { return lengths[i] > lengths[j]; });
-    SingularValues parts{Matrix(n, n), Vector(n), Matrix(n, n)};
-    Matrix V(n, n);
-    Index rank = 0;
-    for (Index k = 0; k < n; ++k) {
-        const Index from = order[static_cast<std::size_t>(k)];
-        parts.s[k] = unit * lengths[from];
-        parts.U.col(k) = J.col(from);
-        if (lengths[from] > 0) V.col(rank++) = X.col(from) / lengths[from];
-    }
-    if (rank < n) V.rightCols(n - rank) = full_orthogonal_basis(V.leftCols(rank)).rightCols(n - rank);
-    parts.U = qr.householderQ() * (Matrix(A.rows(), n) << parts.U, Matrix::Zero(A.rows() - n, n)).finished();
-    for (Index i = 0; i < n; ++i) parts.V.row(qr.colsPermutation().indices()[i]) = V.row(i);
-    return parts;
+    const Eigen::JacobiSVD<Matrix> svd(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
+    return {svd.matrixU(), svd.singularValues(), svd.matrixV()};
 }
 
 Vector singular_values(const MatrixView& A) {
-    return jacobi_svd(A).s;
+    return Eigen::JacobiSVD<Matrix>(A).singularValues();
 }
 
 SymmetricEigen symmetric_eigen(const MatrixView& A) {

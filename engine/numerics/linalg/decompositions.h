@@ -14,8 +14,7 @@ struct SingularValues {
     Vector s;
     Matrix V;
 };
-/// By one-sided Jacobi rotations behind a pivoted QR decomposition (Drmac and Veselic 2008): small singular values to
-/// full relative accuracy.
+/// By Jacobi rotations behind a pivoted QR decomposition: small singular values to full relative accuracy.
 SingularValues jacobi_svd(const MatrixView& A);
 Vector singular_values(const MatrixView& A);  ///< falling
 
