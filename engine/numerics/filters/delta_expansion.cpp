@@ -8,10 +8,10 @@ namespace {
 
 /// (delta I - E)^-1 = sum_j M_j delta^j/A (Faddeev).
 struct Resolvent {
-    SmallMatrix<4> M[4];
+    StateMatrix<4> M[4];
 
-    Resolvent(const SmallMatrix<4>& E, const SmallVector<4>& alpha, int n) {
-        M[n - 1] = small_identity<4>(n);
+    Resolvent(const StateMatrix<4>& E, const StateVector<4>& alpha, int n) {
+        M[n - 1] = state_identity<4>(n);
         for (int j = n - 1; j > 0; --j) {
             M[j - 1] = product(E, M[j], n);
             for (int i = 0; i < n; ++i) M[j - 1](i, i) += alpha[j];
@@ -26,12 +26,12 @@ double unit_factor(double square) {
 
 }  // namespace
 
-SmallVector<4> delta_polynomial(const SmallMatrix<4>& E, int n) {
+StateVector<4> delta_polynomial(const StateMatrix<4>& E, int n) {
     const auto two = [&](int i, int j, int k, int l) { return E(i, k) * E(j, l) - E(i, l) * E(j, k); };
     const auto three = [&](int i, int j, int k) {
         return E(i, i) * two(j, k, j, k) - E(i, j) * two(j, k, i, k) + E(i, k) * two(j, k, i, j);
     };
-    SmallVector<4> alpha;
+    StateVector<4> alpha;
     for (int i = 0; i < n; ++i) {
         alpha[n - 1] -= E(i, i);
         for (int j = i + 1; j < n; ++j) {
@@ -46,8 +46,8 @@ SmallVector<4> delta_polynomial(const SmallMatrix<4>& E, int n) {
     return alpha;
 }
 
-SmallVector<8> delta_product(const SmallVector<4>& a, const SmallVector<4>& b, int n) {
-    SmallVector<8> product;
+StateVector<8> delta_product(const StateVector<4>& a, const StateVector<4>& b, int n) {
+    StateVector<8> product;
     for (int i = 0; i < n; ++i) {
         for (int j = 0; j < n; ++j) product[i + j] += a[i] * b[j];
         product[n + i] += a[i] + b[i];
@@ -55,20 +55,20 @@ SmallVector<8> delta_product(const SmallVector<4>& a, const SmallVector<4>& b, i
     return product;
 }
 
-StateExpansion<4> expansion(const SmallMatrix<4>& E, const SmallVector<4>& input, int n) {
+StateExpansion<4> expansion(const StateMatrix<4>& E, const StateVector<4>& input, int n) {
     StateExpansion<4> x{delta_polynomial(E, n), {}};
     const Resolvent resolvent(E, x.alpha, n);
     for (int j = 0; j < n; ++j) {
-        const SmallVector<4> weights = product(resolvent.M[j], input, n);
+        const StateVector<4> weights = product(resolvent.M[j], input, n);
         for (int k = 0; k < n; ++k) x.states(j, k) = weights[k];
     }
     return x;
 }
 
 template <int room>
-StateExpansion<room> cascade_expansion(const SmallMatrix<room>& E, const SmallVector<room>& input, int n) {
-    SmallMatrix<4> own, between;
-    SmallVector<4> to_first, to_second;
+StateExpansion<room> cascade_expansion(const StateMatrix<room>& E, const StateVector<room>& input, int n) {
+    StateMatrix<4> own, between;
+    StateVector<4> to_first, to_second;
     for (int j = 0; j < n; ++j) {
         to_first[j] = input[j];
         to_second[j] = input[n + j];
@@ -77,17 +77,17 @@ StateExpansion<room> cascade_expansion(const SmallMatrix<room>& E, const SmallVe
             between(i, j) = E(n + i, j);
         }
     }
-    const SmallVector<4> alpha = delta_polynomial(own, n);
+    const StateVector<4> alpha = delta_polynomial(own, n);
     const Resolvent resolvent(own, alpha, n);
     StateExpansion<room> x;
     std::copy_n(delta_product(alpha, alpha, n).at, 2 * n, x.alpha.at);
     for (int j = 0; j < n; ++j) {
-        const SmallVector<4> first = product(resolvent.M[j], to_first, n),
+        const StateVector<4> first = product(resolvent.M[j], to_first, n),
                              second = product(resolvent.M[j], to_second, n), drive = product(between, first, n);
         for (int i = 0; i <= n; ++i) {
             if (i + j == 2 * n) continue;
             const double weight = i < n ? alpha[i] : 1;
-            SmallVector<4> through;
+            StateVector<4> through;
             if (i < n) through = product(resolvent.M[i], drive, n);
             for (int k = 0; k < n; ++k) {
                 x.states(i + j, k) += weight * first[k];
@@ -100,8 +100,8 @@ StateExpansion<room> cascade_expansion(const SmallMatrix<room>& E, const SmallVe
 
 /// Gauss's elimination with row pivots, rows and columns first scaled to the norm one.
 template <int room>
-SmallVector<room> scaled_solution(SmallMatrix<room> T, SmallVector<room> b, int n) {
-    SmallVector<room> rows;
+StateVector<room> scaled_solution(StateMatrix<room> T, StateVector<room> b, int n) {
+    StateVector<room> rows;
     for (int j = 0; j < n; ++j)
         for (int i = 0; i < n; ++i) rows[i] += T(i, j) * T(i, j);
     for (int i = 0; i < n; ++i) {
@@ -109,7 +109,7 @@ SmallVector<room> scaled_solution(SmallMatrix<room> T, SmallVector<room> b, int 
         b[i] *= factor;
         for (int j = 0; j < n; ++j) T(i, j) *= factor;
     }
-    SmallVector<room> columns;
+    StateVector<room> columns;
     for (int j = 0; j < n; ++j) {
         double square = 0;
         for (int i = 0; i < n; ++i) square += T(i, j) * T(i, j);
@@ -136,9 +136,9 @@ SmallVector<room> scaled_solution(SmallMatrix<room> T, SmallVector<room> b, int 
     return b;
 }
 
-template StateExpansion<4> cascade_expansion(const SmallMatrix<4>&, const SmallVector<4>&, int);
-template StateExpansion<8> cascade_expansion(const SmallMatrix<8>&, const SmallVector<8>&, int);
-template SmallVector<4> scaled_solution(SmallMatrix<4>, SmallVector<4>, int);
-template SmallVector<8> scaled_solution(SmallMatrix<8>, SmallVector<8>, int);
+template StateExpansion<4> cascade_expansion(const StateMatrix<4>&, const StateVector<4>&, int);
+template StateExpansion<8> cascade_expansion(const StateMatrix<8>&, const StateVector<8>&, int);
+template StateVector<4> scaled_solution(StateMatrix<4>, StateVector<4>, int);
+template StateVector<8> scaled_solution(StateMatrix<8>, StateVector<8>, int);
 
 }  // namespace dynlab::inline numerics

@@ -1,5 +1,5 @@
 #pragma once
-#include "numerics/linalg/small_matrix.h"
+#include "numerics/linalg/state_matrix.h"
 
 namespace dynlab::inline numerics {
 
@@ -7,26 +7,26 @@ namespace dynlab::inline numerics {
 
 /// Coefficient 0 .. n-1 of det(delta I - E) for n <= 4 states (DeltaChain::alpha), by sums of principal minors: those
 /// of slow poles keep their digits beside fast ones.
-SmallVector<4> delta_polynomial(const SmallMatrix<4>& E, int n);
+StateVector<4> delta_polynomial(const StateMatrix<4>& E, int n);
 
 /// alpha of the product of two such polynomials, of degree n each.
-SmallVector<8> delta_product(const SmallVector<4>& a, const SmallVector<4>& b, int n);
+StateVector<8> delta_product(const StateVector<4>& a, const StateVector<4>& b, int n);
 
 /// (delta I - E)^-1 input = sum_j x_j delta^j/A: the state k of x_j is states(j, k).
 template <int room>
 struct StateExpansion {
-    SmallVector<room> alpha;
-    SmallMatrix<room> states;
+    StateVector<room> alpha;
+    StateMatrix<room> states;
 };
 /// n <= 4 states.
-StateExpansion<4> expansion(const SmallMatrix<4>& E, const SmallVector<4>& input, int n);
+StateExpansion<4> expansion(const StateMatrix<4>& E, const StateVector<4>& input, int n);
 /// For the cascade of two equal systems of n <= room/2 states each. Block by block, poles that are far apart cost no
 /// digits twice.
 template <int room>
-StateExpansion<room> cascade_expansion(const SmallMatrix<room>& E, const SmallVector<room>& input, int n);
+StateExpansion<room> cascade_expansion(const StateMatrix<room>& E, const StateVector<room>& input, int n);
 
 /// x of T x = b, where rows and columns of T may differ in size by many orders of magnitude.
 template <int room>
-SmallVector<room> scaled_solution(SmallMatrix<room> T, SmallVector<room> b, int n);
+StateVector<room> scaled_solution(StateMatrix<room> T, StateVector<room> b, int n);
 
 }  // namespace dynlab::inline numerics

@@ -72,7 +72,7 @@ DeltaSignal sensitivities(const RegressionRecord& record, std::size_t input, con
                           const VectorView& A, const Vector& B, bool longer) {
     const int n = cascade.poles, m = static_cast<int>(B.size()) - 1;
     // Row r: p^r w, from A(p) w = z for r >= n.
-    SmallVector<room> derivatives_of_w[room];
+    StateVector<room> derivatives_of_w[room];
     for (int r = 0; r < 2 * n; ++r) {
         derivatives_of_w[r][2 * n - 1 - r] = 1;
         if (r >= n)
@@ -97,7 +97,7 @@ DeltaSignal auxiliary(const RegressionRecord& record, std::size_t input, const S
     const int n = filter.poles;
     const DeltaSignal of_u = filtered_input(record, input, filter, E, false);
     const DeltaSignal model = simulated(record, input, A, B, false);
-    SmallVector<4> of_filter, of_model;
+    StateVector<4> of_filter, of_model;
     std::copy_n(of_u.chain.alpha.data(), n, of_filter.at);
     std::copy_n(model.chain.alpha.data(), n, of_model.at);
     DeltaSignal signal;
@@ -293,7 +293,7 @@ bool poles_far_apart(const SampledFilter<4>& filter) {
     constexpr double kFarApart = 1e4;
     const int n = filter.poles;
     if (n <= 2) return false;
-    const SmallVector<4> alpha = delta_polynomial(filter.E, n);
+    const StateVector<4> alpha = delta_polynomial(filter.E, n);
     return std::abs(alpha[0]) * kFarApart < std::pow(alpha[n - 1], n);
 }
 

@@ -13,8 +13,8 @@ namespace {
 
 /// The step of h seconds.
 template <int room>
-void set_step(double h, const SmallMatrix<room>& A, int n, SmallMatrix<room>& E, SmallVector<room>& G,
-              SmallVector<room>& H0, SmallVector<room>& H1) {
+void set_step(double h, const StateMatrix<room>& A, int n, StateMatrix<room>& E, StateVector<room>& G,
+              StateVector<room>& H0, StateVector<room>& H1) {
     if (const auto step = short_step(A, n, h)) {
         E = step->E;
         G = step->W.column[0];
@@ -39,25 +39,25 @@ void set_step(double h, const SmallMatrix<room>& A, int n, SmallMatrix<room>& E,
 /// At `begin`, where w starts, x is `first` times the first sample, and after_next times the second.
 template <int room>
 struct DelayedStep {
-    SmallMatrix<room> E;
-    SmallVector<room> after_next, next, now, first;
+    StateMatrix<room> E;
+    StateVector<room> after_next, next, now, first;
     Index begin = 0;
     double weight_of_next = 0;  ///< of w[k+1] in u at the instant k; the rest is that of w[k]
 };
 
 template <int room>
-SmallVector<room> sum(SmallVector<room> a, double weight, const SmallVector<room>& b) {
+StateVector<room> sum(StateVector<room> a, double weight, const StateVector<room>& b) {
     a.add(weight, b);
     return a;
 }
 /// x + E x
 template <int room>
-SmallVector<room> moved(const SmallMatrix<room>& E, const SmallVector<room>& x, int n) {
+StateVector<room> moved(const StateMatrix<room>& E, const StateVector<room>& x, int n) {
     return sum(x, 1, product(E, x, n));
 }
 template <int room>
-SmallVector<room> times(double weight, const SmallVector<room>& x) {
-    return sum(SmallVector<room>(), weight, x);
+StateVector<room> times(double weight, const StateVector<room>& x) {
+    return sum(StateVector<room>(), weight, x);
 }
 
 template <int room>
@@ -78,7 +78,7 @@ DelayedStep<room> delayed_step(const SampledFilter<room>& filter, Hold hold, dou
     SampledFilter<room> first = filter, second = filter;
     set_step(rest, first.A, n, first.E, first.G, first.H0, first.H1);
     set_step(filter.Ts - rest, second.A, n, second.E, second.G, second.H0, second.H1);
-    SmallVector<room> before;
+    StateVector<room> before;
     if (held) {
         step.first = second.G;
         step.now = first.G;
@@ -131,8 +131,8 @@ SampledFilter<4> SampledFilter<room>::first() const {
 namespace {
 
 template <int room>
-StateExpansion<room> expansion_of(const SampledFilter<room>& filter, const SmallMatrix<room>& E,
-                                  const SmallVector<room>& input) {
+StateExpansion<room> expansion_of(const SampledFilter<room>& filter, const StateMatrix<room>& E,
+                                  const StateVector<room>& input) {
     if constexpr (room == 4)
         if (filter.states == filter.poles) return expansion(E, input, filter.poles);
     return cascade_expansion(E, input, filter.poles);
@@ -146,8 +146,8 @@ DeltaSignal delta_signal(const SampledFilter<room>& filter, const StateOutputs<r
     const int n = filter.states;
     const DelayedStep<room> step = delayed_step(filter, hold, delay);
     // x = after_next w[k+1] + g w[k] + T [X_0 .. X_(n-1)]
-    const SmallVector<room> g = sum(step.next, 1, moved(step.E, step.after_next, n));
-    const SmallVector<room> input = sum(step.now, 1, moved(step.E, g, n));
+    const StateVector<room> g = sum(step.next, 1, moved(step.E, step.after_next, n));
+    const StateVector<room> input = sum(step.now, 1, moved(step.E, g, n));
     const auto [alpha, T] = expansion_of(filter, step.E, input);
     DeltaSignal signal;
     DeltaChain& chain = signal.chain;
@@ -156,9 +156,9 @@ DeltaSignal delta_signal(const SampledFilter<room>& filter, const StateOutputs<r
     chain.samples = u.data();
     chain.count = u.size();
     chain.begin = step.begin;
-    const SmallVector<room> away = times(u[0], sum(step.first, -1, g));
+    const StateVector<room> away = times(u[0], sum(step.first, -1, g));
     if (!away.is_zero()) {
-        SmallMatrix<room> columns;
+        StateMatrix<room> columns;
         for (int j = 0; j < n; ++j)
             for (int k = 0; k < n; ++k) columns(k, j) = T(j, k);
         std::copy_n(scaled_solution(columns, away, n).at, n, chain.start.data());
@@ -177,7 +177,7 @@ DeltaSignal delta_signal(const SampledFilter<room>& filter, const StateOutputs<r
     }
     signal.count = outputs.count;
     for (int i = 0; i < outputs.count; ++i) {
-        const SmallVector<room>& C = outputs.C[i];
+        const StateVector<room>& C = outputs.C[i];
         double* const output = signal.outputs[i];
         double of_w = (1 - step.weight_of_next) * outputs.D[i], of_next = step.weight_of_next * outputs.D[i];
         for (int k = 0; k < n; ++k) {

@@ -3,7 +3,7 @@
 
 #include "numerics/filters/delta_chain.h"
 #include "numerics/filters/regression_record.h"
-#include "numerics/linalg/small_matrix.h"
+#include "numerics/linalg/state_matrix.h"
 
 namespace dynlab::inline numerics {
 
@@ -19,8 +19,8 @@ template <int room>
 struct SampledFilter {
     int poles = 0, states = 0;
     double Ts = 0;
-    SmallMatrix<room> A, E;
-    SmallVector<room> G, H0, H1;
+    StateMatrix<room> A, E;
+    StateVector<room> G, H0, H1;
 
     SampledFilter() = default;
     SampledFilter(const VectorView& den, double Ts, bool twice);
@@ -32,7 +32,7 @@ struct SampledFilter {
 template <int room>
 struct StateOutputs {
     int count = 0;
-    SmallVector<room> C[kMostDeltaOutputs];
+    StateVector<room> C[kMostDeltaOutputs];
     double D[kMostDeltaOutputs] = {};
 };
 

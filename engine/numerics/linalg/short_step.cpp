@@ -10,7 +10,7 @@ namespace {
 
 /// The 1-norm; infinity where an entry is not a number.
 template <int room>
-double norm_of(const SmallMatrix<room>& Z, int n) {
+double norm_of(const StateMatrix<room>& Z, int n) {
     double largest = 0;
     for (int j = 0; j < n; ++j) {
         double sum = 0;
@@ -22,7 +22,7 @@ double norm_of(const SmallMatrix<room>& Z, int n) {
 }
 
 template <int room>
-void scale(SmallMatrix<room>& Z, double factor, int n) {
+void scale(StateMatrix<room>& Z, double factor, int n) {
     for (int j = 0; j < n; ++j)
         for (double& entry : Z.column[j].at) entry *= factor;
 }
@@ -30,13 +30,13 @@ void scale(SmallMatrix<room>& Z, double factor, int n) {
 }  // namespace
 
 template <int room>
-std::optional<ShortStep<room>> short_step(const SmallMatrix<room>& A, int states, double h) {
+std::optional<ShortStep<room>> short_step(const StateMatrix<room>& A, int states, double h) {
     constexpr double kLongest = 0.5, kNegligible = 1e-18;
     constexpr int kMostDoublings = 3;
-    using Square = SmallMatrix<room>;
+    using Square = StateMatrix<room>;
     // Loops of a known length are quicker than few steps.
     const int n = room == 4 ? room : states;
-    const Square identity = small_identity<room>(states);
+    const Square identity = state_identity<room>(states);
     Square Z = A;
     scale(Z, h, n);
     using Columns = Eigen::Map<Matrix, 0, Eigen::OuterStride<room>>;
@@ -52,7 +52,7 @@ std::optional<ShortStep<room>> short_step(const SmallMatrix<room>& A, int states
     for (int k = terms; k > 0; --k) {
         const double weight = 1.0 / (k + 2);
         for (int j = 0; j < n; ++j) {
-            SmallVector<room> column = identity.column[j];
+            StateVector<room> column = identity.column[j];
             for (int i = 0; i < n; ++i) column.add(weight * phi2(i, j), Z.column[i]);
             phi2.column[j] = column;
         }
@@ -71,7 +71,7 @@ std::optional<ShortStep<room>> short_step(const SmallMatrix<room>& A, int states
         E = product(Z, phi1, n);
     }
     ShortStep<room> step;
-    SmallVector<room> rows;
+    StateVector<room> rows;
     for (int i = 0; i < n; ++i) rows[i] = balancing[i];
     for (int j = 0; j < n; ++j) {
         const double back = 1 / balancing[j];  // powers of two
@@ -85,7 +85,7 @@ std::optional<ShortStep<room>> short_step(const SmallMatrix<room>& A, int states
     return step;
 }
 
-template std::optional<ShortStep<4>> short_step(const SmallMatrix<4>&, int, double);
-template std::optional<ShortStep<8>> short_step(const SmallMatrix<8>&, int, double);
+template std::optional<ShortStep<4>> short_step(const StateMatrix<4>&, int, double);
+template std::optional<ShortStep<8>> short_step(const StateMatrix<8>&, int, double);
 
 }  // namespace dynlab::inline numerics

@@ -1,7 +1,7 @@
 #pragma once
 #include <optional>
 
-#include "numerics/linalg/small_matrix.h"
+#include "numerics/linalg/state_matrix.h"
 
 namespace dynlab::inline numerics {
 
@@ -9,8 +9,8 @@ namespace dynlab::inline numerics {
 ///     x(h) = x + E x + (W - R) B a + R B b.
 template <int room>
 struct ShortStep {
-    SmallMatrix<room> E;     ///< exp(A h) - I, with all digits however short the step
-    SmallMatrix<room> W, R;  ///< h phi_1(hA), h phi_2(hA)
+    StateMatrix<room> E;     ///< exp(A h) - I, with all digits however short the step
+    StateMatrix<room> W, R;  ///< h phi_1(hA), h phi_2(hA)
 };
 
 /// By Taylor's series of phi_2(Z) = sum_k Z^k/(k+2)!, Z = hA (Higham 2008, section 10.7.4):
@@ -19,6 +19,6 @@ struct ShortStep {
 ///     phi_2(2Z) = (phi_1^2 + 2 phi_2)/4,   phi_1(2Z) = phi_1 (2I + Z phi_1)/2.
 /// Nothing when the step is too long for that.
 template <int room>
-std::optional<ShortStep<room>> short_step(const SmallMatrix<room>& A, int n, double h);
+std::optional<ShortStep<room>> short_step(const StateMatrix<room>& A, int n, double h);
 
 }  // namespace dynlab::inline numerics

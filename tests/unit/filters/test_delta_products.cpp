@@ -73,7 +73,9 @@ void expect_products(const DeltaChain& first, const DeltaChain& second, Index N,
     const auto products = delta_products(first, second, N, {own, true});
     ASSERT_TRUE(products);
     const LongMatrix X = columns_of(first, N), W = columns_of(second, N);
-    if (own) EXPECT_LT(difference(products->first, X, X), rounding);
+    if (own) {
+        EXPECT_LT(difference(products->first, X, X), rounding);
+    }
     EXPECT_LT(difference(products->both, X, W), rounding);
     EXPECT_LT(difference(products->second, W, W), rounding);
     const auto without_highest = delta_products(first, second, N, {false, false});

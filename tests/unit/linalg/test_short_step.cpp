@@ -33,13 +33,13 @@ struct Expected {
 template <int room>
 void expect_step(const Matrix& A, double h) {
     const int n = static_cast<int>(A.rows());
-    SmallMatrix<room> small;
+    StateMatrix<room> small;
     for (int j = 0; j < n; ++j)
         for (int i = 0; i < n; ++i) small(i, j) = A(i, j);
     const auto step = short_step(small, n, h);
     ASSERT_TRUE(step);
     const Expected expected(A, h);
-    const auto expect = [&](const SmallMatrix<room>& found, const LongMatrix& wanted, const char* what) {
+    const auto expect = [&](const StateMatrix<room>& found, const LongMatrix& wanted, const char* what) {
         for (int j = 0; j < n; ++j)
             for (int i = 0; i < n; ++i)
                 EXPECT_NEAR(found(i, j), static_cast<double>(wanted(i, j)),
@@ -64,7 +64,7 @@ TEST(short_step, is_the_series_in_80_bits) {
 }
 
 TEST(short_step, a_long_step_and_one_of_which_nothing_is_known_are_refused) {
-    SmallMatrix<4> A;
+    StateMatrix<4> A;
     A(0, 0) = -1;
     EXPECT_TRUE(short_step(A, 1, 3.9));
     EXPECT_FALSE(short_step(A, 1, 4.1));

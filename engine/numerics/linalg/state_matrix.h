@@ -9,13 +9,13 @@ namespace dynlab::inline numerics {
 // every n.
 
 template <int room>
-struct SmallVector {
+struct StateVector {
     alignas(room * sizeof(double)) double at[room] = {};
 
     double operator[](int i) const { return at[i]; }
     double& operator[](int i) { return at[i]; }
     /// this += weight x
-    void add(double weight, const SmallVector& x) {
+    void add(double weight, const StateVector& x) {
         for (int i = 0; i < room; ++i) at[i] += weight * x.at[i];
     }
     bool is_zero() const {
@@ -24,34 +24,34 @@ struct SmallVector {
 };
 
 template <int room>
-struct SmallMatrix {
-    SmallVector<room> column[room];
+struct StateMatrix {
+    StateVector<room> column[room];
 
     double operator()(int i, int j) const { return column[j].at[i]; }
     double& operator()(int i, int j) { return column[j].at[i]; }
     /// this += weight X, whose columns n and beyond are zero
-    void add(double weight, const SmallMatrix& X, int n) {
+    void add(double weight, const StateMatrix& X, int n) {
         for (int j = 0; j < n; ++j) column[j].add(weight, X.column[j]);
     }
 };
 
 template <int room>
-SmallMatrix<room> small_identity(int n) {
-    SmallMatrix<room> I;
+StateMatrix<room> state_identity(int n) {
+    StateMatrix<room> I;
     for (int i = 0; i < n; ++i) I(i, i) = 1;
     return I;
 }
 
 template <int room>
-SmallVector<room> product(const SmallMatrix<room>& A, const SmallVector<room>& x, int n) {
-    SmallVector<room> y;
+StateVector<room> product(const StateMatrix<room>& A, const StateVector<room>& x, int n) {
+    StateVector<room> y;
     for (int j = 0; j < n; ++j) y.add(x[j], A.column[j]);
     return y;
 }
 
 template <int room>
-SmallMatrix<room> product(const SmallMatrix<room>& A, const SmallMatrix<room>& B, int n) {
-    SmallMatrix<room> C;
+StateMatrix<room> product(const StateMatrix<room>& A, const StateMatrix<room>& B, int n) {
+    StateMatrix<room> C;
     for (int j = 0; j < n; ++j) C.column[j] = product(A, B.column[j], n);
     return C;
 }
