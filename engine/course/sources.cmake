@@ -1,0 +1,8 @@
+# How single sources of course are compiled; included by engine/CMakeLists.txt.
+
+# The linker takes them one by one: runs in sandboxes need neither archives nor documents.
+set_source_files_properties(course/boxes/boxed_document.cpp course/boxes/unpack.cpp course/boxes/zip_file.cpp
+                            PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+# GCC 12 fails to read <random> behind some other sources of a batch.
+set_source_files_properties(course/review/allocation.cpp course/review/peer_assign.cpp course/store/assignments.cpp
+                            PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)

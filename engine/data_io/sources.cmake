@@ -1,0 +1,8 @@
+# How single sources of data_io are compiled; included by engine/CMakeLists.txt.
+
+# libmatio is loaded by name with the first file that needs it: by the name that stays when it is mended.
+file(REAL_PATH ${pkgcfg_lib_MATIO_matio} matio_library)
+string(REGEX REPLACE "(\\.so\\.[0-9]+)\\..*" "\\1" matio_library ${matio_library})
+set_source_files_properties(data_io/matio_library.cpp
+                            PROPERTIES COMPILE_DEFINITIONS DYNLAB_MATIO="${matio_library}"
+                            SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)
