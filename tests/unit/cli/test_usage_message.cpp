@@ -58,9 +58,10 @@ TEST(usage_message, of_identify_names_the_option_and_the_wanted_word) {
     wrong({"--poles", "2", "--zeros", "a"}, "dynlab: --zeros wants a number, but 'a' was given\n");
     wrong({"--poles", "2", "--zeros", "3"}, "from 0 to that of the poles, 2; it is 3");  // IdentifyRequest::validate
     wrong({"--poles", "2", "--time", "t", "--time", "u"}, "dynlab: --time can be given once only\n");
-    wrong({"extra", "--poles", "2"}, "dynlab: nothing is known of extra here\n");
     wrong({"--poles", "2", "--wrong", "1"}, "--wrong");
     wrong({"--poles", "2", "-o", "a.pdf", "--script"}, "--script");
+    expect_wrong_usage({"identify", "d.csv", "extra", "--input", "u", "--output", "x", "--poles", "2"},
+                       "dynlab: nothing is known of extra here\n");
 }
 
 TEST(usage_message, every_command_has_a_help_that_starts_with_its_usage) {
