@@ -70,9 +70,9 @@ int give_advice(Call& call) {
     return 1;
 }
 
-constexpr std::array kAdviceFunctions = {
-    FunctionEntry{"advice", "data", "advice(data) -> table",
-                  "what a teacher would say of a record before a model is fitted to it", guarded<give_advice>},
+constexpr FunctionEntry kAdviceFunctions[] = {
+    {"advice", "data", "advice(data) -> table", "what a teacher would say of a record before a model is fitted to it",
+     guarded<give_advice>},
 };
 
 }  // namespace

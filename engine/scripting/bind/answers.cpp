@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <nlohmann/json.hpp>
 
 #include "scripting/answers/answer_value.h"
@@ -61,8 +60,8 @@ int answer(Call& call) {
     return 0;
 }
 
-constexpr std::array kAnswersFunctions = {
-    FunctionEntry{"answer", "report", "answer(name, value)", "hands a result in for the checks", guarded<answer>},
+constexpr FunctionEntry kAnswersFunctions[] = {
+    {"answer", "report", "answer(name, value)", "hands a result in for the checks", guarded<answer>},
 };
 
 }  // namespace

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
 
@@ -107,25 +106,22 @@ int extreme(Call& call) {
     return call.give(value) + call.give_integer(place + 1);
 }
 
-constexpr const char* kStatisticsArea = "vectors";
-constexpr std::array kStatisticsFunctions = {
-    FunctionEntry{"sum", kStatisticsArea, "sum(v) -> x; sum(A) -> v", "sum of the elements, of a matrix by columns",
-                  guarded<sum>},
-    FunctionEntry{"mean", kStatisticsArea, "mean(v) -> x; mean(A) -> v", "arithmetic mean, of a matrix by columns",
-                  guarded<measure_columns<mean_of, 1>>},
-    FunctionEntry{"median", kStatisticsArea, "median(v) -> x; median(A) -> v",
-                  "the value in the middle, of a matrix by columns", guarded<measure_columns<median_of, 1>>},
-    FunctionEntry{"std", kStatisticsArea, "std(v) -> x; std(A) -> v",
-                  "standard deviation (divided by N - 1), of a matrix by columns",
-                  guarded<measure_columns<deviation_of, 2>>},
-    FunctionEntry{"var", kStatisticsArea, "var(v) -> x; var(A) -> v",
-                  "variance (divided by N - 1), of a matrix by columns", guarded<measure_columns<variance_of, 2>>},
-    FunctionEntry{"min", kStatisticsArea, "min(v) -> x, place; min(x, y) -> v",
-                  "smallest element and its place, of a matrix by columns; the smaller of two, element by element",
-                  guarded<extreme<false>>},
-    FunctionEntry{"max", kStatisticsArea, "max(v) -> x, place; max(x, y) -> v",
-                  "largest element and its place, of a matrix by columns; the larger of two, element by element",
-                  guarded<extreme<true>>},
+constexpr FunctionEntry kStatisticsFunctions[] = {
+    {"sum", "vectors", "sum(v) -> x; sum(A) -> v", "sum of the elements, of a matrix by columns", guarded<sum>},
+    {"mean", "vectors", "mean(v) -> x; mean(A) -> v", "arithmetic mean, of a matrix by columns",
+     guarded<measure_columns<mean_of, 1>>},
+    {"median", "vectors", "median(v) -> x; median(A) -> v", "the value in the middle, of a matrix by columns",
+     guarded<measure_columns<median_of, 1>>},
+    {"std", "vectors", "std(v) -> x; std(A) -> v", "standard deviation (divided by N - 1), of a matrix by columns",
+     guarded<measure_columns<deviation_of, 2>>},
+    {"var", "vectors", "var(v) -> x; var(A) -> v", "variance (divided by N - 1), of a matrix by columns",
+     guarded<measure_columns<variance_of, 2>>},
+    {"min", "vectors", "min(v) -> x, place; min(x, y) -> v",
+     "smallest element and its place, of a matrix by columns; the smaller of two, element by element",
+     guarded<extreme<false>>},
+    {"max", "vectors", "max(v) -> x, place; max(x, y) -> v",
+     "largest element and its place, of a matrix by columns; the larger of two, element by element",
+     guarded<extreme<true>>},
 };
 
 }  // namespace

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 
 #include "numerics/number_text.h"
 #include "scripting/bind/bindings.h"
@@ -50,20 +49,19 @@ int find(Call& call) {
     return 1;
 }
 
-constexpr const char* kComparisonsArea = "vectors";
-constexpr std::array kComparisonsFunctions = {
-    FunctionEntry{"gt", kComparisonsArea, "gt(v, x) -> mask", "which elements are greater than x",
-                  guarded<compare_elements<std::greater<double>>>},
-    FunctionEntry{"lt", kComparisonsArea, "lt(v, x) -> mask", "which elements are less than x",
-                  guarded<compare_elements<std::less<double>>>},
-    FunctionEntry{"ge", kComparisonsArea, "ge(v, x) -> mask", "which elements are greater than or equal to x",
-                  guarded<compare_elements<std::greater_equal<double>>>},
-    FunctionEntry{"le", kComparisonsArea, "le(v, x) -> mask", "which elements are less than or equal to x",
-                  guarded<compare_elements<std::less_equal<double>>>},
-    FunctionEntry{"eq", kComparisonsArea, "eq(v, x) -> mask", "which elements are equal to x",
-                  guarded<compare_elements<std::equal_to<double>>>},
-    FunctionEntry{"find", kComparisonsArea, "find(mask) -> places",
-                  "places of the elements that are true; v:select(mask) gives the elements", guarded<find>},
+constexpr FunctionEntry kComparisonsFunctions[] = {
+    {"gt", "vectors", "gt(v, x) -> mask", "which elements are greater than x",
+     guarded<compare_elements<std::greater<double>>>},
+    {"lt", "vectors", "lt(v, x) -> mask", "which elements are less than x",
+     guarded<compare_elements<std::less<double>>>},
+    {"ge", "vectors", "ge(v, x) -> mask", "which elements are greater than or equal to x",
+     guarded<compare_elements<std::greater_equal<double>>>},
+    {"le", "vectors", "le(v, x) -> mask", "which elements are less than or equal to x",
+     guarded<compare_elements<std::less_equal<double>>>},
+    {"eq", "vectors", "eq(v, x) -> mask", "which elements are equal to x",
+     guarded<compare_elements<std::equal_to<double>>>},
+    {"find", "vectors", "find(mask) -> places",
+     "places of the elements that are true; v:select(mask) gives the elements", guarded<find>},
 };
 
 }  // namespace

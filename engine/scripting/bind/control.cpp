@@ -1,4 +1,3 @@
-#include <array>
 
 #include "numerics/control/state_feedback.h"
 #include "numerics/rigs/crane_control.h"
@@ -84,14 +83,12 @@ int drive_crane(Call& call) {
     return 1;
 }
 
-constexpr const char* kControlArea = "control";
-constexpr std::array kControlFunctions = {
-    FunctionEntry{"lqr", kControlArea, "lqr(A, B, Q, R) -> K, poles", "designs a linear-quadratic state feedback",
-                  guarded<lqr>},
-    FunctionEntry{"place", kControlArea, "place(A, B, poles) -> K, poles",
-                  "places the poles of a system with one input", guarded<place>},
-    FunctionEntry{"drive_crane", kControlArea, "drive_crane(controller, {duration =, position =, ...}) -> table",
-                  "tries a controller on the course's simulated crane", guarded<drive_crane>},
+constexpr FunctionEntry kControlFunctions[] = {
+    {"lqr", "control", "lqr(A, B, Q, R) -> K, poles", "designs a linear-quadratic state feedback", guarded<lqr>},
+    {"place", "control", "place(A, B, poles) -> K, poles", "places the poles of a system with one input",
+     guarded<place>},
+    {"drive_crane", "control", "drive_crane(controller, {duration =, position =, ...}) -> table",
+     "tries a controller on the course's simulated crane", guarded<drive_crane>},
 };
 
 }  // namespace

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <set>
 #include <utility>
@@ -239,15 +238,13 @@ int idplot(Call& call) {
     return give_figure(call, id_plot(all, Options(call, i, {"labels"}).texts("labels")));
 }
 
-constexpr const char* kDataArea = "data";
-constexpr std::array kDataFunctions = {
-    FunctionEntry{"load", kDataArea,
-                  "load(name_or_path, {skip =, names =, delimiter =, units =, time =, sheet =}) -> table",
-                  "reads a data set of the course, a .mat file, or a table in a text file or workbook", guarded<load>},
-    FunctionEntry{"iddata", kDataArea, "iddata(y, u, Ts, {InterSample =, InputName =, OutputName =, ...}) -> data",
-                  "input-output data with their sampling", guarded<make_iddata>},
-    FunctionEntry{"idplot", kDataArea, "idplot(data, ..., {labels =}) -> fig; idplot(data, first, last)",
-                  "outputs above inputs over time", guarded<idplot>},
+constexpr FunctionEntry kDataFunctions[] = {
+    {"load", "data", "load(name_or_path, {skip =, names =, delimiter =, units =, time =, sheet =}) -> table",
+     "reads a data set of the course, a .mat file, or a table in a text file or workbook", guarded<load>},
+    {"iddata", "data", "iddata(y, u, Ts, {InterSample =, InputName =, OutputName =, ...}) -> data",
+     "input-output data with their sampling", guarded<make_iddata>},
+    {"idplot", "data", "idplot(data, ..., {labels =}) -> fig; idplot(data, first, last)",
+     "outputs above inputs over time", guarded<idplot>},
 };
 
 }  // namespace

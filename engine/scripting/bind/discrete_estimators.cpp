@@ -81,26 +81,19 @@ int estimate_bj(Call& call) {
     return estimate_simulation<bj>(call, orders);
 }
 
-constexpr const char* kDiscreteEstimatorsArea = "discrete time";
-constexpr std::array kDiscreteEstimatorsFunctions = {
-    FunctionEntry{"arx", kDiscreteEstimatorsArea, "arx(data, {na, nb, nk}, {Integration =}) -> G",
-                  "A y = B u + e by least squares", guarded<estimate_equation_error<arx>>},
-    FunctionEntry{"iv4", kDiscreteEstimatorsArea, "iv4(data, {na, nb, nk}, {Integration =}) -> G",
-                  "A y = B u + v by instrumental variables in four steps",
-                  guarded<memoized_call<estimate_equation_error<iv4>>>},
-    FunctionEntry{"armax", kDiscreteEstimatorsArea,
-                  "armax(data, {na, nb, nc, nk}, {MaxIter =, Tol =, Integration =}) -> G",
-                  "A y = B u + C e with the smallest prediction error", guarded<memoized_call<estimate_armax>>},
-    FunctionEntry{
-        "oe", kDiscreteEstimatorsArea, "oe(data, {nb, nf, nk}, {InitialState =, Offset =, Integration =, ...}) -> G",
-        "y = B/F u + e with the smallest simulation error", guarded<memoized_call<estimate_output_error<oe>>>},
-    FunctionEntry{"sriv", kDiscreteEstimatorsArea,
-                  "sriv(data, {nb, nf, nk}, {InitialState =, Offset =, Integration =, ...}) -> G",
-                  "y = B/F u + e by refined instrumental variables",
-                  guarded<memoized_call<estimate_output_error<sriv>>>},
-    FunctionEntry{"bj", kDiscreteEstimatorsArea,
-                  "bj(data, {nb, nc, nd, nf, nk}, {InitialState =, Offset =, Integration =, ...}) -> G",
-                  "y = B/F u + C/D e with the smallest prediction error", guarded<memoized_call<estimate_bj>>},
+constexpr FunctionEntry kDiscreteEstimatorsFunctions[] = {
+    {"arx", "discrete time", "arx(data, {na, nb, nk}, {Integration =}) -> G", "A y = B u + e by least squares",
+     guarded<estimate_equation_error<arx>>},
+    {"iv4", "discrete time", "iv4(data, {na, nb, nk}, {Integration =}) -> G",
+     "A y = B u + v by instrumental variables in four steps", guarded<memoized_call<estimate_equation_error<iv4>>>},
+    {"armax", "discrete time", "armax(data, {na, nb, nc, nk}, {MaxIter =, Tol =, Integration =}) -> G",
+     "A y = B u + C e with the smallest prediction error", guarded<memoized_call<estimate_armax>>},
+    {"oe", "discrete time", "oe(data, {nb, nf, nk}, {InitialState =, Offset =, Integration =, ...}) -> G",
+     "y = B/F u + e with the smallest simulation error", guarded<memoized_call<estimate_output_error<oe>>>},
+    {"sriv", "discrete time", "sriv(data, {nb, nf, nk}, {InitialState =, Offset =, Integration =, ...}) -> G",
+     "y = B/F u + e by refined instrumental variables", guarded<memoized_call<estimate_output_error<sriv>>>},
+    {"bj", "discrete time", "bj(data, {nb, nc, nd, nf, nk}, {InitialState =, Offset =, Integration =, ...}) -> G",
+     "y = B/F u + C/D e with the smallest prediction error", guarded<memoized_call<estimate_bj>>},
 };
 
 }  // namespace

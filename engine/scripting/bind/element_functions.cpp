@@ -1,4 +1,3 @@
-#include <array>
 #include <cmath>
 #include <optional>
 
@@ -92,36 +91,33 @@ int choose(Call& call) {
     return call.give_vector(chosen);
 }
 
-constexpr const char* kElementArea = "vectors";
-constexpr std::array kElementFunctions = {
-    FunctionEntry{"abs", kElementArea, "abs(x) -> y", "absolute value of a number or of every element",
-                  guarded<absolute>},
-    FunctionEntry{"sign", kElementArea, "sign(x) -> y", "-1, 0 or 1, of a number or of every element",
-                  guarded<apply<sign, Operation::kSign>>},
-    FunctionEntry{"round", kElementArea, "round(x) -> y", "the nearest whole number, halves away from zero",
-                  guarded<apply<std::round>>},
-    FunctionEntry{"floor", kElementArea, "floor(x) -> y", "the whole number at or below", guarded<apply<std::floor>>},
-    FunctionEntry{"ceil", kElementArea, "ceil(x) -> y", "the whole number at or above", guarded<apply<std::ceil>>},
-    FunctionEntry{"sqrt", kElementArea, "sqrt(x) -> y", "square root of a number or of every element",
-                  guarded<apply<std::sqrt, Operation::kSqrt, Domain::kFromZero>>},
-    FunctionEntry{"exp", kElementArea, "exp(x) -> y; exp(-Td*s) -> G",
-                  "exponential of a number or of every element; a delay", guarded<exponential>},
-    FunctionEntry{"log", kElementArea, "log(x) -> y", "natural logarithm of a number or of every element",
-                  guarded<apply<std::log, Operation::kLog, Domain::kFromZero>>},
-    FunctionEntry{"log10", kElementArea, "log10(x) -> y", "logarithm to base 10 of a number or of every element",
-                  guarded<apply<std::log10, kNotTraced, Domain::kFromZero>>},
-    FunctionEntry{"sin", kElementArea, "sin(x) -> y", "sine (radians) of a number or of every element",
-                  guarded<apply<std::sin, Operation::kSin>>},
-    FunctionEntry{"cos", kElementArea, "cos(x) -> y", "cosine (radians) of a number or of every element",
-                  guarded<apply<std::cos, Operation::kCos>>},
-    FunctionEntry{"tan", kElementArea, "tan(x) -> y", "tangent (radians) of a number or of every element",
-                  guarded<apply<std::tan, Operation::kTan>>},
-    FunctionEntry{"atan", kElementArea, "atan(x) -> y", "inverse tangent (radians) of a number or of every element",
-                  guarded<apply<std::atan, Operation::kArcTangent>>},
-    FunctionEntry{"tanh", kElementArea, "tanh(x) -> y", "hyperbolic tangent of a number or of every element",
-                  guarded<apply<std::tanh, Operation::kTanh>>},
-    FunctionEntry{"where", kElementArea, "where(c, a, b) -> y", "a where c is positive or true, b elsewhere",
-                  guarded<choose>},
+constexpr FunctionEntry kElementFunctions[] = {
+    {"abs", "vectors", "abs(x) -> y", "absolute value of a number or of every element", guarded<absolute>},
+    {"sign", "vectors", "sign(x) -> y", "-1, 0 or 1, of a number or of every element",
+     guarded<apply<sign, Operation::kSign>>},
+    {"round", "vectors", "round(x) -> y", "the nearest whole number, halves away from zero",
+     guarded<apply<std::round>>},
+    {"floor", "vectors", "floor(x) -> y", "the whole number at or below", guarded<apply<std::floor>>},
+    {"ceil", "vectors", "ceil(x) -> y", "the whole number at or above", guarded<apply<std::ceil>>},
+    {"sqrt", "vectors", "sqrt(x) -> y", "square root of a number or of every element",
+     guarded<apply<std::sqrt, Operation::kSqrt, Domain::kFromZero>>},
+    {"exp", "vectors", "exp(x) -> y; exp(-Td*s) -> G", "exponential of a number or of every element; a delay",
+     guarded<exponential>},
+    {"log", "vectors", "log(x) -> y", "natural logarithm of a number or of every element",
+     guarded<apply<std::log, Operation::kLog, Domain::kFromZero>>},
+    {"log10", "vectors", "log10(x) -> y", "logarithm to base 10 of a number or of every element",
+     guarded<apply<std::log10, kNotTraced, Domain::kFromZero>>},
+    {"sin", "vectors", "sin(x) -> y", "sine (radians) of a number or of every element",
+     guarded<apply<std::sin, Operation::kSin>>},
+    {"cos", "vectors", "cos(x) -> y", "cosine (radians) of a number or of every element",
+     guarded<apply<std::cos, Operation::kCos>>},
+    {"tan", "vectors", "tan(x) -> y", "tangent (radians) of a number or of every element",
+     guarded<apply<std::tan, Operation::kTan>>},
+    {"atan", "vectors", "atan(x) -> y", "inverse tangent (radians) of a number or of every element",
+     guarded<apply<std::atan, Operation::kArcTangent>>},
+    {"tanh", "vectors", "tanh(x) -> y", "hyperbolic tangent of a number or of every element",
+     guarded<apply<std::tanh, Operation::kTanh>>},
+    {"where", "vectors", "where(c, a, b) -> y", "a where c is positive or true, b elsewhere", guarded<choose>},
 };
 
 }  // namespace

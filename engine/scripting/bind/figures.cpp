@@ -270,23 +270,22 @@ int save(Call& call) {
     return 0;
 }
 
-constexpr const char* kFiguresArea = "figures";
-constexpr std::array kFiguresFunctions = {
-    FunctionEntry{"plot", kFiguresArea, "plot(x, y, \"name\", ..., {title =, xlabel =, ylabel =, style =, ...}) -> fig",
-                  "draws curves in one panel", guarded<plot<false, false>>},
-    FunctionEntry{"semilogx", kFiguresArea, "semilogx(x, y, \"name\", ..., {options}) -> fig",
-                  "the same with a logarithmic x axis", guarded<plot<true, false>>},
-    FunctionEntry{"semilogy", kFiguresArea, "semilogy(x, y, \"name\", ..., {options}) -> fig",
-                  "the same with a logarithmic y axis", guarded<plot<false, true>>},
-    FunctionEntry{"loglog", kFiguresArea, "loglog(x, y, \"name\", ..., {options}) -> fig",
-                  "the same with two logarithmic axes", guarded<plot<true, true>>},
-    FunctionEntry{"figure", kFiguresArea, "figure{...} -> fig; figure(n)",
-                  "a figure from its description; or the number of the next figure", guarded<figure>},
-    FunctionEntry{"subplot", kFiguresArea, "subplot(rows, columns, {fig1, fig2, ...}) -> fig",
-                  "puts the panels of figures into one", guarded<subplot>},
-    FunctionEntry{"motion", kFiguresArea, "motion{rig =, t =, measured = {...}, simulated = {...}} -> fig",
-                  "a rig that moves as its signals say: measured beside simulated", guarded<motion>},
-    FunctionEntry{"save", kFiguresArea, "save(fig, path)", "writes a figure as .pdf, .svg or .png", guarded<save>},
+constexpr FunctionEntry kFiguresFunctions[] = {
+    {"plot", "figures", "plot(x, y, \"name\", ..., {title =, xlabel =, ylabel =, style =, ...}) -> fig",
+     "draws curves in one panel", guarded<plot<false, false>>},
+    {"semilogx", "figures", "semilogx(x, y, \"name\", ..., {options}) -> fig", "the same with a logarithmic x axis",
+     guarded<plot<true, false>>},
+    {"semilogy", "figures", "semilogy(x, y, \"name\", ..., {options}) -> fig", "the same with a logarithmic y axis",
+     guarded<plot<false, true>>},
+    {"loglog", "figures", "loglog(x, y, \"name\", ..., {options}) -> fig", "the same with two logarithmic axes",
+     guarded<plot<true, true>>},
+    {"figure", "figures", "figure{...} -> fig; figure(n)",
+     "a figure from its description; or the number of the next figure", guarded<figure>},
+    {"subplot", "figures", "subplot(rows, columns, {fig1, fig2, ...}) -> fig", "puts the panels of figures into one",
+     guarded<subplot>},
+    {"motion", "figures", "motion{rig =, t =, measured = {...}, simulated = {...}} -> fig",
+     "a rig that moves as its signals say: measured beside simulated", guarded<motion>},
+    {"save", "figures", "save(fig, path)", "writes a figure as .pdf, .svg or .png", guarded<save>},
 };
 
 }  // namespace

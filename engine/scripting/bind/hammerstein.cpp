@@ -1,4 +1,3 @@
-#include <array>
 
 #include "numerics/estimators/hammerstein.h"
 #include "scripting/arguments/estimator_arguments.h"
@@ -23,11 +22,10 @@ int estimate_hammerstein(Call& call) {
     return give_fit(call, "hammerstein", hammerstein(data, structure, wanted));
 }
 
-constexpr std::array kHammersteinFunctions = {
-    FunctionEntry{"hammerstein", "continuous time",
-                  "hammerstein(data, np, nz, {Bins =, Breakpoints =, TdMin =, TdMax =, IODelay =, ...}) -> G",
-                  "a static characteristic by bins, then linear dynamics",
-                  guarded<memoized_call<estimate_hammerstein>>},
+constexpr FunctionEntry kHammersteinFunctions[] = {
+    {"hammerstein", "continuous time",
+     "hammerstein(data, np, nz, {Bins =, Breakpoints =, TdMin =, TdMax =, IODelay =, ...}) -> G",
+     "a static characteristic by bins, then linear dynamics", guarded<memoized_call<estimate_hammerstein>>},
 };
 
 }  // namespace

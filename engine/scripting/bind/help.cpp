@@ -1,10 +1,9 @@
-#include <array>
 
+#include "scripting/runtime/help.h"
 #include "numerics/models/transfer_function.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/model.h"
-#include "scripting/runtime/help.h"
 #include "scripting/runtime/text_form.h"
 
 namespace dynlab::inline scripting {
@@ -49,11 +48,9 @@ int show(Call& call) {
     return 0;
 }
 
-constexpr std::array kHelpFunctions = {
-    FunctionEntry{"help", "help", "help(name)", "explains a function; without a name, lists everything by area",
-                  guarded<help>},
-    FunctionEntry{"show", "help", "show(x, ...)", "prints values as the prompt does, figures as figures",
-                  guarded<show>},
+constexpr FunctionEntry kHelpFunctions[] = {
+    {"help", "help", "help(name)", "explains a function; without a name, lists everything by area", guarded<help>},
+    {"show", "help", "show(x, ...)", "prints values as the prompt does, figures as figures", guarded<show>},
 };
 
 }  // namespace

@@ -1,4 +1,3 @@
-#include <array>
 
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/least_squares.h"
@@ -59,15 +58,13 @@ int fft(Call& call) {
     return 1;
 }
 
-constexpr const char* kAlgebraArea = "vectors";
-constexpr std::array kAlgebraFunctions = {
-    FunctionEntry{"solve", kAlgebraArea, "solve(A, b) -> x",
-                  "A x = b; the least-squares solution when A has more rows than columns (MATLAB's A\\b)",
-                  guarded<solve>},
-    FunctionEntry{"inv", kAlgebraArea, "inv(A) -> B", "the inverse of a square matrix", guarded<inverse>},
-    FunctionEntry{"det", kAlgebraArea, "det(A) -> x", "the determinant of a square matrix", guarded<determinant>},
-    FunctionEntry{"eig", kAlgebraArea, "eig(A) -> v", "the eigenvalues of a square matrix", guarded<give_eigenvalues>},
-    FunctionEntry{"fft", kAlgebraArea, "fft(x) -> X", "discrete Fourier transform", guarded<fft>},
+constexpr FunctionEntry kAlgebraFunctions[] = {
+    {"solve", "vectors", "solve(A, b) -> x",
+     "A x = b; the least-squares solution when A has more rows than columns (MATLAB's A\\b)", guarded<solve>},
+    {"inv", "vectors", "inv(A) -> B", "the inverse of a square matrix", guarded<inverse>},
+    {"det", "vectors", "det(A) -> x", "the determinant of a square matrix", guarded<determinant>},
+    {"eig", "vectors", "eig(A) -> v", "the eigenvalues of a square matrix", guarded<give_eigenvalues>},
+    {"fft", "vectors", "fft(x) -> X", "discrete Fourier transform", guarded<fft>},
 };
 
 }  // namespace

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 
 #include "numerics/models/convert.h"
 #include "numerics/simulation/stability_margins.h"
@@ -237,36 +236,32 @@ int present(Call& call) {
     return 0;
 }
 
-constexpr const char* kModelsArea = "models";
-constexpr std::array kModelsFunctions = {
-    FunctionEntry{"tf", kModelsArea, "tf(num, den, {Ts =, IODelay =}) -> G; tf(\"s\"); tf(\"z\", Ts)",
-                  "a transfer function, or its variable to write one with", guarded<make_tf>},
-    FunctionEntry{"idproc", kModelsArea, "idproc(\"P1D\", {Kp =, Tp1 =, Td =}) -> G; idproc(\"P1D\")",
-                  "a process model from its gain, time constants and delay, or its structure", guarded<make_idproc>},
-    FunctionEntry{"ss", kModelsArea, "ss(A, B, C, D, {Ts =}) -> system; ss(G)", "a state-space model",
-                  guarded<make_ss>},
-    FunctionEntry{"series", kModelsArea, "series(G1, G2) -> G", "one behind the other", guarded<connect_series>},
-    FunctionEntry{"parallel", kModelsArea, "parallel(G1, G2) -> G", "side by side, outputs added",
-                  guarded<connect_parallel>},
-    FunctionEntry{"feedback", kModelsArea, "feedback(forward, backward, sign) -> G",
-                  "a closed loop, negative feedback unless sign is 1", guarded<connect_feedback>},
-    FunctionEntry{"pade", kModelsArea, "pade(G, n) -> G", "the delay replaced by an approximation of n poles",
-                  guarded<replace_delay>},
-    FunctionEntry{"c2d", kModelsArea, "c2d(G, Ts, \"zoh\" | \"foh\" | \"tustin\") -> Gd",
-                  "discrete-time equal of a continuous-time model", guarded<to_discrete>},
-    FunctionEntry{"d2c", kModelsArea, "d2c(Gd, \"zoh\" | \"foh\" | \"tustin\") -> G",
-                  "continuous-time equal of a discrete-time model", guarded<to_continuous>},
-    FunctionEntry{"pole", kModelsArea, "pole(G) -> complex vector", "poles", guarded<poles>},
-    FunctionEntry{"zero", kModelsArea, "zero(G) -> complex vector", "zeros", guarded<zeros_of>},
-    FunctionEntry{"dcgain", kModelsArea, "dcgain(G) -> K", "steady-state gain", guarded<dc_gain>},
-    FunctionEntry{"damp", kModelsArea, "damp(G) -> wn, zeta, T",
-                  "natural frequency, damping ratio and time constant of every pole", guarded<damp>},
-    FunctionEntry{"bandwidth", kModelsArea, "bandwidth(G) -> w",
-                  "frequency (rad/s) at which the gain is 3 dB below its dc value", guarded<bandwidth_of>},
-    FunctionEntry{"stable", kModelsArea, "stable(G) -> true or false", "whether all poles are stable", guarded<stable>},
-    FunctionEntry{"margin", kModelsArea, "margin(G) -> Gm, Pm, Wcg, Wcp, Dm",
-                  "gain, phase and delay margin of the loop that G closes", guarded<margins>},
-    FunctionEntry{"present", kModelsArea, "present(G, ...)", "prints all that is known of models", guarded<present>},
+constexpr FunctionEntry kModelsFunctions[] = {
+    {"tf", "models", "tf(num, den, {Ts =, IODelay =}) -> G; tf(\"s\"); tf(\"z\", Ts)",
+     "a transfer function, or its variable to write one with", guarded<make_tf>},
+    {"idproc", "models", "idproc(\"P1D\", {Kp =, Tp1 =, Td =}) -> G; idproc(\"P1D\")",
+     "a process model from its gain, time constants and delay, or its structure", guarded<make_idproc>},
+    {"ss", "models", "ss(A, B, C, D, {Ts =}) -> system; ss(G)", "a state-space model", guarded<make_ss>},
+    {"series", "models", "series(G1, G2) -> G", "one behind the other", guarded<connect_series>},
+    {"parallel", "models", "parallel(G1, G2) -> G", "side by side, outputs added", guarded<connect_parallel>},
+    {"feedback", "models", "feedback(forward, backward, sign) -> G",
+     "a closed loop, negative feedback unless sign is 1", guarded<connect_feedback>},
+    {"pade", "models", "pade(G, n) -> G", "the delay replaced by an approximation of n poles", guarded<replace_delay>},
+    {"c2d", "models", "c2d(G, Ts, \"zoh\" | \"foh\" | \"tustin\") -> Gd",
+     "discrete-time equal of a continuous-time model", guarded<to_discrete>},
+    {"d2c", "models", "d2c(Gd, \"zoh\" | \"foh\" | \"tustin\") -> G", "continuous-time equal of a discrete-time model",
+     guarded<to_continuous>},
+    {"pole", "models", "pole(G) -> complex vector", "poles", guarded<poles>},
+    {"zero", "models", "zero(G) -> complex vector", "zeros", guarded<zeros_of>},
+    {"dcgain", "models", "dcgain(G) -> K", "steady-state gain", guarded<dc_gain>},
+    {"damp", "models", "damp(G) -> wn, zeta, T", "natural frequency, damping ratio and time constant of every pole",
+     guarded<damp>},
+    {"bandwidth", "models", "bandwidth(G) -> w", "frequency (rad/s) at which the gain is 3 dB below its dc value",
+     guarded<bandwidth_of>},
+    {"stable", "models", "stable(G) -> true or false", "whether all poles are stable", guarded<stable>},
+    {"margin", "models", "margin(G) -> Gm, Pm, Wcg, Wcp, Dm", "gain, phase and delay margin of the loop that G closes",
+     guarded<margins>},
+    {"present", "models", "present(G, ...)", "prints all that is known of models", guarded<present>},
 };
 
 }  // namespace

@@ -56,15 +56,12 @@ int estimate_with_noise(Call& call) {
 constexpr NamedReader kNoiseModelsReaders[] = {{"rivc", read_for_study<read_rivc>},
                                                {"tfrivc", read_for_study<read_tfrivc>}};
 
-constexpr const char* kNoiseModelsArea = "continuous time";
-constexpr std::array kNoiseModelsFunctions = {
-    FunctionEntry{"rivc", kNoiseModelsArea, "rivc(data, {nb, nc, nd, nf, nk}, {lambda =, MaxIter =, Tol =, ...}) -> G",
-                  "y = B/F u + C/D e, coloured noise modelled too",
-                  guarded<memoized_call<estimate_with_noise<read_rivc>>>},
-    FunctionEntry{"tfrivc", kNoiseModelsArea,
-                  "tfrivc(data, np, nz, {nc =, nd =, TdMin =, TdMax =, IODelay =, ...}) -> G",
-                  "rivc by numbers of poles and zeros, the delay estimated",
-                  guarded<memoized_call<estimate_with_noise<read_tfrivc>>>},
+constexpr FunctionEntry kNoiseModelsFunctions[] = {
+    {"rivc", "continuous time", "rivc(data, {nb, nc, nd, nf, nk}, {lambda =, MaxIter =, Tol =, ...}) -> G",
+     "y = B/F u + C/D e, coloured noise modelled too", guarded<memoized_call<estimate_with_noise<read_rivc>>>},
+    {"tfrivc", "continuous time", "tfrivc(data, np, nz, {nc =, nd =, TdMin =, TdMax =, IODelay =, ...}) -> G",
+     "rivc by numbers of poles and zeros, the delay estimated",
+     guarded<memoized_call<estimate_with_noise<read_tfrivc>>>},
 };
 
 }  // namespace

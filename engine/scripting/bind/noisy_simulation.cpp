@@ -1,4 +1,3 @@
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -202,16 +201,14 @@ int frequency_values(Call& call) {
            call.give_vector(degrees);
 }
 
-constexpr const char* kNoisySimulationArea = "simulation";
-constexpr std::array kNoisySimulationFunctions = {
-    FunctionEntry{
-        "sim", kNoisySimulationArea, "sim(G, u, Ts, {noise =, snr =, seed =, hold =}) -> y, v; sim(G, data, {...})",
-        "response of a model to an input, with noise of its own or of a given SNR", guarded<simulate_with_noise>},
-    FunctionEntry{"simsd", kNoisySimulationArea,
-                  "simsd(G, u, Ts, {runs =, seed =, hold =, confidence =}) -> fig, table; simsd(G, data, {...})",
-                  "how far the uncertainty of an estimate spreads its simulated output", guarded<simulate_spread>},
-    FunctionEntry{"bode_values", kNoisySimulationArea, "bode_values(G, w) -> mag, ph, w, sdmag, sdph",
-                  "the numbers of bode with their standard deviations", guarded<frequency_values>},
+constexpr FunctionEntry kNoisySimulationFunctions[] = {
+    {"sim", "simulation", "sim(G, u, Ts, {noise =, snr =, seed =, hold =}) -> y, v; sim(G, data, {...})",
+     "response of a model to an input, with noise of its own or of a given SNR", guarded<simulate_with_noise>},
+    {"simsd", "simulation",
+     "simsd(G, u, Ts, {runs =, seed =, hold =, confidence =}) -> fig, table; simsd(G, data, {...})",
+     "how far the uncertainty of an estimate spreads its simulated output", guarded<simulate_spread>},
+    {"bode_values", "simulation", "bode_values(G, w) -> mag, ph, w, sdmag, sdph",
+     "the numbers of bode with their standard deviations", guarded<frequency_values>},
 };
 
 }  // namespace

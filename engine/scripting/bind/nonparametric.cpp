@@ -154,22 +154,18 @@ int correlation_analysis(Call& call) {
     return 2;
 }
 
-constexpr const char* kNonparametricArea = "nonparametric";
-constexpr std::array kNonparametricFunctions = {
-    FunctionEntry{"etfe", kNonparametricArea,
-                  "etfe(data, G1, ..., {smooth =, remove_mean =, confidence =, labels =, quiet =}) -> fig, F",
-                  "frequency response as the ratio of the Fourier transforms of output and input",
-                  guarded<ratio_of_transforms>},
-    FunctionEntry{"spa", kNonparametricArea,
-                  "spa(data, G1, ..., {window =, w =, remove_mean =, confidence =, labels =, quiet =}) -> fig, F",
-                  "frequency response with errors, from smoothed correlations", guarded<spectral_analysis>},
-    FunctionEntry{"impulseest", kNonparametricArea,
-                  "impulseest(data, n, G1, ..., {Kernel =, lags =, smooth =, confidence =, labels =}) -> fig, table",
-                  "impulse response by regression on past inputs, and the dead time it shows",
-                  guarded<regression_on_past_inputs>},
-    FunctionEntry{"cra", kNonparametricArea,
-                  "cra(data, G1, ..., {lags =, whitening =, confidence =, labels =}) -> fig, table",
-                  "impulse response from correlations with the whitened input", guarded<correlation_analysis>},
+constexpr FunctionEntry kNonparametricFunctions[] = {
+    {"etfe", "nonparametric",
+     "etfe(data, G1, ..., {smooth =, remove_mean =, confidence =, labels =, quiet =}) -> fig, F",
+     "frequency response as the ratio of the Fourier transforms of output and input", guarded<ratio_of_transforms>},
+    {"spa", "nonparametric",
+     "spa(data, G1, ..., {window =, w =, remove_mean =, confidence =, labels =, quiet =}) -> fig, F",
+     "frequency response with errors, from smoothed correlations", guarded<spectral_analysis>},
+    {"impulseest", "nonparametric",
+     "impulseest(data, n, G1, ..., {Kernel =, lags =, smooth =, confidence =, labels =}) -> fig, table",
+     "impulse response by regression on past inputs, and the dead time it shows", guarded<regression_on_past_inputs>},
+    {"cra", "nonparametric", "cra(data, G1, ..., {lags =, whitening =, confidence =, labels =}) -> fig, table",
+     "impulse response from correlations with the whitened input", guarded<correlation_analysis>},
 };
 
 }  // namespace

@@ -231,22 +231,19 @@ int estimate_delay(Call& call) {
     return 3;
 }
 
-constexpr const char* kOrdersArea = "structure";
-constexpr std::array kOrdersFunctions = {
-    FunctionEntry{"srivcstruc", kOrdersArea,
-                  "srivcstruc(data, {poles = {1, 4}, zeros = {0, 2}, delays =, validate =, ...}) -> V",
-                  "srivc for many numbers of poles, zeros and samples of delay, with criteria for each",
-                  guarded<memoized_call<try_structures>>},
-    FunctionEntry{"selcstruc", kOrdersArea, "selcstruc(V, criterion) -> G, fig",
-                  "the structure that a criterion chooses, explained in words", guarded<select_structure>},
-    FunctionEntry{"arxstruc", kOrdersArea, "arxstruc(data, {na = {1, 4}, nb = {1, 4}, nk = 1, validate =}) -> V",
-                  "the loss of arx for every structure, on a second record too", guarded<try_arx_structures>},
-    FunctionEntry{"selstruc", kOrdersArea, "selstruc(V, criterion) -> {na, nb, nk}, fig",
-                  "the orders that a criterion chooses among those of arxstruc", guarded<select_arx_structure>},
-    FunctionEntry{"delayest", kOrdersArea,
-                  "delayest(data, {poles = {1, 3}, zeros = {0, 1}, TdMin =, TdMax =, ...}) -> Td, fig, D",
-                  "the delay between input and output, with its standard error and the loss over the delay",
-                  guarded<memoized_call<estimate_delay>>},
+constexpr FunctionEntry kOrdersFunctions[] = {
+    {"srivcstruc", "structure", "srivcstruc(data, {poles = {1, 4}, zeros = {0, 2}, delays =, validate =, ...}) -> V",
+     "srivc for many numbers of poles, zeros and samples of delay, with criteria for each",
+     guarded<memoized_call<try_structures>>},
+    {"selcstruc", "structure", "selcstruc(V, criterion) -> G, fig",
+     "the structure that a criterion chooses, explained in words", guarded<select_structure>},
+    {"arxstruc", "structure", "arxstruc(data, {na = {1, 4}, nb = {1, 4}, nk = 1, validate =}) -> V",
+     "the loss of arx for every structure, on a second record too", guarded<try_arx_structures>},
+    {"selstruc", "structure", "selstruc(V, criterion) -> {na, nb, nk}, fig",
+     "the orders that a criterion chooses among those of arxstruc", guarded<select_arx_structure>},
+    {"delayest", "structure", "delayest(data, {poles = {1, 3}, zeros = {0, 1}, TdMin =, TdMax =, ...}) -> Td, fig, D",
+     "the delay between input and output, with its standard error and the loss over the delay",
+     guarded<memoized_call<estimate_delay>>},
 };
 
 }  // namespace

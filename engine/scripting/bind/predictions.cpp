@@ -1,4 +1,3 @@
-#include <array>
 
 #include "numerics/validation/prediction.h"
 #include "scripting/arguments/simulation_options.h"
@@ -56,13 +55,11 @@ int predict_output(Call& call) {
     return 2;
 }
 
-constexpr const char* kPredictionsArea = "validation";
-constexpr std::array kPredictionsFunctions = {
-    FunctionEntry{"predict", kPredictionsArea, "predict(data, G, {k =, InitialState =, Offset =}) -> y, table",
-                  "output predicted k steps ahead from the outputs measured until then",
-                  guarded<predict_output<false>>},
-    FunctionEntry{"pe", kPredictionsArea, "pe(data, G, {k =, InitialState =, Offset =}) -> e, table",
-                  "errors of the prediction one or k steps ahead", guarded<predict_output<true>>},
+constexpr FunctionEntry kPredictionsFunctions[] = {
+    {"predict", "validation", "predict(data, G, {k =, InitialState =, Offset =}) -> y, table",
+     "output predicted k steps ahead from the outputs measured until then", guarded<predict_output<false>>},
+    {"pe", "validation", "pe(data, G, {k =, InitialState =, Offset =}) -> e, table",
+     "errors of the prediction one or k steps ahead", guarded<predict_output<true>>},
 };
 
 }  // namespace

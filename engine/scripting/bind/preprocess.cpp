@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 
 #include "numerics/number_text.h"
 #include "numerics/signals/butterworth.h"
@@ -95,22 +94,19 @@ int remove_outliers(Call& call) {
     return give_repaired(call, replace_outliers(call.vector(1, "x"), wanted));
 }
 
-constexpr const char* kPreprocessArea = "data";
-constexpr std::array kPreprocessFunctions = {
-    FunctionEntry{"detrend", kPreprocessArea, "detrend(data, \"linear\" | \"mean\" | \"start\", {samples =}) -> data",
-                  "takes off the straight line, the mean, or the level before the input changes",
-                  guarded<detrend_signals>},
-    FunctionEntry{"idfilt", kPreprocessArea,
-                  "idfilt(data, {lower, upper}, {order =, zero_phase =, stop =, start =}) -> data",
-                  "Butterworth filter over inputs and outputs alike", guarded<filter_signals>},
-    FunctionEntry{"resample", kPreprocessArea, "resample(data, up, down) -> data",
-                  "other sampling rate, by up/down, with a filter against aliasing", guarded<resample_signals>},
-    FunctionEntry{"merge", kPreprocessArea, "merge(data1, data2, ...) -> data",
-                  "several experiments in one data object", guarded<merge_data>},
-    FunctionEntry{"fillmissing", kPreprocessArea, "fillmissing(x, {t =, longest =}) -> filled, places",
-                  "straight lines over samples that are not numbers", guarded<fill_gaps>},
-    FunctionEntry{"filloutliers", kPreprocessArea, "filloutliers(x | data, {window =, threshold =}) -> cleaned, places",
-                  "straight lines over samples that stand out from their neighbours", guarded<remove_outliers>},
+constexpr FunctionEntry kPreprocessFunctions[] = {
+    {"detrend", "data", "detrend(data, \"linear\" | \"mean\" | \"start\", {samples =}) -> data",
+     "takes off the straight line, the mean, or the level before the input changes", guarded<detrend_signals>},
+    {"idfilt", "data", "idfilt(data, {lower, upper}, {order =, zero_phase =, stop =, start =}) -> data",
+     "Butterworth filter over inputs and outputs alike", guarded<filter_signals>},
+    {"resample", "data", "resample(data, up, down) -> data",
+     "other sampling rate, by up/down, with a filter against aliasing", guarded<resample_signals>},
+    {"merge", "data", "merge(data1, data2, ...) -> data", "several experiments in one data object",
+     guarded<merge_data>},
+    {"fillmissing", "data", "fillmissing(x, {t =, longest =}) -> filled, places",
+     "straight lines over samples that are not numbers", guarded<fill_gaps>},
+    {"filloutliers", "data", "filloutliers(x | data, {window =, threshold =}) -> cleaned, places",
+     "straight lines over samples that stand out from their neighbours", guarded<remove_outliers>},
 };
 
 }  // namespace

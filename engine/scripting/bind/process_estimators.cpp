@@ -1,4 +1,3 @@
-#include <array>
 
 #include "figures/step_construction.h"
 #include "numerics/estimators/procsrivc.h"
@@ -65,21 +64,19 @@ int estimate_process_model(Call& call) {
 }
 
 constexpr const char* kStep = "step tests";
-constexpr std::array kEstimatorsFunctions = {
-    FunctionEntry{"step_first_order", kStep, "step_first_order(data) -> G",
-                  "K/(1 + T s) read off a step response: gain and 5 % settling time",
-                  guarded<read_step_response<step_first_order>>},
-    FunctionEntry{"step_second_order", kStep, "step_second_order(data) -> G",
-                  "gain, damping and natural frequency read off the first overshoot",
-                  guarded<read_step_response<step_second_order>>},
-    FunctionEntry{"step_delayed", kStep, "step_delayed(data) -> G",
-                  "K exp(-D s)/(1 + T s) from two points of a step response",
-                  guarded<read_step_response<step_delayed>>},
-    FunctionEntry{"step_construction", kStep, "step_construction(G, {xlabel =, ylabel =}) -> fig",
-                  "the reading points of a step test on its response", guarded<draw_construction>},
-    FunctionEntry{"procsrivc", "continuous time",
-                  "procsrivc(data, \"P2DU\", {TdMin =, TdMax =, InitialState =, Offset =, ...}) -> G",
-                  "process model with the smallest simulation error", guarded<memoized_call<estimate_process_model>>},
+constexpr FunctionEntry kEstimatorsFunctions[] = {
+    {"step_first_order", kStep, "step_first_order(data) -> G",
+     "K/(1 + T s) read off a step response: gain and 5 % settling time", guarded<read_step_response<step_first_order>>},
+    {"step_second_order", kStep, "step_second_order(data) -> G",
+     "gain, damping and natural frequency read off the first overshoot",
+     guarded<read_step_response<step_second_order>>},
+    {"step_delayed", kStep, "step_delayed(data) -> G", "K exp(-D s)/(1 + T s) from two points of a step response",
+     guarded<read_step_response<step_delayed>>},
+    {"step_construction", kStep, "step_construction(G, {xlabel =, ylabel =}) -> fig",
+     "the reading points of a step test on its response", guarded<draw_construction>},
+    {"procsrivc", "continuous time",
+     "procsrivc(data, \"P2DU\", {TdMin =, TdMax =, InitialState =, Offset =, ...}) -> G",
+     "process model with the smallest simulation error", guarded<memoized_call<estimate_process_model>>},
 };
 
 }  // namespace

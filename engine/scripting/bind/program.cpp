@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <filesystem>
 #include <map>
@@ -187,16 +186,14 @@ int who(Call& call) {
     return 0;
 }
 
-constexpr const char* kProgramArea = "program";
-constexpr std::array kProgramFunctions = {
-    FunctionEntry{"require", kProgramArea, "require(name) -> value", "runs NAME.lua of the script's folder, once",
-                  guarded<require_file>},
-    FunctionEntry{"run", kProgramArea, "run(path)", "runs a script at the prompt and keeps its variables",
-                  guarded<run_file>},
-    FunctionEntry{"who", kProgramArea, "who()", "lists the variables", guarded<who>},
-    FunctionEntry{"tic", kProgramArea, "tic()", "starts the stop watch", guarded<tic>},
-    FunctionEntry{"toc", kProgramArea, "toc() -> seconds", "time since tic()", guarded<toc>},
-    FunctionEntry{"clock", kProgramArea, "clock() -> seconds", "time since the script began", guarded<clock>},
+constexpr FunctionEntry kProgramFunctions[] = {
+    {"require", "program", "require(name) -> value", "runs NAME.lua of the script's folder, once",
+     guarded<require_file>},
+    {"run", "program", "run(path)", "runs a script at the prompt and keeps its variables", guarded<run_file>},
+    {"who", "program", "who()", "lists the variables", guarded<who>},
+    {"tic", "program", "tic()", "starts the stop watch", guarded<tic>},
+    {"toc", "program", "toc() -> seconds", "time since tic()", guarded<toc>},
+    {"clock", "program", "clock() -> seconds", "time since the script began", guarded<clock>},
 };
 
 }  // namespace

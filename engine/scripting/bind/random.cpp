@@ -1,4 +1,3 @@
-#include <array>
 
 #include "scripting/bind/bindings.h"
 #include "scripting/conversions/boxed.h"
@@ -28,13 +27,12 @@ int draw(Call& call) {
     return 1;
 }
 
-constexpr const char* kRandomArea = "random";
-constexpr std::array kRandomFunctions = {
-    FunctionEntry{"rng", kRandomArea, "rng(seed)", "starts the random numbers afresh from a seed", guarded<rng>},
-    FunctionEntry{"randn", kRandomArea, "randn(n, m) -> v", "normal random numbers with mean 0 and variance 1",
-                  guarded<draw<&RandomStream::normal>>},
-    FunctionEntry{"rand", kRandomArea, "rand(n, m) -> v", "random numbers spread evenly over [0, 1)",
-                  guarded<draw<&RandomStream::uniform>>},
+constexpr FunctionEntry kRandomFunctions[] = {
+    {"rng", "random", "rng(seed)", "starts the random numbers afresh from a seed", guarded<rng>},
+    {"randn", "random", "randn(n, m) -> v", "normal random numbers with mean 0 and variance 1",
+     guarded<draw<&RandomStream::normal>>},
+    {"rand", "random", "rand(n, m) -> v", "random numbers spread evenly over [0, 1)",
+     guarded<draw<&RandomStream::uniform>>},
 };
 
 }  // namespace

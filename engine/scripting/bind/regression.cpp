@@ -184,24 +184,21 @@ int descend(Call& call) {
     return 1;
 }
 
-constexpr const char* kRegressionArea = "regression";
-constexpr std::array kRegressionFunctions = {
-    FunctionEntry{"polyfit", "vectors", "polyfit(x, y, degree) -> p", "least-squares polynomial, highest power first",
-                  guarded<polyfit>},
-    FunctionEntry{"lsq", kRegressionArea, "lsq(Phi, y, {method = \"qr\" | \"normal\"}) -> fit",
-                  "least squares with standard errors, residuals and condition number", guarded<least_squares>},
-    FunctionEntry{"polyfit_report", kRegressionArea, "polyfit_report(x, y, degree, {centred =, method =}) -> fit",
-                  "polynomial by least squares with its standard errors", guarded<polynomial>},
-    FunctionEntry{"forecast", kRegressionArea, "forecast(fit, x, level) -> {value, low, high, ...}",
-                  "forecast with its prediction interval", guarded<predict>},
-    FunctionEntry{"tinv", kRegressionArea, "tinv(p, degrees) -> t",
-                  "quantile of Student's distribution, for intervals by hand", guarded<quantile_of_student>},
-    FunctionEntry{"regression_plot", kRegressionArea,
-                  "regression_plot(x, y, fit, {forecast =, level =, xlabel =, ylabel =}) -> fig",
-                  "data, fitted polynomial and its bands", guarded<draw_regression>},
-    FunctionEntry{"gradient_descent", kRegressionArea,
-                  "gradient_descent(Phi, y, {step =, MaxIter =, Tol =, start =}) -> table",
-                  "least squares by steepest descent, with the loss after every step", guarded<descend>},
+constexpr FunctionEntry kRegressionFunctions[] = {
+    {"polyfit", "vectors", "polyfit(x, y, degree) -> p", "least-squares polynomial, highest power first",
+     guarded<polyfit>},
+    {"lsq", "regression", "lsq(Phi, y, {method = \"qr\" | \"normal\"}) -> fit",
+     "least squares with standard errors, residuals and condition number", guarded<least_squares>},
+    {"polyfit_report", "regression", "polyfit_report(x, y, degree, {centred =, method =}) -> fit",
+     "polynomial by least squares with its standard errors", guarded<polynomial>},
+    {"forecast", "regression", "forecast(fit, x, level) -> {value, low, high, ...}",
+     "forecast with its prediction interval", guarded<predict>},
+    {"tinv", "regression", "tinv(p, degrees) -> t", "quantile of Student's distribution, for intervals by hand",
+     guarded<quantile_of_student>},
+    {"regression_plot", "regression", "regression_plot(x, y, fit, {forecast =, level =, xlabel =, ylabel =}) -> fig",
+     "data, fitted polynomial and its bands", guarded<draw_regression>},
+    {"gradient_descent", "regression", "gradient_descent(Phi, y, {step =, MaxIter =, Tol =, start =}) -> table",
+     "least squares by steepest descent, with the loss after every step", guarded<descend>},
 };
 
 constexpr std::array kRegressionTypes = {

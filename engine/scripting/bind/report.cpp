@@ -1,4 +1,3 @@
-#include <array>
 #include <cctype>
 #include <cmath>
 
@@ -243,24 +242,20 @@ int outcome(Call& call) {
     return 0;
 }
 
-constexpr const char* kReportArea = "report";
-constexpr std::array kReportFunctions = {
-    FunctionEntry{"report.value", kReportArea, "report.value(name, x, format)", "puts a number or text into the report",
-                  guarded<report_value>},
-    FunctionEntry{"report.table", kReportArea, "report.table(name, {{title, ...}, {cell, ...}, ...})",
-                  "puts a table into the report, header first", guarded<report_table>},
-    FunctionEntry{"report.figure", kReportArea, "report.figure(name, fig, caption)", "puts a figure into the report",
-                  guarded<report_figure>},
-    FunctionEntry{"report.text", kReportArea, "report.text(name, markdown)", "puts Markdown text into the report",
-                  guarded<report_text>},
-    FunctionEntry{"report.language", kReportArea, "report.language() -> text", "tells the report's language",
-                  guarded<report_language>},
-    FunctionEntry{"slider", kReportArea, "slider(name, x, from, to, {step = , log = , unit = , label = }) -> x",
-                  "a number that the reader of a page moves", guarded<slider>},
-    FunctionEntry{"guess", kReportArea, "guess(name, value, unit)", "writes down what you expect before you look",
-                  guarded<guess>},
-    FunctionEntry{"outcome", kReportArea, "outcome(name, value)", "prints a guess beside what was found",
-                  guarded<outcome>},
+constexpr FunctionEntry kReportFunctions[] = {
+    {"report.value", "report", "report.value(name, x, format)", "puts a number or text into the report",
+     guarded<report_value>},
+    {"report.table", "report", "report.table(name, {{title, ...}, {cell, ...}, ...})",
+     "puts a table into the report, header first", guarded<report_table>},
+    {"report.figure", "report", "report.figure(name, fig, caption)", "puts a figure into the report",
+     guarded<report_figure>},
+    {"report.text", "report", "report.text(name, markdown)", "puts Markdown text into the report",
+     guarded<report_text>},
+    {"report.language", "report", "report.language() -> text", "tells the report's language", guarded<report_language>},
+    {"slider", "report", "slider(name, x, from, to, {step = , log = , unit = , label = }) -> x",
+     "a number that the reader of a page moves", guarded<slider>},
+    {"guess", "report", "guess(name, value, unit)", "writes down what you expect before you look", guarded<guess>},
+    {"outcome", "report", "outcome(name, value)", "prints a guess beside what was found", guarded<outcome>},
 };
 
 }  // namespace

@@ -1,4 +1,3 @@
-#include <array>
 
 #include "figures/plots/cross_validation_plot.h"
 #include "figures/plots/residual_plot.h"
@@ -168,15 +167,13 @@ int validate_across(Call& call) {
     return 2;
 }
 
-constexpr const char* kResidualsArea = "validation";
-constexpr std::array kResidualsFunctions = {
-    FunctionEntry{
-        "resid", kResidualsArea,
-        "resid(data, G, {lags =, confidence =, InitialState =, Offset =, prediction =, quiet =}) -> fig, table",
-        "is the simulation error white and independent of the input? with a verdict in words", guarded<test_residuals>},
-    FunctionEntry{"crossvalidate", kResidualsArea,
-                  "crossvalidate(data, fit, {folds =, by_experiment =, InitialState =, Offset =}) -> fig, table",
-                  "fits on all parts but one and simulates on that one, part by part", guarded<validate_across>},
+constexpr FunctionEntry kResidualsFunctions[] = {
+    {"resid", "validation",
+     "resid(data, G, {lags =, confidence =, InitialState =, Offset =, prediction =, quiet =}) -> fig, table",
+     "is the simulation error white and independent of the input? with a verdict in words", guarded<test_residuals>},
+    {"crossvalidate", "validation",
+     "crossvalidate(data, fit, {folds =, by_experiment =, InitialState =, Offset =}) -> fig, table",
+     "fits on all parts but one and simulates on that one, part by part", guarded<validate_across>},
 };
 
 }  // namespace

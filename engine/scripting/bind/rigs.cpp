@@ -1,4 +1,3 @@
-#include <array>
 
 #include "numerics/rigs/catalogue.h"
 #include "scripting/bind/bindings.h"
@@ -98,12 +97,12 @@ int rig_truth(Call& call) {
     return 1;
 }
 
-constexpr std::array kRigsFunctions = {
-    FunctionEntry{"rig", "data", "rig(name, {seed =, specimen =}) -> table",
-                  "repeats one of the course's simulated experiments, with other noise for another seed",
-                  guarded<memoized_call<rig>>},
-    FunctionEntry{"rig_truth", "data", "rig_truth(name, {specimen =}) -> table",
-                  "what theory says of one of the course's simulated experiments", guarded<rig_truth>},
+constexpr FunctionEntry kRigsFunctions[] = {
+    {"rig", "data", "rig(name, {seed =, specimen =}) -> table",
+     "repeats one of the course's simulated experiments, with other noise for another seed",
+     guarded<memoized_call<rig>>},
+    {"rig_truth", "data", "rig_truth(name, {specimen =}) -> table",
+     "what theory says of one of the course's simulated experiments", guarded<rig_truth>},
 };
 
 }  // namespace

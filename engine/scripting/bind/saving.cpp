@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 
 #include "data_io/csv_file.h"
 #include "data_io/json_file.h"
@@ -227,14 +226,13 @@ int save_json(Call& call) {
     return 0;
 }
 
-constexpr const char* kSavingArea = "data";
-constexpr std::array kSavingFunctions = {
-    FunctionEntry{"save_csv", kSavingArea, "save_csv(path, data, {units =, title =, columns =, Ts =, digits =})",
-                  "writes data, or a table of vectors, as CSV", guarded<save_csv>},
-    FunctionEntry{"save_mat", kSavingArea, "save_mat(path, variables, {digits =})",
-                  "writes models, data, vectors, numbers, texts and tables of them as a MAT file", guarded<save_mat>},
-    FunctionEntry{"save_json", kSavingArea, "save_json(path, variables)",
-                  "the same as a JSON file, for Python and others", guarded<save_json>},
+constexpr FunctionEntry kSavingFunctions[] = {
+    {"save_csv", "data", "save_csv(path, data, {units =, title =, columns =, Ts =, digits =})",
+     "writes data, or a table of vectors, as CSV", guarded<save_csv>},
+    {"save_mat", "data", "save_mat(path, variables, {digits =})",
+     "writes models, data, vectors, numbers, texts and tables of them as a MAT file", guarded<save_mat>},
+    {"save_json", "data", "save_json(path, variables)", "the same as a JSON file, for Python and others",
+     guarded<save_json>},
 };
 
 }  // namespace

@@ -1,4 +1,3 @@
-#include <array>
 
 #include "numerics/number_text.h"
 #include "numerics/signals/excitation.h"
@@ -87,21 +86,20 @@ int make_multisine(Call& call) {
     return call.give_vector(multisine(call.vector(1, "frequencies"), call.number(2, "T"), call.number(3, "Ts")));
 }
 
-constexpr const char* kSignalsArea = "signals";
-constexpr std::array kSignalsFunctions = {
-    FunctionEntry{"prbs", kSignalsArea, "prbs(n, p, {low, high}) -> u",
-                  "pseudo-random binary sequence of n stages, each bit held for p samples", guarded<make_prbs>},
-    FunctionEntry{"rbs", kSignalsArea, "rbs(N, p, {low, high}) -> u",
-                  "N samples of a random binary signal, each value held for p samples", guarded<make_rbs>},
-    FunctionEntry{"step_signal", kSignalsArea, "step_signal(N, first, {low, high}) -> u",
-                  "N samples that change from low to high at sample `first`", guarded<make_step>},
-    FunctionEntry{"sine", kSignalsArea, "sine(f, T, Ts, {amplitude =, phase =}) -> u",
-                  "a sine of f hertz for T seconds", guarded<make_sine>},
-    FunctionEntry{"chirp", kSignalsArea, "chirp(f0, f1, T, Ts, {shape = \"sine\" | \"square\"}) -> u",
-                  "a sine or square wave whose frequency (hertz) runs from f0 to f1", guarded<make_chirp>},
-    FunctionEntry{"multisine", kSignalsArea,
-                  "multisine({f1, f2, ...}, T, Ts) -> u; multisine(N, {lines =, odd =, detection =, ...}) -> u, grid",
-                  "a sum of sines: with low peaks, or one period of random phases", guarded<make_multisine>},
+constexpr FunctionEntry kSignalsFunctions[] = {
+    {"prbs", "signals", "prbs(n, p, {low, high}) -> u",
+     "pseudo-random binary sequence of n stages, each bit held for p samples", guarded<make_prbs>},
+    {"rbs", "signals", "rbs(N, p, {low, high}) -> u",
+     "N samples of a random binary signal, each value held for p samples", guarded<make_rbs>},
+    {"step_signal", "signals", "step_signal(N, first, {low, high}) -> u",
+     "N samples that change from low to high at sample `first`", guarded<make_step>},
+    {"sine", "signals", "sine(f, T, Ts, {amplitude =, phase =}) -> u", "a sine of f hertz for T seconds",
+     guarded<make_sine>},
+    {"chirp", "signals", "chirp(f0, f1, T, Ts, {shape = \"sine\" | \"square\"}) -> u",
+     "a sine or square wave whose frequency (hertz) runs from f0 to f1", guarded<make_chirp>},
+    {"multisine", "signals",
+     "multisine({f1, f2, ...}, T, Ts) -> u; multisine(N, {lines =, odd =, detection =, ...}) -> u, grid",
+     "a sum of sines: with low peaks, or one period of random phases", guarded<make_multisine>},
 };
 
 }  // namespace

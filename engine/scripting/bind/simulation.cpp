@@ -1,4 +1,3 @@
-#include <array>
 
 #include "figures/histogram.h"
 #include "figures/plots/bode_plot.h"
@@ -226,29 +225,28 @@ int draw_histogram(Call& call) {
     return give_figure(call, histogram(call.vector(1, "values"), wanted));
 }
 
-constexpr const char* kSimulationArea = "simulation";
 constexpr const char* kFigures = "figures";
-constexpr std::array kSimulationFunctions = {
-    FunctionEntry{"lsim", kSimulationArea, "lsim(G, u, t_or_Ts, {hold = \"zoh\" | \"foh\", x0 =}) -> y",
-                  "response of a model to an input, exact at the samples", guarded<simulate>},
-    FunctionEntry{"svf", kSimulationArea, "svf(x, n, lambda, {Ts =, hold = \"zoh\" | \"foh\"}) -> matrix",
-                  "outputs of the state-variable filter, highest derivative first", guarded<filter_states>},
-    FunctionEntry{"step", kSimulationArea, "step(G, t) -> y, t, sd; step(G1, G2, ..., {labels =, confidence =}) -> fig",
-                  "response to a unit step, as numbers at given instants or as a figure",
-                  guarded<time_response<step_response, step_plot, true>>},
-    FunctionEntry{"impulse", kSimulationArea, "impulse(G, t) -> y, t; impulse(G1, G2, ..., {labels =}) -> fig",
-                  "response to a unit impulse, as numbers or as a figure",
-                  guarded<time_response<impulse_response, impulse_plot, false>>},
-    FunctionEntry{"freqresp", kSimulationArea, "freqresp(G, w) -> complex vector", "frequency response at w (rad/s)",
-                  guarded<frequency_response_of>},
-    FunctionEntry{"bode", kFigures, "bode(G1, G2, ..., w, {labels =, confidence =}) -> fig",
-                  "magnitude and phase over frequency", guarded<draw_bode>},
-    FunctionEntry{"nyquist", kFigures, "nyquist(G1, G2, ..., w, {labels =}) -> fig",
-                  "frequency response in the complex plane", guarded<draw_models<nyquist_plot, false>>},
-    FunctionEntry{"pzmap", kFigures, "pzmap(G1, G2, ..., {labels =, confidence =}) -> fig",
-                  "poles and zeros in the complex plane", guarded<draw_poles_and_zeros>},
-    FunctionEntry{"histogram", kFigures, "histogram(values, {bins =, truth =, xlabel =}) -> fig",
-                  "how often values fall into each interval", guarded<draw_histogram>},
+constexpr FunctionEntry kSimulationFunctions[] = {
+    {"lsim", "simulation", "lsim(G, u, t_or_Ts, {hold = \"zoh\" | \"foh\", x0 =}) -> y",
+     "response of a model to an input, exact at the samples", guarded<simulate>},
+    {"svf", "simulation", "svf(x, n, lambda, {Ts =, hold = \"zoh\" | \"foh\"}) -> matrix",
+     "outputs of the state-variable filter, highest derivative first", guarded<filter_states>},
+    {"step", "simulation", "step(G, t) -> y, t, sd; step(G1, G2, ..., {labels =, confidence =}) -> fig",
+     "response to a unit step, as numbers at given instants or as a figure",
+     guarded<time_response<step_response, step_plot, true>>},
+    {"impulse", "simulation", "impulse(G, t) -> y, t; impulse(G1, G2, ..., {labels =}) -> fig",
+     "response to a unit impulse, as numbers or as a figure",
+     guarded<time_response<impulse_response, impulse_plot, false>>},
+    {"freqresp", "simulation", "freqresp(G, w) -> complex vector", "frequency response at w (rad/s)",
+     guarded<frequency_response_of>},
+    {"bode", kFigures, "bode(G1, G2, ..., w, {labels =, confidence =}) -> fig", "magnitude and phase over frequency",
+     guarded<draw_bode>},
+    {"nyquist", kFigures, "nyquist(G1, G2, ..., w, {labels =}) -> fig", "frequency response in the complex plane",
+     guarded<draw_models<nyquist_plot, false>>},
+    {"pzmap", kFigures, "pzmap(G1, G2, ..., {labels =, confidence =}) -> fig", "poles and zeros in the complex plane",
+     guarded<draw_poles_and_zeros>},
+    {"histogram", kFigures, "histogram(values, {bins =, truth =, xlabel =}) -> fig",
+     "how often values fall into each interval", guarded<draw_histogram>},
 };
 
 }  // namespace

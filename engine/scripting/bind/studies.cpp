@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 
 #include "data_io/values/estimate_descriptions.h"
 #include "numerics/validation/monte_carlo.h"
@@ -223,12 +222,12 @@ int run_study(Call& call) {
     return 1;
 }
 
-constexpr std::array kStudiesFunctions = {
-    FunctionEntry{"montecarlo", "validation",
-                  "montecarlo{system =, input = | controller =, reference =, Ts =, sigma = | snr =, runs =, seed =, "
-                  "estimators = {...}} -> M",
-                  "the same experiment many times with fresh noise: bias and scatter of estimators",
-                  guarded<memoized_call<run_study>>},
+constexpr FunctionEntry kStudiesFunctions[] = {
+    {"montecarlo", "validation",
+     "montecarlo{system =, input = | controller =, reference =, Ts =, sigma = | snr =, runs =, seed =, "
+     "estimators = {...}} -> M",
+     "the same experiment many times with fresh noise: bias and scatter of estimators",
+     guarded<memoized_call<run_study>>},
 };
 
 }  // namespace

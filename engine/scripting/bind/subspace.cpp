@@ -1,4 +1,3 @@
-#include <array>
 
 #include "numerics/estimators/n4sid.h"
 #include "scripting/bind/bindings.h"
@@ -30,10 +29,9 @@ int estimate_n4sid(Call& call) {
     return give_system(call, estimate_of_subspace(result), result.fit, result.system);
 }
 
-constexpr std::array kSubspaceFunctions = {
-    FunctionEntry{"n4sid", "discrete time", "n4sid(data, order, {BlockRows =, Weighting =, Feedthrough =}) -> G",
-                  "a state-space model by subspace identification, without iterating",
-                  guarded<memoized_call<estimate_n4sid>>},
+constexpr FunctionEntry kSubspaceFunctions[] = {
+    {"n4sid", "discrete time", "n4sid(data, order, {BlockRows =, Weighting =, Feedthrough =}) -> G",
+     "a state-space model by subspace identification, without iterating", guarded<memoized_call<estimate_n4sid>>},
 };
 
 }  // namespace

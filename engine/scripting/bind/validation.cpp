@@ -1,4 +1,3 @@
-#include <array>
 #include <cmath>
 
 #include "figures/plots/compare_plot.h"
@@ -160,17 +159,15 @@ int measure_fit(Call& call) {
     return 1;
 }
 
-constexpr const char* kValidationArea = "validation";
-constexpr std::array kValidationFunctions = {
-    FunctionEntry{"test_your_model", "step tests", "test_your_model(G, data, {InitialState =, Offset =}) -> fig",
-                  "measured response and the model's over each other", guarded<test_model>},
-    FunctionEntry{"compare", kValidationArea,
-                  "compare(data, G1, G2, ..., {labels =, k =, InitialState =, Offset =}) -> fig",
-                  "measured and simulated, or predicted, outputs with their fits", guarded<compare_models>},
-    FunctionEntry{"fit", kValidationArea, "fit(data, G, {k =, InitialState =, Offset =}) -> percent",
-                  "fit of the simulated, or predicted, output, 100 % is perfect", guarded<fit>},
-    FunctionEntry{"fit_measures", kValidationArea, "fit_measures(data, G, {InitialState =, Offset =}) -> table",
-                  "fit, R_T^2, RMSE, FPE, AIC, BIC and YIC of the simulated output", guarded<measure_fit>},
+constexpr FunctionEntry kValidationFunctions[] = {
+    {"test_your_model", "step tests", "test_your_model(G, data, {InitialState =, Offset =}) -> fig",
+     "measured response and the model's over each other", guarded<test_model>},
+    {"compare", "validation", "compare(data, G1, G2, ..., {labels =, k =, InitialState =, Offset =}) -> fig",
+     "measured and simulated, or predicted, outputs with their fits", guarded<compare_models>},
+    {"fit", "validation", "fit(data, G, {k =, InitialState =, Offset =}) -> percent",
+     "fit of the simulated, or predicted, output, 100 % is perfect", guarded<fit>},
+    {"fit_measures", "validation", "fit_measures(data, G, {InitialState =, Offset =}) -> table",
+     "fit, R_T^2, RMSE, FPE, AIC, BIC and YIC of the simulated output", guarded<measure_fit>},
 };
 
 }  // namespace

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -147,32 +146,27 @@ int interp1(Call& call) {
     return call.give(interpolate_linearly(x, y, Vector::Constant(1, call.number(3, "x_new")), outside)[0]);
 }
 
-constexpr const char* kVectorsArea = "vectors";
-constexpr std::array kVectorsFunctions = {
-    FunctionEntry{"vector", kVectorsArea, "vector{x1, x2, ...} -> v",
-                  "a column of numbers; vectors among the values are joined", guarded<make_vector>},
-    FunctionEntry{"matrix", kVectorsArea, "matrix{{...}, {...}} or matrix{v1, v2} -> A",
-                  "a matrix from its rows (tables) or its columns (vectors)", guarded<make_matrix>},
-    FunctionEntry{"zeros", kVectorsArea, "zeros(n, m) -> v", "n zeros, or an n x m matrix of zeros", guarded<zeros>},
-    FunctionEntry{"ones", kVectorsArea, "ones(n, m) -> v", "n ones, or an n x m matrix of ones", guarded<ones>},
-    FunctionEntry{"eye", kVectorsArea, "eye(n) -> A", "the n x n identity matrix", guarded<eye>},
-    FunctionEntry{"linspace", kVectorsArea, "linspace(first, last, n) -> v",
-                  "n equally spaced values from first to last", guarded<linspace>},
-    FunctionEntry{"logspace", kVectorsArea, "logspace(first, last, n) -> v",
-                  "n values from 10^first to 10^last with equal ratios", guarded<logspace>},
-    FunctionEntry{"range", kVectorsArea, "range(first, last) or range(first, step, last) -> v",
-                  "values from first to last, step by step (MATLAB's first:step:last)", guarded<range>},
-    FunctionEntry{"cumsum", kVectorsArea, "cumsum(v) -> w", "running sum", guarded<cumulative_sum>},
-    FunctionEntry{"diff", kVectorsArea, "diff(v) -> w", "differences of neighbours, one element fewer",
-                  guarded<difference>},
-    FunctionEntry{"dot", kVectorsArea, "dot(a, b) -> x", "scalar product", guarded<dot>},
-    FunctionEntry{"norm", kVectorsArea, "norm(v) -> x", "Euclidean length", guarded<norm>},
-    FunctionEntry{"sort", kVectorsArea, "sort(v) -> sorted, places", "ascending order, and where each element stood",
-                  guarded<sort>},
-    FunctionEntry{"polyval", kVectorsArea, "polyval(p, x) -> y", "value of a polynomial, highest power first",
-                  guarded<polyval>},
-    FunctionEntry{"interp1", kVectorsArea, "interp1(x, y, x_new, {outside =}) -> y_new", "linear interpolation",
-                  guarded<interp1>},
+constexpr FunctionEntry kVectorsFunctions[] = {
+    {"vector", "vectors", "vector{x1, x2, ...} -> v", "a column of numbers; vectors among the values are joined",
+     guarded<make_vector>},
+    {"matrix", "vectors", "matrix{{...}, {...}} or matrix{v1, v2} -> A",
+     "a matrix from its rows (tables) or its columns (vectors)", guarded<make_matrix>},
+    {"zeros", "vectors", "zeros(n, m) -> v", "n zeros, or an n x m matrix of zeros", guarded<zeros>},
+    {"ones", "vectors", "ones(n, m) -> v", "n ones, or an n x m matrix of ones", guarded<ones>},
+    {"eye", "vectors", "eye(n) -> A", "the n x n identity matrix", guarded<eye>},
+    {"linspace", "vectors", "linspace(first, last, n) -> v", "n equally spaced values from first to last",
+     guarded<linspace>},
+    {"logspace", "vectors", "logspace(first, last, n) -> v", "n values from 10^first to 10^last with equal ratios",
+     guarded<logspace>},
+    {"range", "vectors", "range(first, last) or range(first, step, last) -> v",
+     "values from first to last, step by step (MATLAB's first:step:last)", guarded<range>},
+    {"cumsum", "vectors", "cumsum(v) -> w", "running sum", guarded<cumulative_sum>},
+    {"diff", "vectors", "diff(v) -> w", "differences of neighbours, one element fewer", guarded<difference>},
+    {"dot", "vectors", "dot(a, b) -> x", "scalar product", guarded<dot>},
+    {"norm", "vectors", "norm(v) -> x", "Euclidean length", guarded<norm>},
+    {"sort", "vectors", "sort(v) -> sorted, places", "ascending order, and where each element stood", guarded<sort>},
+    {"polyval", "vectors", "polyval(p, x) -> y", "value of a polynomial, highest power first", guarded<polyval>},
+    {"interp1", "vectors", "interp1(x, y, x_new, {outside =}) -> y_new", "linear interpolation", guarded<interp1>},
 };
 
 }  // namespace

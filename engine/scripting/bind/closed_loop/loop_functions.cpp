@@ -83,15 +83,13 @@ int estimate_clsrivc(Call& call) {
 
 constexpr NamedReader kLoopReaders[] = {{"clivsvf", read_clivsvf}, {"clsrivc", read_clsrivc}};
 
-constexpr const char* kLoopsArea = "continuous time";
-constexpr std::array kLoopFunctions = {
-    FunctionEntry{"simloop", "simulation", "simloop(G, C, r, Ts, {noise =, ComputingDelay =, hold =}) -> data, x",
-                  "record of a closed loop u = C (r - y), with noise on the output", guarded<simulate_loop>},
-    FunctionEntry{"clivsvf", kLoopsArea,
-                  "clivsvf(data, {na, nb, nk}, lambda, {controller =, ComputingDelay =, ...}) -> G",
-                  "ivsvf for a record in closed loop, with the reference as instrument", guarded<estimate_clivsvf>},
-    FunctionEntry{"clsrivc", kLoopsArea, "clsrivc(data, {nb, nf, nk}, {controller =, route =, lambda =, ...}) -> G",
-                  "srivc for a record in closed loop, by four routes", guarded<memoized_call<estimate_clsrivc>>},
+constexpr FunctionEntry kLoopFunctions[] = {
+    {"simloop", "simulation", "simloop(G, C, r, Ts, {noise =, ComputingDelay =, hold =}) -> data, x",
+     "record of a closed loop u = C (r - y), with noise on the output", guarded<simulate_loop>},
+    {"clivsvf", "continuous time", "clivsvf(data, {na, nb, nk}, lambda, {controller =, ComputingDelay =, ...}) -> G",
+     "ivsvf for a record in closed loop, with the reference as instrument", guarded<estimate_clivsvf>},
+    {"clsrivc", "continuous time", "clsrivc(data, {nb, nf, nk}, {controller =, route =, lambda =, ...}) -> G",
+     "srivc for a record in closed loop, by four routes", guarded<memoized_call<estimate_clsrivc>>},
 };
 
 }  // namespace

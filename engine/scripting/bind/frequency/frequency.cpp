@@ -1,4 +1,3 @@
-#include <array>
 #include <cmath>
 #include <optional>
 
@@ -103,13 +102,12 @@ int approximate(Call& call) {
     return 1 + give_figure(call, levels_plot(response));
 }
 
-constexpr const char* kFrequencyArea = "nonparametric";
-constexpr std::array kFrequencyFunctions = {
-    FunctionEntry{"idfrd", kFrequencyArea, "idfrd(H, w, {variance =, Ts =, InterSample =, ...}) -> F",
-                  "a measured frequency response as data, with the variances of its errors", guarded<make_response>},
-    FunctionEntry{"bla", kFrequencyArea, "bla(data, {period =, realisations =, transient =, ...}) -> F, fig",
-                  "best linear approximation from periodic records, with the levels of noise and distortion",
-                  guarded<memoized_call<approximate>>},
+constexpr FunctionEntry kFrequencyFunctions[] = {
+    {"idfrd", "nonparametric", "idfrd(H, w, {variance =, Ts =, InterSample =, ...}) -> F",
+     "a measured frequency response as data, with the variances of its errors", guarded<make_response>},
+    {"bla", "nonparametric", "bla(data, {period =, realisations =, transient =, ...}) -> F, fig",
+     "best linear approximation from periodic records, with the levels of noise and distortion",
+     guarded<memoized_call<approximate>>},
 };
 
 }  // namespace

@@ -127,10 +127,10 @@ constexpr std::array kEstimateOperators = {
     Member{"__tostring", told_field<GreyEstimate, [](const GreyEstimate& e) { return grey_presentation(*e); }>},
     Member{"__named", guarded<parameter_named>}};
 
-constexpr std::array kGreyestFunctions = {
-    FunctionEntry{"greyest", "grey box",
-                  "greyest(data, m, {InitialState =, starts =, MaxIter =, Tol =, RelTol =, OutputWeights =}) -> G",
-                  "parameters of differential equations that physics gives", guarded<estimate_grey_box>},
+constexpr FunctionEntry kGreyestFunctions[] = {
+    {"greyest", "grey box",
+     "greyest(data, m, {InitialState =, starts =, MaxIter =, Tol =, RelTol =, OutputWeights =}) -> G",
+     "parameters of differential equations that physics gives", guarded<estimate_grey_box>},
 };
 
 constexpr std::array kGreyestTypes = {TypeEntry{&Boxed<GreyEstimate>::type, kEstimateFields, {}, kEstimateOperators}};

@@ -243,10 +243,10 @@ constexpr std::array kGreyModelFields = {Member{"names", field<GreyModel, parame
                                          Member{"start", field<GreyModel, &GreyModel::start>}};
 constexpr std::array kGreyModelOperators = {Member{"__tostring", field<GreyModel, model_text>}};
 
-constexpr std::array kIdgreyFunctions = {
-    FunctionEntry{"idgrey", "grey box",
-                  "idgrey(f, {p1 = {start, min =, max =, fixed =}, ...}, {states =, outputs = h, x0 =, inputs =}) -> m",
-                  "a model of differential equations, with parameters to be estimated", guarded<make_grey_model>},
+constexpr FunctionEntry kIdgreyFunctions[] = {
+    {"idgrey", "grey box",
+     "idgrey(f, {p1 = {start, min =, max =, fixed =}, ...}, {states =, outputs = h, x0 =, inputs =}) -> m",
+     "a model of differential equations, with parameters to be estimated", guarded<make_grey_model>},
 };
 
 constexpr std::array kIdgreyTypes = {TypeEntry{&Boxed<GreyModel>::type, kGreyModelFields, {}, kGreyModelOperators}};

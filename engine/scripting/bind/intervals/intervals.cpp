@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 
 #include "figures/plots/monte_carlo_plot.h"
 #include "figures/plots/profile_plot.h"
@@ -141,16 +140,14 @@ int follow_parameter(Call& call) {
     return 2;
 }
 
-constexpr const char* kIntervalsArea = "validation";
-constexpr std::array kIntervalFunctions = {
-    FunctionEntry{"bootstrap", kIntervalsArea,
-                  "bootstrap(G, data, {runs =, kind =, seed =, confidence =, InitialState =, Offset =}) -> fig, table",
-                  "intervals of parameters, gain and time constants from experiments repeated on the computer",
-                  guarded<memoized_call<repeat_experiment>>},
-    FunctionEntry{"profile", kIntervalsArea,
-                  "profile(G, data, name, {confidence =, points =, range =, InitialState =, Offset =}) -> fig, table",
-                  "interval of one parameter from how the fit gets worse beside it",
-                  guarded<memoized_call<follow_parameter>>},
+constexpr FunctionEntry kIntervalFunctions[] = {
+    {"bootstrap", "validation",
+     "bootstrap(G, data, {runs =, kind =, seed =, confidence =, InitialState =, Offset =}) -> fig, table",
+     "intervals of parameters, gain and time constants from experiments repeated on the computer",
+     guarded<memoized_call<repeat_experiment>>},
+    {"profile", "validation",
+     "profile(G, data, name, {confidence =, points =, range =, InitialState =, Offset =}) -> fig, table",
+     "interval of one parameter from how the fit gets worse beside it", guarded<memoized_call<follow_parameter>>},
 };
 
 }  // namespace

@@ -101,16 +101,15 @@ int estimate_dmdc(Call& call) {
     return give_system(call, std::move(estimate), found.fit, found.system);
 }
 
-constexpr const char* kLearningArea = "learning from data";
-constexpr std::array kLearningFunctions = {
-    FunctionEntry{"sindy", kLearningArea,
-                  "sindy(data, {library =, names =, degree =, threshold =, weak =, window =, width =}) -> G",
-                  "sparse differential equations from a library of functions, the outputs being the states",
-                  guarded<estimate_sindy>},
-    FunctionEntry{"dmdc", kLearningArea, "dmdc(data, {rank =, delays =}) -> G",
-                  "a state-space model from snapshots, cut to few modes", guarded<memoized_call<estimate_dmdc>>},
-    FunctionEntry{"narx", kLearningArea, "narx(data, {na, nb, nk}, {degree =, terms =}) -> G",
-                  "a polynomial difference equation whose terms are chosen one by one", guarded<estimate_narx>},
+constexpr FunctionEntry kLearningFunctions[] = {
+    {"sindy", "learning from data",
+     "sindy(data, {library =, names =, degree =, threshold =, weak =, window =, width =}) -> G",
+     "sparse differential equations from a library of functions, the outputs being the states",
+     guarded<estimate_sindy>},
+    {"dmdc", "learning from data", "dmdc(data, {rank =, delays =}) -> G",
+     "a state-space model from snapshots, cut to few modes", guarded<memoized_call<estimate_dmdc>>},
+    {"narx", "learning from data", "narx(data, {na, nb, nk}, {degree =, terms =}) -> G",
+     "a polynomial difference equation whose terms are chosen one by one", guarded<estimate_narx>},
 };
 
 }  // namespace

@@ -112,19 +112,15 @@ constexpr NamedReader kRecursiveReaders[] = {{"rlssvf", read_recursive<rlssvf, t
                                              {"rivsvf", read_recursive<rivsvf, true>},
                                              {"rsrivc", read_recursive<rsrivc, false>}};
 
-constexpr const char* kRecursiveArea = "continuous time";
-constexpr std::array kRecursiveFunctions = {
-    FunctionEntry{"rlssvf", kRecursiveArea, "rlssvf(data, {na, nb, nk}, lambda, {forgetting =, drift =, ...}) -> G",
-                  "lssvf sample by sample, for parameters that change",
-                  guarded<memoized_call<estimate_recursively<rlssvf, true>>>},
-    FunctionEntry{"rivsvf", kRecursiveArea, "rivsvf(data, {na, nb, nk}, lambda, {forgetting =, drift =, ...}) -> G",
-                  "ivsvf sample by sample, for parameters that change",
-                  guarded<memoized_call<estimate_recursively<rivsvf, true>>>},
-    FunctionEntry{"rsrivc", kRecursiveArea, "rsrivc(data, {nb, nf, nk}, lambda, {forgetting =, drift =, ...}) -> G",
-                  "srivc sample by sample, for parameters that change",
-                  guarded<memoized_call<estimate_recursively<rsrivc, false>>>},
-    FunctionEntry{"plot_history", "figures", "plot_history(G, {truth =, confidence =}) -> fig",
-                  "parameters over time with their confidence bands", guarded<plot_parameters>},
+constexpr FunctionEntry kRecursiveFunctions[] = {
+    {"rlssvf", "continuous time", "rlssvf(data, {na, nb, nk}, lambda, {forgetting =, drift =, ...}) -> G",
+     "lssvf sample by sample, for parameters that change", guarded<memoized_call<estimate_recursively<rlssvf, true>>>},
+    {"rivsvf", "continuous time", "rivsvf(data, {na, nb, nk}, lambda, {forgetting =, drift =, ...}) -> G",
+     "ivsvf sample by sample, for parameters that change", guarded<memoized_call<estimate_recursively<rivsvf, true>>>},
+    {"rsrivc", "continuous time", "rsrivc(data, {nb, nf, nk}, lambda, {forgetting =, drift =, ...}) -> G",
+     "srivc sample by sample, for parameters that change", guarded<memoized_call<estimate_recursively<rsrivc, false>>>},
+    {"plot_history", "figures", "plot_history(G, {truth =, confidence =}) -> fig",
+     "parameters over time with their confidence bands", guarded<plot_parameters>},
 };
 
 }  // namespace
