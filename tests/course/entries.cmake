@@ -5,16 +5,20 @@ list(TRANSFORM lessons REPLACE "/.*" "")
 foreach(lesson ${lessons})
   foreach(suite check_tolerances lesson_checks)
     dynlab_entry(${suite}.${lesson} ${name} "*/${suite}.*/${lesson}" "${labels};repeats")
+    list(APPEND suites ${suite}.${lesson})
   endforeach()
 endforeach()
 dynlab_entry(own_records ${name} "own_records.*" "${labels}")
 foreach(lesson 03_crane 05_thruster 07_feedback)
   dynlab_entry(own_records.${lesson} ${name} "*/own_records.*/${lesson}" "${labels};repeats")
+  list(APPEND suites own_records.${lesson})
 endforeach()
 # Grading lesson 05 keeps two processors busy: beside another such entry it would miss its time.
 set_tests_properties(check_tolerances.05_thruster lesson_checks.05_thruster own_records.05_thruster own_records_of_many
                      PROPERTIES PROCESSORS 2)
 set_tests_properties(own_records_of_many PROPERTIES LABELS long TIMEOUT 14400)
+# Classes take long: they start first, so that no processor waits for the last of them.
+set_tests_properties(${suites} PROPERTIES COST 60)
 set_tests_properties(instructor_guide_marks PROPERTIES LABELS "${labels};repeats")
 
 dynlab_entry(course_faults.every_place ${name} "course_faults.*" long)

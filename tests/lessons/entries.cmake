@@ -1,0 +1,2 @@
+# Lessons take long: they start first, so that no processor waits for the last of them.
+set_tests_properties(${suites} PROPERTIES COST 60)

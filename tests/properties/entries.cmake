@@ -1,0 +1,2 @@
+# Too long for every edit.
+set_tests_properties(process_properties PROPERTIES LABELS properties)
