@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "figures/figure.h"
 #include "workflow/look.h"
 #include "workflow_run.h"
 

@@ -20,7 +20,7 @@ using testing::HasSubstr;
 /// Records of 2/(s^2 + 4s + 3) (x, with a delay of 0.33 s in late) and (s + 2)/(s^2 + 0.8s + 4) (theta), in files that
 /// state their sampling in different ways.
 constexpr const char* kRecords = R"lua(
-local u, Ts = prbs(7, 8), 0.05
+local u, Ts = prbs(6, 8), 0.05
 local t = linspace(0, (#u - 1)*Ts, #u)
 local x, theta = lsim(tf({2}, {1, 4, 3}), u, Ts), lsim(tf({1, 2}, {1, 0.8, 4}), u, Ts)
 local late = lsim(tf({2}, {1, 4, 3}, {IODelay = 0.33}), u, Ts)

@@ -20,7 +20,7 @@ const std::string kStudy =
     "                     estimators = {srivc = {{1, 2, 0}}}}\nprint(M)\nM:histograms()\n";
 const std::string kSearch =
     "-- %% id=search\nlocal r = load('d.csv')\nlocal data = iddata(r.y, r.u, 0.01)\n"
-    "print(srivcstruc(data, {poles = {1, 4}, zeros = {0, 3}}))\nlocal Td, fig = delayest(data)\n";
+    "print(srivcstruc(data, {poles = {1, 4}, zeros = {0, 3}}))\nlocal Td, fig = delayest(data, {TdMax = 0.2})\n";
 const std::string kLate = "-- %% id=late\nplot({1, 2}, {3, 4})\nprint('late')\n";
 
 class report_memory : public testing::Test {
