@@ -31,10 +31,10 @@ TEST_P(grey_figures, neighbouring_curves_are_told_apart) {
     ASSERT_FALSE(record.error) << record.error->message;
     EXPECT_FALSE(record.figures.empty());
     for (const auto& [name, drawn] : record.figures)
-        for (std::size_t place = 0; place < drawn.figure.panels.size(); ++place) {
+        for (std::size_t place = 0; place < drawn.figure->panels.size(); ++place) {
             for (const auto& [of, what] :
                  {std::pair(GreyLooks::Of::kNamedCurves, "named curves"), std::pair(GreyLooks::Of::kBands, "bands")}) {
-                const GreyLooks looks(drawn.figure.panels[place], of);
+                const GreyLooks looks(drawn.figure->panels[place], of);
                 for (std::size_t i = 0; i + 1 < looks.size(); ++i)
                     EXPECT_GT(looks.difference(i, i + 1), kSeenInGrey)
                         << "figure " << name << ", panel " << place + 1 << ", " << what << " " << i + 1 << " and "
