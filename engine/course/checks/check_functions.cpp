@@ -272,11 +272,11 @@ std::string answer_trouble(const std::string& name, const std::string& run,
                        near ? fmt::format("; \"{}\" was, which the lesson does not ask for", *near) : "");
 }
 
-/// Reads an answer when it is first asked for; upvalue 2 is the name of the run. One that is not there fails the check,
+/// Reads an answer when it is first asked for; upvalue 3 is the name of the run. One that is not there fails the check,
 /// in words for the student.
 int answer_of(Call& call) {
     lua_State* L = call.state();
-    const std::string name = call.text(2, "name"), run = lua_tostring(L, lua_upvalueindex(2));
+    const std::string name = call.text(2, "name"), run = lua_tostring(L, lua_upvalueindex(3));
     CheckSession& session = session_of(call);
     const auto refuse = [&session](const std::string& why) { throw InvalidArgument(session.answer_trouble = why); };
     const auto& answers = session.runs[run].answers;
@@ -300,8 +300,9 @@ void push_answers(const Call& call, const std::string& run) {
     lua_createtable(L, 0, 2);
     set_field(call, kRunOfAnswers, run);
     lua_pushlightuserdata(L, const_cast<char*>("_"));
+    lua_pushlightuserdata(L, &session_of(call));  // where Call::owner reads it
     call.give(run);
-    lua_pushcclosure(L, guarded<answer_of>, 2);
+    lua_pushcclosure(L, guarded<answer_of>, 3);
     lua_setfield(L, -2, "__index");
     lua_setmetatable(L, -2);
 }
