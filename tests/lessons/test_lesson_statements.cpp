@@ -266,8 +266,8 @@ local est = iddata(L.y, L.u, 0.05)
 local Td, fig, D = delayest(est)
 for _, samples in ipairs{0, 1, 2, 3, 5, 8, 12} do
     local G = srivc(est, {2, 3, samples})
-    report.number("held_" .. samples, mean((L.y - lsim(G, L.u, 0.05))^2), "%.6f")
-    report.number("curve_" .. samples, interp1(D.delays, D.losses, vector{0.05*samples})[1], "%.6f")
+    report.value("held_" .. samples, mean((L.y - lsim(G, L.u, 0.05))^2), "%.6f")
+    report.value("curve_" .. samples, interp1(D.delays, D.losses, vector{0.05*samples})[1], "%.6f")
 end
 )");
     for (const char* samples : {"0", "1", "2", "3", "5", "8", "12"}) {
@@ -314,7 +314,7 @@ local function tends_to(period, snr)
 end
 for i, period in ipairs{0.01, 0.05, 0.1, 0.2, 0.3} do
     for j, snr in ipairs{5, 15, 25, 35, 45} do
-        report.number("a1_" .. i .. "_" .. j, tends_to(period, snr), "%.6f")
+        report.value("a1_" .. i .. "_" .. j, tends_to(period, snr), "%.6f")
     end
 end
 )");

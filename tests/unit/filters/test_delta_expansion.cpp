@@ -121,12 +121,8 @@ TEST(delta_expansion, solution_of_badly_scaled_equations_keeps_its_digits) {
             }
             b[i] = static_cast<double>(sum);
         }
-        const LongMatrix L = long_matrix(T, n);
-        LongVector known(n);
-        for (int i = 0; i < n; ++i) known[i] = b[i];
-        const LongVector exact = L.fullPivLu().solve(known);
         const StateVector<4> found = scaled_solution(T, b, n);
-        for (int j = 0; j < n; ++j) EXPECT_NEAR(found[j] / static_cast<double>(exact[j]), 1, 1e-12) << n;
+        for (int j = 0; j < n; ++j) EXPECT_NEAR(found[j] / static_cast<double>(expected[j]), 1, 1e-12) << n;
     }
 }
 
