@@ -3,7 +3,7 @@
 #include <exception>
 #include <string_view>
 
-#include "cli/programs/boxed_job.h"
+#include "cli/boxed_job.h"
 #include "course/boxes/boxed_document.h"
 #include "course/boxes/unpack.h"
 #include "course/checks/check_descriptions.h"

@@ -33,7 +33,7 @@ class DenominatorGroup {
     /// Those of SRIVC: signals filtered by 1/A of `theta`, instruments the sensitivities of the model's output;
     /// `with_gram` also the sums of z z'.
     NormalEquations refined(const VectorView& theta, bool with_gram = false) const;
-    Vector denominator(const VectorView& theta) const;       ///< A: n + 1 coefficients, monic; theta of the group
+    Vector denominator(const VectorView& theta) const;  ///< A: n + 1 coefficients, monic; theta of the group
     /// theta with unstable poles mirrored (real part to its negative); tells whether there were any.
     Vector with_stable_poles(const VectorView& theta, bool* any = nullptr) const;
 

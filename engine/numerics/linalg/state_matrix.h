@@ -35,6 +35,7 @@ struct StateMatrix {
     }
 };
 
+/// The identity of n states.
 template <int room>
 StateMatrix<room> state_identity(int n) {
     StateMatrix<room> I;
@@ -42,6 +43,7 @@ StateMatrix<room> state_identity(int n) {
     return I;
 }
 
+/// A x of n states.
 template <int room>
 StateVector<room> product(const StateMatrix<room>& A, const StateVector<room>& x, int n) {
     StateVector<room> y;
@@ -49,6 +51,7 @@ StateVector<room> product(const StateMatrix<room>& A, const StateVector<room>& x
     return y;
 }
 
+/// A B of n states.
 template <int room>
 StateMatrix<room> product(const StateMatrix<room>& A, const StateMatrix<room>& B, int n) {
     StateMatrix<room> C;
