@@ -72,7 +72,7 @@ TEST_F(identify, printed_script_gives_the_same_numbers_and_the_same_report) {
     bench_.write("b.lua", report(for_script));
     EXPECT_THAT(bench_.dynlab({"run", "b.lua"}).output, StartsWith(numbers));
     EXPECT_EQ(bench_.dynlab({"weave", "b.lua", "-o", "b.md"}).exit_code, 0);
-    EXPECT_TRUE(bench_.read("a.md") == bench_.read("b.md"));
+    EXPECT_EQ(bench_.shell("sed s/b_files/a_files/ b.md | diff a.md - && diff -r a_files b_files").output, "");
 }
 
 TEST_F(identify, what_is_printed_on_a_terminal_begins_on_a_line_of_its_own) {
