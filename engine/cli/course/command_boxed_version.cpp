@@ -1,5 +1,5 @@
-#include "cli/commands.h"
 #include "cli/boxed_job.h"
+#include "cli/commands.h"
 #include "course/review/version_description.h"
 
 namespace dynlab::inline cli {
