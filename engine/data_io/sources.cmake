@@ -1,6 +1,6 @@
 # How single sources of data_io are compiled; included by engine/CMakeLists.txt.
 
-# libmatio is loaded by name with the first file that needs it: by the name that stays when it is mended.
+# libmatio is loaded by name with the first file that needs it: by the name that stays the same through bug fixes.
 file(REAL_PATH ${pkgcfg_lib_MATIO_matio} matio_library)
 string(REGEX REPLACE "(\\.so\\.[0-9]+)\\..*" "\\1" matio_library ${matio_library})
 set_source_files_properties(data_io/matio_library.cpp

@@ -136,7 +136,7 @@ std::string validation_doubt(const OrderSelection& selection, const Places& soun
 /// With the blank before it: which option its fit lacks.
 std::string missed_by(const OrderCandidate& candidate) {
     const std::optional<MissedOption>& missed = candidate.estimate.doubts.missed_option;
-    return missed ? " " + sentence_of(*missed) + " Then compare the structures anew." : "";
+    return missed ? " " + sentence_of(*missed) + " Then compare the structures again." : "";
 }
 
 OrderChoice recommend(const OrderSelection& selection, const Places& estimated) {
