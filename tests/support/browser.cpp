@@ -1,7 +1,7 @@
 #include "support/browser.h"
 
 #include <arpa/inet.h>
-#include <fmt/format.h>
+#include <gtest/gtest.h>
 #include <httplib.h>
 #include <sodium.h>
 #include <sys/socket.h>
@@ -107,6 +107,17 @@ std::vector<std::unique_ptr<Chromium>>& idle(Browser::Kind kind) {
     static std::array<std::vector<std::unique_ptr<Chromium>>, 2> of_kind;
     return of_kind[kind == Browser::Kind::kWhole];
 }
+
+/// Ends the idle ones after the last test. At the exit of the program it would be too late: the library that speaks to
+/// chromedriver has static objects, made later and so destroyed earlier.
+class EndOfTests : public testing::Environment {
+  public:
+    void TearDown() override {
+        idle(Browser::Kind::kWithoutDesktop).clear();
+        idle(Browser::Kind::kWhole).clear();
+    }
+};
+[[maybe_unused]] const testing::Environment* const end_of_tests = testing::AddGlobalTestEnvironment(new EndOfTests);
 
 }  // namespace
 
