@@ -7,6 +7,13 @@
 
 namespace dynlab::inline numerics {
 
+Fit::Fit() = default;
+Fit::Fit(const Fit&) = default;
+Fit::Fit(Fit&&) noexcept = default;
+Fit& Fit::operator=(const Fit&) = default;
+Fit& Fit::operator=(Fit&&) noexcept = default;
+Fit::~Fit() = default;
+
 void FitOptions::validate() const {
     if (lambda && (!(*lambda > 0) || !std::isfinite(*lambda)))
         throw InvalidArgument("lambda must be a positive number of rad/s, and is " + number_text(*lambda));

@@ -144,6 +144,14 @@ struct Fit {
     FitDoubts doubts;
     std::vector<std::string> warnings;  ///< whole sentences
     std::string message;                ///< one sentence, then the warnings
+
+    // Compiled once (fit.cpp): most sources of the later layers copy or destroy fits.
+    Fit();
+    Fit(const Fit&);
+    Fit(Fit&&) noexcept;
+    Fit& operator=(const Fit&);
+    Fit& operator=(Fit&&) noexcept;
+    ~Fit();
 };
 
 /// 100 (1 - |error|/|y - mean(y)|), the means taken experiment by experiment, from the two sums of squares;

@@ -148,7 +148,9 @@ void fill_errors(Fit& fit, const TransferOutput& model) {
         fit.noise_variance[o] = squares[o] / (N - static_cast<double>(free));
         fit.fit_percent[o] = fit_percent_of_sums(squares[o], variation[o]);
     }
-    fit.loss = squares.sum() / (N * static_cast<double>(squares.size()));
+    // Not a number would compare with the losses of other searches as neither larger nor smaller.
+    const double loss = squares.sum() / (N * static_cast<double>(squares.size()));
+    fit.loss = std::isfinite(loss) ? loss : kInfinity;
 }
 
 Fit refine_jointly(const IdData& data, const TransferStructure& structure, const StartCondition& condition,

@@ -3,6 +3,8 @@
 #include <complex>
 #include <limits>
 
+#include "numerics/linalg/products.h"
+
 namespace dynlab::inline numerics {
 
 using Vector = Eigen::VectorXd;

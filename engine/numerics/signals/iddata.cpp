@@ -90,6 +90,13 @@ void check_selection(const std::vector<Index>& chosen, Index count, const std::s
 
 }  // namespace
 
+IdData::IdData() = default;
+IdData::IdData(const IdData&) = default;
+IdData::IdData(IdData&&) noexcept = default;
+IdData& IdData::operator=(const IdData&) = default;
+IdData& IdData::operator=(IdData&&) noexcept = default;
+IdData::~IdData() = default;
+
 IdData::IdData(Matrix y, Matrix u, double sampling_time) : Ts(sampling_time) {
     check_sampling_time("iddata", Ts);
     check_channels(y, u);

@@ -34,7 +34,14 @@ struct IdData {
     IdData(Matrix y, Matrix u, double Ts);
     /// Irregular sampling at strictly increasing instants `t` (N values).
     IdData(Matrix y, Matrix u, const VectorView& t);
-    IdData() = default;
+
+    // Compiled once (iddata.cpp): most sources copy or destroy data.
+    IdData();
+    IdData(const IdData&);
+    IdData(IdData&&) noexcept;
+    IdData& operator=(const IdData&);
+    IdData& operator=(IdData&&) noexcept;
+    ~IdData();
 
     Index sample_count() const;  ///< over all experiments
     Index sample_count(std::size_t experiment) const { return experiments[experiment].y.rows(); }

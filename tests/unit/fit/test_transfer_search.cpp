@@ -225,6 +225,15 @@ TEST(transfer_search, the_solution_for_the_least_delay_is_never_lost) {
     }
 }
 
+// Oracle: the true system's loss. One of the searches ends at poles of 1e6 rad/s, and the simulation of that model by
+// irregular steps of 0.1 s is not a number: such an end must lose against the others.
+TEST(transfer_search, an_end_that_cannot_be_simulated_loses) {
+    const SearchCase one = search_case(10'042, 5000, true);
+    TransferStructure structure = TransferStructure::single(one.poles, one.zeros);
+    structure.free_delays = one.delayed;
+    EXPECT_LT(search_transfer("test", one.data, structure, {}).loss, one.loss_at_truth);
+}
+
 // Oracle: the simulated system. The record begins with the step and stands on a constant.
 TEST(transfer_search, a_step_at_the_first_sample_on_a_constant_is_fitted) {
     const Index N = 400;

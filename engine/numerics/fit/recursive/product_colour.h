@@ -3,9 +3,20 @@
 #include <cmath>
 
 #include "numerics/fit/recursive/small_equations.h"
-#include "numerics/linalg/decompositions.h"
+#include "numerics/linalg/types.h"
 
 namespace dynlab::inline numerics {
+
+/// Sums over the rows of d instruments z and errors e.
+struct ProductSums {
+    Matrix gram, products;  ///< of z, and of the blocks' sums of z e: d x d
+    double rows = 0, blocks = 0;
+    double variance = 0;  ///< of e
+    double open = 0;      ///< rows of the block that is not complete: products are of complete ones
+};
+
+/// T as ProductColour::ratio has it.
+Matrix colour_ratio(const ProductSums& sums);
 
 /// How the products z(k) e(k) of instruments and errors add up when the errors are coloured, at constant cost a sample:
 /// within blocks of samples they are summed, and the sums' squares are compared with what white errors of the same size
@@ -37,27 +48,18 @@ class ProductColour {
     /// T with sum_kl z(k) z(l)' cov(e(k), e(l)) = variance R' T R, R upper triangular with sum_k z z' = R'R: the
     /// identity for white errors, and towards it T is drawn by as much as chance takes part in it (James and Stein).
     Matrix ratio(Index d) const {
-        const Matrix none = Matrix::Identity(d, d);
-        const double rows = now_.rows + earlier_.rows, blocks = now_.blocks + earlier_.blocks;
-        const double variance = (now_.squares + earlier_.squares) / rows;
-        if (!(blocks > 0 && variance > 0) || !std::isfinite(variance)) return none;
-        Matrix gram(d, d), products(d, d);
+        const double rows = now_.rows + earlier_.rows;
+        ProductSums sums{
+            Matrix(d, d), Matrix(d, d), rows, now_.blocks + earlier_.blocks, (now_.squares + earlier_.squares) / rows,
+            in_block_};
         for (Index i = 0; i < d; ++i)
             for (Index j = 0; j < d; ++j) {
                 const auto row = static_cast<std::size_t>(std::min(i, j)),
                            column = static_cast<std::size_t>(std::max(i, j));
-                gram(i, j) = now_.gram[row][column] + earlier_.gram[row][column];
-                products(i, j) = now_.products[row][column] + earlier_.products[row][column];
+                sums.gram(i, j) = now_.gram[row][column] + earlier_.gram[row][column];
+                sums.products(i, j) = now_.products[row][column] + earlier_.products[row][column];
             }
-        // Only whole blocks hold products.
-        const double complete = (rows - in_block_) / rows;
-        const auto root = cholesky_root(gram * (complete * variance));
-        if (!root) return none;
-        const Matrix half = solve_by_lu(*root, products).x;
-        const Matrix whole = solve_by_lu(*root, half.transpose()).x;
-        const double chance = static_cast<double>(d * (d + 1)) / blocks;  // of |T - I|^2 with white errors
-        const double believed = std::max(0.0, 1 - chance / (whole - none).squaredNorm());
-        return none + believed * (whole - none);
+        return colour_ratio(sums);
     }
 
   private:

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <optional>
 
 #include "numerics/criteria/denominator_group.h"
 #include "numerics/error.h"
 #include "numerics/filters/evolving_filter.h"
 #include "numerics/fit/diagnosis.h"
 #include "numerics/fit/recursive/instrument_array.h"
-
 #include "numerics/linalg/matrix_exponential.h"
 #include "numerics/linalg/polynomial.h"
 #include "numerics/models/sampled_system.h"
@@ -124,8 +125,23 @@ Vector first_model(const IdData& data, const TransferStructure& structure, const
     }
 }
 
+/// A pass over the samples whose sizes only its own loops know.
+class AnyPass {
+  public:
+    virtual ~AnyPass() = default;
+    /// The model of instruments and filters until sample `until` (0-based), and from then on, too, when that is behind
+    /// the last.
+    virtual void begin_with(const Vector& theta, Index until) = 0;
+    virtual void take(Index first, Index last) = 0;  ///< samples first ... last
+    virtual bool known() const = 0;
+    virtual Vector theta() const = 0;
+    virtual double variance() const = 0;
+    virtual Matrix covariance() const = 0;
+    virtual Index samples_not_followed() const = 0;
+};
+
 template <RecursiveMethod kMethod, int kOrder, int kCount>
-class Pass {
+class Pass final : public AnyPass {
   public:
     /// `step`: mean sampling time, s.
     Pass(const Samples& samples, const TransferStructure& structure, const RecursiveOptions& options, double step)
@@ -147,9 +163,7 @@ class Pass {
         fixed_.emplace(filter_);
     }
 
-    /// The model of instruments and filters until sample `until` (0-based), and from then on, too, when that is behind
-    /// the last.
-    void begin_with(const Vector& theta, Index until) {
+    void begin_with(const Vector& theta, Index until) override {
         model_.set(theta.data());
         follows_from_ = until;
         if (options_.model || !too_quick(model_)) return;
@@ -157,6 +171,19 @@ class Pass {
         model_.b = {};
         model_.b[static_cast<std::size_t>(m_)] = std::pow(options_.lambda, n_);
     }
+
+    void take(Index first, Index last) override {
+        for (Index k = first; k <= last; ++k) take(k);
+    }
+
+    bool known() const override { return array_.known(); }
+    Vector theta() const override { return Vector::Map(array_.theta().data(), n_ + m_ + 1); }
+    double variance() const override { return array_.variance(); }
+    Matrix covariance() const override { return array_.covariance(); }
+    Index samples_not_followed() const override { return not_followed_; }
+
+  private:
+    using Array = InstrumentArray<kCount, kMethod != RecursiveMethod::kLeastSquares>;
 
     void take(Index k) {
         if (k > 0) advance(k);
@@ -181,15 +208,6 @@ class Pass {
         if (k % kSamplesBetweenLooks == 0) sure_ = known_well();
         if (sure_) follow();
     }
-
-    bool known() const { return array_.known(); }
-    Vector theta() const { return Vector::Map(array_.theta().data(), n_ + m_ + 1); }
-    double variance() const { return array_.variance(); }
-    Matrix covariance() const { return array_.covariance(); }
-    Index samples_not_followed() const { return not_followed_; }
-
-  private:
-    using Array = InstrumentArray<kCount, kMethod != RecursiveMethod::kLeastSquares>;
 
     /// Everything to the instant of sample k; the signals begin at their first sample and are zero, no ramp, before.
     void advance(Index k) {
@@ -281,8 +299,7 @@ Index history_stride(Index samples, Index points) {
     return std::max<Index>(1, (samples + points - 1) / points);
 }
 
-template <class OnePass>
-Fit run_pass(OnePass pass, const RecursiveName& method, const IdData& data, const TransferStructure& structure,
+Fit run_pass(AnyPass& pass, const RecursiveName& method, const IdData& data, const TransferStructure& structure,
              const RecursiveOptions& options) {
     const Index N = data.sample_count(), d = structure.parameter_count();
     const Index stride = history_stride(N, options.history_points), points = (N - 1) / stride + 1;
@@ -292,20 +309,24 @@ Fit run_pass(OnePass pass, const RecursiveName& method, const IdData& data, cons
     history->theta = history->std = Matrix::Constant(points, d, kNaN);
     Fit fit;
     fit.structure = structure;
-    for (Index k = 0, point = 0; k < N; ++k) {
-        if (options.cancel && k % kSamplesBetweenQuestions == 0 && options.cancel()) {
+    for (Index point = 0, next = 0; point < points; ++point) {
+        const Index recorded = N - 1 - (points - 1 - point) * stride;
+        while (next <= recorded) {
+            const Index since = next % kSamplesBetweenQuestions;
+            if (since == 0 && options.cancel && options.cancel()) break;
+            const Index last = std::min(recorded, next - since + kSamplesBetweenQuestions - 1);
+            pass.take(next, last);
+            next = last + 1;
+        }
+        if (next <= recorded) {
             fit.termination = Termination::kCancelled;
             break;
         }
-        pass.take(k);
-        if ((N - 1 - k) % stride != 0) continue;
-        history->t[point] = t[k];
-        if (pass.known()) {
-            history->theta.row(point) = pass.theta().transpose();
-            if (std::isfinite(pass.variance()))
-                history->std.row(point) = pass.covariance().diagonal().cwiseMax(0).cwiseSqrt().transpose();
-        }
-        ++point;
+        history->t[point] = t[recorded];
+        if (!pass.known()) continue;
+        history->theta.row(point) = pass.theta().transpose();
+        if (std::isfinite(pass.variance()))
+            history->std.row(point) = pass.covariance().diagonal().cwiseMax(0).cwiseSqrt().transpose();
     }
     if (!pass.known())
         throw InvalidArgument(method.name +
@@ -325,32 +346,27 @@ Fit run_pass(OnePass pass, const RecursiveName& method, const IdData& data, cons
     return fit;
 }
 
-template <RecursiveMethod kMethod, int kOrder, int kCount>
-Fit pass_of_size(const RecursiveName& method, const IdData& data, const TransferStructure& structure,
-                 const RecursiveOptions& options, const Samples& samples) {
-    Pass<kMethod, kOrder, kCount> pass(samples, structure, options, data.mean_step());
-    const Index N = data.sample_count(), d = structure.parameter_count();
-    if (options.model) {
-        Vector theta(d);
-        theta << options.model->den().tail(structure.poles.front()), Vector::Zero(d - structure.poles.front());
-        theta.tail(options.model->num().size()) = options.model->num();
-        pass.begin_with(theta, N);
-    } else if (kMethod != RecursiveMethod::kLeastSquares) {
-        const Index batch = first_batch(data, d, options.lambda);
-        pass.begin_with(first_model(data, structure, options, batch), batch);
-    }
-    return run_pass(std::move(pass), method, data, structure, options);
-}
-
 template <RecursiveMethod kMethod>
-Fit pass_of_method(const RecursiveName& method, const IdData& data, const TransferStructure& structure,
-                   const RecursiveOptions& options, const Samples& samples) {
+std::unique_ptr<AnyPass> pass_of_method(const Samples& samples, const TransferStructure& structure,
+                                        const RecursiveOptions& options, double step) {
     const int n = structure.poles.front();
     const Index d = structure.parameter_count();
-    if (n == 1 && d == 2) return pass_of_size<kMethod, 1, 2>(method, data, structure, options, samples);
-    if (n == 2 && d == 3) return pass_of_size<kMethod, 2, 3>(method, data, structure, options, samples);
-    if (n == 2 && d == 4) return pass_of_size<kMethod, 2, 4>(method, data, structure, options, samples);
-    return pass_of_size<kMethod, Eigen::Dynamic, Eigen::Dynamic>(method, data, structure, options, samples);
+    if (n == 1 && d == 2) return std::make_unique<Pass<kMethod, 1, 2>>(samples, structure, options, step);
+    if (n == 2 && d == 3) return std::make_unique<Pass<kMethod, 2, 3>>(samples, structure, options, step);
+    if (n == 2 && d == 4) return std::make_unique<Pass<kMethod, 2, 4>>(samples, structure, options, step);
+    return std::make_unique<Pass<kMethod, Eigen::Dynamic, Eigen::Dynamic>>(samples, structure, options, step);
+}
+
+std::unique_ptr<AnyPass> pass_of(RecursiveMethod kind, const Samples& samples, const TransferStructure& structure,
+                                 const RecursiveOptions& options, double step) {
+    switch (kind) {
+        case RecursiveMethod::kLeastSquares:
+            return pass_of_method<RecursiveMethod::kLeastSquares>(samples, structure, options, step);
+        case RecursiveMethod::kInstruments:
+            return pass_of_method<RecursiveMethod::kInstruments>(samples, structure, options, step);
+        default:
+            return pass_of_method<RecursiveMethod::kRefined>(samples, structure, options, step);
+    }
 }
 
 void check_recursive_data(const RecursiveName& method, const IdData& data, const TransferStructure& structure) {
@@ -409,14 +425,18 @@ Fit recursive_pass(const RecursiveName& method, RecursiveMethod kind, const IdDa
     options.validate(method.name, structure.parameter_count());
     if (options.model) check_fixed_model(method, *options.model, structure);
     const Samples samples = samples_of(method, data, structure.channels.front().delay, options.hold_y);
-    switch (kind) {
-        case RecursiveMethod::kLeastSquares:
-            return pass_of_method<RecursiveMethod::kLeastSquares>(method, data, structure, options, samples);
-        case RecursiveMethod::kInstruments:
-            return pass_of_method<RecursiveMethod::kInstruments>(method, data, structure, options, samples);
-        default:
-            return pass_of_method<RecursiveMethod::kRefined>(method, data, structure, options, samples);
+    const std::unique_ptr<AnyPass> pass = pass_of(kind, samples, structure, options, data.mean_step());
+    const Index N = data.sample_count(), d = structure.parameter_count();
+    if (options.model) {
+        Vector theta(d);
+        theta << options.model->den().tail(structure.poles.front()), Vector::Zero(d - structure.poles.front());
+        theta.tail(options.model->num().size()) = options.model->num();
+        pass->begin_with(theta, N);
+    } else if (kind != RecursiveMethod::kLeastSquares) {
+        const Index batch = first_batch(data, d, options.lambda);
+        pass->begin_with(first_model(data, structure, options, batch), batch);
     }
+    return run_pass(*pass, method, data, structure, options);
 }
 
 }  // namespace dynlab::inline numerics
