@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "numerics/criteria/initial_conditions.h"
+#include "numerics/fit/further_results.h"
 #include "numerics/models/transfer_structure.h"
 #include "numerics/signals/iddata.h"
 
@@ -67,26 +68,6 @@ struct FitOptions {
     FitOptions limited(int iterations, double limit) const;
     /// The same for a search that only shows where another begins: without covariance.
     FitOptions rough(int iterations, double limit) const;
-};
-
-/// Noise v = C(q^-1)/D(q^-1) e of an estimated model, monic, with standard errors (zero for the leading ones). C and D
-/// are in powers of q^-1.
-struct NoiseModel {
-    Vector C, D, C_std, D_std;
-    double Ts = 0;  ///< s, of the samples that q counts
-};
-
-/// The static part of a Hammerstein model: straight lines between K levels at the edges of bins.
-struct StaticCharacteristic {
-    Vector breakpoints;             ///< K edges of the bins, in units of the input
-    Vector levels, levels_std;      ///< K values there, in units of the output
-    double linear_fit_percent = 0;  ///< of the best linear model of the same orders
-};
-
-/// Parameters as a recursive method knew them while the record went by: M instants, d parameters.
-struct ParameterHistory {
-    Vector t;           ///< M, of samples of the record
-    Matrix theta, std;  ///< M x d; NaN where the samples so far do not determine them
 };
 
 /// An option that a fit by the defaults misses, and the fit that it leads to (fit/missed_options.h).
