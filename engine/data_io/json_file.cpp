@@ -74,7 +74,7 @@ Json number_json(double value) {
 
 Json json_of_variable(const Variable& variable);
 
-struct JsonWriter {
+struct VariableWriter {
     Json operator()(double value) const { return number_json(value); }
     Json operator()(bool value) const { return value; }
     Json operator()(const std::string& value) const { return value; }
@@ -110,7 +110,7 @@ struct JsonWriter {
 };
 
 Json json_of_variable(const Variable& variable) {
-    return std::visit(JsonWriter{}, variable.value);
+    return std::visit(VariableWriter{}, variable.value);
 }
 
 /// nlohmann's "[json.exception.parse_error.101] parse error at line 2, column 3: ..." from the place on.

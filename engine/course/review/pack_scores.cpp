@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kMostBytes = 1 << 20;
+constexpr std::uintmax_t kLargestScript = 1 << 20;
 constexpr std::size_t kMostOfTable = 4000;
 
 std::string without_comments(std::string_view text) {
@@ -68,7 +68,7 @@ std::map<std::string, double> scores_in_pack(const fs::path& folder) {
     std::vector<fs::path> scripts;
     for (const auto& found : fs::recursive_directory_iterator(folder))
         if (found.path().filename() == "analysis.lua" && found.is_regular_file() && !found.is_symlink() &&
-            found.file_size() <= kMostBytes)
+            found.file_size() <= kLargestScript)
             scripts.push_back(found.path());
     if (scripts.empty()) return {};
     const auto depth = [](const fs::path& path) { return std::distance(path.begin(), path.end()); };

@@ -8,10 +8,10 @@
 namespace dynlab::inline course {
 namespace {
 
-Inspection summary_of(const CheckResult& result, const std::string& json) {
+Inspection summary_of(const CheckResult& result, const std::string& findings) {
     static const std::set<std::string> unreadable = {"not-pdf", "encrypted", "damaged", "too-large", "scanned"};
     Inspection inspection;
-    inspection.json = json;
+    inspection.json = findings;
     for (const Finding& finding : result.findings) {
         if (finding.severity != Severity::kRule) continue;
         ++inspection.rules_broken;

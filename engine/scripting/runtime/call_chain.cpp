@@ -10,7 +10,7 @@
 namespace dynlab::inline scripting {
 namespace {
 
-constexpr std::size_t kMostCalls = 6, kLongestArgument = 40;
+constexpr std::size_t kLongestChain = 6, kLongestArgument = 40;
 constexpr int kMostArguments = 6, kMostLevels = 100;
 
 /// The first line of a value's text, cut where it is long.
@@ -53,7 +53,7 @@ int collect_calls(lua_State* L) {
         lua_getinfo(L, "Sl", &record);
         if (record.currentline <= 0) continue;
         if (!called.empty()) {
-            if (calls.size() == kMostCalls) {
+            if (calls.size() == kLongestChain) {
                 RuntimeContext& context = context_of(L);
                 calls.push_back({"began a longer chain of calls", context.script_name, main_chunk_line(context)});
                 break;
