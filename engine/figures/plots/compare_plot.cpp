@@ -36,14 +36,15 @@ Curve model_curve(const ModelOutput& model, Index output, const Vector& t, int i
 
 /// A run that left all bounds would leave nothing to be seen of the others: the axis is theirs.
 void keep_to_the_others(Panel& panel) {
+    std::vector<const Curve*> others;
+    for (const Curve& curve : panel.curves)
+        if (curve.y.allFinite()) others.push_back(&curve);
+    if (others.size() == panel.curves.size()) return;
     double low = kInfinity, high = -kInfinity;
-    bool lost = false;
-    for (const Curve& curve : panel.curves) {
-        lost = lost || !curve.y.allFinite();
-        if (curve.y.allFinite()) low = std::min(low, curve.y.minCoeff()), high = std::max(high, curve.y.maxCoeff());
-    }
+    for (const Curve* curve : others)
+        low = std::min(low, curve->y.minCoeff()), high = std::max(high, curve->y.maxCoeff());
     const double room = 0.25 * (high - low);
-    if (lost && room > 0) panel.y_range = {low - room, high + room};
+    if (room > 0) panel.y_range = {low - room, high + room};
 }
 
 }  // namespace
