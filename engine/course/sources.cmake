@@ -6,3 +6,6 @@ set_source_files_properties(course/boxes/boxed_document.cpp course/boxes/unpack.
 # GCC 12 fails to read <random> behind some other sources of a batch.
 set_source_files_properties(course/review/allocation.cpp course/review/peer_assign.cpp course/store/assignments.cpp
                             PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+
+# What compares each script of a class with every other one.
+dynlab_optimised(course/similarity/class_similarity.cpp course/similarity/fingerprints.cpp course/similarity/similarity.cpp)
