@@ -73,7 +73,7 @@ std::string place_of(const fs::path& file) {
 std::map<std::string, std::set<std::string>> allowed_layers() {
     std::map<std::string, std::set<std::string>> allowed;
     const std::string cmake = text_of(kRoot / "engine/CMakeLists.txt");
-    const std::regex line(R"(\ndynlab_layer\((\w+)\s*(?:USES\s+([a-z_ ]+?)\s*)?(?:(?:READS|READS_AS|WITH)[^)]*)?\))");
+    const std::regex line(R"(\ndynlab_layer\((\w+)\s*(?:USES\s+([a-z_ ]+?)\s*)?(?:(?:READS|WITH|PARTS)[^)]*)?\))");
     for (std::sregex_iterator it(cmake.begin(), cmake.end(), line), end; it != end; ++it) {
         const std::string layer = (*it)[1];
         std::set<std::string>& layers = allowed[layer];
