@@ -8,6 +8,7 @@
 #include <chrono>
 
 #include "platform/memory.h"
+#include "support/browser.h"
 
 namespace dynlab::bench {
 namespace {
@@ -93,5 +94,6 @@ int main(int argc, char** argv) {
     for (const auto& [name, measure] : groups) {
         if (named.empty() || std::find(named.begin(), named.end(), name) != named.end()) measure(report);
     }
+    dynlab::test::Browser::end_idle();
     return print_table(report) ? 0 : 1;
 }

@@ -108,14 +108,9 @@ std::vector<std::unique_ptr<Chromium>>& idle(Browser::Kind kind) {
     return of_kind[kind == Browser::Kind::kWhole];
 }
 
-/// Ends the idle ones after the last test. At the exit of the program it would be too late: the library that speaks to
-/// chromedriver has static objects, made later and so destroyed earlier.
 class EndOfTests : public testing::Environment {
   public:
-    void TearDown() override {
-        idle(Browser::Kind::kWithoutDesktop).clear();
-        idle(Browser::Kind::kWhole).clear();
-    }
+    void TearDown() override { Browser::end_idle(); }
 };
 [[maybe_unused]] const testing::Environment* const end_of_tests = testing::AddGlobalTestEnvironment(new EndOfTests);
 
@@ -146,6 +141,11 @@ class Browser::Work {
     Kind kind_;
     std::unique_ptr<Chromium> chromium_;
 };
+
+void Browser::end_idle() {
+    idle(Kind::kWithoutDesktop).clear();
+    idle(Kind::kWhole).clear();
+}
 
 Browser::Browser(int width, int height, Kind kind) : work_(std::make_unique<Work>(width, height, kind)) {}
 Browser::~Browser() = default;
