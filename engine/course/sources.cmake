@@ -8,4 +8,4 @@ set_source_files_properties(course/review/allocation.cpp course/review/peer_assi
                             PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 
 # What compares each script of a class with every other one.
-dynlab_optimised(course/similarity/class_similarity.cpp course/similarity/fingerprints.cpp course/similarity/similarity.cpp)
+dynlab_optimized(course/similarity/class_similarity.cpp course/similarity/fingerprints.cpp course/similarity/similarity.cpp)

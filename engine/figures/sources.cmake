@@ -1,4 +1,4 @@
 # How single sources of figures are compiled; included by engine/CMakeLists.txt.
 
 # What looks at each sample of a curve.
-dynlab_optimised(figures/axis.cpp figures/curve_traces.cpp figures/decimation.cpp figures/panel_axes.cpp)
+dynlab_optimized(figures/axis.cpp figures/curve_traces.cpp figures/decimation.cpp figures/panel_axes.cpp)

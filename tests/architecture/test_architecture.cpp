@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -474,6 +475,36 @@ TEST(architecture, top_level_is_the_fixed_one) {
     }
     EXPECT_THAT(extra, IsEmpty());
     for (const std::string& name : fixed) EXPECT_TRUE(fs::exists(kRoot / name)) << name;
+}
+
+/// The last of GCC's options for the level of optimization, "" where there is none.
+std::string optimization_in(const std::string& command) {
+    const std::vector<std::string> levels = matches(command, R"( (-O\w?)(?= ))");
+    return levels.empty() ? "" : levels.back();
+}
+
+// GCC optimizes a source as it did the precompiled headers that the source reads. Another level in the source's own
+// options would change nothing, and nobody would notice.
+TEST(architecture, sources_have_the_optimization_level_of_their_precompiled_headers) {
+    const nlohmann::json commands = nlohmann::json::parse(text_of(DYNLAB_COMPILE_COMMANDS));
+    std::map<std::string, std::string> levels;  // of precompiled headers
+    for (const nlohmann::json& entry : commands) {
+        const std::string file = entry["file"];
+        if (file.ends_with("cmake_pch.hxx.cxx"))
+            levels[file.substr(0, file.size() - 4)] = optimization_in(entry["command"]);
+    }
+    std::size_t compared = 0;
+    std::vector<std::string> offences;
+    for (const nlohmann::json& entry : commands) {
+        const std::string file = entry["file"], command = entry["command"];
+        const std::vector<std::string> headers = matches(command, R"(-include (\S+cmake_pch\.hxx) )");
+        if (headers.empty() || file.ends_with("cmake_pch.hxx.cxx")) continue;
+        ++compared;
+        const std::string& level = levels.at(headers.back());
+        if (optimization_in(command) != level) offences.push_back(file + " instead of " + level);
+    }
+    EXPECT_GT(compared, 20u);
+    EXPECT_THAT(offences, IsEmpty());
 }
 
 // What the optimiser warns of differs from processor to processor: an array without values, copied, was an error where

@@ -8,10 +8,10 @@
 namespace dynlab::inline course {
 namespace {
 
-Inspection summary_of(const CheckResult& result, const std::string& findings) {
+Inspection summary_of(const CheckResult& result, const std::string& json_text) {
     static const std::set<std::string> unreadable = {"not-pdf", "encrypted", "damaged", "too-large", "scanned"};
     Inspection inspection;
-    inspection.json = findings;
+    inspection.json = json_text;
     for (const Finding& finding : result.findings) {
         if (finding.severity != Severity::kRule) continue;
         ++inspection.rules_broken;

@@ -11,13 +11,13 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr Index kHighestOrder = 4;
+constexpr Index kHighestLocalDegree = 4;
 constexpr int kPower = 8;  // of the test functions
 constexpr Index kCentresPerWidth = 10;
 
 /// Value and derivative at t[at] of the closest polynomial, as weights of the samples at the instants t.
 Matrix polynomial_weights(const VectorView& t, Index at) {
-    const Index n = t.size(), degree = std::min(kHighestOrder, n - 1);
+    const Index n = t.size(), degree = std::min(kHighestLocalDegree, n - 1);
     const double scale = t[n - 1] - t[0];
     const Vector s = (t.array() - t[at]) / scale;
     Matrix powers(n, degree + 1);
