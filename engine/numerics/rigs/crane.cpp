@@ -43,30 +43,16 @@ OdeState packed(const CraneState& s) {
 
 void CraneParameters::validate() const {
     const char* rig = "crane";
-    require_positive(rig, "resistance", resistance);
-    require_positive(rig, "inductance", inductance);
-    require_not_negative(rig, "torque constant", torque_constant);
-    require_positive(rig, "gear ratio", gear_ratio);
-    require_positive(rig, "pulley radius", pulley_radius);
-    require_positive(rig, "rotor inertia", rotor_inertia);
-    require_not_negative(rig, "motor damping", motor_damping);
-    require_positive(rig, "belt stiffness", belt_stiffness);
-    require_not_negative(rig, "belt damping", belt_damping);
-    require_positive(rig, "trolley mass", trolley_mass);
-    require_not_negative(rig, "trolley damping", trolley_damping);
-    require_not_negative(rig, "Coulomb friction", coulomb_friction);
-    require_not_negative(rig, "surplus of static over Coulomb friction", static_friction - coulomb_friction);
-    require_positive(rig, "Stribeck speed", stribeck_speed);
-    require_positive(rig, "pendulum mass", pendulum_mass);
-    require_positive(rig, "pendulum length", pendulum_length);
-    require_not_negative(rig, "pendulum inertia", pendulum_inertia);
-    require_not_negative(rig, "pivot damping", pivot_damping);
-    require_not_negative(rig, "air drag", air_drag);
-    require_positive(rig, "gravity", gravity);
-    require_positive(rig, "rail", rail);
-    require_positive(rig, "buffer stiffness", buffer_stiffness);
-    require_not_negative(rig, "buffer damping", buffer_damping);
-    require_positive(rig, "voltage limit", voltage_limit);
+    require_positive(rig, "resistance", resistance, "inductance", inductance, "gear ratio", gear_ratio, "pulley radius",
+                     pulley_radius, "rotor inertia", rotor_inertia, "belt stiffness", belt_stiffness, "trolley mass",
+                     trolley_mass, "Stribeck speed", stribeck_speed, "pendulum mass", pendulum_mass, "pendulum length",
+                     pendulum_length, "gravity", gravity, "rail", rail, "buffer stiffness", buffer_stiffness,
+                     "voltage limit", voltage_limit);
+    require_not_negative(rig, "torque constant", torque_constant, "motor damping", motor_damping, "belt damping",
+                         belt_damping, "trolley damping", trolley_damping, "Coulomb friction", coulomb_friction,
+                         "pendulum inertia", pendulum_inertia, "pivot damping", pivot_damping, "air drag", air_drag,
+                         "buffer damping", buffer_damping, "surplus of static over Coulomb friction",
+                         static_friction - coulomb_friction);
 }
 
 CraneTruth crane_truth(const CraneParameters& p) {

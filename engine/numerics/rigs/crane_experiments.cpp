@@ -109,14 +109,10 @@ class Experimenter {
 
 void CraneExperiments::validate() const {
     const char* rig = "crane";
-    require_positive(rig, "sampling time", Ts);
-    require_not_negative(rig, "quiet time", quiet_time);
-    require_positive(rig, "PRBS amplitude", prbs_amplitude);
-    require_not_negative(rig, "release angle", release_angle);
-    require_not_negative(rig, "position resolution", position_resolution);
-    require_not_negative(rig, "angle noise", angle_noise_std);
-    require_not_negative(rig, "angle resolution", angle_resolution);
-    require_not_negative(rig, "angle offset", std::abs(angle_offset));
+    require_positive(rig, "sampling time", Ts, "PRBS amplitude", prbs_amplitude);
+    require_not_negative(rig, "quiet time", quiet_time, "release angle", release_angle, "position resolution",
+                         position_resolution, "angle noise", angle_noise_std, "angle resolution", angle_resolution,
+                         "angle offset", std::abs(angle_offset));
 }
 
 std::vector<CraneRecord> simulate_crane(const CraneParameters& parameters, const CraneExperiments& experiments,

@@ -27,15 +27,10 @@ double time_constant_with(const DriftingProcessParameters& p, double scale) {
 
 void DriftingProcessParameters::validate() const {
     const char* rig = "drifting process";
-    require_positive(rig, "clean gain", clean_gain);
-    require_not_negative(rig, "lost gain", lost_gain);
-    require_positive(rig, "gain that is left", 1 - lost_gain);
-    require_positive(rig, "clean time constant", clean_time_constant);
-    require_not_negative(rig, "further time", more_time);
-    require_positive(rig, "growth time", growth_time);
-    require_positive(rig, "cleaning time", cleaning_time);
-    require_not_negative(rig, "noise standard deviation", noise_std);
-    require_not_negative(rig, "resolution", resolution);
+    require_not_negative(rig, "lost gain", lost_gain, "further time", more_time, "noise standard deviation", noise_std,
+                         "resolution", resolution);
+    require_positive(rig, "clean gain", clean_gain, "clean time constant", clean_time_constant, "growth time",
+                     growth_time, "cleaning time", cleaning_time, "gain that is left", 1 - lost_gain);
 }
 
 double DriftingProcessParameters::gain(double t) const {
@@ -48,9 +43,8 @@ double DriftingProcessParameters::time_constant(double t) const {
 
 void DriftingProcessExperiments::validate() const {
     const char* rig = "drifting process";
-    require_positive(rig, "sampling time", Ts);
     require_not_negative(rig, "lowest power", low);
-    require_positive(rig, "difference of the powers", high - low);
+    require_positive(rig, "sampling time", Ts, "difference of the powers", high - low);
 }
 
 Vector simulate_drifting_process(const DriftingProcessParameters& p, const Vector& u, double Ts, RandomStream& random) {

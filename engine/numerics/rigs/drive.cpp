@@ -74,23 +74,15 @@ Vector denominator(const DriveParameters& p) {
 
 void DriveParameters::validate() const {
     const char* rig = "drive";
-    require_positive(rig, "resistance", resistance);
-    require_positive(rig, "inductance", inductance);
-    require_positive(rig, "motor constant", motor_constant);
-    require_positive(rig, "inertia", inertia);
-    require_not_negative(rig, "friction", friction);
-    require_not_negative(rig, "load's standard deviation", load_std);
-    require_positive(rig, "load's correlation time", load_time);
-    require_not_negative(rig, "noise standard deviation", noise_std);
-    require_not_negative(rig, "resolution", resolution);
-    require_not_negative(rig, "controller's gain", gain);
-    require_not_negative(rig, "controller's integral gain", integral_gain);
-    require_positive(rig, "sampling time", Ts);
+    require_positive(rig, "resistance", resistance, "inductance", inductance, "motor constant", motor_constant,
+                     "inertia", inertia, "load's correlation time", load_time, "sampling time", Ts);
+    require_not_negative(rig, "friction", friction, "load's standard deviation", load_std, "noise standard deviation",
+                         noise_std, "resolution", resolution, "controller's gain", gain, "controller's integral gain",
+                         integral_gain);
 }
 
 void DriveExperiments::validate() const {
-    require_positive("drive", "amplitude of the reference", reference);
-    require_positive("drive", "amplitude of the voltage", voltage);
+    require_positive("drive", "amplitude of the reference", reference, "amplitude of the voltage", voltage);
 }
 
 TransferFunction drive_plant(const DriveParameters& p) {

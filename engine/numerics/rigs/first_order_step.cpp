@@ -10,10 +10,8 @@ namespace dynlab::inline numerics {
 
 void FirstOrderStepParameters::validate() const {
     const char* rig = "first-order step";
-    require_positive(rig, "time constant", time_constant);
-    require_positive(rig, "sampling time", Ts);
-    require_not_negative(rig, "output noise", output_noise_std);
-    require_not_negative(rig, "derivative noise", derivative_noise_std);
+    require_positive(rig, "time constant", time_constant, "sampling time", Ts);
+    require_not_negative(rig, "output noise", output_noise_std, "derivative noise", derivative_noise_std);
     if (!std::isfinite(gain) || !std::isfinite(step_height))
         throw InvalidArgument("The first-order step's gain and step height must be finite numbers");
     if (samples < 2)

@@ -9,20 +9,11 @@ namespace dynlab::inline numerics {
 
 void HeatExchangerParameters::validate() const {
     const char* rig = "heat exchanger";
-    require_positive(rig, "mass", mass);
-    require_positive(rig, "specific heat", specific_heat);
-    require_not_negative(rig, "wall capacity", wall_capacity);
-    require_not_negative(rig, "flow", flow);
-    require_not_negative(rig, "loss", loss);
-    require_positive(rig, "flow and loss together", flow + loss);
-    require_positive(rig, "power", power);
-    require_not_negative(rig, "valve opening before the step", valve_before);
-    require_not_negative(rig, "valve opening after the step", valve_after);
-    require_positive(rig, "sampling time", Ts);
-    require_not_negative(rig, "step time", step_time);
-    require_positive(rig, "time between step and end", duration - step_time);
-    require_not_negative(rig, "noise standard deviation", noise_std);
-    require_not_negative(rig, "resolution", resolution);
+    require_not_negative(rig, "wall capacity", wall_capacity, "flow", flow, "loss", loss,
+                         "valve opening before the step", valve_before, "valve opening after the step", valve_after,
+                         "step time", step_time, "noise standard deviation", noise_std, "resolution", resolution);
+    require_positive(rig, "mass", mass, "specific heat", specific_heat, "power", power, "sampling time", Ts,
+                     "flow and loss together", flow + loss, "time between step and end", duration - step_time);
     if (valve_before > 100 || valve_after > 100)
         throw InvalidArgument("The heat exchanger's valve opens from 0 to 100 %, and more was asked for");
 }

@@ -32,27 +32,17 @@ RigRecord record_about(const HeatTransferParameters& p, const HeatTransferExperi
 
 void HeatTransferParameters::validate() const {
     const char* rig = "heat-transfer rig";
-    require_positive(rig, "heater capacity", heater_capacity);
-    require_positive(rig, "air capacity", air_capacity);
-    require_positive(rig, "transfer", transfer);
-    require_positive(rig, "flow", flow);
-    require_positive(rig, "power", power);
-    require_positive(rig, "full voltage", full_voltage);
-    require_positive(rig, "sensor time", sensor_time);
-    require_not_negative(rig, "dead time", dead_time);
-    require_not_negative(rig, "inlet temperature's size", std::abs(inlet));
-    require_not_negative(rig, "drift", drift);
-    require_positive(rig, "drift period", drift_period);
-    require_not_negative(rig, "noise standard deviation", noise_std);
-    require_not_negative(rig, "resolution", resolution);
+    require_positive(rig, "heater capacity", heater_capacity, "air capacity", air_capacity, "transfer", transfer,
+                     "flow", flow, "power", power, "full voltage", full_voltage, "sensor time", sensor_time,
+                     "drift period", drift_period);
+    require_not_negative(rig, "dead time", dead_time, "inlet temperature's size", std::abs(inlet), "drift", drift,
+                         "noise standard deviation", noise_std, "resolution", resolution);
 }
 
 void HeatTransferExperiments::validate() const {
     const char* rig = "heat-transfer rig";
-    require_positive(rig, "sampling time", Ts);
-    require_positive(rig, "amplitude", amplitude);
-    require_not_negative(rig, "lowest voltage", std::min(low, high) - amplitude);
-    require_not_negative(rig, "rest", rest);
+    require_positive(rig, "sampling time", Ts, "amplitude", amplitude);
+    require_not_negative(rig, "rest", rest, "lowest voltage", std::min(low, high) - amplitude);
 }
 
 HeatTransferTruth heat_transfer_truth(const HeatTransferParameters& p, double operating_point) {

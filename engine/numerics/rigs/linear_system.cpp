@@ -18,13 +18,8 @@ RigRecord record_of(const LinearSystemParameters& p, const TransferFunction& G, 
 
 void LinearSystemParameters::validate() const {
     const char* rig = "linear system";
-    require_positive(rig, "gain", gain);
-    require_positive(rig, "zero", zero);
-    require_positive(rig, "pole", pole);
-    require_positive(rig, "frequency", frequency);
-    require_positive(rig, "damping", damping);
-    require_positive(rig, "amplitude", amplitude);
-    require_positive(rig, "sampling time", Ts);
+    require_positive(rig, "gain", gain, "zero", zero, "pole", pole, "frequency", frequency, "damping", damping,
+                     "amplitude", amplitude, "sampling time", Ts);
     require_not_negative(rig, "noise standard deviation", noise_std);
 }
 

@@ -18,6 +18,17 @@ Vector sampling_instants(double duration, double Ts);
 /// Throws InvalidArgument "RIG: NAME must be positive (not negative), and is VALUE".
 void require_positive(const char* rig, const char* name, double value);
 void require_not_negative(const char* rig, const char* name, double value);
+/// The same for several: name, value, name, value, ... The first of them that is refused is reported.
+template <class... More>
+void require_positive(const char* rig, const char* name, double value, More... more) {
+    require_positive(rig, name, value);
+    require_positive(rig, more...);
+}
+template <class... More>
+void require_not_negative(const char* rig, const char* name, double value, More... more) {
+    require_not_negative(rig, name, value);
+    require_not_negative(rig, more...);
+}
 
 /// A pseudo-random binary sequence as an experimenter with another seed would apply it: one period of prbs(stages,
 /// hold) that begins at a random bit, runs forwards or backwards and has a random sign (three uniform draws). Every one

@@ -10,15 +10,10 @@ namespace dynlab::inline numerics {
 
 void SuspensionParameters::validate() const {
     const char* rig = "suspension";
-    require_positive(rig, "mass", mass);
-    require_positive(rig, "stiffness", stiffness);
-    require_not_negative(rig, "damping", damping);
-    require_positive(rig, "force per volt", force_per_volt);
-    require_positive(rig, "sampling time", Ts);
-    require_not_negative(rig, "step time", step_time);
-    require_positive(rig, "time between step and end", duration - step_time);
-    require_not_negative(rig, "noise standard deviation", noise_std);
-    require_not_negative(rig, "resolution", resolution);
+    require_not_negative(rig, "damping", damping, "step time", step_time, "noise standard deviation", noise_std,
+                         "resolution", resolution);
+    require_positive(rig, "mass", mass, "stiffness", stiffness, "force per volt", force_per_volt, "sampling time", Ts,
+                     "time between step and end", duration - step_time);
     if (!std::isfinite(step_height) || step_height == 0)
         throw InvalidArgument("The suspension's step height must be a number other than zero");
     if (damping * damping >= 4 * stiffness * mass)

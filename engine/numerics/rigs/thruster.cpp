@@ -78,32 +78,19 @@ Vector chirp_about_neutral(const ThrusterParameters& p, const ThrusterExperiment
 
 void ThrusterParameters::validate() const {
     const char* rig = "thruster";
-    require_positive(rig, "neutral pulse width", neutral);
-    require_not_negative(rig, "dead band", dead_band);
-    require_positive(rig, "full width beyond the dead band", full_width - dead_band);
-    require_positive(rig, "supply", supply);
-    require_not_negative(rig, "delay", delay);
-    require_positive(rig, "motor constant", motor_constant);
-    require_positive(rig, "resistance", resistance);
-    require_positive(rig, "inertia", inertia);
-    require_positive(rig, "drag torque", drag_torque);
-    require_positive(rig, "forward thrust", forward_thrust);
-    require_positive(rig, "reverse thrust", reverse_thrust);
-    require_positive(rig, "load cell's frequency", cell_frequency);
-    require_not_negative(rig, "load cell's damping", cell_damping);
-    require_not_negative(rig, "wake", wake);
-    require_positive(rig, "wake's correlation time", wake_time);
-    require_not_negative(rig, "noise standard deviation", noise_std);
-    require_not_negative(rig, "resolution", resolution);
-    require_not_negative(rig, "tare's size", std::abs(tare));
+    require_not_negative(rig, "dead band", dead_band, "delay", delay, "load cell's damping", cell_damping, "wake", wake,
+                         "noise standard deviation", noise_std, "resolution", resolution, "tare's size",
+                         std::abs(tare));
+    require_positive(rig, "neutral pulse width", neutral, "supply", supply, "motor constant", motor_constant,
+                     "resistance", resistance, "inertia", inertia, "drag torque", drag_torque, "forward thrust",
+                     forward_thrust, "reverse thrust", reverse_thrust, "load cell's frequency", cell_frequency,
+                     "wake's correlation time", wake_time, "full width beyond the dead band", full_width - dead_band);
 }
 
 void ThrusterExperiments::validate() const {
     const char* rig = "thruster";
-    require_positive(rig, "sampling time", Ts);
-    require_positive(rig, "start frequency", start_frequency);
-    require_positive(rig, "end frequency", end_frequency);
-    require_positive(rig, "duration", duration);
+    require_positive(rig, "sampling time", Ts, "start frequency", start_frequency, "end frequency", end_frequency,
+                     "duration", duration);
     require_not_negative(rig, "rest", rest);
     for (double amplitude : amplitudes) require_positive(rig, "amplitude", amplitude);
 }

@@ -88,29 +88,18 @@ RigRecord record_of(const TwoTanksParameters& p, const TwoTanksExperiments& plan
 
 void TwoTanksParameters::validate() const {
     const char* rig = "two tanks";
-    require_positive(rig, "k1", k1);
-    require_positive(rig, "k2", k2);
-    require_positive(rig, "k3", k3);
-    require_positive(rig, "k4", k4);
-    require_not_negative(rig, "overflow part", overflow_part);
-    require_not_negative(rig, "overflow part's distance from 1", 1 - overflow_part);
-    require_positive(rig, "height", height);
-    require_positive(rig, "sensor gain", sensor_gain);
-    require_not_negative(rig, "sensor offset's size", std::abs(sensor_offset));
-    require_not_negative(rig, "noise standard deviation", noise_std);
-    require_not_negative(rig, "resolution", resolution);
+    require_positive(rig, "k1", k1, "k2", k2, "k3", k3, "k4", k4, "height", height, "sensor gain", sensor_gain);
+    require_not_negative(rig, "overflow part", overflow_part, "sensor offset's size", std::abs(sensor_offset),
+                         "noise standard deviation", noise_std, "resolution", resolution,
+                         "overflow part's distance from 1", 1 - overflow_part);
 }
 
 void TwoTanksExperiments::validate() const {
     const char* rig = "two tanks";
-    require_positive(rig, "sampling time", Ts);
-    require_positive(rig, "number of samples", samples);
-    require_positive(rig, "number of lines", lines);
-    require_positive(rig, "number of samples beyond two a period of the highest line", samples - 2. * lines);
-    require_not_negative(rig, "mean voltage", mean_voltage);
-    require_positive(rig, "voltage's standard deviation", voltage_std);
-    require_positive(rig, "greatest voltage", greatest_voltage);
-    require_not_negative(rig, "start voltage", start_voltage);
+    require_not_negative(rig, "mean voltage", mean_voltage, "start voltage", start_voltage);
+    require_positive(rig, "sampling time", Ts, "number of samples", samples, "number of lines", lines,
+                     "voltage's standard deviation", voltage_std, "greatest voltage", greatest_voltage,
+                     "number of samples beyond two a period of the highest line", samples - 2. * lines);
 }
 
 TwoTanksTruth two_tanks_truth(const TwoTanksParameters& p, double voltage) {
