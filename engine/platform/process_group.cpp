@@ -48,6 +48,15 @@ bool become_group_leader(pid_t parent) {
     return ::getppid() == parent;
 }
 
+pid_t fork_bound_copy() {
+    const pid_t parent = ::getpid();
+    const pid_t copy = ::fork();
+    if (copy != 0) return copy;
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (::getppid() != parent) ::_exit(0);
+    return 0;
+}
+
 void limit_memory(std::uint64_t bytes) {
 #ifndef __SANITIZE_ADDRESS__  // the address sanitizer reserves more addresses than any limit leaves
     const rlimit limit{bytes, bytes};

@@ -20,6 +20,9 @@ struct Pipe {
 /// signals. Returns false when the parent is gone already.
 bool become_group_leader(pid_t parent);
 
+/// fork(2) of a copy that dies with this process. 0 in the copy; below 0, with errno, where there is none.
+pid_t fork_bound_copy();
+
 void limit_memory(std::uint64_t bytes);                ///< address space of this process from now on
 void limit_processor_time(std::chrono::seconds most);  ///< of this process; SIGXCPU ends it, a lower limit stays
 void limit_files(std::uint64_t bytes);                 ///< the largest file it writes from now on; a lower limit stays

@@ -1,12 +1,11 @@
 #include "workflow/process_copy.h"
 
 #include <signal.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <tbb/global_control.h>
-#include <unistd.h>
 
 #include "platform/error.h"
+#include "platform/process_group.h"
 #include "platform/system_call.h"
 
 namespace dynlab::inline workflow {
@@ -18,12 +17,8 @@ void end_worker_threads() {
 
 ProcessCopy::ProcessCopy() {
     end_worker_threads();
-    const pid_t self = ::getpid();
-    process_ = ::fork();
+    process_ = fork_bound_copy();
     if (process_ < 0) throw EnvironmentError("cannot start a process for the script: " + system_reason(errno));
-    if (process_ > 0) return;
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (::getppid() != self) ::_exit(0);
 }
 
 ProcessCopy::~ProcessCopy() {

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -15,6 +14,7 @@
 #include "data_io/values/cbor_values.h"
 #include "platform/error.h"
 #include "platform/interrupt.h"
+#include "platform/process_group.h"
 
 namespace dynlab::inline app {
 namespace {
@@ -24,13 +24,9 @@ constexpr std::size_t kLargestPiece = std::size_t{64} << 10;
 
 /// A copy of this process that ends with it. True in the copy.
 bool fork_bound(pid_t& process) {
-    const pid_t self = ::getpid();
-    process = ::fork();
+    process = fork_bound_copy();
     if (process < 0) throw EnvironmentError("cannot start a process for the cells: " + system_reason(errno));
-    if (process > 0) return false;
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (::getppid() != self) ::_exit(0);
-    return true;
+    return process == 0;
 }
 
 std::string how_it_ended(int status) {

@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -23,6 +22,7 @@
 #include "platform/cache.h"
 #include "platform/error.h"
 #include "platform/memory.h"
+#include "platform/process_group.h"
 #include "platform/terminal/progress.h"
 #include "scripting/interpreter/runtime.h"
 #include "scripting/memoized_calls/memoized_call.h"
@@ -93,12 +93,9 @@ class RunnerProcess {
         while (::waitpid(-1, nullptr, WNOHANG) > 0) {
         }
         auto [here, there] = Channel::pair();
-        const pid_t self = ::getpid();
-        const pid_t next = ::fork();
+        const pid_t next = fork_bound_copy();
         if (next < 0) ::_exit(1);
         if (next == 0) {
-            ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-            if (::getppid() != self) ::_exit(0);
             line_ = std::move(there);
             kept_at_ = Clock::now();
             return Side::kGoesOn;

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <signal.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -12,6 +11,7 @@
 #include "app/live/runner_process.h"
 #include "data_io/values/cbor_values.h"
 #include "platform/error.h"
+#include "platform/process_group.h"
 
 namespace dynlab::inline app {
 namespace {
@@ -33,12 +33,9 @@ bool is_same(const ScriptPart& a, const ScriptPart& b) {
 
 ScriptRunner::ScriptRunner(RunnerWorld world) : keeps_end_(world.keeps_end) {
     auto [here, there] = Channel::pair();
-    const pid_t self = ::getpid();
-    const pid_t first = ::fork();
+    const pid_t first = fork_bound_copy();
     if (first < 0) throw EnvironmentError("cannot start a process for the script: " + system_reason(errno));
     if (first == 0) {
-        ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-        if (::getppid() != self) ::_exit(0);
         here.release();
         serve_runs(std::move(there), std::move(world));
     }

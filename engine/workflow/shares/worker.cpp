@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <signal.h>
 #include <sys/mman.h>
-#include <sys/prctl.h>
 #include <sys/statvfs.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -19,6 +18,7 @@
 #include "platform/error.h"
 #include "platform/interrupt.h"
 #include "platform/locks/abandoned_folders.h"
+#include "platform/process_group.h"
 #include "platform/signature.h"
 #include "platform/system_call.h"
 #include "workflow/shares/heartbeat.h"
@@ -145,15 +145,10 @@ class WorkerProcess {
     }
 
     void start(std::size_t i) {
-        const pid_t parent = ::getpid();
         std::cout.flush(), std::cerr.flush();
-        const pid_t child = ::fork();
+        const pid_t child = fork_bound_copy();
         if (child < 0) return;
-        if (child == 0) {
-            ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-            if (::getppid() != parent) ::_exit(0);
-            ::_exit(do_jobs(i));
-        }
+        if (child == 0) ::_exit(do_jobs(i));
         hands_[i].process = child;
         hands_[i].started = Clock::now();
     }
