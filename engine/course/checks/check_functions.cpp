@@ -27,8 +27,7 @@ CheckSession& session_of(const Call& call) {
 /// A judgement: {share =, message =}.
 int give_judgement(const Call& call, double share, const std::string& message) {
     lua_createtable(call.state(), 0, 2);
-    set_field(call, "share", share);
-    set_field(call, "message", message);
+    set_field(call, "share", share, "message", message);
     return 1;
 }
 

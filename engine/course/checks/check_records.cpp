@@ -25,8 +25,7 @@ void call_of_rig(const Call& call, int function, std::uint32_t specimen, std::ui
     lua_State* L = call.state();
     lua_rawgeti(L, LUA_REGISTRYINDEX, function);
     lua_createtable(L, 0, 2);
-    set_field(call, "specimen", specimen);
-    set_field(call, "seed", seed);
+    set_field(call, "specimen", specimen, "seed", seed);
     lua_call(L, 1, 1);
 }
 

@@ -21,12 +21,9 @@ void set_segments(const Call& call, const char* name, const std::vector<Segment>
 
 void push_finding(const Call& call, const RecordFinding& finding) {
     lua_createtable(call.state(), 0, 7);
-    set_field(call, "code", finding.code);
-    set_field(call, "warning", finding.weight == Weight::kWarning);
-    set_field(call, "channel", finding.channel);
-    set_field(call, "message", told(call, finding.message));
-    set_field(call, "value", finding.value);
-    set_field(call, "experiment", static_cast<Index>(finding.experiment + 1));
+    set_field(call, "code", finding.code, "warning", finding.weight == Weight::kWarning, "channel", finding.channel,
+              "message", told(call, finding.message), "value", finding.value, "experiment",
+              static_cast<Index>(finding.experiment + 1));
     set_segments(call, "sections", finding.sections);
 }
 

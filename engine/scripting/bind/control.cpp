@@ -77,9 +77,7 @@ int drive_crane(Call& call) {
     const CraneRecord record =
         control_crane({}, {}, run, controller, static_cast<std::uint32_t>(options.size("seed", 1)));
     lua_createtable(L, 0, 4);
-    for (const auto& [name, values] : {std::pair("t", &record.t), std::pair("u", &record.u), std::pair("x", &record.x),
-                                       std::pair("theta", &record.theta)})
-        set_field(call, name, *values);
+    set_field(call, "t", record.t, "u", record.u, "x", record.x, "theta", record.theta);
     return 1;
 }
 

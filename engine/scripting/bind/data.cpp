@@ -43,8 +43,7 @@ struct Pusher {
     void operator()(const auto& value) const { give_value(call, value); }
     void operator()(const Eigen::MatrixXcd& value) const {
         lua_createtable(call.state(), 0, 2);
-        set_field(call, "re", Matrix(value.real()));
-        set_field(call, "im", Matrix(value.imag()));
+        set_field(call, "re", Matrix(value.real()), "im", Matrix(value.imag()));
     }
     void operator()(const std::shared_ptr<VariableTable>& value) const { push_variables(call, *value, path); }
     void operator()(const std::shared_ptr<VariableList>& value) const { push_list(call, *value, path); }

@@ -94,10 +94,8 @@ int field_history(Call& call) {
         throw InvalidArgument(
             fmt::format("{} looks at all samples at once; rlssvf, rivsvf and rsrivc give a history", estimate.method));
     lua_newtable(call.state());
-    set_field(call, "t", estimate.history->t);
-    set_field(call, "theta", estimate.history->theta);
-    set_field(call, "std", estimate.history->std);
-    set_field(call, "names", estimate.names);
+    set_field(call, "t", estimate.history->t, "theta", estimate.history->theta, "std", estimate.history->std, "names",
+              estimate.names);
     return 1;
 }
 

@@ -180,10 +180,7 @@ int simulate_spread(Call& call) {
                                               DrawnNumbers(call, options).stream());
     give_figure(call, spread_figure(model.estimate->method, spread, input.t, level));
     lua_createtable(call.state(), 0, 4);
-    set_field(call, "output", spread.output);
-    set_field(call, "std", spread.std);
-    set_field(call, "drawn", spread.drawn);
-    set_field(call, "unstable", spread.unstable);
+    set_field(call, "output", spread.output, "std", spread.std, "drawn", spread.drawn, "unstable", spread.unstable);
     return 2;
 }
 

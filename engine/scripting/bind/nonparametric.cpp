@@ -76,17 +76,12 @@ int give_impulse(const Call& call, const Options& options, SpectralModels& read,
     print_message(call, estimate.message, estimate.warnings);
     give_figure(call, impulse_estimate_plot(estimate, read.data.Ts, read.models, confidence_of(options)));
     lua_createtable(call.state(), 0, 8);
-    set_field(call, "t", estimate.t);
-    set_field(call, "response", estimate.response);
-    set_field(call, "std", estimate.std);
-    set_field(call, "chance", estimate.null_std);
-    set_field(call, "noise_variance", estimate.noise_variance);
-    if (estimate.first) {
-        set_field(call, "first", *estimate.first);
-        set_field(call, "dead_time", static_cast<double>(std::max<Index>(*estimate.first - 1, 0)) * read.data.Ts);
-    }
-    set_field(call, "message", told(call, estimate.message));
-    set_field(call, "warnings", told(call, estimate.warnings));
+    set_field(call, "t", estimate.t, "response", estimate.response, "std", estimate.std, "chance", estimate.null_std,
+              "noise_variance", estimate.noise_variance);
+    if (estimate.first)
+        set_field(call, "first", *estimate.first, "dead_time",
+                  static_cast<double>(std::max<Index>(*estimate.first - 1, 0)) * read.data.Ts);
+    set_field(call, "message", told(call, estimate.message), "warnings", told(call, estimate.warnings));
     return 2;
 }
 
@@ -134,8 +129,7 @@ int regression_on_past_inputs(Call& call) {
     give_impulse(call, options, read, result);
     set_field(call, "covariance", result.covariance);
     if (!result.prior) return 2;
-    set_field(call, "scale", result.prior_scale);
-    set_field(call, "decay", result.prior->decay);
+    set_field(call, "scale", result.prior_scale, "decay", result.prior->decay);
     if (wanted.kernel == ResponseKernel::kDc) set_field(call, "correlation", result.prior->correlation);
     return 2;
 }
@@ -149,8 +143,7 @@ int correlation_analysis(Call& call) {
     wanted.confidence = confidence_of(options);
     const CorrelationAnalysis result = cra(read.data, wanted);
     give_impulse(call, options, read, result.impulse);
-    set_field(call, "whitening_filter", result.whitening_filter);
-    set_field(call, "input_correlation", result.input_correlation);
+    set_field(call, "whitening_filter", result.whitening_filter, "input_correlation", result.input_correlation);
     return 2;
 }
 

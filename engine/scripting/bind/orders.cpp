@@ -195,15 +195,10 @@ int select_arx_structure(Call& call) {
 void push_search(const Call& call, const IdData& data, const DelaySearch& search) {
     lua_State* L = call.state();
     lua_createtable(L, 0, 10);
-    set_field(call, "delay", search.delay);
-    set_field(call, "std", search.std);
+    set_field(call, "delay", search.delay, "std", search.std);
     if (data.regular()) set_field(call, "samples", search.delay / data.Ts);
-    if (search.rival) set_field(call, "rival", *search.rival);
-    set_field(call, "delays", search.grid());
-    set_field(call, "losses", search.losses());
-    set_field(call, "poles", search.candidate.poles);
-    set_field(call, "zeros", search.candidate.zeros);
-    set_field(call, "message", told(call, search.explanation));
+    set_field(call, "rival", search.rival, "delays", search.grid(), "losses", search.losses(), "poles",
+              search.candidate.poles, "zeros", search.candidate.zeros, "message", told(call, search.explanation));
     give_fit(call, "srivc", search.candidate.estimate);
     lua_setfield(L, -2, "model");
 }

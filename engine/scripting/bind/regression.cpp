@@ -110,10 +110,8 @@ int predict(Call& call) {
     const Forecast result = single ? forecast_at(fit, call.number(2, "x"), level)
                                    : forecast(fit.regression, call.vector(2, "regressors"), level);
     lua_createtable(call.state(), 0, 6);
-    for (const auto& [name, value] :
-         {std::pair("value", result.value), std::pair("low", result.low), std::pair("high", result.high),
-          std::pair("std", result.std), std::pair("mean_std", result.mean_std), std::pair("level", result.level)})
-        set_field(call, name, value);
+    set_field(call, "value", result.value, "low", result.low, "high", result.high, "std", result.std, "mean_std",
+              result.mean_std, "level", result.level);
     return 1;
 }
 
@@ -173,14 +171,9 @@ int descend(Call& call) {
     const MatrixMap Phi = call.matrix(1, "Phi");
     const GradientDescentResult result = gradient_descent(Phi, call.vector(2, "y"), wanted);
     lua_createtable(call.state(), 0, 8);
-    set_field(call, "theta", result.theta);
-    set_field(call, "loss", result.loss);
-    set_field(call, "step", result.step_size);
-    set_field(call, "largest_step", result.largest_step);
-    set_field(call, "condition_number", result.condition_number);
-    set_field(call, "iterations", result.iterations);
-    set_field(call, "converged", result.termination == Termination::kConverged);
-    set_field(call, "message", told(call, result.message));
+    set_field(call, "theta", result.theta, "loss", result.loss, "step", result.step_size, "largest_step",
+              result.largest_step, "condition_number", result.condition_number, "iterations", result.iterations,
+              "converged", result.termination == Termination::kConverged, "message", told(call, result.message));
     return 1;
 }
 

@@ -20,29 +20,20 @@ namespace {
 void push_independence(const Call& call, const IndependenceTest& test) {
     lua_State* L = call.state();
     lua_createtable(L, 0, 8);
-    set_field(call, "correlation", test.correlation);
-    set_field(call, "bound", test.bound);
-    set_field(call, "outside", static_cast<double>(test.outside));
-    set_field(call, "p_value", test.p_value);
-    set_field(call, "p_value_future", test.p_value_future);
-    set_field(call, "independent", test.independent);
-    set_field(call, "without_feedback", test.without_feedback);
-    set_field(call, "verdict", told(call, test.verdict));
+    set_field(call, "correlation", test.correlation, "bound", test.bound, "outside", static_cast<double>(test.outside),
+              "p_value", test.p_value, "p_value_future", test.p_value_future, "independent", test.independent,
+              "without_feedback", test.without_feedback, "verdict", told(call, test.verdict));
 }
 
 void push_output(const Call& call, const OutputResiduals& output) {
     lua_State* L = call.state();
     lua_createtable(L, 0, 10);
-    set_field(call, "mean", output.mean);
-    set_field(call, "variance", output.variance);
-    set_field(call, "exact", output.exact);
-    set_field(call, "verdict", told(call, output.verdict));
+    set_field(call, "mean", output.mean, "variance", output.variance, "exact", output.exact, "verdict",
+              told(call, output.verdict));
     if (output.exact) return;
-    set_field(call, "correlation", output.whiteness.correlation);
-    set_field(call, "bound", output.whiteness.bound);
-    set_field(call, "outside", static_cast<double>(output.whiteness.outside));
-    set_field(call, "p_value", output.whiteness.p_value);
-    set_field(call, "white", output.whiteness.white);
+    set_field(call, "correlation", output.whiteness.correlation, "bound", output.whiteness.bound, "outside",
+              static_cast<double>(output.whiteness.outside), "p_value", output.whiteness.p_value, "white",
+              output.whiteness.white);
     give_list(call, output.inputs, [&](const IndependenceTest& test) { push_independence(call, test); });
     lua_setfield(L, -2, "inputs");
 }
@@ -60,9 +51,7 @@ void push_tests(const Call& call, const ResidualTests& tests) {
     lua_setfield(L, -2, "outputs");
     give_list(call, tests.residuals, [&](const Matrix& residuals) { give_columns(call, residuals); });
     lua_setfield(L, -2, "residuals");
-    set_field(call, "verdict", told(call, tests.verdict));
-    set_field(call, "white", white);
-    set_field(call, "independent", independent);
+    set_field(call, "verdict", told(call, tests.verdict), "white", white, "independent", independent);
 }
 
 /// Nothing for models that were not estimated.
@@ -134,14 +123,11 @@ void push_cross_validation(const Call& call, const CrossValidation& result) {
     lua_createtable(L, 0, 5);
     give_columns(call, result.fit_percent);
     lua_setfield(L, -2, "fit_percent");
-    set_field(call, "mean", result.mean);
-    set_field(call, "std", result.spread);
-    set_field(call, "message", told(call, result.message));
+    set_field(call, "mean", result.mean, "std", result.spread, "message", told(call, result.message));
     give_list(call, result.folds, [&](const CrossValidationFold& fold) {
         lua_createtable(L, 0, 4);
-        set_field(call, "experiment", static_cast<double>(fold.experiment + 1));
-        set_field(call, "first", static_cast<double>(fold.first));
-        set_field(call, "last", static_cast<double>(fold.last));
+        set_field(call, "experiment", static_cast<double>(fold.experiment + 1), "first",
+                  static_cast<double>(fold.first), "last", static_cast<double>(fold.last));
         give_model(call, fold.channels.front());
         lua_setfield(L, -2, "model");
     });

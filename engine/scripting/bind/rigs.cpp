@@ -49,12 +49,10 @@ std::uint32_t seed_number(const Options& options, const char* name, Index fallba
 
 void give_description(const Call& call, const Rig& rig) {
     lua_createtable(call.state(), 0, 5);
-    set_field(call, "title", rig.title);
-    set_field(call, "Ts", rig.Ts);
+    set_field(call, "title", rig.title, "Ts", rig.Ts);
     std::vector<std::string> signals;
     for (const RigSignal& signal : rig.signals) signals.push_back(signal.name);
-    set_field(call, "signals", signals);
-    set_field(call, "experiments", rig.experiments);
+    set_field(call, "signals", signals, "experiments", rig.experiments);
     lua_createtable(call.state(), 0, static_cast<int>(signals.size()));
     for (const RigSignal& signal : rig.signals)
         if (!signal.unit.empty()) set_field(call, signal.name.c_str(), signal.unit);

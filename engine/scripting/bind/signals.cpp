@@ -73,9 +73,7 @@ int make_random_phases(Call& call) {
         random_phase_multisine(period, wanted, options.has("seed") ? own : call.context().random);
     call.give_vector(signal.u.replicate(periods, 1));
     lua_createtable(call.state(), 0, 3);
-    set_field(call, "lines", signal.lines);
-    set_field(call, "detection", signal.detection);
-    set_field(call, "crest", signal.crest);
+    set_field(call, "lines", signal.lines, "detection", signal.detection, "crest", signal.crest);
     return 2;
 }
 

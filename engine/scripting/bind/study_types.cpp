@@ -21,25 +21,13 @@ const MonteCarlo& study_self(Call& call) {
 int push_result(const Call& call, const MonteCarloResult& result) {
     lua_State* L = call.state();
     lua_createtable(L, 0, 16);
-    set_field(call, "names", result.names);
-    set_field(call, "theta", result.theta);
-    set_field(call, "reported", result.std);
-    for (const auto& [name, values] :
-         {std::pair("mean", &result.mean), std::pair("std", &result.spread), std::pair("median", &result.median),
-          std::pair("min", &result.low), std::pair("max", &result.high), std::pair("reported_std", &result.reported)})
-        set_field(call, name, *values);
-    if (result.truth.size() > 0) {
-        set_field(call, "truth", result.truth);
-        set_field(call, "bias", result.bias);
-    }
-    if (result.bound.size() > 0) {
-        set_field(call, "cramer_rao_std", result.least_spread());
-        set_field(call, "cramer_rao", result.bound);
-    }
-    set_field(call, "estimated", result.estimated);
-    set_field(call, "failed", result.failed);
-    set_field(call, "not_converged", result.not_converged);
-    set_field(call, "first_failure", told(call, result.first_failure));
+    set_field(call, "names", result.names, "theta", result.theta, "reported", result.std, "mean", result.mean, "std",
+              result.spread, "median", result.median, "min", result.low, "max", result.high, "reported_std",
+              result.reported);
+    if (result.truth.size() > 0) set_field(call, "truth", result.truth, "bias", result.bias);
+    if (result.bound.size() > 0) set_field(call, "cramer_rao_std", result.least_spread(), "cramer_rao", result.bound);
+    set_field(call, "estimated", result.estimated, "failed", result.failed, "not_converged", result.not_converged,
+              "first_failure", told(call, result.first_failure));
     return 1;
 }
 
@@ -84,23 +72,15 @@ constexpr std::array kStudyOperators = {Member{"__tostring", told_field<MonteCar
 int push_candidate(const Call& call, const OrderCandidate& candidate) {
     lua_State* L = call.state();
     lua_createtable(L, 0, 16);
-    set_field(call, "poles", candidate.poles);
-    set_field(call, "zeros", candidate.zeros);
-    set_field(call, "delay", candidate.delay);
+    set_field(call, "poles", candidate.poles, "zeros", candidate.zeros, "delay", candidate.delay);
     if (!candidate.failure.empty()) {
         set_field(call, "failure", told(call, candidate.failure));
         return 1;
     }
-    for (const auto& [name, value] :
-         {std::pair("r_squared", candidate.r_squared), std::pair("yic", candidate.yic), std::pair("aic", candidate.aic),
-          std::pair("bic", candidate.bic), std::pair("fpe", candidate.fpe),
-          std::pair("log_condition", candidate.log_condition), std::pair("fit_percent", candidate.fit_percent)})
-        set_field(call, name, value);
-    if (candidate.validation_fit) set_field(call, "validation_fit", *candidate.validation_fit);
-    set_field(call, "iterations", candidate.iterations);
-    set_field(call, "undetermined", candidate.undetermined);
-    set_field(call, "cancellation", candidate.cancellation);
-    set_field(call, "converged", candidate.converged);
+    set_field(call, "r_squared", candidate.r_squared, "yic", candidate.yic, "aic", candidate.aic, "bic", candidate.bic,
+              "fpe", candidate.fpe, "log_condition", candidate.log_condition, "fit_percent", candidate.fit_percent,
+              "validation_fit", candidate.validation_fit, "iterations", candidate.iterations, "undetermined",
+              candidate.undetermined, "cancellation", candidate.cancellation, "converged", candidate.converged);
     give_fit(call, "srivc", candidate.estimate);
     lua_setfield(L, -2, "model");
     return 1;
@@ -129,14 +109,9 @@ constexpr std::array kTableOperators = {Member{"__tostring", told_field<OrderTab
 
 int push_arx_candidate(const Call& call, const ArxCandidate& candidate) {
     lua_createtable(call.state(), 0, 9);
-    for (const auto& [name, value] : {std::pair("na", candidate.na), std::pair("nb", candidate.nb),
-                                      std::pair("nk", candidate.nk), std::pair("parameters", candidate.parameters())})
-        set_field(call, name, value);
-    for (const auto& [name, value] :
-         {std::pair("loss", candidate.loss), std::pair("aic", candidate.aic), std::pair("bic", candidate.bic)})
-        set_field(call, name, value);
-    if (candidate.validation_loss) set_field(call, "validation_loss", *candidate.validation_loss);
-    set_field(call, "determined", candidate.determined);
+    set_field(call, "na", candidate.na, "nb", candidate.nb, "nk", candidate.nk, "parameters", candidate.parameters(),
+              "loss", candidate.loss, "aic", candidate.aic, "bic", candidate.bic, "validation_loss",
+              candidate.validation_loss, "determined", candidate.determined);
     return 1;
 }
 

@@ -145,17 +145,13 @@ int measure_fit(Call& call) {
     const double mean_square = lost ? kInfinity : (y - simulated).squaredNorm() / static_cast<double>(y.size());
     const InformationCriteria criteria = information_criteria(mean_square, y.size(), model.parameters);
     lua_createtable(call.state(), 0, 10);
-    set_field(call, "fit_percent", comparison.fit_percent[0]);
-    set_field(call, "r_squared_simulation", lost ? -kInfinity : r_squared_simulation(y, pair.swing));
-    set_field(call, "rmse", std::sqrt(mean_square));
-    set_field(call, "fpe", criteria.fpe);
-    set_field(call, "aic", criteria.aic);
-    set_field(call, "aicc", criteria.aicc);
-    set_field(call, "bic", criteria.bic);
+    set_field(call, "fit_percent", comparison.fit_percent[0], "r_squared_simulation",
+              lost ? -kInfinity : r_squared_simulation(y, pair.swing), "rmse", std::sqrt(mean_square), "fpe",
+              criteria.fpe, "aic", criteria.aic, "aicc", criteria.aicc, "bic", criteria.bic);
     if (model.covariance.size() > 0 && !lost)
         set_field(call, "yic", yic(y, pair.swing, model.theta, model.covariance).value);
-    set_field(call, "output", comparison.results.front().front().output);
-    set_field(call, "message", told(call, comparison.results.front().front().message));
+    set_field(call, "output", comparison.results.front().front().output, "message",
+              told(call, comparison.results.front().front().message));
     return 1;
 }
 

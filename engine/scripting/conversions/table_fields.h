@@ -46,11 +46,17 @@ inline int give_columns(const Call& call, const Matrix& columns) {
     return columns.cols() == 1 ? call.give_vector(columns.col(0)) : call.give_matrix(columns);
 }
 
-/// Sets a field of the table on top of the stack, which stays there.
-template <class T>
-void set_field(const Call& call, const char* name, const T& value) {
-    give_value(call, value);
-    lua_setfield(call.state(), -2, name);
+/// Sets fields of the table on top of the stack, which stays there: name, value, name, value, ... An empty optional
+/// sets none.
+template <class T, class... More>
+void set_field(const Call& call, const char* name, const T& value, const More&... more) {
+    if constexpr (requires { value.has_value(); }) {
+        if (value) set_field(call, name, *value);
+    } else {
+        give_value(call, value);
+        lua_setfield(call.state(), -2, name);
+    }
+    if constexpr (sizeof...(more) > 0) set_field(call, more...);
 }
 
 template <class T, auto kGet>

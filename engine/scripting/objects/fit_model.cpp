@@ -85,16 +85,13 @@ Estimate basic_estimate(const char* method, const Fit& fit) {
 
 void push_report(const Call& call, const Estimate& estimate) {
     lua_newtable(call.state());
-    set_field(call, "method", estimate.method);
-    set_field(call, "message", told(call, estimate.message));
-    set_field(call, "converged", estimate.converged);
+    set_field(call, "method", estimate.method, "message", told(call, estimate.message), "converged",
+              estimate.converged);
     for (const auto& [name, value] : estimate.numbers) set_field(call, name.c_str(), value);
     for (const auto& [name, values] : estimate.vectors) set_field(call, name.c_str(), values);
     for (const auto& [name, values] : estimate.matrices) set_field(call, name.c_str(), values);
-    if (const auto& assessment = estimate.doubts.assessment) {
-        set_field(call, "white", assessment->white);
-        set_field(call, "residual_verdict", told(call, assessment->verdict));
-    }
+    if (const auto& assessment = estimate.doubts.assessment)
+        set_field(call, "white", assessment->white, "residual_verdict", told(call, assessment->verdict));
     set_field(call, "warnings", told(call, estimate.warnings));
 }
 

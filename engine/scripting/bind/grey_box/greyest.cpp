@@ -92,13 +92,9 @@ int give_report(Call& call) {
     const GreyFit& grey = fit_self(call);
     const Fit& fit = grey.fit;
     push_report(call, basic_estimate("greyest", fit));
-    set_field(call, "noise_variance", fit.noise_variance);
-    set_field(call, "singular_values", grey.singular_values);
-    set_field(call, "iterations", static_cast<double>(fit.trace.size()));
-    set_field(call, "intervals", grey.intervals);
-    set_field(call, "x0", grey.initial_states);
-    set_field(call, "x0_std", grey.initial_std);
-    set_field(call, "at_bound", bounded_names(fit));
+    set_field(call, "noise_variance", fit.noise_variance, "singular_values", grey.singular_values, "iterations",
+              static_cast<double>(fit.trace.size()), "intervals", grey.intervals, "x0", grey.initial_states, "x0_std",
+              grey.initial_std, "at_bound", bounded_names(fit));
     give_list(call, grey.outputs, [&](const Matrix& y) { give_columns(call, y); });
     lua_setfield(call.state(), -2, "outputs");
     give_list(call, grey.states, [&](const Matrix& x) { give_columns(call, x); });

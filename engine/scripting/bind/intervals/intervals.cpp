@@ -95,16 +95,9 @@ int repeat_experiment(Call& call) {
     call.print(told(call, found.message) + "\n");
     give_figure(call, monte_carlo_histograms(as_study(found, wanted.runs)));
     lua_createtable(call.state(), 0, 10);
-    set_field(call, "names", found.names);
-    set_field(call, "estimate", found.estimate);
-    set_field(call, "values", found.values);
-    set_field(call, "mean", found.mean);
-    set_field(call, "std", found.std);
-    set_field(call, "low", found.low);
-    set_field(call, "high", found.high);
-    set_field(call, "failed", found.failed);
-    set_field(call, "message", told(call, found.message));
-    set_field(call, "warnings", told(call, found.warnings));
+    set_field(call, "names", found.names, "estimate", found.estimate, "values", found.values, "mean", found.mean, "std",
+              found.std, "low", found.low, "high", found.high, "failed", found.failed, "message",
+              told(call, found.message), "warnings", told(call, found.warnings));
     return 2;
 }
 
@@ -128,15 +121,9 @@ int follow_parameter(Call& call) {
     call.print(told(call, found.message) + "\n");
     give_figure(call, profile_plot(found, unit_of(data, name)));
     lua_createtable(call.state(), 0, 9);
-    set_field(call, "estimate", found.estimate);
-    set_field(call, "std", found.std);
-    if (found.low) set_field(call, "low", *found.low);
-    if (found.high) set_field(call, "high", *found.high);
-    set_field(call, "level", found.level);
-    set_field(call, "grid", found.grid);
-    set_field(call, "rise", found.rise);
-    set_field(call, "message", told(call, found.message));
-    set_field(call, "warnings", told(call, found.warnings));
+    set_field(call, "estimate", found.estimate, "std", found.std, "low", found.low, "high", found.high, "level",
+              found.level, "grid", found.grid, "rise", found.rise, "message", told(call, found.message), "warnings",
+              told(call, found.warnings));
     return 2;
 }
 
