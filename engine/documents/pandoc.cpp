@@ -4,6 +4,7 @@
 
 #include "documents/error.h"
 #include "documents/latex_remains.h"
+#include "documents/lua_text.h"
 #include "documents/text_lines.h"
 #include "documents/work_file.h"
 #include "platform/child_process.h"
@@ -24,24 +25,9 @@ const char* const kMarkdownWriter =
     "link_attributes-fenced_code_attributes-inline_code_attributes-citations-simple_tables-multiline_tables-grid_"
     "tables-implicit_figures-smart";
 
-/// A Lua string that holds exactly these bytes.
-std::string lua_string(const std::string& text) {
-    std::string result = "\"";
-    for (char c : text) {
-        const auto byte = static_cast<unsigned char>(c);
-        if (c == '"' || c == '\\')
-            result += std::string("\\") + c;
-        else if (byte < 0x20 || byte == 0x7F)
-            result += fmt::format("\\{:03d}", byte);
-        else
-            result += c;
-    }
-    return result + "\"";
-}
-
 std::string lua_list(const std::vector<std::string>& cells) {
     std::string result = "{";
-    for (const std::string& cell : cells) result += lua_string(cell) + ",";
+    for (const std::string& cell : cells) result += lua_text(cell) + ",";
     return result + "}";
 }
 
@@ -49,13 +35,13 @@ std::string lua_list(const std::vector<std::string>& cells) {
 template <typename Entry, typename Write>
 std::string lua_map(const std::map<std::string, Entry>& entries, Write write) {
     std::string result = "{";
-    for (const auto& [name, entry] : entries) result += "[" + lua_string(name) + "]=" + write(entry) + ",\n";
+    for (const auto& [name, entry] : entries) result += "[" + lua_text(name) + "]=" + write(entry) + ",\n";
     return result + "}";
 }
 
 std::string lua_set(const std::set<std::string>& words) {
     std::string result = "{";
-    for (const std::string& word : words) result += "[" + lua_string(word) + "]=true,";
+    for (const std::string& word : words) result += "[" + lua_text(word) + "]=true,";
     return result + "}";
 }
 
@@ -102,7 +88,7 @@ std::string lua_counts(const Counts& counts) {
 std::string chunks_entry(const ChunkSurroundings& chunks) {
     std::map<std::string, Counts> counts;
     for (const auto& [number, count] : chunks.counts) counts[std::to_string(number)] = count;
-    return "{counts=" + lua_map(counts, lua_counts) + ",labels=" + lua_map(chunks.labels, lua_string) + "}";
+    return "{counts=" + lua_map(counts, lua_counts) + ",labels=" + lua_map(chunks.labels, lua_text) + "}";
 }
 
 std::string slots_file(const PandocJob& job) {
@@ -110,25 +96,25 @@ std::string slots_file(const PandocJob& job) {
     for (const auto& [key, value] : job.metadata)
         if (key != "lang" && key != "bibliography" && !is_document_rule(key) && !value.empty())
             (is_switch(key) ? switches : shown)[key] = value;
-    const auto as_string = [](const std::string& text) { return lua_string(text); };
+    const auto as_string = [](const std::string& text) { return lua_text(text); };
     const bool numbered = switches.count("numbersections") && switches.at("numbersections") == "true";
     std::string variables =
-        "{lang=" + lua_string(job.language) + ",pagetitle=" + lua_string(job.template_file.stem().string());
+        "{lang=" + lua_text(job.language) + ",pagetitle=" + lua_text(job.template_file.stem().string());
     if (switches.count("toc") && switches.at("toc") == "true") variables += ",toc=true";
     const RunRecord& record = *job.record;
-    return "return {\nformat=" + lua_string(format_name(job.format)) + ",language=" + lua_string(job.language) +
-           ",reader=" + lua_string(kReader) + ",numbersections=" + (numbered ? "true" : "false") +
+    return "return {\nformat=" + lua_text(format_name(job.format)) + ",language=" + lua_text(job.language) +
+           ",reader=" + lua_text(kReader) + ",numbersections=" + (numbered ? "true" : "false") +
            ",stopped=" + (record.error || job.unfinished ? "true" : "false") +
-           ",draft=" + (job.draft ? "true" : "false") + ",\npicture_prefix=" + lua_string(job.picture_prefix) +
-           ",figure_extension=" + lua_string(figure_extension(job.format)) +
-           ",bibliography=" + lua_string(job.bibliography) + ",escaped=" + lua_set(escaped_commands(job.markdown)) +
+           ",draft=" + (job.draft ? "true" : "false") + ",\npicture_prefix=" + lua_text(job.picture_prefix) +
+           ",figure_extension=" + lua_text(figure_extension(job.format)) +
+           ",bibliography=" + lua_text(job.bibliography) + ",escaped=" + lua_set(escaped_commands(job.markdown)) +
            ",slides=" + (sets_slides(job) ? "true" : "false") + ",\nvariables=" + variables +
            "},\nmetadata=" + lua_map(shown, as_string) + ",\nmeasures=" + lua_map(job.measures, as_string) +
            ",\nsection_titles=" + lua_map(section_titles(job), as_string) +
-           ",\nvalue=" + lua_map(record.values, [](const RecordedValue& v) { return lua_string(one_line(v.text)); }) +
+           ",\nvalue=" + lua_map(record.values, [](const RecordedValue& v) { return lua_text(one_line(v.text)); }) +
            ",\ntable=" + lua_map(record.tables, lua_table_entry) + ",\nfigure=" +
-           lua_map(record.figures, [](const RecordedFigure& f) { return "{caption=" + lua_string(f.caption) + "}"; }) +
-           ",\ntext=" + lua_map(record.texts, [](const RecordedText& t) { return lua_string(t.markdown); }) +
+           lua_map(record.figures, [](const RecordedFigure& f) { return "{caption=" + lua_text(f.caption) + "}"; }) +
+           ",\ntext=" + lua_map(record.texts, [](const RecordedText& t) { return lua_text(t.markdown); }) +
            (job.chunks ? ",\nchunks=" + chunks_entry(*job.chunks) : "") + "}\n";
 }
 

@@ -19,6 +19,7 @@ inline constexpr std::uintmax_t kMostSourceBytes = std::uintmax_t{4} << 20;
 std::string text_of_source(const std::filesystem::path& file);
 std::string trimmed(std::string_view text);  ///< without spaces, tabs and line ends at both sides
 bool is_blank(std::string_view text);
+std::vector<std::string> words_between_spaces(std::string_view text);  ///< spaces, tabs and line ends
 bool is_name(std::string_view text);  ///< a letter or underscore, then letters, digits, underscores, hyphens
 std::string replaced(std::string text, std::string_view from, std::string_view to);  ///< every occurrence
 

@@ -7,7 +7,7 @@
 
 #include "numerics/error.h"
 #include "numerics/number_text.h"
-#include "scripting/source/lua_text.h"
+#include "documents/lua_text.h"
 #include "workflow/recording.h"
 
 namespace dynlab::inline workflow {

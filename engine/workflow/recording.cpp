@@ -9,7 +9,7 @@
 #include "numerics/number_text.h"
 #include "platform/error.h"
 #include "platform/spelling.h"
-#include "scripting/source/lua_text.h"
+#include "documents/lua_text.h"
 #include "scripting/source/lua_tokens.h"
 
 namespace dynlab::inline workflow {

@@ -1,5 +1,5 @@
 // Texts as Lua literals. Oracle: Lua's own reading of the literal.
-#include "scripting/source/lua_text.h"
+#include "documents/lua_text.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

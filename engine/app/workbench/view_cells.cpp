@@ -7,7 +7,7 @@
 #include "data_io/values/value_limits.h"
 #include "documents/text_lines.h"
 #include "platform/error.h"
-#include "scripting/source/lua_text.h"
+#include "documents/lua_text.h"
 
 namespace dynlab::inline app {
 namespace {

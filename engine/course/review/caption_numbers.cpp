@@ -5,6 +5,7 @@
 #include <set>
 
 #include "course/review/edit_script.h"
+#include "documents/text_lines.h"
 
 namespace dynlab::inline course {
 namespace {

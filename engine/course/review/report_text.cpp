@@ -279,20 +279,6 @@ int ReportText::words() const {
     return sum;
 }
 
-std::vector<std::string> words_between_spaces(const std::string& text) {
-    std::vector<std::string> words;
-    std::string word;
-    for (const char c : text + " ") {
-        if (!std::isspace(static_cast<unsigned char>(c))) {
-            word += c;
-        } else if (!word.empty()) {
-            words.push_back(std::move(word));
-            word.clear();
-        }
-    }
-    return words;
-}
-
 std::vector<std::string> sentences_of(const std::string& paragraph) {
     std::vector<std::string> sentences;
     std::string sentence;

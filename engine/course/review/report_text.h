@@ -35,6 +35,4 @@ ReportText report_text_of_pdf(const DocumentText& text);
 /// The sentences of a paragraph. Formulas between dollar signs are kept whole, abbreviations end nothing.
 std::vector<std::string> sentences_of(const std::string& paragraph);
 
-std::vector<std::string> words_between_spaces(const std::string& text);
-
 }  // namespace dynlab::inline course

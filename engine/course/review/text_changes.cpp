@@ -5,6 +5,7 @@
 
 #include "course/review/caption_numbers.h"
 #include "course/review/edit_script.h"
+#include "documents/text_lines.h"
 
 namespace dynlab::inline course {
 namespace {

@@ -12,24 +12,9 @@ namespace {
 
 using Cells = std::vector<std::string>;
 
-std::vector<std::string> words_of(std::string_view text) {
-    std::vector<std::string> words;
-    std::string word;
-    for (const char c : text) {
-        if (c != ' ') {
-            word += c;
-        } else if (!word.empty()) {
-            words.push_back(std::move(word));
-            word.clear();
-        }
-    }
-    if (!word.empty()) words.push_back(std::move(word));
-    return words;
-}
-
 std::vector<std::string> lines_filled(std::string_view text, std::size_t width) {
     std::vector<std::string> lines;
-    for (const std::string& word : words_of(text)) {
+    for (const std::string& word : words_between_spaces(text)) {
         if (!lines.empty() && columns_of(lines.back()) + 1 + columns_of(word) <= width)
             lines.back() += ' ' + word;
         else

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <thread>
 
+#include "documents/text_lines.h"
 #include "platform/child_process.h"
 #include "platform/error.h"
 #include "platform/files/plain_file.h"
@@ -64,7 +65,7 @@ class SlurmTasks : public WorkerEngine {
   public:
     SlurmTasks(const std::string& options, const Spool& spool, WorkerCommand command)
         : spool_(spool), command_(std::move(command)), options_(slurm_options_in(options, command_)) {
-        arrays_ = words_of(spool_.noted(kArrays).value_or(""));  // of a coordinator that was ended
+        arrays_ = words_between_spaces(spool_.noted(kArrays).value_or(""));  // of a coordinator that was ended
     }
 
     int wanted() const override { return options_.tasks * command_.hands; }
@@ -100,13 +101,6 @@ class SlurmTasks : public WorkerEngine {
   private:
     fs::path logs() const { return spool_.folder() / "logs"; }
 
-    static std::vector<std::string> words_of(const std::string& text) {
-        std::istringstream words(text);
-        std::vector<std::string> all;
-        for (std::string word; words >> word;) all.push_back(word);
-        return all;
-    }
-
     ChildResult ask(const std::vector<std::string>& words, const std::string& input = "") const {
         ChildOptions child;
         child.command = words;
@@ -127,7 +121,7 @@ class SlurmTasks : public WorkerEngine {
             return {};
         }
         answers_ = true;
-        return static_cast<int>(words_of(told.output).size());
+        return static_cast<int>(words_between_spaces(told.output).size());
     }
 
     static std::string first_line(const ChildResult& told) {
@@ -155,7 +149,7 @@ class SlurmTasks : public WorkerEngine {
         const std::string script =
             fmt::format("#!/bin/sh\nexec {} --hands {}\n", shell_words(command_.words), command_.hands);
         const ChildResult told = ask(words, script);
-        const std::vector<std::string> array = words_of(told.output);
+        const std::vector<std::string> array = words_between_spaces(told.output);
         if (told.exit_code != 0 || array.empty()) {
             if (submitted_) {  // some work already
                 complaints_.push_back("Slurm takes no further task: " + first_line(told));
@@ -173,7 +167,7 @@ class SlurmTasks : public WorkerEngine {
         std::string remedy = "sbatch takes the options that stand behind slurm: in --on";
         if (said.find("partition") != std::string::npos) {
             const ChildResult known = ask({"sinfo", "--noheader", "--format=%R"});
-            remedy = fmt::format("the partitions here are {}", fmt::join(words_of(known.output), ", "));
+            remedy = fmt::format("the partitions here are {}", fmt::join(words_between_spaces(known.output), ", "));
         } else if (said.find("contact slurm controller") != std::string::npos ||
                    said.find("onnection refused") != std::string::npos || told.timed_out) {
             remedy =

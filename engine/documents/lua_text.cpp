@@ -1,8 +1,8 @@
-#include "scripting/source/lua_text.h"
+#include "documents/lua_text.h"
 
 #include <fmt/format.h>
 
-namespace dynlab::inline scripting {
+namespace dynlab::inline documents {
 
 std::string lua_text(std::string_view text) {
     std::string literal = "\"";
@@ -18,4 +18,4 @@ std::string lua_text(std::string_view text) {
     return literal + '"';
 }
 
-}  // namespace dynlab::inline scripting
+}  // namespace dynlab::inline documents
