@@ -26,9 +26,7 @@ CheckSession& session_of(const Call& call) {
 
 /// A judgement: {share =, message =}.
 int give_judgement(const Call& call, double share, const std::string& message) {
-    lua_createtable(call.state(), 0, 2);
-    set_field(call, "share", share, "message", message);
-    return 1;
+    return give_table(call, "share", share, "message", message);
 }
 
 std::string percent_of_share(double share) {
@@ -296,8 +294,7 @@ int answer_of(Call& call) {
 void push_answers(const Call& call, const std::string& run) {
     lua_State* L = call.state();
     lua_newtable(L);
-    lua_createtable(L, 0, 2);
-    set_field(call, kRunOfAnswers, run);
+    give_table(call, kRunOfAnswers, run);
     lua_pushlightuserdata(L, const_cast<char*>("_"));
     lua_pushlightuserdata(L, &session_of(call));  // where Call::owner reads it
     call.give(run);

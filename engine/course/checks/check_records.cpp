@@ -24,8 +24,7 @@ void call_library(const Call& call, const char* name, int arguments) {
 void call_of_rig(const Call& call, int function, std::uint32_t specimen, std::uint32_t seed) {
     lua_State* L = call.state();
     lua_rawgeti(L, LUA_REGISTRYINDEX, function);
-    lua_createtable(L, 0, 2);
-    set_field(call, "specimen", specimen, "seed", seed);
+    give_table(call, "specimen", specimen, "seed", seed);
     lua_call(L, 1, 1);
 }
 
@@ -117,8 +116,7 @@ int truth(Call& call) {
         return 1;
     }
     call.give(name);
-    lua_createtable(call.state(), 0, 1);
-    set_field(call, "specimen", specimen);
+    give_table(call, "specimen", specimen);
     call_library(call, "rig_truth", 2);
     return 1;
 }

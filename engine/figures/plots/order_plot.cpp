@@ -11,35 +11,11 @@
 namespace dynlab::inline figures {
 namespace {
 
-struct Quantity {
-    const char* label;
-    bool larger_is_better;
-    double (*value)(const OrderCandidate&);
-};
-
-Quantity quantity_of(OrderCriterion criterion, bool validated) {
-    switch (criterion) {
-        case OrderCriterion::kRSquared:
-            return {"R_T^2", true, [](const OrderCandidate& c) { return c.r_squared; }};
-        case OrderCriterion::kYic:
-            return {"YIC", false, [](const OrderCandidate& c) { return c.yic; }};
-        case OrderCriterion::kAic:
-            return {"AIC", false, [](const OrderCandidate& c) { return c.aic; }};
-        case OrderCriterion::kBic:
-            return {"BIC", false, [](const OrderCandidate& c) { return c.bic; }};
-        case OrderCriterion::kFpe:
-            return {"FPE", false, [](const OrderCandidate& c) { return c.fpe; }};
-        case OrderCriterion::kFit:
-            return {"fit (%)", true, [](const OrderCandidate& c) { return c.fit_percent; }};
-        case OrderCriterion::kRecommended:
-            if (!validated) return quantity_of(OrderCriterion::kBic, false);
-            break;
-        case OrderCriterion::kValidationFit:
-            if (!validated) throw InvalidArgument("there is no validation fit to draw: no second record was given");
-            break;
-    }
-    return {"validation fit (%)", true,
-            [](const OrderCandidate& c) { return c.validation_fit.value_or(std::nan("")); }};
+const OrderMeasure& drawn_measure(OrderCriterion criterion, bool validated) {
+    if (criterion == OrderCriterion::kValidationFit && !validated)
+        throw InvalidArgument("there is no validation fit to draw: no second record was given");
+    if (criterion != OrderCriterion::kRecommended) return order_measure(criterion);
+    return order_measure(validated ? OrderCriterion::kValidationFit : OrderCriterion::kBic);
 }
 
 bool only_delays_differ(const OrderSelection& selection) {
@@ -50,15 +26,15 @@ bool only_delays_differ(const OrderSelection& selection) {
 }
 
 /// For each curve (number of zeros) the best value at each x.
-std::map<int, std::map<double, double>> best_values(const OrderSelection& selection, const Quantity& quantity,
+std::map<int, std::map<double, double>> best_values(const OrderSelection& selection, const OrderMeasure& measure,
                                                     bool over_delay) {
     std::map<int, std::map<double, double>> curves;
     for (const OrderCandidate& candidate : selection.candidates) {
         if (!candidate.failure.empty()) continue;
-        const double value = quantity.value(candidate), x = over_delay ? candidate.delay : candidate.poles;
+        const double value = measure.value(candidate), x = over_delay ? candidate.delay : candidate.poles;
         if (!std::isfinite(value)) continue;
         auto [entry, is_new] = curves[candidate.zeros].try_emplace(x, value);
-        if (!is_new && (quantity.larger_is_better ? value > entry->second : value < entry->second))
+        if (!is_new && (measure.larger_is_better ? value > entry->second : value < entry->second))
             entry->second = value;
     }
     return curves;
@@ -91,12 +67,12 @@ Curve mark_of_choice(double x, double y) {
 }
 
 Figure order_plot(const OrderSelection& selection, OrderCriterion criterion, const OrderChoice& choice) {
-    const Quantity quantity = quantity_of(criterion, selection.validated);
+    const OrderMeasure& measure = drawn_measure(criterion, selection.validated);
     const bool over_delay = only_delays_differ(selection);
     Panel panel;
     Extent x_extent(false), y_extent(false);
     int index = 0;
-    for (const auto& [zeros, values] : best_values(selection, quantity, over_delay)) {
+    for (const auto& [zeros, values] : best_values(selection, measure, over_delay)) {
         if (values.empty()) continue;
         panel.curves.push_back(curve_of(values, zeros, index++));
         x_extent.include(panel.curves.back().x);
@@ -104,13 +80,13 @@ Figure order_plot(const OrderSelection& selection, OrderCriterion criterion, con
     }
     if (panel.curves.empty()) throw InvalidArgument("there is nothing to draw: no structure could be estimated");
     const OrderCandidate& chosen = selection.candidates.at(choice.place);
-    if (const double value = quantity.value(chosen); std::isfinite(value))
+    if (const double value = measure.value(chosen); std::isfinite(value))
         panel.curves.push_back(mark_of_choice(over_delay ? chosen.delay : chosen.poles, value));
     panel.x_range = x_extent.padded(0.08);
     panel.y_range = y_extent.padded(0.1);
     if (!over_delay) panel.x_tick_step = 1;
     panel.x_label = over_delay ? "delay (s)" : "number of poles";
-    panel.y_label = quantity.label;
+    panel.y_label = std::string(measure.name) + measure.unit;
     return Figure(std::move(panel));
 }
 

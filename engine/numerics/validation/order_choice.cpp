@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "numerics/error.h"
 #include "numerics/fit/missed_options.h"
@@ -12,48 +13,22 @@ constexpr double kSlightEvidence = 2;  // difference of N BIC that is not worth 
 constexpr double kSlightFit = 0.5;     // percentage points of validation fit
 constexpr double kNoteworthyFit = 1;   // the same, when another candidate is pointed to
 
+constexpr OrderMeasure kOrderMeasures[] = {
+    {OrderCriterion::kRSquared, "RT2", "R_T^2", "", true, [](const OrderCandidate& c) { return c.r_squared; }},
+    {OrderCriterion::kYic, "YIC", "YIC", "", false, [](const OrderCandidate& c) { return c.yic; }},
+    {OrderCriterion::kAic, "AIC", "AIC", "", false, [](const OrderCandidate& c) { return c.aic; }},
+    {OrderCriterion::kBic, "BIC", "BIC", "", false, [](const OrderCandidate& c) { return c.bic; }},
+    {OrderCriterion::kFpe, "FPE", "FPE", "", false, [](const OrderCandidate& c) { return c.fpe; }},
+    {OrderCriterion::kFit, "fit", "fit", " (%)", true, [](const OrderCandidate& c) { return c.fit_percent; }},
+    {OrderCriterion::kValidationFit, "validation", "validation fit", " (%)", true,
+     [](const OrderCandidate& c) { return c.validation_fit.value_or(std::nan("")); }}};
+
 /// Smaller is better.
 double badness(const OrderCandidate& candidate, OrderCriterion criterion) {
-    switch (criterion) {
-        case OrderCriterion::kRSquared:
-            return -candidate.r_squared;
-        case OrderCriterion::kYic:
-            return candidate.yic;
-        case OrderCriterion::kAic:
-            return candidate.aic;
-        case OrderCriterion::kBic:
-            return candidate.bic;
-        case OrderCriterion::kFpe:
-            return candidate.fpe;
-        case OrderCriterion::kFit:
-            return -candidate.fit_percent;
-        case OrderCriterion::kValidationFit:
-            return -candidate.validation_fit.value_or(0);
-        case OrderCriterion::kRecommended:
-            break;
-    }
-    return candidate.validation_fit ? -*candidate.validation_fit : candidate.evidence;
-}
-
-const char* name_of(OrderCriterion criterion) {
-    switch (criterion) {
-        case OrderCriterion::kRSquared:
-            return "the largest R_T^2";
-        case OrderCriterion::kYic:
-            return "the smallest YIC";
-        case OrderCriterion::kAic:
-            return "the smallest AIC";
-        case OrderCriterion::kBic:
-            return "the smallest BIC";
-        case OrderCriterion::kFpe:
-            return "the smallest FPE";
-        case OrderCriterion::kFit:
-            return "the largest fit";
-        case OrderCriterion::kValidationFit:
-        case OrderCriterion::kRecommended:
-            break;
-    }
-    return "the largest validation fit";
+    if (criterion == OrderCriterion::kRecommended)
+        return candidate.validation_fit ? -*candidate.validation_fit : candidate.evidence;
+    const OrderMeasure& measure = order_measure(criterion);
+    return measure.larger_is_better ? -measure.value(candidate) : measure.value(candidate);
 }
 
 using Places = std::vector<std::size_t>;
@@ -162,6 +137,14 @@ OrderChoice recommend(const OrderSelection& selection, const Places& estimated) 
 
 }  // namespace
 
+std::span<const OrderMeasure> order_measures() {
+    return kOrderMeasures;
+}
+
+const OrderMeasure& order_measure(OrderCriterion criterion) {
+    return *std::ranges::find(kOrderMeasures, criterion, &OrderMeasure::criterion);
+}
+
 std::string structure_text(const OrderCandidate& candidate) {
     const std::string zeros = candidate.zeros == 0 ? "no zero" : counted(candidate.zeros, "zero");
     const std::string delay = candidate.delay > 0 ? " and a delay of " + number_text(candidate.delay) + " s" : "";
@@ -178,10 +161,12 @@ OrderChoice choose_order(const OrderSelection& selection, OrderCriterion criteri
         places_where(selection, [](const OrderCandidate& candidate) { return candidate.failure.empty(); });
     if (estimated.empty()) throw InvalidArgument("none of the structures could be estimated, so none can be chosen");
     if (criterion == OrderCriterion::kRecommended) return recommend(selection, estimated);
+    const OrderMeasure& measure = order_measure(criterion);
     const std::size_t chosen = best_of(selection, estimated, criterion);
     const OrderCandidate& taken = selection.candidates[chosen];
-    OrderChoice choice{chosen,
-                       structure_text(taken) + " have " + name_of(criterion) + " (" + measures_of(taken) + ")."};
+    OrderChoice choice{chosen, structure_text(taken) + " have the " +
+                                   (measure.larger_is_better ? "largest " : "smallest ") + measure.name + " (" +
+                                   measures_of(taken) + ")."};
     choice.explanation.front() = static_cast<char>(std::toupper(choice.explanation.front()));
     if (!taken.sound()) choice.explanation += " But that model has " + faults_of(taken) + ".";
     choice.explanation += missed_by(taken);

@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -70,6 +71,16 @@ std::vector<TransferStructure> order_grid(std::pair<int, int> poles, std::pair<i
 /// that of the integrator too, so that an offset of its output is part of it.
 OrderSelection select_order(const IdData& data, const std::vector<TransferStructure>& candidates,
                             const OrderSelectionOptions& options = {});
+
+/// What a criterion compares.
+struct OrderMeasure {
+    OrderCriterion criterion;
+    const char *word, *name, *unit;  ///< for scripts "fit", for people "fit" and " (%)"
+    bool larger_is_better;
+    double (*value)(const OrderCandidate&);  ///< not a number where there is none
+};
+std::span<const OrderMeasure> order_measures();               ///< of all criteria but kRecommended
+const OrderMeasure& order_measure(OrderCriterion criterion);  ///< of any but kRecommended
 
 /// "2 poles, 1 zero and a delay of 0.5 s"
 std::string structure_text(const OrderCandidate& candidate);

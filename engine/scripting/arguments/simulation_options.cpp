@@ -91,8 +91,7 @@ const IdData& driving_data(const Call& call, int index, const IdData& data, IdDa
 void read_steps_as_option(const Call& call, int index) {
     if (call.type(index) != LUA_TNUMBER) return;
     lua_State* L = call.state();
-    lua_createtable(L, 0, 1);
-    set_field(call, "k", call.number(index, "k"));
+    give_table(call, "k", call.number(index, "k"));
     lua_replace(L, index);
 }
 

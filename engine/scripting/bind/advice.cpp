@@ -20,10 +20,9 @@ void set_segments(const Call& call, const char* name, const std::vector<Segment>
 }
 
 void push_finding(const Call& call, const RecordFinding& finding) {
-    lua_createtable(call.state(), 0, 7);
-    set_field(call, "code", finding.code, "warning", finding.weight == Weight::kWarning, "channel", finding.channel,
-              "message", told(call, finding.message), "value", finding.value, "experiment",
-              static_cast<Index>(finding.experiment + 1));
+    give_table(call, "code", finding.code, "warning", finding.weight == Weight::kWarning, "channel", finding.channel,
+               "message", told(call, finding.message), "value", finding.value, "experiment",
+               static_cast<Index>(finding.experiment + 1));
     set_segments(call, "sections", finding.sections);
 }
 

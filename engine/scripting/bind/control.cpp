@@ -76,9 +76,7 @@ int drive_crane(Call& call) {
     };
     const CraneRecord record =
         control_crane({}, {}, run, controller, static_cast<std::uint32_t>(options.size("seed", 1)));
-    lua_createtable(L, 0, 4);
-    set_field(call, "t", record.t, "u", record.u, "x", record.x, "theta", record.theta);
-    return 1;
+    return give_table(call, "t", record.t, "u", record.u, "x", record.x, "theta", record.theta);
 }
 
 constexpr FunctionEntry kControlFunctions[] = {

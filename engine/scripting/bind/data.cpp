@@ -42,8 +42,7 @@ struct Pusher {
     const std::string& path;
     void operator()(const auto& value) const { give_value(call, value); }
     void operator()(const Eigen::MatrixXcd& value) const {
-        lua_createtable(call.state(), 0, 2);
-        set_field(call, "re", Matrix(value.real()), "im", Matrix(value.imag()));
+        give_table(call, "re", Matrix(value.real()), "im", Matrix(value.imag()));
     }
     void operator()(const std::shared_ptr<VariableTable>& value) const { push_variables(call, *value, path); }
     void operator()(const std::shared_ptr<VariableList>& value) const { push_list(call, *value, path); }

@@ -193,8 +193,7 @@ int list_of_curves(Call& call) {
     lua_Integer place = 0;
     for (std::size_t i = 0; i < figure.panels.size(); ++i)
         for (const Curve& curve : figure.panels[i].curves) {
-            lua_createtable(L, 0, 5);
-            set_field(call, "panel", static_cast<Index>(i + 1), "label", curve.label, "x", curve.x, "y", curve.y);
+            give_table(call, "panel", static_cast<Index>(i + 1), "label", curve.label, "x", curve.x, "y", curve.y);
             if (curve.y_upper.size() > 0) set_field(call, "y_upper", curve.y_upper);
             lua_rawseti(L, -2, ++place);
         }

@@ -93,10 +93,8 @@ int field_history(Call& call) {
     if (!estimate.history)
         throw InvalidArgument(
             fmt::format("{} looks at all samples at once; rlssvf, rivsvf and rsrivc give a history", estimate.method));
-    lua_newtable(call.state());
-    set_field(call, "t", estimate.history->t, "theta", estimate.history->theta, "std", estimate.history->std, "names",
-              estimate.names);
-    return 1;
+    return give_table(call, "t", estimate.history->t, "theta", estimate.history->theta, "std", estimate.history->std,
+                      "names", estimate.names);
 }
 
 double noise_variance_of(const Model& model) {

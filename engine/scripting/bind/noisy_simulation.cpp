@@ -179,8 +179,7 @@ int simulate_spread(Call& call) {
     const SimulationSpread spread = spread_of(model, input, hold_of(options, input.hold), options.size("runs", 200),
                                               DrawnNumbers(call, options).stream());
     give_figure(call, spread_figure(model.estimate->method, spread, input.t, level));
-    lua_createtable(call.state(), 0, 4);
-    set_field(call, "output", spread.output, "std", spread.std, "drawn", spread.drawn, "unstable", spread.unstable);
+    give_table(call, "output", spread.output, "std", spread.std, "drawn", spread.drawn, "unstable", spread.unstable);
     return 2;
 }
 

@@ -75,9 +75,8 @@ int give_impulse(const Call& call, const Options& options, SpectralModels& read,
     name_models(options, read.models);
     print_message(call, estimate.message, estimate.warnings);
     give_figure(call, impulse_estimate_plot(estimate, read.data.Ts, read.models, confidence_of(options)));
-    lua_createtable(call.state(), 0, 8);
-    set_field(call, "t", estimate.t, "response", estimate.response, "std", estimate.std, "chance", estimate.null_std,
-              "noise_variance", estimate.noise_variance);
+    give_table(call, "t", estimate.t, "response", estimate.response, "std", estimate.std, "chance", estimate.null_std,
+               "noise_variance", estimate.noise_variance);
     if (estimate.first)
         set_field(call, "first", *estimate.first, "dead_time",
                   static_cast<double>(std::max<Index>(*estimate.first - 1, 0)) * read.data.Ts);

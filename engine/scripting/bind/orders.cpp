@@ -132,12 +132,9 @@ int try_structures(Call& call) {
 OrderCriterion criterion_of(const Call& call) {
     if (!call.given(2)) return OrderCriterion::kRecommended;
     const std::string text = call.text(2, "criterion");
-    for (const auto& [name, criterion] :
-         {std::pair("recommended", OrderCriterion::kRecommended), std::pair("RT2", OrderCriterion::kRSquared),
-          std::pair("YIC", OrderCriterion::kYic), std::pair("AIC", OrderCriterion::kAic),
-          std::pair("BIC", OrderCriterion::kBic), std::pair("FPE", OrderCriterion::kFpe),
-          std::pair("fit", OrderCriterion::kFit), std::pair("validation", OrderCriterion::kValidationFit)})
-        if (text == name) return criterion;
+    if (text == "recommended") return OrderCriterion::kRecommended;
+    for (const OrderMeasure& measure : order_measures())
+        if (text == measure.word) return measure.criterion;
     throw InvalidArgument(
         fmt::format("the criterion must be \"recommended\", \"RT2\", \"YIC\", \"AIC\", \"BIC\", \"FPE\", \"fit\" or "
                     "\"validation\", but \"{}\" was given",
@@ -194,8 +191,7 @@ int select_arx_structure(Call& call) {
 /// {std =, samples =, delays =, losses =, rival =, poles =, zeros =, model =, message =}
 void push_search(const Call& call, const IdData& data, const DelaySearch& search) {
     lua_State* L = call.state();
-    lua_createtable(L, 0, 10);
-    set_field(call, "delay", search.delay, "std", search.std);
+    give_table(call, "delay", search.delay, "std", search.std);
     if (data.regular()) set_field(call, "samples", search.delay / data.Ts);
     set_field(call, "rival", search.rival, "delays", search.grid(), "losses", search.losses(), "poles",
               search.candidate.poles, "zeros", search.candidate.zeros, "message", told(call, search.explanation));

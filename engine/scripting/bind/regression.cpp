@@ -109,10 +109,8 @@ int predict(Call& call) {
     const bool single = fit.polynomial && call.type(2) == LUA_TNUMBER;
     const Forecast result = single ? forecast_at(fit, call.number(2, "x"), level)
                                    : forecast(fit.regression, call.vector(2, "regressors"), level);
-    lua_createtable(call.state(), 0, 6);
-    set_field(call, "value", result.value, "low", result.low, "high", result.high, "std", result.std, "mean_std",
-              result.mean_std, "level", result.level);
-    return 1;
+    return give_table(call, "value", result.value, "low", result.low, "high", result.high, "std", result.std,
+                      "mean_std", result.mean_std, "level", result.level);
 }
 
 /// Line and bands of a fitted polynomial over [from, to].
@@ -170,11 +168,10 @@ int descend(Call& call) {
     wanted.cancel = call.cancel();
     const MatrixMap Phi = call.matrix(1, "Phi");
     const GradientDescentResult result = gradient_descent(Phi, call.vector(2, "y"), wanted);
-    lua_createtable(call.state(), 0, 8);
-    set_field(call, "theta", result.theta, "loss", result.loss, "step", result.step_size, "largest_step",
-              result.largest_step, "condition_number", result.condition_number, "iterations", result.iterations,
-              "converged", result.termination == Termination::kConverged, "message", told(call, result.message));
-    return 1;
+    return give_table(call, "theta", result.theta, "loss", result.loss, "step", result.step_size, "largest_step",
+                      result.largest_step, "condition_number", result.condition_number, "iterations", result.iterations,
+                      "converged", result.termination == Termination::kConverged, "message",
+                      told(call, result.message));
 }
 
 constexpr FunctionEntry kRegressionFunctions[] = {

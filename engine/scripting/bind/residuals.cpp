@@ -18,18 +18,15 @@ namespace dynlab::inline scripting {
 namespace {
 
 void push_independence(const Call& call, const IndependenceTest& test) {
-    lua_State* L = call.state();
-    lua_createtable(L, 0, 8);
-    set_field(call, "correlation", test.correlation, "bound", test.bound, "outside", static_cast<double>(test.outside),
-              "p_value", test.p_value, "p_value_future", test.p_value_future, "independent", test.independent,
-              "without_feedback", test.without_feedback, "verdict", told(call, test.verdict));
+    give_table(call, "correlation", test.correlation, "bound", test.bound, "outside", static_cast<double>(test.outside),
+               "p_value", test.p_value, "p_value_future", test.p_value_future, "independent", test.independent,
+               "without_feedback", test.without_feedback, "verdict", told(call, test.verdict));
 }
 
 void push_output(const Call& call, const OutputResiduals& output) {
     lua_State* L = call.state();
-    lua_createtable(L, 0, 10);
-    set_field(call, "mean", output.mean, "variance", output.variance, "exact", output.exact, "verdict",
-              told(call, output.verdict));
+    give_table(call, "mean", output.mean, "variance", output.variance, "exact", output.exact, "verdict",
+               told(call, output.verdict));
     if (output.exact) return;
     set_field(call, "correlation", output.whiteness.correlation, "bound", output.whiteness.bound, "outside",
               static_cast<double>(output.whiteness.outside), "p_value", output.whiteness.p_value, "white",
@@ -125,9 +122,8 @@ void push_cross_validation(const Call& call, const CrossValidation& result) {
     lua_setfield(L, -2, "fit_percent");
     set_field(call, "mean", result.mean, "std", result.spread, "message", told(call, result.message));
     give_list(call, result.folds, [&](const CrossValidationFold& fold) {
-        lua_createtable(L, 0, 4);
-        set_field(call, "experiment", static_cast<double>(fold.experiment + 1), "first",
-                  static_cast<double>(fold.first), "last", static_cast<double>(fold.last));
+        give_table(call, "experiment", static_cast<double>(fold.experiment + 1), "first",
+                   static_cast<double>(fold.first), "last", static_cast<double>(fold.last));
         give_model(call, fold.channels.front());
         lua_setfield(L, -2, "model");
     });

@@ -48,8 +48,7 @@ std::uint32_t seed_number(const Options& options, const char* name, Index fallba
 }
 
 void give_description(const Call& call, const Rig& rig) {
-    lua_createtable(call.state(), 0, 5);
-    set_field(call, "title", rig.title, "Ts", rig.Ts);
+    give_table(call, "title", rig.title, "Ts", rig.Ts);
     std::vector<std::string> signals;
     for (const RigSignal& signal : rig.signals) signals.push_back(signal.name);
     set_field(call, "signals", signals, "experiments", rig.experiments);

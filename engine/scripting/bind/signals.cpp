@@ -72,8 +72,7 @@ int make_random_phases(Call& call) {
     const RandomPhaseMultisine signal =
         random_phase_multisine(period, wanted, options.has("seed") ? own : call.context().random);
     call.give_vector(signal.u.replicate(periods, 1));
-    lua_createtable(call.state(), 0, 3);
-    set_field(call, "lines", signal.lines, "detection", signal.detection, "crest", signal.crest);
+    give_table(call, "lines", signal.lines, "detection", signal.detection, "crest", signal.crest);
     return 2;
 }
 

@@ -19,11 +19,9 @@ const MonteCarlo& study_self(Call& call) {
 }
 
 int push_result(const Call& call, const MonteCarloResult& result) {
-    lua_State* L = call.state();
-    lua_createtable(L, 0, 16);
-    set_field(call, "names", result.names, "theta", result.theta, "reported", result.std, "mean", result.mean, "std",
-              result.spread, "median", result.median, "min", result.low, "max", result.high, "reported_std",
-              result.reported);
+    give_table(call, "names", result.names, "theta", result.theta, "reported", result.std, "mean", result.mean, "std",
+               result.spread, "median", result.median, "min", result.low, "max", result.high, "reported_std",
+               result.reported);
     if (result.truth.size() > 0) set_field(call, "truth", result.truth, "bias", result.bias);
     if (result.bound.size() > 0) set_field(call, "cramer_rao_std", result.least_spread(), "cramer_rao", result.bound);
     set_field(call, "estimated", result.estimated, "failed", result.failed, "not_converged", result.not_converged,
@@ -71,8 +69,7 @@ constexpr std::array kStudyOperators = {Member{"__tostring", told_field<MonteCar
 
 int push_candidate(const Call& call, const OrderCandidate& candidate) {
     lua_State* L = call.state();
-    lua_createtable(L, 0, 16);
-    set_field(call, "poles", candidate.poles, "zeros", candidate.zeros, "delay", candidate.delay);
+    give_table(call, "poles", candidate.poles, "zeros", candidate.zeros, "delay", candidate.delay);
     if (!candidate.failure.empty()) {
         set_field(call, "failure", told(call, candidate.failure));
         return 1;
@@ -108,11 +105,9 @@ constexpr std::array kTableOperators = {Member{"__tostring", told_field<OrderTab
 // ---- table of ARX orders
 
 int push_arx_candidate(const Call& call, const ArxCandidate& candidate) {
-    lua_createtable(call.state(), 0, 9);
-    set_field(call, "na", candidate.na, "nb", candidate.nb, "nk", candidate.nk, "parameters", candidate.parameters(),
-              "loss", candidate.loss, "aic", candidate.aic, "bic", candidate.bic, "validation_loss",
-              candidate.validation_loss, "determined", candidate.determined);
-    return 1;
+    return give_table(call, "na", candidate.na, "nb", candidate.nb, "nk", candidate.nk, "parameters",
+                      candidate.parameters(), "loss", candidate.loss, "aic", candidate.aic, "bic", candidate.bic,
+                      "validation_loss", candidate.validation_loss, "determined", candidate.determined);
 }
 
 int arx_rows(Call& call) {

@@ -144,10 +144,9 @@ int measure_fit(Call& call) {
     const bool lost = !simulated.allFinite();  // the message says when
     const double mean_square = lost ? kInfinity : (y - simulated).squaredNorm() / static_cast<double>(y.size());
     const InformationCriteria criteria = information_criteria(mean_square, y.size(), model.parameters);
-    lua_createtable(call.state(), 0, 10);
-    set_field(call, "fit_percent", comparison.fit_percent[0], "r_squared_simulation",
-              lost ? -kInfinity : r_squared_simulation(y, pair.swing), "rmse", std::sqrt(mean_square), "fpe",
-              criteria.fpe, "aic", criteria.aic, "aicc", criteria.aicc, "bic", criteria.bic);
+    give_table(call, "fit_percent", comparison.fit_percent[0], "r_squared_simulation",
+               lost ? -kInfinity : r_squared_simulation(y, pair.swing), "rmse", std::sqrt(mean_square), "fpe",
+               criteria.fpe, "aic", criteria.aic, "aicc", criteria.aicc, "bic", criteria.bic);
     if (model.covariance.size() > 0 && !lost)
         set_field(call, "yic", yic(y, pair.swing, model.theta, model.covariance).value);
     set_field(call, "output", comparison.results.front().front().output, "message",

@@ -58,6 +58,13 @@ void set_field(const Call& call, const char* name, const T& value, const More&..
     }
     if constexpr (sizeof...(more) > 0) set_field(call, more...);
 }
+/// Pushes a table with such fields.
+template <class... Fields>
+int give_table(const Call& call, const Fields&... fields) {
+    lua_createtable(call.state(), 0, static_cast<int>(sizeof...(fields) / 2));
+    set_field(call, fields...);
+    return 1;
+}
 
 template <class T, auto kGet>
 int give_field(Call& call) {

@@ -84,9 +84,8 @@ Estimate basic_estimate(const char* method, const Fit& fit) {
 }
 
 void push_report(const Call& call, const Estimate& estimate) {
-    lua_newtable(call.state());
-    set_field(call, "method", estimate.method, "message", told(call, estimate.message), "converged",
-              estimate.converged);
+    give_table(call, "method", estimate.method, "message", told(call, estimate.message), "converged",
+               estimate.converged);
     for (const auto& [name, value] : estimate.numbers) set_field(call, name.c_str(), value);
     for (const auto& [name, values] : estimate.vectors) set_field(call, name.c_str(), values);
     for (const auto& [name, values] : estimate.matrices) set_field(call, name.c_str(), values);

@@ -30,8 +30,7 @@ int give_known(Call& call) {
 template <OutputLevels FrequencyData::*kLevels>
 int give_levels(Call& call) {
     const OutputLevels& levels = response_self(call).*kLevels;
-    lua_createtable(call.state(), 0, 4);
-    set_field(call, "w", levels.w, "power", levels.power);
+    give_table(call, "w", levels.w, "power", levels.power);
     if (levels.noise.size() > 0) set_field(call, "noise", levels.noise);
     if (levels.distortion.size() > 0) set_field(call, "distortion", levels.distortion);
     return 1;

@@ -94,10 +94,9 @@ int repeat_experiment(Call& call) {
     const Bootstrap found = bootstrap(model, wanted);
     call.print(told(call, found.message) + "\n");
     give_figure(call, monte_carlo_histograms(as_study(found, wanted.runs)));
-    lua_createtable(call.state(), 0, 10);
-    set_field(call, "names", found.names, "estimate", found.estimate, "values", found.values, "mean", found.mean, "std",
-              found.std, "low", found.low, "high", found.high, "failed", found.failed, "message",
-              told(call, found.message), "warnings", told(call, found.warnings));
+    give_table(call, "names", found.names, "estimate", found.estimate, "values", found.values, "mean", found.mean,
+               "std", found.std, "low", found.low, "high", found.high, "failed", found.failed, "message",
+               told(call, found.message), "warnings", told(call, found.warnings));
     return 2;
 }
 
@@ -120,10 +119,9 @@ int follow_parameter(Call& call) {
     const Profile found = profile_likelihood(model, name, wanted);
     call.print(told(call, found.message) + "\n");
     give_figure(call, profile_plot(found, unit_of(data, name)));
-    lua_createtable(call.state(), 0, 9);
-    set_field(call, "estimate", found.estimate, "std", found.std, "low", found.low, "high", found.high, "level",
-              found.level, "grid", found.grid, "rise", found.rise, "message", told(call, found.message), "warnings",
-              told(call, found.warnings));
+    give_table(call, "estimate", found.estimate, "std", found.std, "low", found.low, "high", found.high, "level",
+               found.level, "grid", found.grid, "rise", found.rise, "message", told(call, found.message), "warnings",
+               told(call, found.warnings));
     return 2;
 }
 
