@@ -7,6 +7,7 @@
 #include "numerics/filters/transfer_filters.h"
 #include "numerics/linalg/polynomial.h"
 #include "numerics/linalg/side_by_side.h"
+#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
@@ -204,11 +205,8 @@ void TransferOutput::fix(const std::map<std::string, double>& values) {
     const std::vector<std::string> names = structure_.parameter_names();
     for (const auto& [name, value] : values) {
         const auto known = std::ranges::find(names, name);
-        if (known == names.end()) {
-            std::string all;
-            for (const std::string& one : names) all += (all.empty() ? "" : ", ") + one;
-            throw InvalidArgument("`fixed`: the model has no parameter " + name + "; it has " + all);
-        }
+        if (known == names.end())
+            throw InvalidArgument("`fixed`: the model has no parameter " + name + "; it has " + enumerated(names));
         const Index place = known - names.begin();
         lower_[place] = upper_[place] = value / seconds_[place];
     }

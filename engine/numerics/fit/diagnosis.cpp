@@ -170,13 +170,14 @@ void warn_of_search(Fit& fit, const FitOptions& options) {
         fit.warnings.push_back("The search was stopped before its end; the best point so far is given.");
 }
 
-std::string undetermined_names(const std::vector<std::string>& names, const VectorView& theta, const VectorView& std) {
-    std::string list;
+std::vector<std::string> undetermined_parameters(const std::vector<std::string>& names, const VectorView& theta,
+                                                 const VectorView& std) {
+    std::vector<std::string> undetermined;
     for (Index i = 0; i < std::min(theta.size(), std.size()); ++i) {
         const std::string& name = names[static_cast<std::size_t>(i)];
-        if (std[i] > std::abs(theta[i]) && !name.starts_with("Td")) list += (list.empty() ? "" : ", ") + name;
+        if (!(std[i] <= std::abs(theta[i])) && !name.starts_with("Td")) undetermined.push_back(name);
     }
-    return list;
+    return undetermined;
 }
 
 void warn_of_doubtful_parameters(Fit& fit, const std::string& simpler) {
@@ -186,7 +187,7 @@ void warn_of_doubtful_parameters(Fit& fit, const std::string& simpler) {
                                " or a richer input is wanted.");
         return;
     }
-    const std::string names = undetermined_names(fit.names, fit.theta, fit.std);
+    const std::string names = enumerated(undetermined_parameters(fit.names, fit.theta, fit.std));
     if (!names.empty())
         fit.warnings.push_back("The data hardly determine " + names + ": the standard error is larger than the value.");
 }

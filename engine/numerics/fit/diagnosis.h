@@ -42,8 +42,9 @@ inline constexpr double kAmbiguousCondition = 1e10;
 
 /// Of a search that did not come to its end.
 void warn_of_search(Fit& fit, const FitOptions& options);
-/// "a1, b0": the parameters (but for delays) whose standard error is larger than their value.
-std::string undetermined_names(const std::vector<std::string>& names, const VectorView& theta, const VectorView& std);
+/// Names of the parameters (but for delays) whose standard error is larger than their value or not a number.
+std::vector<std::string> undetermined_parameters(const std::vector<std::string>& names, const VectorView& theta,
+                                                 const VectorView& std);
 /// Of an ambiguous condition number, otherwise of parameters (but for delays) whose standard error is larger than their
 /// value. `simpler` is what may help, apart from a richer input.
 void warn_of_doubtful_parameters(Fit& fit, const std::string& simpler = "a simpler structure");

@@ -12,12 +12,6 @@ constexpr double kNoEffect = 1e-10;    // of what the outputs vary
 constexpr double kAmbiguous = 1.5e-8;  // of the largest singular value
 constexpr double kTakesPart = 1e-3;    // in a singular vector
 
-std::string joined(const std::vector<std::string>& words) {
-    std::string all;
-    for (const std::string& word : words) all += (all.empty() ? "" : ", ") + word;
-    return all;
-}
-
 /// "m +1 %, k -2 %": how the parameters change together, the most changed one by one per cent (or by one, at zero).
 std::string changes_text(const std::vector<std::string>& names, const Vector& changes, const Vector& theta) {
     std::vector<std::string> words;
@@ -27,7 +21,7 @@ std::string changes_text(const std::vector<std::string>& names, const Vector& ch
         words.push_back(names[static_cast<std::size_t>(i)] + (change > 0 ? " +" : " -") +
                         number_text(std::abs(change), 3) + (theta[i] == 0 ? "" : " %"));
     }
-    return joined(words);
+    return enumerated(words);
 }
 
 }  // namespace
@@ -50,7 +44,7 @@ Ambiguity find_ambiguity(const MatrixView& J, const std::vector<std::string>& na
         }
     }
     if (!idle.empty())
-        found.sentences.push_back("The outputs of this record do not depend on " + joined(idle) +
+        found.sentences.push_back("The outputs of this record do not depend on " + enumerated(idle) +
                                   ": fix what they do not tell, or drive the system so that it shows.");
     if (active.size() < 2) return found;
     Matrix scaled = J(Eigen::all, active);
@@ -71,7 +65,7 @@ Ambiguity find_ambiguity(const MatrixView& J, const std::vector<std::string>& na
         }
         const auto size = static_cast<Index>(changes.size());
         found.sentences.push_back(
-            "The record does not tell " + joined(involved) +
+            "The record does not tell " + enumerated(involved) +
             " apart: the outputs stay as they are when they change together, " +
             changes_text(involved, Eigen::Map<Vector>(changes.data(), size), Eigen::Map<Vector>(values.data(), size)) +
             "; fix one of them.");

@@ -68,15 +68,10 @@ std::string faults_of(const OrderCandidate& candidate) {
     if (candidate.cancellation)
         faults.push_back(candidate.integrator ? "a zero that cancels a pole or the integrator"
                                               : "a zero that cancels a pole");
-    if (!candidate.undetermined.empty()) {
-        std::string names;
-        for (const std::string& name : candidate.undetermined) names += (names.empty() ? "" : ", ") + name;
-        faults.push_back("standard errors larger than the values of " + names);
-    }
+    if (!candidate.undetermined.empty())
+        faults.push_back("standard errors larger than the values of " + enumerated(candidate.undetermined));
     if (!candidate.converged) faults.push_back("an estimation that did not converge");
-    std::string text;
-    for (std::size_t i = 0; i < faults.size(); ++i) text += (i == 0 ? "" : " and ") + faults[i];
-    return text;
+    return enumerated(faults, " and ");
 }
 
 std::string measures_of(const OrderCandidate& candidate) {

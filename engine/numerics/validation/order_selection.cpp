@@ -11,6 +11,7 @@
 
 #include "numerics/error.h"
 #include "numerics/estimators/srivc.h"
+#include "numerics/fit/diagnosis.h"
 #include "numerics/fit/doubts.h"
 #include "numerics/fit/integrated_input.h"
 #include "numerics/fit/missed_options.h"
@@ -30,14 +31,6 @@ Comparison comparison_of(const IdData& data, const Fit& estimate, Offset asked) 
     const Offset chosen = estimate.start.offset ? Offset::kEstimate : Offset::kNone;
     return compare_all(data, estimate.models,
                        {estimate.start.state, asked == Offset::kRemove ? Offset::kRemove : chosen});
-}
-
-std::vector<std::string> undetermined_parameters(const Fit& estimate) {
-    std::vector<std::string> names;
-    for (Index i = 0; i < estimate.theta.size(); ++i)
-        if (!(estimate.std[i] <= std::abs(estimate.theta[i])) && estimate.names[static_cast<std::size_t>(i)] != "Td")
-            names.push_back(estimate.names[static_cast<std::size_t>(i)]);
-    return names;
 }
 
 /// Closer than a tenth of their distance from the origin and not told apart by three standard deviations, or closer
@@ -111,7 +104,7 @@ void measure(OrderCandidate& candidate, const IdData& data, const OrderSelection
     candidate.fit_percent = comparison.fit_percent[0];
     const double rounding = kRoundingShare * outputs.measured.squaredNorm() / samples;
     candidate.evidence = samples * std::log(std::max(mean_square, rounding)) + count * std::log(samples);
-    candidate.undetermined = undetermined_parameters(estimate);
+    candidate.undetermined = undetermined_parameters(estimate.names, estimate.theta, estimate.std);
     candidate.cancellation = has_cancellation(estimate, options.estimation.integration);
     candidate.converged = estimate.termination == Termination::kConverged;
     candidate.unstable =

@@ -3,6 +3,7 @@
 #include "figures/plots/residual_plot.h"
 #include "numerics/fit/diagnosis.h"
 #include "numerics/fit/missed_options.h"
+#include "numerics/number_text.h"
 #include "numerics/validation/crossvalidate.h"
 #include "numerics/validation/residual_tests.h"
 #include "scripting/arguments/simulation_options.h"
@@ -57,7 +58,7 @@ ModelDoubts doubts_of(const Call& call, int index) {
     if (model == nullptr || !model->estimate) return {};
     const Estimate& estimate = *model->estimate;
     const std::optional<MissedOption>& missed = estimate.doubts.missed_option;
-    return {undetermined_names(estimate.names, estimate.theta, estimate.std),
+    return {enumerated(undetermined_parameters(estimate.names, estimate.theta, estimate.std)),
             missed ? in_lua_words(sentence_of(*missed)) : std::string()};
 }
 

@@ -52,6 +52,8 @@ TEST(diagnosis, of_parameters) {  // oracle: the definition
     fit.names[0] = "Td";  // zero is a delay's own bound
     warn_of_doubtful_parameters(fit);
     EXPECT_THAT(fit.warnings, ElementsAre(HasSubstr("hardly determine b0")));
+    fit.std[1] = std::nan("");  // unknown is not small
+    EXPECT_THAT(undetermined_parameters(fit.names, fit.theta, fit.std), ElementsAre("a2", "b0"));
     fit.warnings.clear();
     fit.condition_number = 1e12;
     warn_of_doubtful_parameters(fit, "fewer bins");

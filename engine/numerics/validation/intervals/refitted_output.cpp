@@ -76,9 +76,7 @@ Index FittedOutput::place_of(const std::string& name) const {
     const std::vector<std::string> all = names();
     const auto found = std::find(all.begin(), all.end(), name);
     if (found != all.end()) return found - all.begin();
-    std::string list;
-    for (const std::string& one : all) list += (list.empty() ? "" : ", ") + one;
-    throw InvalidArgument("The model has no estimated parameter '" + name + "'; its parameters are " + list);
+    throw InvalidArgument("The model has no estimated parameter '" + name + "'; its parameters are " + enumerated(all));
 }
 
 FittedOutput FittedOutput::at(const Vector& values) const {
