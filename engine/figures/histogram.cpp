@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "numerics/error.h"
+#include "numerics/signals/robust_statistics.h"
 
 namespace dynlab::inline figures {
 namespace {
@@ -23,13 +24,6 @@ void check_sample(const VectorView& values) {
     check_finite(values);
 }
 
-/// Linear interpolation between the order statistics that enclose the quantile.
-double quantile(const Vector& sorted, double part) {
-    const double position = part * static_cast<double>(sorted.size() - 1);
-    const Index below = static_cast<Index>(position), above = std::min(below + 1, sorted.size() - 1);
-    return sorted[below] + (position - static_cast<double>(below)) * (sorted[above] - sorted[below]);
-}
-
 }  // namespace
 
 Index freedman_diaconis_bins(const VectorView& values) {
@@ -37,7 +31,7 @@ Index freedman_diaconis_bins(const VectorView& values) {
     Vector sorted = values;
     std::sort(sorted.begin(), sorted.end());
     const double n = static_cast<double>(sorted.size()), range = sorted[sorted.size() - 1] - sorted[0];
-    const double width = 2 * (quantile(sorted, 0.75) - quantile(sorted, 0.25)) / std::cbrt(n);
+    const double width = 2 * (quantile_of_sorted(sorted, 0.75) - quantile_of_sorted(sorted, 0.25)) / std::cbrt(n);
     if (!(range > 0)) return 1;
     const double bins = width > 0 ? range / width : std::sqrt(n);
     return static_cast<Index>(std::clamp(std::ceil(bins - 1e-9), 1.0, static_cast<double>(kMostBins)));

@@ -16,6 +16,16 @@ double median(const VectorView& values) {
     return median(std::vector<double>(values.begin(), values.end()));
 }
 
+double quantile_of_sorted(const VectorView& values, double part) {
+    const double place = part * static_cast<double>(values.size() - 1);
+    const Index below = static_cast<Index>(place), above = std::min(below + 1, values.size() - 1);
+    return values[below] + (place - static_cast<double>(below)) * (values[above] - values[below]);
+}
+
+double standard_deviation(const VectorView& x) {
+    return std::sqrt((x.array() - x.mean()).square().mean());
+}
+
 double noise_from_differences(const VectorView& x) {
     constexpr double kNormalMedian = 0.6744897501960817;
     if (x.size() < 3) return 0;

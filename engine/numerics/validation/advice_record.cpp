@@ -23,15 +23,11 @@ constexpr double kSlowCycles = 20;         // over the window, below which a mov
 constexpr double kHardlyWorse = 1.05;
 constexpr Index kParts = 20;  // of a record, whose means are compared
 
-double spread_of(const VectorView& x) {
-    return std::sqrt((x.array() - x.mean()).square().mean());
-}
-
 /// Where to begin: the first stretch with half of the usual movement.
 Index lively_start(const VectorView& u, Index length) {
     const Index stretches = u.size() / length;
     std::vector<double> movement;
-    for (Index i = 0; i < stretches; ++i) movement.push_back(spread_of(u.segment(i * length, length)));
+    for (Index i = 0; i < stretches; ++i) movement.push_back(standard_deviation(u.segment(i * length, length)));
     double enough = 0.5 * median(movement);
     if (!(enough > 0)) enough = 0.5 * *std::max_element(movement.begin(), movement.end());
     const auto found = std::find_if(movement.begin(), movement.end(), [&](double m) { return m >= enough; });
@@ -71,7 +67,7 @@ Index first_change(const VectorView& u) {
 }
 
 bool is_straight_between(const VectorView& u, Index step) {
-    const double most = kStraight * spread_of(u);
+    const double most = kStraight * standard_deviation(u);
     for (Index k = 0; k + step < u.size(); ++k) {
         const Index before = k - k % step;
         const double part = static_cast<double>(k - before) / static_cast<double>(step);
@@ -265,7 +261,7 @@ std::string FittedRecord::with_unit(double value, int digits) const {
 }
 
 double FittedRecord::deviation() const {
-    return spread_of(y());
+    return standard_deviation(y());
 }
 
 void FittedRecord::take_off(const VectorView& part) {

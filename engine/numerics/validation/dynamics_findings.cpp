@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "numerics/number_text.h"
+#include "numerics/signals/robust_statistics.h"
 #include "numerics/simulation/frequency_response.h"
 #include "numerics/simulation/lsim.h"
 #include "numerics/validation/model_findings.h"
@@ -22,10 +23,6 @@ constexpr double kVisibleStart = 0.05;    // of the output's standard deviation
 constexpr double kAboveError = 2;         // standard deviations of the error
 constexpr double kOverOthers = 3;         // times what a fit finds of such a motion elsewhere
 constexpr double kIntegrates = 0.5;       // of the simulated movement
-
-double spread(const VectorView& x) {
-    return std::sqrt((x.array() - x.mean()).square().mean());
-}
 
 /// rad/s up to which the output answers: where the gain is 3 dB below its steady value, or of a band-pass below its
 /// peak. Not finite where the record tells of no such edge, as with an integrator.
@@ -77,7 +74,7 @@ std::optional<double> level_at_rest(const FittedRecord& fit) {
     const Index count = samples_at_rest(fit.u());
     if (count < kFewestAtRest) return std::nullopt;
     const Vector y = fit.y().head(count);
-    const double level = y.mean(), noise = spread(y);
+    const double level = y.mean(), noise = standard_deviation(y);
     const bool flat = std::abs(y.head(count / 2).mean() - y.tail(count / 2).mean()) <= noise;
     if (!flat || std::abs(level) < kAboveError * noise) return std::nullopt;
     return level;
@@ -188,7 +185,7 @@ double found_elsewhere(const Vector& motion, const FittedRecord& fit) {
 
 void find_running_start(const FittedRecord& fit, RecordFindings& findings) {
     const Vector motion = free_motion(fit);
-    const double largest = motion.size() > 0 ? motion.cwiseAbs().maxCoeff() : 0, error = spread(fit.error);
+    const double largest = motion.size() > 0 ? motion.cwiseAbs().maxCoeff() : 0, error = standard_deviation(fit.error);
     const bool moves =
         largest > std::max({kVisibleStart * fit.deviation(), kAboveError * error, 3 * fit.disturbance}) &&
         kOverOthers * found_elsewhere(motion, fit) < 1;
@@ -228,7 +225,7 @@ void find_integrator(const FittedRecord& fit, RecordFindings& findings) {
     const IdData& window = fit.window.data;
     const VectorView u = window.experiments.front().u.col(0);
     const Vector part = lsim(slow, u, window.Ts, window.hold), all = lsim(fit.model(), u, window.Ts, window.hold);
-    if (!part.allFinite() || !(spread(part) > kIntegrates * spread(all))) return;
+    if (!part.allFinite() || !(standard_deviation(part) > kIntegrates * standard_deviation(all))) return;
     const double duration = static_cast<double>(window.sample_count()) * window.Ts;
     findings.push_back(about(fit, "integrator", Weight::kWarning,
                              fit.output() + " sums " + fit.input() + " up and settles nowhere within " +

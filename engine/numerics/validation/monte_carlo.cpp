@@ -266,10 +266,6 @@ MonteCarloResult result_of(const MonteCarloStudy& study, const MonteCarloMethod&
     return result;
 }
 
-double standard_deviation(const Vector& x) {
-    return std::sqrt((x.array() - x.mean()).square().mean());
-}
-
 void check_methods(const std::vector<MonteCarloMethod>& methods) {
     if (methods.empty()) throw InvalidArgument("a study needs at least one estimator");
     for (std::size_t i = 0; i < methods.size(); ++i)

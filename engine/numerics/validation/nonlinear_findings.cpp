@@ -4,6 +4,7 @@
 
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/least_squares.h"
+#include "numerics/signals/robust_statistics.h"
 #include "numerics/simulation/lsim.h"
 #include "numerics/statistics/autoregression.h"
 #include "numerics/statistics/distributions.h"
@@ -81,7 +82,7 @@ Vector late(const Vector& x, Index lag) {
 Index spacing_of(const Vector& x) {
     const double step =
         std::sqrt((x.tail(x.size() - 1) - x.head(x.size() - 1)).squaredNorm() / static_cast<double>(x.size() - 1));
-    const double spread = std::sqrt((x.array() - x.mean()).square().mean());
+    const double spread = standard_deviation(x);
     return std::clamp<Index>(static_cast<Index>(0.35 * spread / step), 1, std::max<Index>(1, x.size() / 100));
 }
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "numerics/number_text.h"
+#include "numerics/signals/robust_statistics.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/traced_value.h"
 
@@ -46,12 +47,7 @@ double deviation_of(const VectorView& v) {
     return std::sqrt(variance_of(v));
 }
 double median_of(const VectorView& v) {
-    if (v.hasNaN()) return std::nan("");
-    Vector sorted = v;
-    const Index middle = v.size() / 2;
-    std::nth_element(sorted.begin(), sorted.begin() + middle, sorted.end());
-    if (v.size() % 2 == 1) return sorted[middle];
-    return (sorted[middle] + *std::max_element(sorted.begin(), sorted.begin() + middle)) / 2;
+    return v.hasNaN() ? std::nan("") : median(v);
 }
 
 int sum(Call& call) {

@@ -11,6 +11,7 @@
 #include "numerics/error.h"
 #include "numerics/number_text.h"
 #include "numerics/signals/random.h"
+#include "numerics/signals/robust_statistics.h"
 #include "numerics/simulation/noise.h"
 #include "numerics/statistics/autoregression.h"
 #include "numerics/validation/residual_tests.h"
@@ -90,14 +91,6 @@ class ErrorSource {
     ColouredNoise noise_;
 };
 
-/// The value that a share of the finite ones lies below, between neighbours on straight lines.
-double quantile(std::vector<double> sorted, double share) {
-    const double place = share * static_cast<double>(sorted.size() - 1);
-    const auto below = static_cast<std::size_t>(place);
-    if (below + 1 >= sorted.size()) return sorted.back();
-    return sorted[below] + (place - static_cast<double>(below)) * (sorted[below + 1] - sorted[below]);
-}
-
 void summarise(Bootstrap& study, double confidence) {
     const Index d = study.values.cols();
     study.mean = study.std = study.low = study.high = Vector::Constant(d, kNaN);
@@ -110,8 +103,8 @@ void summarise(Bootstrap& study, double confidence) {
         const auto all = Vector::Map(values.data(), static_cast<Index>(values.size()));
         study.mean[i] = all.mean();
         study.std[i] = std::sqrt((all.array() - all.mean()).square().sum() / static_cast<double>(values.size() - 1));
-        study.low[i] = quantile(values, (1 - confidence) / 2);
-        study.high[i] = quantile(values, (1 + confidence) / 2);
+        study.low[i] = quantile_of_sorted(all, (1 - confidence) / 2);
+        study.high[i] = quantile_of_sorted(all, (1 + confidence) / 2);
     }
 }
 
