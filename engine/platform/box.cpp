@@ -97,6 +97,13 @@ void Box::add_document_programs() {
         if (fs::exists(folder)) add(folder, folder);
 }
 
+void Box::add_document_home(const fs::path& data) {
+    add_document_programs();
+    const fs::path home = add(data, "/box/home/data").parent_path();
+    add(shared_folder() / "report_templates", "/box/home/report_templates");
+    set_environment("DYNLAB_HOME", home.string());
+}
+
 ChildResult Box::run(const Words& command, const fs::path& folder, const std::string& input,
                      const Limits& limits) const {
     ChildOptions child;

@@ -39,6 +39,8 @@ class Box {
     std::filesystem::path add_program(const std::filesystem::path& program);
     /// The TeX, font and alternatives settings of this machine, for pandoc, LaTeX and gnuplot.
     void add_document_programs();
+    /// The same, with a home of dynlab that has these data and our templates of reports.
+    void add_document_home(const std::filesystem::path& data);
 
     struct Limits {
         std::chrono::milliseconds timeout{10000};    ///< wall clock, then everything inside is killed

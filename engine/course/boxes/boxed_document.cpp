@@ -61,10 +61,7 @@ void BoxedDocuments::make(const std::string& template_name, const RunRecord& rec
                           const std::map<std::string, std::string>& metadata) const {
     const TemporaryFolder made;
     Box box(isolation_);
-    box.add_document_programs();
-    const fs::path templates = box.add(shared_folder() / "report_templates", "/box/home/report_templates");
-    box.add(shared_folder() / "data", "/box/home/data");
-    box.set_environment("DYNLAB_HOME", templates.parent_path().string());
+    box.add_document_home(shared_folder() / "data");
     DocumentJob job;
     job.template_name = template_name;
     job.metadata = metadata;

@@ -140,10 +140,7 @@ class FolderCheck {
     /// The report and the record of its run, made in a box as grading does: the analysis may be anybody's.
     ChildResult run_report() const {
         Box box(isolation_);
-        box.add_document_programs();
-        const fs::path home = box.add(shared_folder() / "data", "/box/home/data").parent_path();
-        box.add(shared_folder() / "report_templates", "/box/home/report_templates");
-        box.set_environment("DYNLAB_HOME", home.string());
+        box.add_document_home(shared_folder() / "data");
         const fs::path inside = box.add(copy(), kInBox), made = box.add_writable(out(), "/box/made");
         const fs::path program = box.add_program(program_);
         Box::Limits most;

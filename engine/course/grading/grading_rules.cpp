@@ -199,10 +199,7 @@ std::map<std::string, GradedRun> GradingRules::runs(const fs::path& folder, cons
 Findings GradingRules::findings(const fs::path& folder, const GroupSeed& group_seed) const {
     const TakenCore core(*free_cores_);
     Box box(setup_.isolation);
-    box.add_document_programs();
-    const fs::path home = box.add(data_of(group_seed), "/box/home/data").parent_path();
-    box.add(shared_folder() / "report_templates", "/box/home/report_templates");
-    box.set_environment("DYNLAB_HOME", home.string());
+    box.add_document_home(data_of(group_seed));
     const fs::path inside = box.add(folder, "/box/submission"), program = box.add_program(setup_.program);
     const bool file = standard_.ends_with(".md");
     const std::string standard = file ? box.add(standard_, "/box/standard/report.md").string() : standard_;

@@ -107,10 +107,7 @@ class CopyingAnonymously {
     bool makes_report(const fs::path& folder) {
         fs::create_directories(report().parent_path());
         Box box(setup_.isolation);
-        box.add_document_programs();
-        const fs::path home = box.add(shared_folder() / "data", "/box/home/data").parent_path();
-        box.add(shared_folder() / "report_templates", "/box/home/report_templates");
-        box.set_environment("DYNLAB_HOME", home.string());
+        box.add_document_home(shared_folder() / "data");
         const fs::path inside = box.add(folder, "/box/submission");
         const fs::path out = box.add_writable(report().parent_path(), "/box/made");
         const fs::path program = box.add_program(setup_.program);

@@ -145,10 +145,7 @@ BoxedOutcome make_version(const VersionJob& job) {
 std::string make_version_in_box(const fs::path& folder, const fs::path& made, bool pdf, Isolation level,
                                 const fs::path& program) {
     Box box(level);
-    box.add_document_programs();
-    const fs::path home = box.add(shared_folder() / "data", "/box/home/data").parent_path();
-    box.add(shared_folder() / "report_templates", "/box/home/report_templates");
-    box.set_environment("DYNLAB_HOME", home.string());
+    box.add_document_home(shared_folder() / "data");
     VersionJob job;
     job.folder = box.add_writable(folder, "/box/submission");
     job.to = box.add_writable(made, "/box/made");
