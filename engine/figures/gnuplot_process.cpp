@@ -36,13 +36,6 @@ std::vector<std::string> gnuplot_environment() {
     return variables;
 }
 
-std::vector<char*> as_pointers(std::vector<std::string>& strings) {
-    std::vector<char*> pointers;
-    for (std::string& text : strings) pointers.push_back(text.data());
-    pointers.push_back(nullptr);
-    return pointers;
-}
-
 }  // namespace
 
 GnuplotProcess::GnuplotProcess() {
@@ -83,8 +76,8 @@ void GnuplotProcess::start(const std::string& program) {
     // Named as a file, standard input is read in blocks; otherwise gnuplot reads it byte by byte.
     std::vector<std::string> arguments = {"gnuplot", "--default-settings", "/dev/stdin"};
     std::vector<std::string> environment = gnuplot_environment();
-    const int failure = posix_spawn(&pid_, program.c_str(), &files, &attributes, as_pointers(arguments).data(),
-                                    as_pointers(environment).data());
+    const int failure = posix_spawn(&pid_, program.c_str(), &files, &attributes, pointers_to(arguments).data(),
+                                    pointers_to(environment).data());
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&files);
     if (failure != 0)

@@ -45,13 +45,6 @@ std::vector<std::string> merged_environment(const std::vector<std::pair<std::str
     return merged;
 }
 
-std::vector<char*> pointers_to(std::vector<std::string>& texts) {
-    std::vector<char*> pointers;
-    for (std::string& text : texts) pointers.push_back(text.data());
-    pointers.push_back(nullptr);
-    return pointers;
-}
-
 /// The input as a file in memory: no pipe to feed, so a child that does not read its input cannot block us.
 FileDescriptor input_file(const std::string& input) {
     if (input.empty()) return FileDescriptor(::open("/dev/null", O_RDONLY | O_CLOEXEC));
@@ -131,6 +124,13 @@ std::unique_ptr<ProcessGroup> start(const ChildOptions& options, const std::stri
 }
 
 }  // namespace
+
+std::vector<char*> pointers_to(std::vector<std::string>& texts) {
+    std::vector<char*> pointers;
+    for (std::string& text : texts) pointers.push_back(text.data());
+    pointers.push_back(nullptr);
+    return pointers;
+}
 
 ChildResult run_child(const ChildOptions& options, const std::string& package) {
     return start(options, package)->wait();

@@ -35,6 +35,9 @@ struct ChildResult {
     std::string output, error_output;
 };
 
+/// What execve takes: pointers to the texts, and a null pointer behind them.
+std::vector<char*> pointers_to(std::vector<std::string>& texts);
+
 /// Runs a program in a process group of its own and waits. What the program leaves running in that group is
 /// killed when it ends. Ctrl-C (see InterruptScope) kills the group and throws Interrupted. Throws
 /// MissingProgram (with `package`, the Debian package that holds it) when the program is not found,

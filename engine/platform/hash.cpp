@@ -52,6 +52,10 @@ std::string Sha256::hex() const {
     return sodium_bin2hex(digits.data(), digits.size(), bytes.data(), bytes.size());
 }
 
+bool equal_in_constant_time(std::string_view a, std::string_view b) {
+    return a.size() == b.size() && sodium_memcmp(a.data(), b.data(), a.size()) == 0;
+}
+
 std::string sha256_of(std::string_view bytes) {
     return Sha256().add(bytes).hex();
 }

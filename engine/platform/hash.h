@@ -27,6 +27,9 @@ class Sha256 {
 std::string sha256_of(std::string_view bytes);
 std::string sha256_of_file(const std::filesystem::path& file);  ///< throws EnvironmentError
 
+/// In a time that does not tell where they differ, so that nobody can guess a secret piece by piece.
+bool equal_in_constant_time(std::string_view a, std::string_view b);
+
 /// 128 bits that tell contents apart, as 32 lower-case hexadecimal digits.
 struct Digest {
     std::uint64_t high = 0, low = 0;

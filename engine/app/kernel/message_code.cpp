@@ -24,8 +24,4 @@ std::string hmac_sha256_of(std::string_view key, std::initializer_list<std::stri
     return sodium_bin2hex(digits.data(), digits.size(), bytes.data(), bytes.size());
 }
 
-bool equal_in_constant_time(std::string_view a, std::string_view b) {
-    return a.size() == b.size() && sodium_memcmp(a.data(), b.data(), a.size()) == 0;
-}
-
 }  // namespace dynlab::inline app

@@ -8,7 +8,5 @@ namespace dynlab::inline app {
 /// HMAC-SHA256 (RFC 2104) of the parts, one after the other, as 64 lower-case hexadecimal digits: shows those who share
 /// the key that a message is of one of them.
 std::string hmac_sha256_of(std::string_view key, std::initializer_list<std::string_view> parts);
-/// Whether two texts are equal, in a time that does not tell where they differ.
-bool equal_in_constant_time(std::string_view a, std::string_view b);
 
 }  // namespace dynlab::inline app

@@ -12,6 +12,7 @@
 #include "app/server/event_streams.h"
 #include "app/server/page_connections.h"
 #include "platform/error.h"
+#include "platform/hash.h"
 
 namespace dynlab::inline app {
 namespace {
@@ -37,10 +38,6 @@ std::string random_token() {
     char text[2 * sizeof bytes + 1];
     sodium_bin2hex(text, sizeof text, bytes, sizeof bytes);
     return text;
-}
-
-bool is_equal(const std::string& a, const std::string& b) {
-    return a.size() == b.size() && sodium_memcmp(a.data(), b.data(), a.size()) == 0;
 }
 
 /// The value of a cookie among "a=1; b=2".
@@ -177,9 +174,9 @@ class WebServer::Work {
         if (!is_ours(host)) return refuse(reply, 403, "This address is not that of a dynlab.");
         if (asked.has_header("Origin") && origin != "http://" + host)
             return refuse(reply, 403, "Other sites may not ask here.");
-        if (is_equal(cookie_of(asked.get_header_value("Cookie"), cookie_name()), token_)) {
+        if (equal_in_constant_time(cookie_of(asked.get_header_value("Cookie"), cookie_name()), token_)) {
             if (!asked.has_param("token")) return Response::Unhandled;
-        } else if (!is_equal(asked.get_param_value("token"), token_) || asked.path != "/") {
+        } else if (!equal_in_constant_time(asked.get_param_value("token"), token_) || asked.path != "/") {
             return refuse(reply, 403, kNoEntrance);
         }
         reply.set_header("Set-Cookie", fmt::format("{}={}; Path=/; SameSite=Strict; HttpOnly", cookie_name(), token_));

@@ -21,11 +21,6 @@ std::string_view first_line(ReceiptKind kind) {
     return kind == ReceiptKind::kSigned ? "dynlab receipt 2" : "dynlab receipt 1";
 }
 
-/// The same time whatever the first difference, so that nobody can guess a code digit by digit.
-bool equal_digits(std::string_view a, std::string_view b) {
-    return a.size() == b.size() && sodium_memcmp(a.data(), b.data(), a.size()) == 0;
-}
-
 std::string one_line(std::string text) {
     for (char& c : text)
         if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
@@ -110,7 +105,7 @@ ReceiptVerdict verify_receipt(std::string_view text, const Course& course) {
     const auto file = read_receipt(text);
     if (!file) return kNoReceipt;
     if (file->kind == ReceiptKind::kSigned) return verify_signature(*file, course.signing_key().public_key());
-    return equal_digits(file->signature, hmac_sha256(course.key(), file->content)) ? kGenuine : kNotGenuine;
+    return equal_in_constant_time(file->signature, hmac_sha256(course.key(), file->content)) ? kGenuine : kNotGenuine;
 }
 
 std::string signed_part(std::string_view text) {
@@ -135,7 +130,7 @@ std::string version_signature(const Course& course, const Receipt& receipt) {
 
 bool is_version_signature(const Course& course, const Receipt& receipt, std::string_view signature) {
     if (signature.size() == kCodeDigits)
-        return equal_digits(signature, hmac_sha256(course.key(), receipt_text(receipt, ReceiptKind::kCoded)));
+        return equal_in_constant_time(signature, hmac_sha256(course.key(), receipt_text(receipt, ReceiptKind::kCoded)));
     return is_signature(signature, receipt_text(receipt), course.signing_key().public_key());
 }
 
