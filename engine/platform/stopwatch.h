@@ -8,6 +8,10 @@ namespace dynlab::inline platform {
 
 using Timings = std::vector<std::pair<std::string, double>>;  ///< seconds of each step
 
+inline double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 /// Notes what each step of some work has taken, from its making or from the step before on.
 class Stopwatch {
   public:

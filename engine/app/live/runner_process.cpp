@@ -23,6 +23,7 @@
 #include "platform/error.h"
 #include "platform/memory.h"
 #include "platform/process_group.h"
+#include "platform/stopwatch.h"
 #include "platform/terminal/progress.h"
 #include "scripting/interpreter/runtime.h"
 #include "scripting/memoized_calls/memoized_call.h"
@@ -37,10 +38,6 @@ using Clock = std::chrono::steady_clock;
 
 /// A state is kept where it took at least this long to come there from the one before.
 constexpr double kWorthKeeping = 0.003;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// The script's world, as far as it has run.
 struct World {

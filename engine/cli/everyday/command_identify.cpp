@@ -3,6 +3,7 @@
 #include "cli/commands.h"
 #include "cli/document_command.h"
 #include "numerics/error.h"
+#include "platform/terminal/terminal_output.h"
 #include "platform/text/read_number.h"
 #include "workflow/identify.h"
 #include "workflow/recording.h"
@@ -24,11 +25,6 @@ std::optional<Number> number_or_auto(const std::string& text, const char* option
     throw CLI::ValidationError(option, "wanted " + wanted + " or the word auto, not '" + text + "'");
 }
 
-void print_at_once(const std::string& text) {
-    std::fwrite(text.data(), 1, text.size(), stdout);
-    std::fflush(stdout);
-}
-
 /// identification_script(), with what somebody at the terminal can do about a file without a sampling time.
 std::string script_of(const IdentifyRequest& request) {
     try {
@@ -43,13 +39,13 @@ std::string script_of(const IdentifyRequest& request) {
 int identify(const IdentifyArguments& words) {
     const std::string script = script_of(words.request);
     if (words.script) {
-        print_at_once(script);
+        print_now(script);
         return kDone;
     }
     const std::string stem = std::filesystem::path(words.request.data).stem().string();
     ReportRequest report = report_of_script(parse_percent_script(script, "identify.lua"),
                                             words.report.empty() ? stem + "_model.pdf" : words.report);
-    report.print = print_at_once;
+    report.print = print_now;
     return make_document(std::move(report), false);
 }
 

@@ -7,6 +7,7 @@
 
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"
+#include "platform/stopwatch.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/conversions/boxed.h"
 #include "scripting/runtime/errors.h"
@@ -20,10 +21,6 @@ namespace dynlab::inline scripting {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 int tic(Call& call) {
     call.at_most(0);

@@ -11,6 +11,7 @@
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/model.h"
 #include "scripting/objects/study_objects.h"
+#include "scripting/runtime/sandbox.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -133,11 +134,7 @@ MonteCarloMethod method_of_entry(const Call& call, const std::string& label) {
 /// The names of the table's named entries: known methods in the order of their list, then the others by name.
 std::vector<std::string> entry_names(lua_State* L, int table) {
     std::vector<std::string> names;
-    lua_pushnil(L);
-    while (lua_next(L, table)) {
-        lua_pop(L, 1);
-        if (lua_type(L, -1) == LUA_TSTRING) names.emplace_back(lua_tostring(L, -1));
-    }
+    collect_text_keys(L, table, names);
     const std::vector<std::string> known = estimation_names();
     const auto rank = [&](const std::string& name) { return std::ranges::find(known, name) - known.begin(); };
     std::ranges::sort(names, [&](const std::string& a, const std::string& b) {

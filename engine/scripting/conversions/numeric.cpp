@@ -9,6 +9,7 @@
 #include "scripting/conversions/arguments.h"
 #include "scripting/conversions/boxed.h"
 #include "scripting/runtime/context.h"
+#include "scripting/runtime/sandbox.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -68,11 +69,7 @@ Index joined_size(lua_State* L, int index, Index entries, const std::string& lab
 /// What a table is that has no numbered entries: empty, or a record of variables, say.
 std::string without_entries(lua_State* L, int index) {
     std::vector<std::string> names;
-    lua_pushnil(L);
-    while (lua_next(L, index)) {
-        lua_pop(L, 1);
-        if (lua_type(L, -1) == LUA_TSTRING) names.emplace_back(lua_tostring(L, -1));
-    }
+    collect_text_keys(L, index, names);
     if (names.empty()) return "the table is empty";
     std::sort(names.begin(), names.end());
     return fmt::format("the table holds {}: give one of these, such as data.{}", fmt::join(names, ", "), names.front());

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "scripting/runtime/sandbox.h"
+
 namespace dynlab::inline scripting {
 
 namespace {
@@ -16,11 +18,7 @@ int unknown_field(lua_State* L) {
         lua_pop(L, 1);
     }
     std::vector<std::string> names;
-    lua_pushnil(L);
-    while (lua_next(L, 1)) {
-        lua_pop(L, 1);
-        if (lua_type(L, -1) == LUA_TSTRING) names.emplace_back(lua_tostring(L, -1));
-    }
+    collect_text_keys(L, 1, names);
     std::sort(names.begin(), names.end());
     const std::string wanted = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : luaL_typename(L, 2);
     raise_error(L, fmt::format("the data of '{}' have no variable '{}'; they have {}",

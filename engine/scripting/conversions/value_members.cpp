@@ -9,15 +9,6 @@ namespace {
 
 constexpr int kLongestIndexChain = 10;
 
-void collect_text_keys(lua_State* L, int table, std::vector<std::string>& names) {
-    table = lua_absindex(L, table);
-    lua_pushnil(L);
-    while (lua_next(L, table)) {
-        lua_pop(L, 1);
-        if (lua_type(L, -1) == LUA_TSTRING) names.emplace_back(lua_tostring(L, -1));
-    }
-}
-
 /// Replaces the table on top by its __index table; false, with nothing left of it, when there is none.
 bool step_to_index_table(lua_State* L) {
     if (!lua_getmetatable(L, -1)) {

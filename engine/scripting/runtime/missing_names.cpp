@@ -16,15 +16,6 @@ namespace {
 
 char library_key;  // its address is the registry key
 
-void collect_names(lua_State* L, int table, std::vector<std::string>& names) {
-    table = lua_absindex(L, table);
-    lua_pushnil(L);
-    while (lua_next(L, table)) {
-        lua_pop(L, 1);
-        if (lua_type(L, -1) == LUA_TSTRING) names.emplace_back(lua_tostring(L, -1));
-    }
-}
-
 /// Activation record of the innermost line of a script.
 bool script_caller(lua_State* L, lua_Debug& caller) {
     for (int level = 1; lua_getstack(L, level, &caller); ++level) {
@@ -37,7 +28,7 @@ bool script_caller(lua_State* L, lua_Debug& caller) {
 /// Names of the local variables that the calling script line sees, those of the prompt too.
 void collect_locals(lua_State* L, std::vector<std::string>& names) {
     push_prompt_variables(L);
-    if (lua_istable(L, -1)) collect_names(L, -1, names);
+    if (lua_istable(L, -1)) collect_text_keys(L, -1, names);
     lua_pop(L, 1);
     lua_Debug caller;
     if (!script_caller(L, caller)) return;
@@ -68,9 +59,9 @@ int unknown_global(lua_State* L) {
         const bool of_script = here.file == context.script_name;
         std::vector<std::string> names;
         push_library(L);
-        collect_names(L, -1, names);
+        collect_text_keys(L, -1, names);
         lua_pushglobaltable(L);
-        collect_names(L, -1, names);
+        collect_text_keys(L, -1, names);
         collect_locals(L, names);
         message = unknown_name_sentence(name, of_script ? line_of(context.source, here.line) : "", std::move(names));
     }
@@ -96,7 +87,7 @@ int unknown_member(lua_State* L) {
     std::string message;
     {
         std::vector<std::string> names;
-        collect_names(L, 1, names);
+        collect_text_keys(L, 1, names);
         const std::string key = key_text(L, 2);
         push_library(L);
         lua_pushstring(L, key.c_str());
@@ -160,7 +151,7 @@ void report_unknown_members(lua_State* L, const char* name) {
 void seal_tables_of_library(lua_State* L) {
     const int library = lua_absindex(L, -1);
     std::vector<std::string> names;
-    collect_names(L, library, names);
+    collect_text_keys(L, library, names);
     for (const std::string& name : names) {
         if (lua_getfield(L, library, name.c_str()) != LUA_TTABLE || lua_getmetatable(L, -1)) {
             lua_settop(L, library);
@@ -173,6 +164,15 @@ void seal_tables_of_library(lua_State* L) {
 }
 
 }  // namespace
+
+void collect_text_keys(lua_State* L, int table, std::vector<std::string>& names) {
+    table = lua_absindex(L, table);
+    lua_pushnil(L);
+    while (lua_next(L, table)) {
+        lua_pop(L, 1);
+        if (lua_type(L, -1) == LUA_TSTRING) names.emplace_back(lua_tostring(L, -1));
+    }
+}
 
 std::string unknown_name_sentence(const std::string& name, const std::string& line, std::vector<std::string> names) {
     const std::string comment = comment_hint(line, name);

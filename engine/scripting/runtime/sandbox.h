@@ -1,5 +1,7 @@
 #pragma once
 #include <lua.hpp>
+#include <string>
+#include <vector>
 
 namespace dynlab::inline scripting {
 
@@ -20,5 +22,8 @@ void add_protected_calls(lua_State* L);
 
 /// Sets field `name` of the table on top to a C function.
 void set_function(lua_State* L, const char* name, lua_CFunction function);
+
+/// Adds the texts among the keys of the table at the index, in no order.
+void collect_text_keys(lua_State* L, int table, std::vector<std::string>& names);
 
 }  // namespace dynlab::inline scripting

@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "numerics/fit/diagnosis.h"
 #include "support/transfer_cases.h"
 
