@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "numerics/linalg/known_order.h"
 #include "numerics/simulation/sampled_recursion.h"
 
 namespace dynlab::inline numerics {
@@ -91,37 +92,8 @@ void ExactFilter::advance(const VectorView& u, Index from, Vector& x, Eigen::Ref
     const Index end = std::min(to, u.size() + system_.delay - (sees_next_ ? 1 : 0));
     if (const Index blocks = std::max<Index>(0, end - k) / kBlock; blocks > 0) {
         const double* const window = u.data() + (k - system_.delay - (sees_previous_ ? 1 : 0));
-        const auto run_all = [&](auto known) {
-            run_blocks<known>(window, blocks, x, y.data() + (k - from), y.outerStride());
-        };
-        switch (order()) {
-            case 1:
-                run_all(std::integral_constant<int, 1>());
-                break;
-            case 2:
-                run_all(std::integral_constant<int, 2>());
-                break;
-            case 3:
-                run_all(std::integral_constant<int, 3>());
-                break;
-            case 4:
-                run_all(std::integral_constant<int, 4>());
-                break;
-            case 5:
-                run_all(std::integral_constant<int, 5>());
-                break;
-            case 6:
-                run_all(std::integral_constant<int, 6>());
-                break;
-            case 8:
-                run_all(std::integral_constant<int, 8>());
-                break;
-            case 10:
-                run_all(std::integral_constant<int, 10>());
-                break;
-            default:
-                run_all(std::integral_constant<int, Eigen::Dynamic>());
-        }
+        with_known_order<Eigen::Dynamic, 1, 2, 3, 4, 5, 6, 8, 10>(
+            order(), [&](auto known) { run_blocks<known>(window, blocks, x, y.data() + (k - from), y.outerStride()); });
         k += blocks * kBlock;
     }
     if (k < to) recur(k, to);

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "numerics/error.h"
+#include "numerics/linalg/known_order.h"
 #include "numerics/simulation/eight_modes.h"
 #include "numerics/simulation/eight_steps.h"
 #include "numerics/simulation/irregular_events.h"
@@ -59,35 +60,16 @@ void run_events(Steps steps, const IrregularEvents& events, Vector start, Matrix
 template <bool kTwice>
 void run_series(const CompanionSeries& series, const IrregularEvents& events, const Vector& start, Matrix& states) {
     const bool ramps = events.slope.size() > 0;
-    switch (series.order) {
-        case 1:
-            return run_events(EightSteps<1, kTwice>(series, ramps), events, start, states);
-        case 2:
-            return run_events(EightSteps<2, kTwice>(series, ramps), events, start, states);
-        case 3:
-            return run_events(EightSteps<3, kTwice>(series, ramps), events, start, states);
-        case 4:
-            return run_events(EightSteps<4, kTwice>(series, ramps), events, start, states);
-        case 5:
-            return run_events(EightSteps<5, kTwice>(series, ramps), events, start, states);
-        default:
-            return run_events(EightSteps<Eigen::Dynamic, kTwice>(series, ramps), events, start, states);
-    }
+    with_known_order<Eigen::Dynamic, 1, 2, 3, 4, 5>(
+        series.order, [&](auto order) { run_events(EightSteps<order, kTwice>(series, ramps), events, start, states); });
 }
 
 template <bool kTwice>
 void run_modes(const SeparateModes& modes, const IrregularEvents& events, const Vector& start, Matrix& states) {
     const bool ramps = events.slope.size() > 0;
-    switch (modes.poles.size()) {
-        case 1:
-            return run_events(EightModes<1, kTwice>(modes, ramps), events, start, states);
-        case 2:
-            return run_events(EightModes<2, kTwice>(modes, ramps), events, start, states);
-        case 3:
-            return run_events(EightModes<3, kTwice>(modes, ramps), events, start, states);
-        default:
-            return run_events(EightModes<4, kTwice>(modes, ramps), events, start, states);
-    }
+    with_known_order<4, 1, 2, 3>(modes.poles.size(), [&](auto order) {
+        run_events(EightModes<order, kTwice>(modes, ramps), events, start, states);
+    });
 }
 
 /// y += C states, C often with few entries.
