@@ -1,6 +1,7 @@
 #include "platform/hash.h"
 
 #include <fmt/format.h>
+#include <sodium/crypto_auth_hmacsha256.h>
 #include <sodium/utils.h>
 #include <xxhash.h>
 
@@ -50,6 +51,17 @@ std::string Sha256::hex() const {
     crypto_hash_sha256_final(&last, bytes.data());
     std::array<char, 2 * bytes.size() + 1> digits;
     return sodium_bin2hex(digits.data(), digits.size(), bytes.data(), bytes.size());
+}
+
+std::string hmac_sha256(std::string_view key, std::initializer_list<std::string_view> parts) {
+    const auto bytes = [](std::string_view text) { return reinterpret_cast<const unsigned char*>(text.data()); };
+    crypto_auth_hmacsha256_state state;
+    crypto_auth_hmacsha256_init(&state, bytes(key), key.size());
+    for (const std::string_view part : parts) crypto_auth_hmacsha256_update(&state, bytes(part), part.size());
+    std::array<unsigned char, crypto_auth_hmacsha256_BYTES> code;
+    crypto_auth_hmacsha256_final(&state, code.data());
+    std::array<char, 2 * code.size() + 1> digits;
+    return sodium_bin2hex(digits.data(), digits.size(), code.data(), code.size());
 }
 
 bool equal_in_constant_time(std::string_view a, std::string_view b) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <initializer_list>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -27,6 +28,9 @@ class Sha256 {
 std::string sha256_of(std::string_view bytes);
 std::string sha256_of_file(const std::filesystem::path& file);  ///< throws EnvironmentError
 
+/// HMAC-SHA256 (RFC 2104) of the parts, one after the other, as 64 lower-case hexadecimal digits: shows those who share
+/// the key that a message is of one of them.
+std::string hmac_sha256(std::string_view key, std::initializer_list<std::string_view> parts);
 /// In a time that does not tell where they differ, so that nobody can guess a secret piece by piece.
 bool equal_in_constant_time(std::string_view a, std::string_view b);
 

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "app/kernel/input_history.h"
-#include "app/kernel/message_code.h"
 #include "support/kernel_client.h"
 
 namespace test_kernel {
@@ -65,14 +64,6 @@ void kernel::expect_progress(const std::string& id) {
         return;
     }
     ADD_FAILURE() << "no progress is told";
-}
-
-TEST(kernel_parts, signatures_are_those_of_the_standard) {
-    // RFC 4231, test cases 2 and 6 (a key longer than a block).
-    EXPECT_EQ(hmac_sha256_of("Jefe", {"what do ya want ", "for nothing?"}),
-              "5bdcc146bf60754e6a042426089575c75a003f089d2739839dec58b964ec3843");
-    EXPECT_EQ(hmac_sha256_of(std::string(131, '\xaa'), {"Test Using Larger Than Block-Size Key - Hash Key First"}),
-              "60e431591ee0b67f0d8a26aacbf5b77f8e0bc6213728c5140546040f0ee37f54");
 }
 
 TEST(kernel_parts, history_keeps_the_last_thousand) {

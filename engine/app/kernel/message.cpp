@@ -7,7 +7,6 @@
 #include <array>
 #include <chrono>
 
-#include "app/kernel/message_code.h"
 #include "platform/hash.h"
 
 namespace dynlab::inline app {
@@ -51,7 +50,7 @@ KernelMessage MessageWire::read(const std::vector<std::string>& frames) const {
         throw BadMessage("a message with too few parts");
     const std::string *const signature = &delimiter[1], *const parts = &delimiter[2];
     if (!key_.empty() &&
-        !equal_in_constant_time(*signature, hmac_sha256_of(key_, {parts[0], parts[1], parts[2], parts[3]})))
+        !equal_in_constant_time(*signature, hmac_sha256(key_, {parts[0], parts[1], parts[2], parts[3]})))
         throw BadMessage("a message that is not signed with this kernel's key");
     KernelMessage message;
     message.identities.assign(frames.begin(), delimiter);
@@ -68,7 +67,7 @@ std::vector<std::string> MessageWire::write(const KernelMessage& message) const 
                       content = dumped(message.content);
     std::vector<std::string> frames = message.identities;
     frames.emplace_back(kDelimiter);
-    frames.push_back(key_.empty() ? "" : hmac_sha256_of(key_, {header, parent, metadata, content}));
+    frames.push_back(key_.empty() ? "" : hmac_sha256(key_, {header, parent, metadata, content}));
     for (const std::string& part : {header, parent, metadata, content}) frames.push_back(part);
     return frames;
 }

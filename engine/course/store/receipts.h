@@ -55,7 +55,4 @@ bool is_version_signature(const Course& course, const Receipt& receipt, std::str
 /// EnvironmentError for an unknown one.
 Receipt receipt_of(Course& course, std::int64_t version, std::optional<std::int64_t> correction = {});
 
-/// HMAC-SHA256 (RFC 2104, FIPS 198-1) as 64 lower-case hexadecimal digits: of coded receipts.
-std::string hmac_sha256(std::string_view key, std::string_view message);
-
 }  // namespace dynlab::inline course
