@@ -75,7 +75,7 @@ OrderSelection select_order(const IdData& data, const std::vector<TransferStruct
 /// What a criterion compares.
 struct OrderMeasure {
     OrderCriterion criterion;
-    const char *word, *name, *unit;  ///< for scripts "fit", for people "fit" and " (%)"
+    const char *word, *name, *unit;  ///< "validation", "validation fit" and " (%)"
     bool larger_is_better;
     double (*value)(const OrderCandidate&);  ///< not a number where there is none
 };

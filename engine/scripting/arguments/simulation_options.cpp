@@ -16,6 +16,10 @@ CompareOptions compare_options(const Options& options, const char* initial_state
             parse_offset(options.text("Offset", "auto"))};
 }
 
+Hold hold_option(const Options& options, Hold fallback) {
+    return options.choice("hold", {"zoh", "foh"}, fallback == Hold::kZoh ? 0 : 1) == 0 ? Hold::kZoh : Hold::kFoh;
+}
+
 std::vector<TransferFunction> channels_argument(const Call& call, int index, const char* what) {
     if (index <= call.count())
         if (const Model* model = to_object<Model>(call.state(), index)) return channels_of(*model);

@@ -12,6 +12,9 @@ namespace dynlab::inline scripting {
 /// The options InitialState and Offset of functions that simulate a model on a record.
 CompareOptions compare_options(const Options& options, const char* initial_state = "auto");
 
+/// The option hold: how inputs go on between samples.
+Hold hold_option(const Options& options, Hold fallback);
+
 /// The transfer functions of a model argument, one a channel: all inputs of the first output, then of the second.
 std::vector<TransferFunction> channels_argument(const Call& call, int index, const char* what);
 

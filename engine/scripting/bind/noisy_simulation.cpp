@@ -41,10 +41,6 @@ InputSignals input_argument(const Call& call) {
     return {u, Ts * Vector::LinSpaced(u.rows(), 0, static_cast<double>(u.rows() - 1)), Ts, Hold::kZoh, 4};
 }
 
-Hold hold_of(const Options& options, Hold fallback) {
-    return options.choice("hold", {"zoh", "foh"}, fallback == Hold::kZoh ? 0 : 1) == 0 ? Hold::kZoh : Hold::kFoh;
-}
-
 Matrix simulated_outputs(const std::vector<TransferFunction>& channels, const InputSignals& input, Hold hold) {
     const auto inputs = static_cast<std::size_t>(input.u.cols());
     if (inputs == 0 || channels.size() % inputs != 0)
@@ -100,7 +96,7 @@ int simulate_with_noise(Call& call) {
     InputSignals input = input_argument(call);
     input.u = driving_input(call, 1, input.u);
     const Options options(call, input.options_index, {"noise", "snr", "seed", "hold"});
-    const Matrix y = simulated_outputs(model.channels, input, hold_of(options, input.hold));
+    const Matrix y = simulated_outputs(model.channels, input, hold_option(options, input.hold));
     const auto snr = options.optional_number("snr");
     if (!options.flag("noise", snr.has_value()))
         return y.cols() == 1 ? call.give_vector(y.col(0)) : call.give_matrix(y);
@@ -176,7 +172,7 @@ int simulate_spread(Call& call) {
     if (!(level > 0 && level < 1))
         throw InvalidArgument(
             fmt::format("option 'confidence' must be a probability between 0 and 1, but {} was given", level));
-    const SimulationSpread spread = spread_of(model, input, hold_of(options, input.hold), options.size("runs", 200),
+    const SimulationSpread spread = spread_of(model, input, hold_option(options, input.hold), options.size("runs", 200),
                                               DrawnNumbers(call, options).stream());
     give_figure(call, spread_figure(model.estimate->method, spread, input.t, level));
     give_table(call, "output", spread.output, "std", spread.std, "drawn", spread.drawn, "unstable", spread.unstable);

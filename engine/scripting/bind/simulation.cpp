@@ -8,6 +8,7 @@
 #include "numerics/simulation/frequency_response.h"
 #include "numerics/simulation/lsim.h"
 #include "numerics/simulation/time_response.h"
+#include "scripting/arguments/simulation_options.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/conversions/table_fields.h"
 #include "scripting/objects/figure_object.h"
@@ -18,10 +19,6 @@
 
 namespace dynlab::inline scripting {
 namespace {
-
-Hold hold_option(const Options& options, Hold fallback) {
-    return options.choice("hold", {"zoh", "foh"}, fallback == Hold::kZoh ? 0 : 1) == 0 ? Hold::kZoh : Hold::kFoh;
-}
 
 /// Several inputs or outputs: columns of a matrix.
 int simulate_system(Call& call, const StateSpace& system, const Options& options, const VectorView& x0) {

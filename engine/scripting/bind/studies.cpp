@@ -4,6 +4,7 @@
 #include "numerics/validation/monte_carlo.h"
 #include "platform/terminal/progress.h"
 #include "scripting/arguments/loop_arguments.h"
+#include "scripting/arguments/simulation_options.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/bind/estimation_readers.h"
 #include "scripting/memoized_calls/memoized_call.h"
@@ -192,7 +193,7 @@ MonteCarloStudy study_of(const Options& options) {
     const auto Ts = options.optional_number("Ts");
     if (!Ts) throw InvalidArgument("option 'Ts' is missing: the sampling time in seconds");
     study.Ts = *Ts;
-    study.hold = options.choice("hold", {"zoh", "foh"}, 0) == 0 ? Hold::kZoh : Hold::kFoh;
+    study.hold = hold_option(options, Hold::kZoh);
     study.sigma = options.optional_number("sigma");
     study.snr = options.optional_number("snr");
     study.runs = static_cast<int>(options.size("runs", study.runs));

@@ -6,6 +6,7 @@
 #include "numerics/number_text.h"
 #include "scripting/arguments/estimator_arguments.h"
 #include "scripting/arguments/loop_arguments.h"
+#include "scripting/arguments/simulation_options.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/bind/estimation_readers.h"
 #include "scripting/conversions/told_sentences.h"
@@ -30,7 +31,7 @@ int simulate_loop(Call& call) {
     if (r.size() < 2)
         throw InvalidArgument("simloop: r is the reference at every sample, such as prbs(7, 5) or ones(500), and has " +
                               counted(r.size(), "value"));
-    const Hold hold = options.choice("hold", {"zoh", "foh"}, 0) == 0 ? Hold::kZoh : Hold::kFoh;
+    const Hold hold = hold_option(options, Hold::kZoh);
     const Vector noise = options.has("noise") ? Vector(options.vector("noise")) : Vector::Zero(r.size());
     if (!controller.sampled())
         call.print(
