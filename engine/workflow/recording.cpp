@@ -6,10 +6,10 @@
 #include <cmath>
 
 #include "data_io/tables/unit_text.h"
+#include "documents/lua_text.h"
 #include "numerics/number_text.h"
 #include "platform/error.h"
 #include "platform/spelling.h"
-#include "documents/lua_text.h"
 #include "scripting/source/lua_tokens.h"
 
 namespace dynlab::inline workflow {

@@ -5,9 +5,9 @@
 #include "app/page/page_files.h"
 #include "data_io/values/json_values.h"
 #include "data_io/values/value_limits.h"
+#include "documents/lua_text.h"
 #include "documents/text_lines.h"
 #include "platform/error.h"
-#include "documents/lua_text.h"
 
 namespace dynlab::inline app {
 namespace {
