@@ -4,16 +4,13 @@
 
 #include <stdexcept>
 
+#include "platform/keys/secure_random.h"
+
 namespace dynlab::inline platform {
 namespace {
 
 const unsigned char* bytes_of(std::string_view text) {
     return reinterpret_cast<const unsigned char*>(text.data());
-}
-
-void prepare_sodium() {
-    static const bool ready = sodium_init() >= 0;
-    if (!ready) throw std::runtime_error("libsodium cannot be used on this machine");
 }
 
 std::string hex_of(const unsigned char* bytes, std::size_t size) {

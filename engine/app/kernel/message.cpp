@@ -1,13 +1,12 @@
 #include "app/kernel/message.h"
 
 #include <fmt/chrono.h>
-#include <sodium/randombytes.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 
 #include "platform/hash.h"
+#include "platform/keys/secure_random.h"
 
 namespace dynlab::inline app {
 namespace {
@@ -17,12 +16,6 @@ using nlohmann::json;
 constexpr const char* kProtocolVersion = "5.3";
 constexpr const char* kDelimiter = "<IDS|MSG>";
 constexpr std::size_t kPartsBehind = 5;  // signature, header, parent, metadata, content
-
-std::string random_name() {
-    std::array<char, 16> bytes;
-    ::randombytes_buf(bytes.data(), bytes.size());
-    return sha256_of({bytes.data(), bytes.size()}).substr(0, 32);
-}
 
 json object_of(const std::string& frame, const char* what) {
     json object = json::parse(frame, nullptr, false);
@@ -42,7 +35,7 @@ std::string time_now() {
 
 }  // namespace
 
-MessageWire::MessageWire(std::string key) : key_(std::move(key)), session_(random_name()) {}
+MessageWire::MessageWire(std::string key) : key_(std::move(key)), session_(secure_hex(16)) {}
 
 KernelMessage MessageWire::read(const std::vector<std::string>& frames) const {
     const auto delimiter = std::find(frames.begin(), frames.end(), kDelimiter);

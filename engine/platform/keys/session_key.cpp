@@ -6,10 +6,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <stdexcept>
-
 #include "platform/error.h"
 #include "platform/files/plain_file.h"
+#include "platform/keys/secure_random.h"
 #include "platform/system_call.h"
 
 namespace dynlab::inline platform {
@@ -20,11 +19,6 @@ namespace fs = std::filesystem;
 constexpr std::size_t kSessionKeyBytes = crypto_aead_xchacha20poly1305_ietf_KEYBYTES;
 constexpr std::size_t kNonceBytes = crypto_aead_xchacha20poly1305_ietf_NPUBBYTES;
 constexpr std::size_t kTagBytes = crypto_aead_xchacha20poly1305_ietf_ABYTES;
-
-void begin_with_sodium() {
-    static const bool ready = sodium_init() >= 0;
-    if (!ready) throw std::runtime_error("libsodium cannot be used on this machine");
-}
 
 const unsigned char* octets(std::string_view text) {
     return reinterpret_cast<const unsigned char*>(text.data());
@@ -47,19 +41,12 @@ void refuse_key_of_others(const fs::path& file, const FileDescriptor& opened) {
 
 }  // namespace
 
-std::string random_bytes(std::size_t count) {
-    begin_with_sodium();
-    std::string bytes(count, '\0');
-    randombytes_buf(bytes.data(), count);
-    return bytes;
-}
-
 SessionKey SessionKey::fresh() {
-    return SessionKey(random_bytes(kSessionKeyBytes));
+    return SessionKey(secure_bytes(kSessionKeyBytes));
 }
 
 SessionKey SessionKey::in_file(const fs::path& file) {
-    begin_with_sodium();
+    prepare_sodium();
     const FileDescriptor opened(
         retry_interrupted([&] { return ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK); }));
     if (!opened)
@@ -81,7 +68,7 @@ void SessionKey::save(const fs::path& file) const {
 }
 
 std::string SessionKey::seal(std::string_view bytes, std::string_view place) const {
-    std::string sealed = random_bytes(kNonceBytes);
+    std::string sealed = secure_bytes(kNonceBytes);
     sealed.resize(kNonceBytes + bytes.size() + kTagBytes);
     unsigned long long size = 0;
     crypto_aead_xchacha20poly1305_ietf_encrypt(octets(sealed) + kNonceBytes, &size, octets(bytes), bytes.size(),

@@ -28,6 +28,4 @@ class SessionKey {
     std::string bytes_;
 };
 
-std::string random_bytes(std::size_t count);  ///< from the system's source
-
 }  // namespace dynlab::inline platform

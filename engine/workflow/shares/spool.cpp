@@ -6,13 +6,13 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <random>
 
 #include "data_io/values/cbor_values.h"
 #include "data_io/values/json_values.h"
 #include "platform/error.h"
 #include "platform/files/plain_file.h"
 #include "platform/files/replacement_file.h"
+#include "platform/keys/secure_random.h"
 #include "platform/signature.h"
 #include "platform/system_call.h"
 
@@ -172,7 +172,7 @@ Spool Spool::begin(const fs::path& folder, const fs::path& key_file, SpoolIdenti
     spool.key_file_ = key;
     spool.make_folders();
     spool.key_.save(key);
-    identity.id = spool.key_.name_of(random_bytes(32));
+    identity.id = spool.key_.name_of(secure_bytes(32));
     spool.identity_ = identity;
     spool.write_sealed(place / "identity", "identity", cbor_of(identity));
     write_plain_file(place / kNoticeFile, json_of(SpoolNotice{identity.purpose, key}, 2) + "\n");
@@ -330,8 +330,7 @@ std::optional<Spool::Claimed> Spool::claim(const std::string& worker) const {
     for (const std::string& name : names_in(folder_ / "jobs"))
         if (const auto job = job_file_of(name)) jobs.push_back(*job);
     // In any order, so that workers do not run after the same one; those that lost a worker when nothing else is left.
-    static thread_local std::minstd_rand any(std::random_device{}());
-    std::shuffle(jobs.begin(), jobs.end(), any);
+    shuffle_items(jobs, secure_below);
     std::stable_sort(jobs.begin(), jobs.end(), [](const JobFile& a, const JobFile& b) { return a.losses < b.losses; });
     for (const JobFile& job : jobs) {
         const Lease lease{job, worker};

@@ -17,6 +17,7 @@
 
 #include "platform/error.h"
 #include "platform/interrupt.h"
+#include "platform/keys/secure_random.h"
 #include "platform/locks/abandoned_folders.h"
 #include "platform/process_group.h"
 #include "platform/signature.h"
@@ -79,8 +80,8 @@ class WorkerProcess {
         : spool_(spool),
           options_(options),
           id_(fmt::format("{}-{}-{}", file_name_of(options.node), ::getpid(),
-                          spool.key_of({"", "", "", random_bytes(16)}).substr(0, 6))),
-          seed_(random_bytes(32)) {
+                          spool.key_of({"", "", "", secure_bytes(16)}).substr(0, 6))),
+          seed_(secure_bytes(32)) {
         status_.node = options.node;
         status_.hands = options.hands;
         status_.isolation = spool.identity().isolation;
