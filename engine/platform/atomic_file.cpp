@@ -50,12 +50,12 @@ void place_file_atomically(const fs::path& from, const fs::path& to) {
     fs::remove(from, ignored);
 }
 
-void write_files_atomically(const std::vector<NewFile>& files) {
+void write_files_atomically(const std::vector<NewFile>& files, const fs::path& made_in) {
     constexpr std::size_t kOpenAtOnce = 64;
     for (std::size_t from = 0; from < files.size(); from += kOpenAtOnce) {
         std::deque<ReplacementFile> replacements;
         for (std::size_t i = from; i < std::min(files.size(), from + kOpenAtOnce); ++i) {
-            replacements.emplace_back(files[i].file).append(files[i].content);
+            replacements.emplace_back(files[i].file, made_in).append(files[i].content);
             replacements.back().begin_to_sync();
         }
         // The file system writes down what is new in all of them when it does so for the first.

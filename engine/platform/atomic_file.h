@@ -18,8 +18,9 @@ struct NewFile {
     std::string content;
 };
 /// As write_file_atomically for each, in their order: each appears whole or not at all, and none before those that
-/// stand before it. They wait for the disk together, which takes little longer than for one.
-void write_files_atomically(const std::vector<NewFile>& files);
+/// stand before it. They wait for the disk together, which takes little longer than for one. `made_in`: the folder of
+/// the temporary files, on the same file system. Default: beside each file.
+void write_files_atomically(const std::vector<NewFile>& files, const std::filesystem::path& made_in = {});
 
 std::string read_file(const std::filesystem::path& file);  ///< throws EnvironmentError
 /// The content of a text file, without the byte order mark that some editors put before UTF-8: it is not part of the

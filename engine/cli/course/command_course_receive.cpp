@@ -153,6 +153,7 @@ int verify_course(const CourseArguments& where, const std::vector<std::string>& 
     }
     if (receipts.empty()) {
         const StoreCheck check = check_store(course);
+        for (const std::string& leftover : check.leftovers) std::cout << terminal_text(leftover) << '\n';
         for (const std::string& trouble : check.troubles) std::cerr << "dynlab: " << terminal_text(trouble) << '\n';
         std::cout << fmt::format("{}, {}: {}\n", counted(check.files, "file"), counted(check.versions, "version"),
                                  check.troubles.empty() ? "all there and unaltered" : "see above");
@@ -167,6 +168,7 @@ void add_course_verify(CLI::App& course, CourseArguments& where, Action& action)
     command->add_option("RECEIPT", *receipts, "Receipts that students show");
     command->footer(
         "Students verify theirs without the course: dynlab verify.\n"
+        "It also lists temporary files and folders of killed commands; the next course command removes them.\n"
         "Example:  dynlab course verify 00012-group-07-first-report.txt");
     command->callback(
         [&where, receipts, &action] { action = [&where, receipts] { return verify_course(where, *receipts); }; });

@@ -24,7 +24,6 @@
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/interrupt.h"
-#include "platform/locks/abandoned_folders.h"
 #include "platform/locks/file_lock.h"
 #include "platform/temporary_folder.h"
 #include "platform/terminal/progress.h"
@@ -432,7 +431,6 @@ class ClassGrader {
 
 GradingOutcome grade_class(const GradingRequest& request) {
     if (const auto obstacle = obstacle_to(request.setup.isolation)) throw EnvironmentError(*obstacle);
-    remove_abandoned_folders();
     GradingOutcome outcome;
     ClassGrader(request, outcome).run();
     return outcome;

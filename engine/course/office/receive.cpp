@@ -72,7 +72,7 @@ void write_receipts(Course& course, const std::vector<Received>& received) {
         if (!fs::exists(file) && places.insert(file).second)
             files.push_back({file, signed_receipt(receipt, course.signing_key())});
     }
-    write_files_atomically(files);
+    course.write(files);
 }
 
 class HandInReceiver {
@@ -426,7 +426,7 @@ class HandInReceiver {
 fs::path write_receipt(Course& course, std::int64_t version, std::optional<std::int64_t> correction) {
     const Receipt receipt = receipt_of(course, version, correction);
     const fs::path file = place_of(course, version, receipt);
-    if (!fs::exists(file)) write_file_atomically(file, signed_receipt(receipt, course.signing_key()));
+    if (!fs::exists(file)) course.write({{file, signed_receipt(receipt, course.signing_key())}});
     return file;
 }
 

@@ -71,7 +71,7 @@ class CopySender {
                 "the copy for {} is not as it was made; nothing more was sent: dynlab course verify", file.string()));
         kept_.insert(file);
         fs::create_directories(file.parent_path());
-        if (!fs::exists(file) || read_file(file) != copy) write_file_atomically(file, copy);
+        if (!fs::exists(file) || read_file(file) != copy) course_.write({{file, copy}});
     }
 
     /// What was taken back, withdrawn or held after it was laid there.

@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/random.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -19,7 +18,11 @@
 #include "course/store/store_seal.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
+#include "platform/files/plain_file.h"
+#include "platform/files/temporary_file.h"
 #include "platform/hash.h"
+#include "platform/keys/secure_random.h"
+#include "platform/locks/abandoned_folders.h"
 #include "platform/system_call.h"
 
 namespace dynlab::inline course {
@@ -35,17 +38,7 @@ constexpr char kDatabase[] = "course.db", kKey[] = "course.key";
 
 /// 32 random bytes in hexadecimal digits, readable by their owner only.
 void make_key(const fs::path& file) {
-    if (fs::exists(file)) return;
-    unsigned char bytes[32];
-    if (::getrandom(bytes, sizeof bytes, 0) != static_cast<ssize_t>(sizeof bytes)) fail_on(file, "draw");
-    std::string text;
-    for (const unsigned char byte : bytes) text += fmt::format("{:02x}", byte);
-    const fs::path unfinished = file.string() + ".new";
-    std::error_code ignored;
-    fs::remove(unfinished, ignored);
-    const FileDescriptor fd(::open(unfinished.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
-    if (!fd || !write_all(fd.get(), text.data(), text.size()) || ::fsync(fd.get()) != 0) fail_on(file, "write");
-    if (::rename(unfinished.c_str(), file.c_str()) != 0) fail_on(file, "write");
+    if (!fs::exists(file)) write_plain_file(file, secure_hex(32));
 }
 
 void sync_folder(const fs::path& folder) {
@@ -100,6 +93,15 @@ fs::path write_public_key(const fs::path& folder, const std::string& name, const
     return file;
 }
 
+/// Temporary files of killed processes: of all that write() stores, of the files in the course's own folder, and
+/// temporary folders.
+std::vector<fs::path> remove_leftovers_of(const fs::path& course) {
+    std::vector<fs::path> removed = remove_leftover_files(course);
+    for (fs::path& file : remove_leftover_files(course / "files")) removed.push_back(std::move(file));
+    for (fs::path& folder : remove_abandoned_folders()) removed.push_back(std::move(folder));
+    return removed;
+}
+
 void seal_commits(Database& database, const SigningKey& key) {
     database.before_commits([key](Database& changed) { seal_store(changed, key, CourseClock::now()); });
 }
@@ -133,6 +135,7 @@ void Course::create(const fs::path& folder, const std::string& name, const std::
 
 Course::Course(const fs::path& folder)
     : folder_(course_folder(folder)),
+      leftovers_(remove_leftovers_of(folder_)),
       database_(folder_ / kDatabase, Database::Opening::kExisting),
       migrated_(migrate_course(database_, Database::Opening::kExisting, (folder_ / kDatabase).string())),
       name_(setting("name")),
@@ -175,8 +178,13 @@ std::vector<std::string> Course::keep(std::vector<std::string> contents) const {
     }
     std::vector<NewFile> files;
     for (auto& [kept, content] : fresh) files.push_back({kept, std::move(content)});
-    write_files_atomically(files);
+    write(files);
     return hashes;
+}
+
+void Course::write(const std::vector<NewFile>& files) const {
+    make_folder(folder_ / "files");
+    write_files_atomically(files, folder_ / "files");
 }
 
 void Course::settle(const std::vector<std::string>& hashes) const {

@@ -9,6 +9,7 @@
 
 #include "course/hand_ins/course_clock.h"
 #include "course/store/database.h"
+#include "platform/atomic_file.h"
 #include "platform/signature.h"
 
 namespace dynlab::inline course {
@@ -28,7 +29,8 @@ class Course {
     /// where there is a course already, InvalidArgument for an unknown zone.
     static void create(const std::filesystem::path& folder, const std::string& name, const std::string& zone);
 
-    /// Opens the course in `folder`, or in a folder above it.
+    /// Opens the course in `folder`, or in a folder above it. Removes temporary files and folders of killed
+    /// processes.
     explicit Course(const std::filesystem::path& folder);
 
     Database& database() { return database_; }
@@ -37,6 +39,7 @@ class Course {
     const std::string& key() const { return key_; }  ///< the secret
     const SigningKey& signing_key() const { return signing_key_; }
     const std::filesystem::path& folder() const { return folder_; }
+    const std::vector<std::filesystem::path>& removed_leftovers() const { return leftovers_; }  ///< when it was opened
 
     /// Writes course.pub where it is not there, as in courses of before; returns the file.
     std::filesystem::path publish_key() const;
@@ -52,6 +55,9 @@ class Course {
     void keep_files(const std::vector<std::filesystem::path>& files,
                     const std::function<void(std::size_t, const KeptFile&)>& look,
                     const std::function<void(std::size_t done, std::size_t total)>& progress = {}) const;
+    /// Writes files anywhere below the course's folder, as write_files_atomically does. Their temporary files lie in
+    /// files/, so that whoever opens the course finds leftovers there without a search through all folders.
+    void write(const std::vector<NewFile>& files) const;
     /// Within a transaction: the store speaks of this content from now on.
     void record_file(const std::string& hash, std::int64_t bytes, Instant at);
     std::filesystem::path file(const std::string& hash) const;
@@ -64,6 +70,7 @@ class Course {
                          const std::function<void(std::size_t)>& tell, const std::stop_token& stop) const;
 
     std::filesystem::path folder_;
+    std::vector<std::filesystem::path> leftovers_;
     Database database_;
     bool migrated_ = false;  ///< from the tables of an earlier version
     std::string name_;

@@ -1,6 +1,7 @@
 #include "course/store/store_check.h"
 
 #include <fmt/format.h>
+#include <re2/re2.h>
 
 #include <map>
 #include <set>
@@ -62,10 +63,28 @@ void check_signatures(Course& course, StoreCheck& check) {
     }
 }
 
+/// Those that were removed when the course was opened, and those of earlier versions: ".HASH.PID-N" beside the files.
+void check_leftovers(const Course& course, StoreCheck& check) {
+    for (const fs::path& file : course.removed_leftovers())
+        check.leftovers.push_back(fmt::format("removed {}, which a run that was killed had left", file.string()));
+    static const RE2 earlier(R"(\..+\.[0-9]+-[0-9]+)", RE2::Latin1);
+    for (const char* own : {"files", "receipts"}) {
+        const fs::path folder = course.folder() / own;
+        if (!fs::exists(folder)) continue;
+        for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+            const std::string name = entry.path().filename().string();
+            if (RE2::FullMatch(name, earlier) && name.find(".dynlab-") == std::string::npos)
+                check.leftovers.push_back(fmt::format(
+                    "{} is a temporary file of an earlier dynlab that was killed; remove it", entry.path().string()));
+        }
+    }
+}
+
 }  // namespace
 
 StoreCheck check_store(Course& course) {
     StoreCheck check;
+    check_leftovers(course, check);
     Database& db = course.database();
     for (Rows rows = db.query("PRAGMA integrity_check"); rows.next();)
         if (rows.text(0) != "ok") check.troubles.push_back("the database: " + rows.text(0));

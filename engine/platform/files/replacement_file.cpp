@@ -1,13 +1,12 @@
 #include "platform/files/replacement_file.h"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <utility>
 
 #include "platform/error.h"
+#include "platform/files/temporary_file.h"
 
 namespace dynlab::inline platform {
 
@@ -35,13 +34,13 @@ std::optional<struct stat> present_status(const fs::path& file) {
     return std::nullopt;
 }
 
-ReplacementFile::ReplacementFile(const fs::path& file) : file_(destination_of(file)) {
+ReplacementFile::ReplacementFile(const fs::path& file, const fs::path& made_in) : file_(destination_of(file)) {
     const auto present = present_status(file_);
     if (present && S_ISDIR(present->st_mode)) fail_to_write(file, EISDIR);
     if (present && !S_ISREG(present->st_mode)) {  // a device or a pipe cannot be replaced: write into it
         fd_ = FileDescriptor(::open(file_.c_str(), O_WRONLY | O_CLOEXEC));
     } else {
-        create_beside(0666);
+        create_in(made_in.empty() ? file_.parent_path() : made_in, 0666);
         if (fd_ && present) ::fchmod(fd_.get(), present->st_mode & 07777);
     }
     if (!fd_) fail_to_write(file, errno);
@@ -55,7 +54,7 @@ ReplacementFile::ReplacementFile(ReplacementFile&& other) noexcept
 ReplacementFile ReplacementFile::of_owner(const fs::path& file) {
     ReplacementFile made;
     made.file_ = file;
-    made.create_beside(0600);
+    made.create_in(file.parent_path(), 0600);
     if (!made.fd_) fail_to_write(file, errno);
     return made;
 }
@@ -73,24 +72,18 @@ void ReplacementFile::begin_to_sync() const {
 }
 
 void ReplacementFile::commit() {
-    if (!temporary_.empty() && retry_interrupted([&] { return ::fsync(fd_.get()); }) != 0) {
-        fail_to_write(file_, errno);
+    if (!temporary_.empty()) {  // renamed while it is open: its lock shows that it is in use
+        if (retry_interrupted([&] { return ::fsync(fd_.get()); }) != 0) fail_to_write(file_, errno);
+        if (::rename(temporary_.c_str(), file_.c_str()) != 0) fail_to_write(file_, errno);
+        temporary_.clear();
     }
     if (fd_.close() != 0) fail_to_write(file_, errno);
-    if (temporary_.empty()) return;
-    if (::rename(temporary_.c_str(), file_.c_str()) != 0) fail_to_write(file_, errno);
-    temporary_.clear();
 }
 
-/// Not mkstemp: its files are private, while a new file here gets the permissions the user's umask grants.
-void ReplacementFile::create_beside(mode_t mode) {
-    static std::atomic<unsigned> counter{0};
-    do {
-        temporary_ = file_.parent_path() /
-                     fmt::format(".{}.{}-{}", file_.filename().string().substr(0, 200), ::getpid(), counter++);
-        fd_ = FileDescriptor(::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode));
-    } while (!fd_ && errno == EEXIST);
-    if (!fd_) temporary_.clear();
+void ReplacementFile::create_in(const fs::path& folder, mode_t mode) {
+    TemporaryFile made = make_temporary_file(folder, file_.filename().string(), mode);
+    fd_ = std::move(made.file);
+    if (fd_) temporary_ = std::move(made.path);
 }
 
 }  // namespace dynlab::inline platform

@@ -10,10 +10,12 @@
 namespace dynlab::inline platform {
 
 /// What atomic_file.h is made of: a new file beside the destination that replaces it on commit() and is removed when
-/// that is not reached. A device or a pipe cannot be replaced and is written into. All throw EnvironmentError.
+/// that is not reached (temporary_file.h says what becomes of it where the process is killed). A device or a pipe
+/// cannot be replaced and is written into. All throw EnvironmentError.
 class ReplacementFile {
   public:
-    explicit ReplacementFile(const std::filesystem::path& file);
+    /// `made_in`: the folder of the new file, on the same file system. Default: that of `file`.
+    explicit ReplacementFile(const std::filesystem::path& file, const std::filesystem::path& made_in = {});
     /// One for its owner only, in whose place whatever stands there is replaced, a link too (plain_file.h).
     static ReplacementFile of_owner(const std::filesystem::path& file);
     ~ReplacementFile();
@@ -28,7 +30,7 @@ class ReplacementFile {
 
   private:
     ReplacementFile() = default;
-    void create_beside(mode_t mode);
+    void create_in(const std::filesystem::path& folder, mode_t mode);
 
     std::filesystem::path file_, temporary_;
     FileDescriptor fd_;

@@ -1,14 +1,11 @@
 #include "platform/locks/abandoned_folders.h"
 
 #include <fcntl.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <cstdlib>
-#include <ctime>
-#include <string>
+#include <string_view>
 
+#include "platform/files/temporary_file.h"
 #include "platform/system_call.h"
 
 namespace dynlab::inline platform {
@@ -16,13 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_abandoned(const fs::path& folder, std::chrono::seconds age) {
-    struct stat status {};
-    const FileDescriptor open_folder(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
-    if (!open_folder || ::fstat(open_folder.get(), &status) != 0) return false;
-    if (status.st_uid != ::geteuid() || status.st_ctime + age.count() > std::time(nullptr)) return false;
-    return ::flock(open_folder.get(), LOCK_EX | LOCK_NB) == 0;
-}
+constexpr std::string_view kDrawn = "XXXXXX";
 
 }  // namespace
 
@@ -31,17 +22,24 @@ fs::path parent_of_temporary_folders() {
     return parent && *parent ? parent : "/tmp";
 }
 
-int remove_abandoned_folders(std::chrono::seconds age) {
-    int removed = 0;
+std::string pattern_of_temporary_folders() {
+    return "dynlab-" + machine_in_names() + "-" + std::string(kDrawn);
+}
+
+std::vector<fs::path> remove_abandoned_folders() {
+    const std::string pattern = pattern_of_temporary_folders();
+    const std::string beginning = pattern.substr(0, pattern.size() - kDrawn.size());
+    std::vector<fs::path> removed;
     std::error_code error;
     for (fs::directory_iterator entry(parent_of_temporary_folders(), error), end; !error && entry != end;
          entry.increment(error)) {
         const std::string name = entry->path().filename().string();
-        constexpr std::size_t kNameLength = sizeof "dynlab-XXXXXX" - 1;
-        if (!name.starts_with("dynlab-") || name.size() != kNameLength || !is_abandoned(entry->path(), age)) continue;
+        if (!name.starts_with(beginning) || name.size() != pattern.size()) continue;
+        const FileDescriptor folder(::open(entry->path().c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
+        if (!folder || !lock_leftover(folder.get())) continue;
         std::error_code ignored;
         fs::remove_all(entry->path(), ignored);
-        if (!ignored) ++removed;
+        if (!ignored) removed.push_back(entry->path());
     }
     return removed;
 }

@@ -1,15 +1,18 @@
 #pragma once
-#include <chrono>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace dynlab::inline platform {
 
 /// Removes from $TMPDIR this user's temporary folders (TemporaryFolder) whose process was killed before it could: those
-/// that nobody holds a lock on and that are so old at least, as their maker may be about to lock them. Returns how
-/// many. What cannot be removed stays.
-int remove_abandoned_folders(std::chrono::seconds age = std::chrono::hours(1));
+/// of this machine that nobody holds a lock on (files/temporary_file.h). Returns the removed folders. Folders that
+/// cannot be removed stay.
+std::vector<std::filesystem::path> remove_abandoned_folders();
 
 /// Where temporary folders are made: $TMPDIR, or /tmp.
 std::filesystem::path parent_of_temporary_folders();
+/// What mkdtemp makes the name of a temporary folder of: "dynlab-MACHINE-XXXXXX".
+std::string pattern_of_temporary_folders();
 
 }  // namespace dynlab::inline platform

@@ -30,8 +30,7 @@ TEST(abandoned_folders, what_a_killed_process_left_is_removed_and_nothing_else) 
     }
     ASSERT_EQ(::waitpid(child, nullptr, 0), child);
     EXPECT_EQ(std::distance(fs::directory_iterator(parent.path()), {}), 4);
-    EXPECT_EQ(remove_abandoned_folders(std::chrono::hours(1)), 0);  // it may be about to be used
-    EXPECT_EQ(remove_abandoned_folders(std::chrono::seconds(0)), 1);
+    EXPECT_EQ(remove_abandoned_folders().size(), 1u);
     EXPECT_TRUE(fs::exists(in_use.path()));
     EXPECT_TRUE(fs::exists(parent.path() / "dynlab-mine"));
     EXPECT_EQ(std::distance(fs::directory_iterator(parent.path()), {}), 3);

@@ -1,0 +1,38 @@
+#pragma once
+#include <sys/types.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "platform/system_call.h"
+
+namespace dynlab::inline platform {
+
+/// Files and folders that vanish when their work is done, but stay where a process is killed (kill -9, power failure).
+/// Each has a lock (flock) that ends with its process, and the name of the machine in its own name. The next process
+/// on that machine removes what nobody holds a lock on. So neither a reused process number nor a process in another
+/// PID namespace is mistaken for the maker, and files of other machines on a shared folder stay. Where a file system
+/// has no locks, everything stays.
+
+/// A new, empty file ".NAME.dynlab-MACHINE-PID-N" for what is to become NAME, locked while `file` is open. The first
+/// one that a process makes in a folder removes the leftovers there; later ones do not list the folder again.
+struct TemporaryFile {
+    std::filesystem::path path;
+    FileDescriptor file;  ///< for writing; none, with errno, where the file cannot be made
+};
+TemporaryFile make_temporary_file(const std::filesystem::path& folder, const std::string& name, mode_t mode);
+
+/// Removes temporary files of killed processes of this user on this machine from a folder, not from those below it.
+/// Returns the removed files. Files that cannot be removed stay without an error.
+std::vector<std::filesystem::path> remove_leftover_files(const std::filesystem::path& folder);
+
+/// Takes the lock that shows that the temporary file or folder at `path` is in use. False where a process that cleans
+/// up removed it before: make another one.
+bool lock_as_in_use(int descriptor, const std::filesystem::path& path);
+/// Whether this user owns it and nobody uses it. If so, the lock is taken until the descriptor is closed.
+bool lock_leftover(int descriptor);
+/// This machine's name as part of file names: at most 24 letters, digits, - and _.
+const std::string& machine_in_names();
+
+}  // namespace dynlab::inline platform
