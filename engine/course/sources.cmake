@@ -3,9 +3,6 @@
 # The linker takes them one by one: runs in sandboxes need neither archives nor documents.
 set_source_files_properties(course/boxes/boxed_document.cpp course/boxes/unpack.cpp course/boxes/zip_file.cpp
                             PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-# GCC 12 fails to read <random> behind some other sources of a batch.
-set_source_files_properties(course/review/allocation.cpp course/review/peer_assign.cpp course/store/assignments.cpp
-                            PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 
 # What compares each script of a class with every other one.
 dynlab_optimized(course/similarity/class_similarity.cpp course/similarity/fingerprints.cpp course/similarity/similarity.cpp)

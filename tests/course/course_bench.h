@@ -80,7 +80,7 @@ class CourseBench {
         crane.name = "crane";
         crane.first_due = noon("2026-03-01"), crane.review_due = noon("2026-03-08"),
         crane.final_due = noon("2026-03-15");
-        crane.grace = 600, crane.reviews = reviews, crane.seed = 7;
+        crane.grace = 600, crane.reviews = reviews;
         crane.criteria = usual_criteria(crane.kind);
         add_assignment(course, crane);
         return folder;

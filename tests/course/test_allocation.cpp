@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <map>
 #include <random>
 #include <set>
@@ -11,6 +12,11 @@
 
 namespace dynlab::test {
 namespace test_allocation {
+/// The same numbers for the same seed.
+UniformDraw fixed_draw(std::uint32_t seed) {
+    return [random = std::mt19937(seed)](std::size_t below) mutable { return random() % below; };
+}
+
 /// How many reviews each group writes and gets.
 struct Loads {
     std::vector<int> writes, gets;
@@ -57,10 +63,10 @@ TEST(allocation, keeps_its_rules_in_random_courses) {
         problem.groups = size + late;
         problem.active.assign(problem.groups, true);
         for (int i = size; i < problem.groups; ++i) problem.active[i] = false;
-        problem.seed = random();
-        const Allocation first = allocate_reviews(problem);
+        const std::uint32_t seed = random();
+        const Allocation first = allocate_reviews(problem, fixed_draw(seed));
         expect_rules(problem, first);
-        ASSERT_EQ(first.pairs, allocate_reviews(problem).pairs);
+        ASSERT_EQ(first.pairs, allocate_reviews(problem, fixed_draw(seed)).pairs);
         const Loads loads = loads_of(problem, first);
         ASSERT_EQ(spread(problem, loads.writes), 0) << course;
         ASSERT_EQ(spread(problem, loads.gets), 0) << course;
@@ -76,9 +82,9 @@ TEST(allocation, keeps_its_rules_in_random_courses) {
             const bool written = state > 0 && below(4) == 0, sent = state == 1 || (state == 2 && below(2) == 0);
             (written || (sent && both) ? later.fixed : later.loose).push_back(pair);
         }
-        const Allocation second = allocate_reviews(later);
+        const Allocation second = allocate_reviews(later, fixed_draw(seed));
         expect_rules(later, second);
-        ASSERT_EQ(second.pairs, allocate_reviews(later).pairs);
+        ASSERT_EQ(second.pairs, allocate_reviews(later, fixed_draw(seed)).pairs);
         const Loads after = loads_of(later, second);
         const int active = static_cast<int>(std::count(later.active.begin(), later.active.end(), true));
         const bool room = active > 2 * problem.reviews + 1;
@@ -101,12 +107,11 @@ TEST(allocation, keeps_groups_with_a_common_member_apart) {
         problem.groups = 8 + static_cast<int>(random() % 40);
         problem.reviews = 1 + static_cast<int>(random() % 3);
         problem.active.assign(problem.groups, true);
-        problem.seed = random();
         for (int i = 0; i < problem.groups / 4; ++i) {
             const int a = static_cast<int>(random() % problem.groups), b = static_cast<int>(random() % problem.groups);
             if (a != b) problem.kin.emplace_back(a, b);
         }
-        const Allocation allocation = allocate_reviews(problem);
+        const Allocation allocation = allocate_reviews(problem, fixed_draw(random()));
         expect_rules(problem, allocation);
         const Loads loads = loads_of(problem, allocation);
         EXPECT_EQ(spread(problem, loads.writes), 0);
@@ -116,12 +121,12 @@ TEST(allocation, keeps_groups_with_a_common_member_apart) {
 
 // oracle: a late-comer goes between two groups whose pair nobody knows of yet: all write and get as many as before
 TEST(allocation, takes_late_comers_in_without_more_work_for_others) {
-    AllocationProblem problem{13, 2, std::vector<bool>(13, true), {}, {}, {}, 3};
+    AllocationProblem problem{13, 2, std::vector<bool>(13, true), {}, {}, {}};
     problem.active[12] = false;
-    const Allocation first = allocate_reviews(problem);
+    const Allocation first = allocate_reviews(problem, fixed_draw(3));
     problem.loose = first.pairs;
     problem.active[12] = true;
-    const Allocation second = allocate_reviews(problem);
+    const Allocation second = allocate_reviews(problem, fixed_draw(3));
     const Loads loads = loads_of(problem, second);
     EXPECT_EQ(spread(problem, loads.writes), 0);
     EXPECT_EQ(spread(problem, loads.gets), 0);
@@ -133,25 +138,25 @@ TEST(allocation, takes_late_comers_in_without_more_work_for_others) {
 
 // oracle: counting
 TEST(allocation, says_what_cannot_be_had) {
-    AllocationProblem problem{3, 3, std::vector<bool>(3, true), {}, {}, {}, 1};
-    EXPECT_THROW(allocate_reviews(problem), InvalidArgument);
+    AllocationProblem problem{3, 3, std::vector<bool>(3, true), {}, {}, {}};
+    EXPECT_THROW(allocate_reviews(problem, fixed_draw(1)), InvalidArgument);
     problem.reviews = 2;  // everybody reviews everybody: couples cannot be avoided
-    const Allocation all = allocate_reviews(problem);
+    const Allocation all = allocate_reviews(problem, fixed_draw(1));
     EXPECT_EQ(all.pairs.size(), 6u);
     EXPECT_EQ(all.swapped, 3);
     ASSERT_FALSE(all.remarks.empty());
     EXPECT_NE(all.remarks.back().find("3 couples of groups review each other"), std::string::npos);
-    problem = {4, 1, std::vector<bool>(4, true), {{0, 1}, {0, 2}, {0, 3}}, {}, {}, 1};
-    const Allocation lonely = allocate_reviews(problem);
+    problem = {4, 1, std::vector<bool>(4, true), {{0, 1}, {0, 2}, {0, 3}}, {}, {}};
+    const Allocation lonely = allocate_reviews(problem, fixed_draw(1));
     EXPECT_EQ(lonely.open_reviews, 1);
     EXPECT_NE(lonely.remarks.front().find("common members"), std::string::npos);
 }
 
 // oracle: the clock; 300 groups with six reviews each
 TEST(allocation, is_quick) {
-    AllocationProblem problem{300, 6, std::vector<bool>(300, true), {}, {}, {}, 9};
+    AllocationProblem problem{300, 6, std::vector<bool>(300, true), {}, {}, {}};
     const auto start = std::chrono::steady_clock::now();
-    const Allocation allocation = allocate_reviews(problem);
+    const Allocation allocation = allocate_reviews(problem, fixed_draw(9));
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     RecordProperty("milliseconds", static_cast<int>(1000 * seconds));
     EXPECT_EQ(allocation.swapped, 0);

@@ -104,7 +104,6 @@ struct AssignmentArguments {
     std::string name, kind = "report", lesson, first, review, final, grace, criteria, costs, reason;
     std::optional<double> final_weight;
     int reviews = 2;
-    std::uint32_t seed = 0;
 };
 
 /// Sets what was given.
@@ -146,7 +145,7 @@ int remove_one(const CourseArguments& where, const AssignmentArguments& words) {
 int add_one(const CourseArguments& where, const AssignmentArguments& words) {
     Course course(where.folder);
     Assignment a;
-    a.name = words.name, a.kind = words.kind, a.reviews = words.reviews, a.seed = words.seed;
+    a.name = words.name, a.kind = words.kind, a.reviews = words.reviews;
     apply(words, course.clock(), a);
     a.criteria = words.criteria.empty() ? usual_criteria(a.kind) : criteria_of(words.criteria);
     std::cout << (add_assignment(course, a) ? "" : "Nothing new. ")
@@ -193,7 +192,6 @@ void add_assignment_commands(CLI::App& course, CourseArguments& where, Action& a
     add->add_option("--criteria", words->criteria,
                     "What reviewers (or you, at the oral) score: name:points,...; unless given data, steps, "
                     "conclusions, strength, suggestions, at the oral content, slides, delivery, answers, of 5 each");
-    add->add_option("--seed", words->seed, "Of allocation and pseudonyms; drawn unless given")->type_name("N");
     add->footer(
         "Times are in the course's time zone. The same command again changes nothing; once work was handed in, "
         "deadlines can\n"

@@ -23,9 +23,8 @@ int assign(const CourseArguments& where, const PeerArguments& words) {
     Course course(where.folder);
     const Assignment assignment = assignment_named(course, words.assignment);
     const AssignOutcome done = assign_reviews(course, assignment, time_of(course, words.at), words.early);
-    std::cout << fmt::format("{}: {}, {} (seed {}): {} new, {} taken back.\n", assignment.name,
-                             counted(done.groups, "group"), counted(done.pairs, "review"), assignment.seed, done.fresh,
-                             done.ended);
+    std::cout << fmt::format("{}: {}, {}: {} new, {} taken back.\n", assignment.name, counted(done.groups, "group"),
+                             counted(done.pairs, "review"), done.fresh, done.ended);
     for (const std::string& remark : done.remarks) std::cout << terminal_text(remark) << '\n';
     if (done.remarks.empty())
         std::cout << "Nobody reviews their own report, one twice, one of a common member, or each other.\n";

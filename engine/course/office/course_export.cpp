@@ -155,7 +155,10 @@ void fill_imported(const fs::path& folder, const fs::path& from, std::map<std::s
     const bool older = all.tables_version.value_or(0) < static_cast<std::int64_t>(course_steps().size());
     for (const std::string& table : course_tables()) {
         if (older && !all.tables.contains(table)) continue;  // one that a later version brought
-        for (const StoredRow& row : all.tables[table]) insert_row(db, table, row);
+        for (StoredRow& row : all.tables[table]) {
+            if (older) row.erase("seed");  // from which earlier versions drew pairs and pseudonyms
+            insert_row(db, table, row);
+        }
     }
     transaction.commit();
 }

@@ -3,23 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <random>
 
 #include "numerics/error.h"
 #include "numerics/number_text.h"
 
 namespace dynlab::inline course {
 namespace {
-
-/// A whole number from 0 to `below` - 1, equal on every machine.
-int draw(std::mt19937& random, std::size_t below) {
-    return static_cast<int>(random() % below);
-}
-
-void shuffle(std::vector<int>& items, std::mt19937& random) {
-    for (std::size_t i = items.size(); i > 1; --i)
-        std::swap(items[i - 1], items[static_cast<std::size_t>(draw(random, i))]);
-}
 
 /// The pairs under construction, with what is forbidden.
 class Board {
@@ -68,10 +57,11 @@ class Board {
 
 class Allocator {
   public:
-    explicit Allocator(const AllocationProblem& problem) : problem_(problem), board_(problem), random_(problem.seed) {
+    Allocator(const AllocationProblem& problem, const UniformDraw& draw)
+        : problem_(problem), board_(problem), draw_(draw) {
         for (int i = 0; i < problem.groups; ++i)
             if (problem.active[static_cast<std::size_t>(i)]) order_.push_back(i);
-        shuffle(order_, random_);
+        shuffle_items(order_, draw_);
         wanted_ = std::max(0, std::min(problem.reviews, static_cast<int>(order_.size()) - 1));
     }
 
@@ -149,8 +139,8 @@ class Allocator {
         std::vector<ReviewEdge> pairs = loose_pairs();
         if (pairs.size() < 2) return;
         for (std::size_t i = 0; i < 10 * pairs.size(); ++i) {
-            const int one = draw(random_, pairs.size()), other = draw(random_, pairs.size());
-            exchange(pairs[static_cast<std::size_t>(one)], pairs[static_cast<std::size_t>(other)], false);
+            const std::size_t one = draw_(pairs.size()), other = draw_(pairs.size());
+            exchange(pairs[one], pairs[other], false);
         }
     }
 
@@ -235,9 +225,9 @@ class Allocator {
             better = false;
             for (ReviewEdge& one : pairs) {
                 if (!board_.any(one.second, one.first)) continue;
-                const auto start = pairs.empty() ? 0 : draw(random_, pairs.size());
+                const std::size_t start = draw_(pairs.size());
                 for (std::size_t k = 0; k < pairs.size(); ++k) {
-                    ReviewEdge& other = pairs[(static_cast<std::size_t>(start) + k) % pairs.size()];
+                    ReviewEdge& other = pairs[(start + k) % pairs.size()];
                     if (&other != &one && exchange(one, other, true)) {
                         better = true;
                         break;
@@ -285,15 +275,15 @@ class Allocator {
 
     const AllocationProblem& problem_;
     Board board_;
-    std::mt19937 random_;
+    const UniformDraw& draw_;
     std::vector<int> order_;
     int wanted_ = 0;
 };
 
 }  // namespace
 
-Allocation allocate_reviews(const AllocationProblem& problem) {
-    return Allocator(problem).run();
+Allocation allocate_reviews(const AllocationProblem& problem, const UniformDraw& draw) {
+    return Allocator(problem, draw).run();
 }
 
 }  // namespace dynlab::inline course

@@ -1,8 +1,9 @@
 #pragma once
-#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "platform/keys/secure_random.h"
 
 namespace dynlab::inline course {
 
@@ -17,7 +18,6 @@ struct AllocationProblem {
     std::vector<ReviewEdge> kin;    ///< groups who share a member, in either order
     std::vector<ReviewEdge> fixed;  ///< reviews that are written, or sent to an active reviewer of an active author
     std::vector<ReviewEdge> loose;  ///< allotted before, nobody knows of it yet: kept where possible
-    std::uint32_t seed = 1;
 };
 
 struct Allocation {
@@ -29,11 +29,11 @@ struct Allocation {
 
 /// Allots reviews at random: no group its own report, none twice the same, none of a group with a common member. Active
 /// groups write, and their reports get, `reviews` each, or one more where what is fixed leaves no other way; couples
-/// who review each other are avoided where exchanges of two can. Equal problems give equal results. Starts from a
-/// random circle (reviewer i takes the next ones), which has no such couples while 2 reviews < groups; what kin and
-/// fixed pairs forbid is repaired by augmenting paths (Berge 1957; each hands loose reviews on along a shortest chain).
-/// Throws InvalidArgument where there are too few active groups for that number of reviews and nothing is fixed or
-/// loose.
-Allocation allocate_reviews(const AllocationProblem& problem);
+/// who review each other are avoided where exchanges of two can. Equal problems and draws give equal results; programs
+/// pass secure_below, so that nobody can compute the pairs. Starts from a random circle (reviewer i takes the next
+/// ones), which has no such couples while 2 reviews < groups; what kin and fixed pairs forbid is repaired by augmenting
+/// paths (Berge 1957; each hands loose reviews on along a shortest chain). Throws InvalidArgument where there are too
+/// few active groups for that number of reviews and nothing is fixed or loose.
+Allocation allocate_reviews(const AllocationProblem& problem, const UniformDraw& draw);
 
 }  // namespace dynlab::inline course

@@ -189,7 +189,9 @@ std::string oral_sheet(Course& course, const Assignment& a, const OralSheetWishe
     for (const Criterion& c : a.criteria) table.names.push_back(c.name);
     table.names.emplace_back("comment");
     std::vector<Group> groups = groups_of(course);
-    const auto lot = [&](const Group& group) { return sha256_of(fmt::format("{} oral {}", a.seed, group.name)); };
+    const auto lot = [&](const Group& group) {
+        return hmac_sha256(course.key(), {"dynlab oral order\n", a.name, "\n", group.name});
+    };
     if (wishes.drawn) std::ranges::sort(groups, [&](const Group& x, const Group& y) { return lot(x) < lot(y); });
     std::map<std::string, std::string> names;
     for (const Student& student : students_of(course)) names[student.id] = student.name;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <random>
 #include <set>
 
 #include "course/review/allocation.h"
@@ -23,7 +22,7 @@ class ReviewAssigner {
     AssignOutcome run() {
         read();
         add_wished_pairs();
-        const Allocation allocation = allocate_reviews(problem_);
+        const Allocation allocation = allocate_reviews(problem_, secure_below);
         outcome_.remarks.insert(outcome_.remarks.end(), allocation.remarks.begin(), allocation.remarks.end());
         give_pseudonyms();
         write(allocation);
@@ -34,7 +33,6 @@ class ReviewAssigner {
     void read() {
         problem_.groups = static_cast<int>(groups_.size());
         problem_.reviews = assignment_.reviews;
-        problem_.seed = assignment_.seed;
         problem_.active.assign(groups_.size(), false);
         for (Rows rows = db_.query(
                  "SELECT DISTINCT group_id FROM standing WHERE assignment = ? AND stage = 'first' AND part = 'report'",
@@ -87,8 +85,7 @@ class ReviewAssigner {
 
     /// Numbers that tell nothing of the group: drawn for each assignment and role, never given twice.
     void give_pseudonyms() {
-        const int most = std::max(99, 3 * problem_.groups);
-        std::mt19937 random(assignment_.seed ^ 0x9E3779B9u);
+        const auto most = static_cast<std::size_t>(std::max(99, 3 * problem_.groups));
         for (const char* role : {"author", "reviewer"}) {
             std::map<std::int64_t, std::int64_t> given;
             std::set<std::int64_t> taken;
@@ -101,7 +98,7 @@ class ReviewAssigner {
             for (std::size_t i = 0; i < groups_.size(); ++i) {
                 if (!problem_.active[i] || given.contains(groups_[i].id)) continue;
                 std::int64_t number = 0;
-                do number = 1 + static_cast<std::int64_t>(random() % static_cast<unsigned>(most));
+                do number = 1 + static_cast<std::int64_t>(secure_below(most));
                 while (!taken.insert(number).second);
                 db_.run("INSERT INTO pseudonyms VALUES (?, ?, ?, ?)", assignment_.id, groups_[i].id, role, number);
             }
@@ -126,8 +123,8 @@ class ReviewAssigner {
             if (!known_.contains(edge)) fresh.push_back(edge);
         outcome_.fresh = static_cast<int>(fresh.size());
         if (outcome_.fresh + outcome_.ended == 0) return;
-        db_.run("INSERT INTO allocations (assignment, seed, made_at, explanation) VALUES (?, ?, ?, ?)", assignment_.id,
-                std::int64_t{assignment_.seed}, now_, fmt::format("{}", fmt::join(allocation.remarks, "\n")));
+        db_.run("INSERT INTO allocations (assignment, made_at, explanation) VALUES (?, ?, ?)", assignment_.id, now_,
+                fmt::format("{}", fmt::join(allocation.remarks, "\n")));
         const std::int64_t id = db_.getLastInsertRowid();
         for (const auto& [reviewer, author] : fresh)
             db_.run("INSERT INTO pairs (allocation, assignment, reviewer, author) VALUES (?, ?, ?, ?)", id,

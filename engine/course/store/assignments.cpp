@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <random>
 #include <set>
 
 #include "course/store/exceptions.h"
@@ -122,13 +121,11 @@ bool add_assignment(Course& course, Assignment wanted) {
         transaction.commit();
         return true;
     }
-    if (wanted.seed == 0) wanted.seed = std::random_device{}() | 1u;
     db.run(
-        "INSERT INTO assignments (name, kind, lesson, first_due, review_due, final_due, grace, reviews, seed, made_at, "
-        "costs, final_weight) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+        "INSERT INTO assignments (name, kind, lesson, first_due, review_due, final_due, grace, reviews, made_at, "
+        "costs, final_weight) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
         wanted.name, wanted.kind, wanted.lesson, wanted.first_due, wanted.review_due, wanted.final_due, wanted.grace,
-        wanted.is_report() ? wanted.reviews : 0, std::int64_t{wanted.seed}, CourseClock::now(),
-        costs_text(wanted.costs), wanted.final_weight);
+        wanted.is_report() ? wanted.reviews : 0, CourseClock::now(), costs_text(wanted.costs), wanted.final_weight);
     wanted.id = db.getLastInsertRowid();
     write_criteria(db, wanted);
     course.note(fmt::format("assignment {} added", wanted.name));
@@ -187,15 +184,14 @@ void remove_assignment(Course& course, const Assignment& assignment, const std::
 std::vector<Assignment> assignments_of(Course& course) {
     std::vector<Assignment> all;
     for (Rows rows = course.database().query(
-             "SELECT id, name, kind, lesson, first_due, review_due, final_due, grace, reviews, seed, costs, "
+             "SELECT id, name, kind, lesson, first_due, review_due, final_due, grace, reviews, costs, "
              "final_weight FROM assignments ORDER BY first_due, name");
          rows.next();) {
         Assignment a;
         a.id = rows.integer(0), a.name = rows.text(1), a.kind = rows.text(2), a.lesson = rows.text(3);
         a.first_due = rows.integer(4), a.review_due = rows.optional_integer(5), a.final_due = rows.optional_integer(6);
         a.grace = rows.integer(7), a.reviews = static_cast<int>(rows.integer(8));
-        a.seed = static_cast<std::uint32_t>(rows.integer(9));
-        a.costs = costs_of(rows.text(10)), a.final_weight = rows.number(11);
+        a.costs = costs_of(rows.text(9)), a.final_weight = rows.number(10);
         for (Rows criteria =
                  course.database().query("SELECT name, most FROM criteria WHERE assignment = ? ORDER BY place", a.id);
              criteria.next();)

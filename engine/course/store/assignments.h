@@ -28,7 +28,6 @@ struct Assignment {
     std::optional<Instant> review_due, final_due;
     std::int64_t grace = 0;  ///< seconds after a deadline that count as in time
     int reviews = 2;         ///< that each group writes
-    std::uint32_t seed = 0;  ///< of allocation and pseudonyms
     std::vector<Criterion> criteria;
     Costs costs;
     double final_weight = 50;  ///< percent of the work's mark, where the final version is scored

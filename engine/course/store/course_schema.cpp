@@ -126,6 +126,11 @@ CREATE VIEW standing AS SELECT *,
     NOT e.withdrawn AND e.assignment = w.assignment AND e.group_id = w.group_id AND e.stage = w.stage AND
     ifnull(e.pair, 0) = ifnull(w.pair, 0) AND e.part = w.part) AS first_at
     FROM arrived w WHERE NOT w.withdrawn);
+)",
+    // Pairs and pseudonyms are stored as they were drawn; there is no seed that they follow from.
+    R"(
+ALTER TABLE assignments DROP COLUMN seed;
+ALTER TABLE allocations DROP COLUMN seed;
 )"};
 
 std::int64_t pragma(Database& database, const char* name) {
