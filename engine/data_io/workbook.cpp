@@ -241,7 +241,7 @@ SheetText sheet_of(const std::string& bytes, const std::string& wanted) {
 
 SheetText read_sheet(const std::filesystem::path& file, const std::string& sheet) {
     GuardLimits limits;
-    limits.timeout = std::chrono::seconds(20);
+    limits.time.processor = std::chrono::seconds(20);
     const std::string name = file.string();
     const auto read = [&file, &sheet, &name] {
         const std::string bytes = read_file(file);
@@ -256,7 +256,8 @@ SheetText read_sheet(const std::filesystem::path& file, const std::string& sheet
     };
     const ChildResult result = run_guarded(read, limits);
     if (result.timed_out)
-        throw EnvironmentError(fmt::format("{}: reading it takes more than {} s", name, limits.timeout.count() / 1000));
+        throw EnvironmentError(
+            fmt::format("{}: reading it takes more than {} s", name, limits.time.processor.count() / 1000));
     if (result.exit_code == 1 && !result.error_output.empty()) throw EnvironmentError(result.error_output);
     if (result.exit_code != 0 || result.output_exceeded)
         throw EnvironmentError(name + " is damaged: reading it ends in a crash");

@@ -108,7 +108,8 @@ ChildResult Box::run(const Words& command, const fs::path& folder, const std::st
                      const Limits& limits) const {
     ChildOptions child;
     child.input = input;
-    child.timeout = limits.timeout;
+    child.timeout = limits.time.clock();
+    child.processor_time = limits.time.processor;
     child.output_bytes = limits.output_bytes;
     child.file_bytes = limits.file_bytes;
     auto environment = environment_;

@@ -8,12 +8,13 @@
 #include <vector>
 
 #include "platform/child_process.h"
+#include "platform/time_limits.h"
 
 namespace dynlab::inline platform {
 
 /// How far untrusted work is kept apart. kFull: bubblewrap gives it its own file system with nothing but /usr, what is
 /// put into the box and an empty scratch folder, its own process numbers, no network. kProcess: a process of its own
-/// with a wall-clock limit, an almost empty environment and a temporary working folder. In both the program inside is
+/// with limits of time, an almost empty environment and a temporary working folder. In both the program inside is
 /// expected to confine itself (confine_process) before it touches what is not trusted.
 enum class Isolation { kFull, kProcess };
 
@@ -43,7 +44,7 @@ class Box {
     void add_document_home(const std::filesystem::path& data);
 
     struct Limits {
-        std::chrono::milliseconds timeout{10000};    ///< wall clock, then everything inside is killed
+        TimeLimits time;                             ///< of all processes in it; then they are killed
         std::uint64_t output_bytes = 32ull << 20;    ///< of standard output and error
         std::uint64_t scratch_bytes = 128ull << 20;  ///< of /tmp at level kFull
         std::optional<std::uint64_t> file_bytes;     ///< of the largest file written; SIGXFSZ ends who writes more

@@ -21,7 +21,7 @@ struct Launch {
     std::string program, folder;
     std::vector<std::string> arguments, environment;
     std::vector<char*> argument_pointers, environment_pointers;
-    std::optional<std::chrono::seconds> processor_time;
+    std::optional<std::chrono::milliseconds> processor_time;
     std::optional<std::uint64_t> memory_bytes, file_bytes;
     FileDescriptor input;
     FileDescriptor given_later;  ///< our end of an input that is given later
@@ -112,7 +112,8 @@ std::unique_ptr<ProcessGroup> start(const ChildOptions& options, const std::stri
     }
     auto group = std::make_unique<ProcessGroup>(
         child, std::move(output.read_end), std::move(error_output.read_end),
-        ProcessGroup::Limits{options.timeout, options.output_bytes, options.give_up, options.heeds_interrupt});
+        ProcessGroup::Limits{options.timeout, options.processor_time, options.output_bytes, options.give_up,
+                             options.heeds_interrupt});
     failure.write_end.close();
     int reason = 0;
     if (retry_interrupted([&] { return ::read(failure.read_end.get(), &reason, sizeof reason); }) > 0) {

@@ -19,8 +19,8 @@ struct ChildOptions {
     bool input_later = false;                                      ///< give_input() gives it, once it is known
     /// Wall clock, from the start or the input given later; the whole process group is killed after it.
     std::optional<std::chrono::milliseconds> timeout;
-    /// Of the program itself, without its own children; what is counted does not depend on the machine's load.
-    std::optional<std::chrono::seconds> processor_time;
+    /// Of the program and all that it starts together; what is counted does not depend on the machine's load.
+    std::optional<std::chrono::milliseconds> processor_time;
     std::optional<std::uint64_t> memory_bytes;  ///< address-space limit of the child
     std::optional<std::uint64_t> file_bytes;    ///< of the largest file the child may write; SIGXFSZ ends it
     std::uint64_t output_bytes = 64u << 20;     ///< more output than this ends the child
@@ -29,8 +29,9 @@ struct ChildOptions {
 };
 
 struct ChildResult {
-    int exit_code = -1;      ///< 128 + signal when ended by a signal
-    bool timed_out = false,  ///< by either clock
+    int exit_code = -1;                  ///< 128 + signal when ended by a signal
+    bool timed_out = false,              ///< by either limit of time
+        processor_time_used_up = false,  ///< by that of processor time
         output_exceeded = false, given_up = false;
     std::string output, error_output;
 };

@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "platform/error.h"
+#include "platform/process_group.h"
 #include "platform/system_call.h"
 #include "platform/utf8_locale.h"
 
@@ -91,7 +92,7 @@ void allow(scmp_filter_ctx filter, std::initializer_list<int> calls) {
 
 void limit_process(const ProcessLimits& limits) {
     limit(RLIMIT_CORE, 0);
-    limit(RLIMIT_CPU, static_cast<rlim_t>(limits.cpu_seconds));
+    limit_processor_time(std::chrono::seconds(limits.cpu_seconds));
     limit(RLIMIT_FSIZE, limits.file_bytes);
     limit(RLIMIT_NOFILE, static_cast<rlim_t>(limits.open_files));
 #ifndef __SANITIZE_ADDRESS__  // the address sanitizer reserves more addresses than any limit leaves

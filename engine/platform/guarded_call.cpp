@@ -33,9 +33,11 @@ bool keep_only(int output, int error_output) {
     return true;
 }
 
-[[noreturn]] void do_guarded_work(const std::function<std::string()>& work, std::uint64_t memory_bytes, bool one_task) {
+[[noreturn]] void do_guarded_work(const std::function<std::string()>& work, std::uint64_t memory_bytes,
+                                  const GuardLimits& limits) {
     limit_memory(memory_bytes);
-    guarded_copy = one_task;
+    limit_processor_time(limits.time.processor);
+    guarded_copy = limits.one_task;
     try {
         refuse_harmful_calls();
         const std::string result = work();
@@ -73,12 +75,12 @@ ChildResult run_guarded(const std::function<std::string()>& work, const GuardLim
         if (!become_group_leader(parent) || !keep_only(output.write_end.get(), error_output.write_end.get())) {
             ::_exit(127);
         }
-        do_guarded_work(work, memory_bytes, limits.one_task);
+        do_guarded_work(work, memory_bytes, limits);
     }
     output.write_end.close();
     error_output.write_end.close();
     return ProcessGroup(child, std::move(output.read_end), std::move(error_output.read_end),
-                        ProcessGroup::Limits{limits.timeout, limits.output_bytes})
+                        ProcessGroup::Limits{limits.time.clock(), limits.time.processor, limits.output_bytes})
         .wait();
 }
 

@@ -13,6 +13,7 @@
 
 #include "platform/error.h"
 #include "platform/interrupt.h"
+#include "platform/time_limits.h"
 
 namespace dynlab::inline platform {
 namespace {
@@ -21,7 +22,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kPipeBytes = 1 << 20;         // a megabyte of output never holds a child up
 constexpr int kLookForInterruptEvery = 50;  // milliseconds; Ctrl-C may reach another thread than the waiting one
-constexpr int kLookForExitEvery = 2;        // milliseconds, where the kernel has no pidfd_open
+constexpr auto kLookAtProcessorTimeEvery = std::chrono::milliseconds(kLookForInterruptEvery);
+constexpr int kLookForExitEvery = 2;  // milliseconds, where the kernel has no pidfd_open
 
 /// A descriptor that becomes readable when the process ends (Linux 5.3); empty where that is refused.
 FileDescriptor open_process(pid_t process) {
@@ -73,11 +75,12 @@ void limit_files(std::uint64_t bytes) {
     ::setrlimit(RLIMIT_FSIZE, &limit);
 }
 
-void limit_processor_time(std::chrono::seconds most) {
+void limit_processor_time(std::chrono::milliseconds most) {
     rlimit limit{};
     ::getrlimit(RLIMIT_CPU, &limit);
-    limit.rlim_cur = std::min<rlim_t>(static_cast<rlim_t>(most.count()), limit.rlim_max);
-    limit.rlim_max = std::min<rlim_t>(limit.rlim_cur + 1, limit.rlim_max);  // SIGKILL for who catches the signal
+    const auto seconds = static_cast<rlim_t>(std::chrono::ceil<std::chrono::seconds>(most).count());
+    limit.rlim_cur = std::min(seconds, limit.rlim_cur);
+    limit.rlim_max = std::min(limit.rlim_cur + 1, limit.rlim_max);  // SIGKILL for who catches the signal
     ::setrlimit(RLIMIT_CPU, &limit);
 }
 
@@ -87,6 +90,7 @@ ProcessGroup::ProcessGroup(pid_t leader, FileDescriptor output, FileDescriptor e
       error_output_(std::move(error_output)),
       leader_exit_(open_process(leader)),
       timeout_(limits.timeout),
+      processor_time_(limits.processor_time),
       output_bytes_(limits.output_bytes),
       give_up_(limits.give_up),
       heeds_interrupt_(limits.heeds_interrupt) {
@@ -124,10 +128,19 @@ void ProcessGroup::collect_until_exit() {
         if (heeds_interrupt_) throw_if_interrupted();
         collect(output_, result_.output);
         collect(error_output_, result_.error_output);
-        result_.timed_out = deadline_ && Clock::now() >= *deadline_ && !leader_exited();
+        result_.processor_time_used_up = processor_time_is_used_up() && !leader_exited();
+        result_.timed_out =
+            result_.processor_time_used_up || (deadline_ && Clock::now() >= *deadline_ && !leader_exited());
         result_.given_up = give_up_ && give_up_();
         if (result_.timed_out || result_.output_exceeded || result_.given_up) return;
     }
+}
+
+/// Looks now and then, as it reads several files.
+bool ProcessGroup::processor_time_is_used_up() {
+    if (!processor_time_ || Clock::now() < next_look_) return false;
+    next_look_ = Clock::now() + kLookAtProcessorTimeEvery;
+    return processor_time_of_tree(leader_) >= *processor_time_;
 }
 
 int ProcessGroup::milliseconds_to_poll() const {
@@ -167,7 +180,7 @@ void ProcessGroup::kill_and_reap() {
     int status = 0;
     retry_interrupted([&] { return ::waitpid(leader_, &status, 0); });
     result_.exit_code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
-    if (result_.exit_code == 128 + SIGXCPU) result_.timed_out = true;
+    if (result_.exit_code == 128 + SIGXCPU) result_.timed_out = result_.processor_time_used_up = true;
     leader_ = 0;
 }
 

@@ -23,15 +23,17 @@ bool become_group_leader(pid_t parent);
 /// fork(2) of a copy that dies with this process. 0 in the copy; below 0, with errno, where there is none.
 pid_t fork_bound_copy();
 
-void limit_memory(std::uint64_t bytes);                ///< address space of this process from now on
-void limit_processor_time(std::chrono::seconds most);  ///< of this process; SIGXCPU ends it, a lower limit stays
-void limit_files(std::uint64_t bytes);                 ///< the largest file it writes from now on; a lower limit stays
+void limit_memory(std::uint64_t bytes);  ///< address space of this process from now on
+/// Of this process and of each that it starts, rounded up to seconds; SIGXCPU ends it, and a lower limit stays.
+void limit_processor_time(std::chrono::milliseconds most);
+void limit_files(std::uint64_t bytes);  ///< the largest file it writes from now on; a lower limit stays
 
 /// The parent's side of a forked child that leads its own process group and writes into two pipes.
 class ProcessGroup {
   public:
     struct Limits {
-        std::optional<std::chrono::milliseconds> timeout;  ///< from construction, or the last start_clock
+        std::optional<std::chrono::milliseconds> timeout;         ///< from construction, or the last start_clock
+        std::optional<std::chrono::milliseconds> processor_time;  ///< of the leader and all its descendants together
         std::uint64_t output_bytes;
         std::function<bool()> give_up = {};
         bool heeds_interrupt = true;
@@ -49,14 +51,16 @@ class ProcessGroup {
 
   private:
     void collect_until_exit();
+    bool processor_time_is_used_up();
     void collect(FileDescriptor& stream, std::string& text);
     int milliseconds_to_poll() const;
     void kill_and_reap();
 
     pid_t leader_;
     FileDescriptor output_, error_output_, leader_exit_;
-    std::optional<std::chrono::milliseconds> timeout_;
+    std::optional<std::chrono::milliseconds> timeout_, processor_time_;
     std::optional<std::chrono::steady_clock::time_point> deadline_;
+    std::chrono::steady_clock::time_point next_look_{};  ///< at the processor time
     std::uint64_t output_bytes_;
     std::function<bool()> give_up_;
     bool heeds_interrupt_;

@@ -33,7 +33,7 @@ Seconds grading_seconds(const Workbench& bench, int jobs, bool pdf) {
     const std::chrono::duration<double> whole = std::chrono::steady_clock::now() - start;
     must_succeed(graded);
     const std::string logs = bench.shell("cat out/logs/*/log.txt").output;
-    const std::regex line(R"(([0-9.]+) s of the script)");
+    const std::regex line(R"(([0-9.]+) s of processor time)");
     Seconds seconds{whole.count(), 0};
     for (std::sregex_iterator i(logs.begin(), logs.end(), line), end; i != end; ++i)
         seconds.scripts += std::stod((*i)[1]);

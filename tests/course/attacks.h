@@ -66,22 +66,20 @@ inline const Attack kAttacks[] = {
 };
 /// These are ended by time, of which a second is as good as any.
 inline const Attack kEndlessAttacks[] = {
-    {"endless", "while true do end", 0, "longer than the time"},
-    {"endless_pcall", "local function f() while true do end end\nwhile true do pcall(f) end", 0,
-     "longer than the time"},
+    {"endless", "while true do end", 0, "of processor time"},
+    {"endless_pcall", "local function f() while true do end end\nwhile true do pcall(f) end", 0, "of processor time"},
     {"endless_coroutine", "while true do coroutine.wrap(function() while true do end end)() end", 0,
-     "longer than the time"},
+     "of processor time"},
     {"endless_coroutine_pcall",
-     "while true do coroutine.resume(coroutine.create(function() while true do end end)) end", 0,
-     "longer than the time"},
+     "while true do coroutine.resume(coroutine.create(function() while true do end end)) end", 0, "of processor time"},
     {"endless_xpcall", "local function h() while true do end end\nwhile true do xpcall(error, h) end", 0,
-     "longer than the time"},
+     "of processor time"},
     {"endless_close", "local x <close> = setmetatable({}, {__close = function() while true do end end})\nerror('out')",
      0, ""},
     {"endless_gc", "setmetatable({}, {__gc = function() while true do end end})\nanswer('x', 42)", 0, "__gc"},
     {"endless_tostring", "error(setmetatable({}, {__tostring = function() while true do end end}))", 0, ""},
     {"endless_index", "local t = setmetatable({}, {__index = function() while true do end end})\nanswer('x', t.y)", 0,
-     "longer than the time"},
+     "of processor time"},
     {"endless_sort",
      "local t = {}\nfor i = 1, 1e5 do t[i] = i end\nwhile true do table.sort(t, function() return math.random() < 0.5 "
      "end) end",
@@ -90,7 +88,7 @@ inline const Attack kEndlessAttacks[] = {
      0, ""},
     {"slow_gsub", "string.gsub(string.rep('a', 1e5), '.-.-.-.-b', '')\nanswer('x', 42)", 0, ""},
     {"absurd_order", "local d = iddata(randn(500), randn(500), 0.1)\nfor i = 1, 1e6 do pcall(arx, d, {400, 90, 1}) end",
-     0, "longer than the time"},
+     0, "of processor time"},
     {"long_native",
      "montecarlo{system = tf({2}, {1, 4, 3}), input = prbs(9, 100), Ts = 0.01, sigma = 1, runs = 1e7, seed = 1, "
      "estimators = {srivc = {{1, 2, 0}}}}",

@@ -57,7 +57,7 @@ void write_odd_submissions(const Workbench& work) {
 /// What ends an attack. Where the address sanitizer makes everything several times as slow, it may be time.
 ::testing::Matcher<std::string> tells(const char* words) {
 #ifdef __SANITIZE_ADDRESS__
-    return ::testing::AnyOf(HasSubstr(words), HasSubstr("it took more than"));
+    return ::testing::AnyOf(HasSubstr(words), HasSubstr("of processor time"));
 #else
     return HasSubstr(words);
 #endif
@@ -79,7 +79,8 @@ int grade_attacks(GradingBench& bench, std::span<const Attack> attacks, std::siz
     const auto start = std::chrono::steady_clock::now();
     const ChildResult graded = bench.grade({"--timeout", std::to_string(timeout)});
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-    EXPECT_LT(taken.count(), (timeout + 1.0) * static_cast<double>(attacks.size() + others));
+    EXPECT_LT(taken.count(),
+              TimeLimits().clock_multiple * (timeout + 1.0) * static_cast<double>(attacks.size() + others));
     EXPECT_EQ(outside_of(work), before) << graded.error_output;
     EXPECT_EQ(work.shell("find / -xdev -name 'pwned*' -newer secret.csv 2>/dev/null").output, "");
     for (const Attack& attack : attacks) {

@@ -33,6 +33,7 @@ ChecksJob sample_checks() {
     job.hidden_folder = "/box/hidden";
     job.time_ms = 10000;
     job.most_ms = 60000;
+    job.clock_multiple = 5;
     job.only = 1;
     const CheckedSubmission work{{{"main", sample_run()}},
                                  {{"pages", Severity::kHint, 7, "", "Too many pages.", "Cut."}},
@@ -58,7 +59,8 @@ TEST(boxed_jobs, come_back) {
                                "/box/words/engine_sentences.fr.txt",
                                7,
                                {{"gain", "number"}},
-                               59700,
+                               60000,
+                               5,
                                1ull << 30});
     expect_to_come_back(UnpackJob{"/box/archive", "/box/to", 200ull << 20, 2000, true});
     expect_to_come_back(Unpacked{{"\"../x\" leads outside of the archive"}, "the archive is damaged"});

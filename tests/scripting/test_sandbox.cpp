@@ -85,12 +85,12 @@ TEST(sandbox, limits_printed_text) {
               "lesson.lua:1: the script printed more text than a run may keep");
 }
 
-/// Seconds until `code` ends by itself or by the time limit of 0.2 s.
+/// Seconds until `code` ends by itself or by the limit of 0.2 s of processor time.
 double seconds_until_end(const std::string& code) {
     RunOptions options;
-    options.time_limit = std::chrono::milliseconds(200);
+    options.time = TimeLimits{std::chrono::milliseconds(200), 100};
     const auto start = std::chrono::steady_clock::now();
-    EXPECT_NE(error_of(code, options).find("the script ran longer than the time it is given"), std::string::npos)
+    EXPECT_NE(error_of(code, options).find("the script used more than 0.2 s of processor time"), std::string::npos)
         << code;
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -116,6 +116,13 @@ TEST(sandbox, stops_every_endless_loop_at_the_time_limit) {
              "local t = setmetatable({}, {__index = function(t, k) while true do end end})\nlocal x = t.a",
          })
         EXPECT_LT(seconds_until_end(code), kEnds) << code;
+}
+
+// oracle: a script in one thread cannot use more processor time than passes by the clock
+TEST(sandbox, stops_at_the_clock_what_uses_less_processor_time_than_it_may) {
+    RunOptions options;
+    options.time = TimeLimits{std::chrono::milliseconds(200), 1};
+    EXPECT_EQ(error_of("while true do end", options), "lesson.lua:1: the script had not ended after 0.2 s");
 }
 
 /// Runs `code` and presses Ctrl-C after 50 ms; gives the seconds from there to the end of the run.

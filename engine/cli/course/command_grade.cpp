@@ -47,7 +47,7 @@ int grade(const GradeArguments& words) {
     request.setup.lesson = find_lesson(words.lesson);
     request.setup.more_checks = given(words.checks);
     request.setup.isolation = words.isolation == "full" ? Isolation::kFull : Isolation::kProcess;
-    request.setup.timeout = std::chrono::seconds(words.timeout);
+    request.setup.time.processor = std::chrono::seconds(words.timeout);
     request.setup.program = running_program();
     if (!words.secret.empty()) {
         request.setup.secret = read_file(words.secret);
@@ -150,6 +150,8 @@ void add_grade(CLI::App& app, Action& action) {
         "OUT remembers the lesson, checks, secret, roster and deadlines it was made with and refuses others unless\n"
         "--again is given (a roster may be mended, but not left out); what the scripts did is kept, so that --again\n"
         "with other checks or deadlines takes seconds.\n"
+        "A script that uses more processor time than --timeout is ended, and one that takes five times as long by the\n"
+        "clock; answers that it gave before count.\n"
         "Deadlines: submission, deadline, and where wanted extra (\"2 d\" beyond the deadline of *), received, grace\n"
         "(\"15 min\"), percent_per_day, most_percent; what a row leaves empty is as in the row of *.\n"
         "What cannot be read (a PDF alone, a .rar, another lesson's script) is \"unreadable\": it has no marks until "

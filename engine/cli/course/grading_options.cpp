@@ -16,7 +16,10 @@ CLI::Option* add_secret_option(CLI::App& command, std::string& secret) {
 }
 
 CLI::Option* add_timeout_option(CLI::App& command, int& seconds) {
-    return command.add_option("--timeout", seconds, "Seconds for each run of a script")
+    return command
+        .add_option(
+            "--timeout", seconds,
+            "Processor time of each run of a script, in seconds; by the clock a run may take five times as long")
         ->type_name("S")
         ->capture_default_str()
         ->check(CLI::Range(1, 3600));
@@ -26,7 +29,7 @@ GradingSetup trial_setup(const Lesson& lesson, const std::string& secret, int ti
     GradingSetup setup;
     setup.lesson = lesson;
     setup.isolation = strongest_isolation();
-    setup.timeout = std::chrono::seconds(timeout_seconds);
+    setup.time.processor = std::chrono::seconds(timeout_seconds);
     setup.program = running_program();
     setup.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     if (!secret.empty()) setup.secret = read_file(secret);

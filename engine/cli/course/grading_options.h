@@ -6,7 +6,7 @@
 
 namespace dynlab::inline cli {
 
-/// --secret and --timeout (s) of commands that run a lesson's checks.
+/// --secret and --timeout (s of processor time) of commands that run a lesson's checks.
 CLI::Option* add_secret_option(CLI::App& command, std::string& secret);
 CLI::Option* add_timeout_option(CLI::App& command, int& seconds);
 

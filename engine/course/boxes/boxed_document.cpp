@@ -77,7 +77,7 @@ void BoxedDocuments::make(const std::string& template_name, const RunRecord& rec
         job.latex_format = box.add(latex_format(language != metadata.end() && language->second == "fr"), "/box/format");
     }
     job.to = box.add_writable(made.path(), "/box/made") / output.filename();
-    const auto result = run_boxed(box, program_, job, kTimeOfDocument);
+    const auto result = run_boxed(box, program_, job, {kTimeOfDocument});
     if (!result.output) throw EnvironmentError(output.filename().string() + " cannot be made: " + result.reason);
     place_all(made.path(), output.parent_path());
 }

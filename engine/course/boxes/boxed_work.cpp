@@ -5,6 +5,11 @@
 #include "platform/program_lookup.h"
 
 namespace dynlab::inline course {
+namespace {
+
+constexpr auto kStartTime = std::chrono::milliseconds(500);
+
+}  // namespace
 
 ValueLimits boxed_limits(std::uint64_t bytes) {
     constexpr std::size_t kMemoryOfAByte = 40;  // an empty text in a list
@@ -16,8 +21,9 @@ ValueLimits boxed_limits(std::uint64_t bytes) {
     return limits;
 }
 
-std::string reason_of_end(const ChildResult& child, std::chrono::milliseconds timeout) {
-    if (child.timed_out) return fmt::format("it took more than {} s", static_cast<double>(timeout.count()) / 1000);
+std::string reason_of_end(const ChildResult& child, const TimeLimits& time) {
+    if (child.timed_out)
+        return "it " + time.told(child.processor_time_used_up ? TimeLimit::kProcessor : TimeLimit::kClock);
     if (child.output_exceeded) return "it gave out too much";
     if (child.exit_code > 128) return fmt::format("it crashed (signal {})", child.exit_code - 128);
     if (child.exit_code == 0) return "";
@@ -30,18 +36,17 @@ std::filesystem::path program_for(const std::string& work, const std::filesystem
 }
 
 BoxedResult<std::string> run_boxed_bytes(Box& box, const std::filesystem::path& program, const std::string& work,
-                                         const std::string& job, std::chrono::milliseconds timeout,
-                                         std::uint64_t output_bytes) {
+                                         const std::string& job, const TimeLimits& time, std::uint64_t output_bytes) {
     const std::filesystem::path inside = box.add_program(program_for(work, program));
     Box::Limits limits;
-    limits.timeout = timeout;
+    limits.time = time;
+    limits.time.processor += kStartTime;
     limits.output_bytes = output_bytes;
     const auto start = std::chrono::steady_clock::now();
     const ChildResult child = box.run({inside.string(), "boxed", work}, {}, job, limits);
     BoxedResult<std::string> result;
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    result.timed_out = child.timed_out;
-    result.reason = reason_of_end(child, timeout);
+    result.reason = reason_of_end(child, time);
     if (result.reason.empty()) result.output = child.output;
     return result;
 }

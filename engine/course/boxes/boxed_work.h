@@ -1,5 +1,4 @@
 #pragma once
-#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -15,14 +14,13 @@ namespace dynlab::inline course {
 template <class Result>
 struct BoxedResult {
     std::optional<Result> output;  ///< what the work returned; nothing when it did not finish
-    std::string reason;            ///< then: "it took more than 10 s", "it crashed (signal 11)", ...
-    bool timed_out = false;
-    double seconds = 0;  ///< wall clock, box and start included
+    std::string reason;            ///< then: "it used more than 10 s of processor time", "it crashed (signal 11)", ...
+    double seconds = 0;            ///< wall clock, box and start included
 };
 
-/// Why a process that should have done its work in `timeout` has not: "it took more than 10 s", ...; empty where it
-/// has.
-std::string reason_of_end(const ChildResult& child, std::chrono::milliseconds timeout);
+/// Why a process that should have done its work within `time` has not: "it used more than 10 s of processor time", ...;
+/// empty where it has.
+std::string reason_of_end(const ChildResult& child, const TimeLimits& time);
 
 /// The program beside `dynlab` that does such work: dynlab-boxed, which starts most quickly, or dynlab-course, which
 /// makes versions.
@@ -30,21 +28,19 @@ std::filesystem::path program_for(const std::string& work, const std::filesystem
 
 /// The bytes of it, as the box wrote them.
 BoxedResult<std::string> run_boxed_bytes(Box& box, const std::filesystem::path& program, const std::string& work,
-                                         const std::string& job, std::chrono::milliseconds timeout,
-                                         std::uint64_t output_bytes);
+                                         const std::string& job, const TimeLimits& time, std::uint64_t output_bytes);
 
 /// Of what is read inside a box and of what comes out of it: texts are made UTF-8.
 ValueLimits boxed_limits(std::uint64_t bytes = Box::Limits{}.output_bytes);
 
-/// Runs one piece of work, `boxed WORK`, in the box, by the program for it beside `program` (dynlab). Its output may
-/// have `output_bytes`.
+/// Runs one piece of work, `boxed WORK`, in the box, by the program for it beside `program` (dynlab). Starting it there
+/// comes on top of `time`; its output may have `output_bytes`.
 template <class Job>
 BoxedResult<typename Job::Result> run_boxed(Box& box, const std::filesystem::path& program, const Job& job,
-                                            std::chrono::milliseconds timeout,
+                                            const TimeLimits& time,
                                             std::uint64_t output_bytes = Box::Limits{}.output_bytes) {
-    const BoxedResult<std::string> child =
-        run_boxed_bytes(box, program, Job::kWork, cbor_of(job), timeout, output_bytes);
-    BoxedResult<typename Job::Result> result{{}, child.reason, child.timed_out, child.seconds};
+    const BoxedResult<std::string> child = run_boxed_bytes(box, program, Job::kWork, cbor_of(job), time, output_bytes);
+    BoxedResult<typename Job::Result> result{{}, child.reason, child.seconds};
     if (!child.output) return result;
     try {
         result.output = from_cbor<typename Job::Result>(*child.output, boxed_limits(output_bytes));

@@ -9,6 +9,7 @@
 #include "figures/gnuplot_renderer.h"
 #include "platform/cache.h"
 #include "platform/confinement.h"
+#include "platform/time_limits.h"
 #include "scripting/interpreter/runtime.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/runtime/services.h"
@@ -34,7 +35,7 @@ RunOptions options_of(const RunJob& job, const PercentScript& script) {
     options.out_folder = std::filesystem::temp_directory_path();
     options.memory_limit_bytes = job.memory_bytes;
     options.output_limit_bytes = kMostOutput;
-    options.time_limit = std::chrono::milliseconds(job.time_ms);
+    options.time = TimeLimits{std::chrono::milliseconds(job.time_ms), job.clock_multiple};
     options.graded = true;
     return options;
 }
@@ -63,7 +64,7 @@ GradedRun graded_run(RunRecord&& record, const PercentScript& script) {
 
 GradedRun run_for_grading(const RunJob& job) {
     ProcessLimits limits;
-    limits.cpu_seconds = static_cast<int>(job.time_ms / 500) + 2;  // threads add up
+    limits.cpu_seconds = static_cast<int>(job.time_ms / 1000) + 2;  // the script's own limit comes first
     limits.memory_bytes = job.memory_bytes + (2ull << 30);
     limits.open_files = kOpenFiles;
     confine_process(limits);
@@ -78,11 +79,11 @@ GradedRun run_for_grading(const RunJob& job) {
         if (job.recalls) options.call_cache = &calls.emplace(cache.emplace());
         Runtime runtime(options, renderer);
         runtime.services().language = &language;
-        const auto start = std::chrono::steady_clock::now();
+        const auto start = processor_time();
         GradedRun run = graded_run(runtime.run(script), script);
         if (run.error) run.error = told_outside(*run.error, job.script.parent_path());
         run.lesson = script.header.lesson;
-        run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        run.seconds = std::chrono::duration<double>(processor_time() - start).count();
         return run;
     } catch (const DocumentError& error) {
         GradedRun unread;

@@ -17,7 +17,7 @@ struct GradedRun {
     std::vector<std::string> figures, values;  ///< their names
     std::string printed;                       ///< the end of what it printed
     std::optional<std::string> error;          ///< the message
-    double seconds = 0;                        ///< that the script took
+    double seconds = 0;                        ///< of processor time that the script used
     std::string lesson = {};                   ///< as the script's header names it
     bool began = true;                         ///< false for a script that cannot be read
 };
@@ -31,7 +31,8 @@ struct RunJob {
     std::filesystem::path french_sentences;  ///< what models print in a French script: file_of_french_engine_sentences
     std::uint32_t seed = 1;
     std::vector<ExpectedAnswer> answers;  ///< as the lesson declares them
-    std::int64_t time_ms = 0;             ///< most milliseconds
+    std::int64_t time_ms = 0;             ///< most milliseconds of processor time
+    int clock_multiple = 0;               ///< the clock's limit, see TimeLimits
     std::uint64_t memory_bytes = 0;       ///< most bytes of the script
     bool recalls = false;                 ///< long calls, from the cache of its environment: never of a submission
 };

@@ -16,6 +16,6 @@ DYNLAB_DESCRIBE(SubmissionToJudge, work, home, specimens)
 DYNLAB_DESCRIBE(JudgedSubmission, checks, reason, seconds)
 DYNLAB_DESCRIBE(CheckResults, checks, judged, rigs, records, error)
 DYNLAB_DESCRIBE(WantedRecord, rig, specimen, seed)
-DYNLAB_DESCRIBE(ChecksJob, files, hidden_folder, time_ms, most_ms, only, submissions, records)
+DYNLAB_DESCRIBE(ChecksJob, files, hidden_folder, time_ms, most_ms, clock_multiple, only, submissions, records)
 
 }  // namespace dynlab::inline course

@@ -14,6 +14,7 @@
 #include "figures/gnuplot_renderer.h"
 #include "platform/confinement.h"
 #include "platform/guarded_call.h"
+#include "platform/time_limits.h"
 #include "scripting/interpreter/runtime.h"
 
 namespace dynlab::inline course {
@@ -36,11 +37,11 @@ std::vector<TriedCheck> verdicts(Runtime& runtime, CheckSession& session, std::o
             all.push_back({session.checks[k], {}, {}, {}});
             continue;
         }
-        const auto start = std::chrono::steady_clock::now();
+        const auto start = processor_time();
         const RunRecord record = runtime.run_code("_verdict(" + std::to_string(k) + ")", session.checks[k].id);
         TriedCheck& one = all.emplace_back();
         one.check = session.checks[k];
-        one.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        one.seconds = std::chrono::duration<double>(processor_time() - start).count();
         if (session.verdict && !record.error) {
             one.share = session.verdict->share;
             one.message = shortened_message(session.verdict->message);
@@ -56,7 +57,7 @@ constexpr std::uint64_t kMostVerdicts = 4u << 20;  // bytes of what the checks s
 
 RunOptions options_of_checks(const ChecksJob& job) {
     RunOptions options;
-    options.time_limit = std::chrono::milliseconds(job.time_ms);
+    options.time = TimeLimits{std::chrono::milliseconds(job.time_ms), job.clock_multiple};
     return options;
 }
 
@@ -119,7 +120,7 @@ class ReadChecks {
 /// In a copy of this process.
 JudgedSubmission judged_in_a_copy(const ChecksJob& job, const SubmissionToJudge& submission) {
     GuardLimits limits;
-    limits.timeout = std::chrono::milliseconds(job.most_ms);
+    limits.time = {std::chrono::milliseconds(job.most_ms), job.clock_multiple};
     limits.memory_bytes = ProcessLimits().memory_bytes;
     limits.output_bytes = kMostVerdicts;
     limits.one_task = false;  // checks read files of several kinds
@@ -137,7 +138,7 @@ JudgedSubmission judged_in_a_copy(const ChecksJob& job, const SubmissionToJudge&
         },
         limits);
     JudgedSubmission judged;
-    judged.reason = reason_of_end(copy, limits.timeout);
+    judged.reason = reason_of_end(copy, limits.time);
     try {
         if (judged.reason.empty()) judged = from_cbor<JudgedSubmission>(copy.output, boxed_limits(kMostVerdicts));
     } catch (const ValueError&) {

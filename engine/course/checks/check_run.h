@@ -36,7 +36,7 @@ struct TriedCheck {
     CheckDescription check;
     std::optional<double> share;          ///< of the points; nothing for a check that could not be tried
     std::string message, for_instructor;  ///< see Verdict
-    double seconds = 0;                   ///< that it took
+    double seconds = 0;                   ///< of processor time that it took
 };
 
 /// A submission that the checks are tried on, with the records of its group.
@@ -49,7 +49,8 @@ struct SubmissionToJudge {
 /// What the checks say of one submission.
 struct JudgedSubmission {
     std::vector<TriedCheck> checks;
-    std::string reason;  ///< why there are none: "it took more than 60 s", "it crashed (signal 11)", ...
+    std::string
+        reason;  ///< why there are none: "it used more than 60 s of processor time", "it crashed (signal 11)", ...
     double seconds = 0;  ///< wall clock
 };
 
@@ -74,8 +75,9 @@ struct ChecksJob {
 
     std::vector<CheckFile> files;
     std::filesystem::path hidden_folder;         ///< holds NAME.mat or NAME.csv
-    std::int64_t time_ms = 0;                    ///< most milliseconds for each check
+    std::int64_t time_ms = 0;                    ///< most milliseconds of processor time for each check
     std::int64_t most_ms = 0;                    ///< for each submission
+    int clock_multiple = 0;                      ///< the clock's limits, see TimeLimits
     std::optional<std::size_t> only;             ///< the number of the one that is wanted; nothing for all
     std::vector<SubmissionToJudge> submissions;  ///< none to list the checks only
     std::vector<WantedRecord> records;

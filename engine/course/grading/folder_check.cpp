@@ -8,6 +8,7 @@
 #include <optional>
 #include <thread>
 
+#include "course/boxes/boxed_work.h"
 #include "course/grading/feedback.h"
 #include "course/grading/grading_rules.h"
 #include "course/hand_ins/folder_copy.h"
@@ -144,7 +145,7 @@ class FolderCheck {
         const fs::path inside = box.add(copy(), kInBox), made = box.add_writable(out(), "/box/made");
         const fs::path program = box.add_program(program_);
         Box::Limits most;
-        most.timeout = limits_.time;
+        most.time = limits_.time;
         most.output_bytes = kMostCheckOutput;
         most.file_bytes = kLargestMade;
         return box.run({program.string(), "report", inside.string(), "-o", (made / "report.pdf").string(), "--record",
@@ -187,7 +188,7 @@ class FolderCheck {
         if (made.exit_code == 0) return true;
         if (made.exit_code == kMissingProgramCode) throw MissingProgram(in_folder(made.error_output));
         if (made.timed_out)
-            add_failure(fmt::format("it takes more than {} s.", limits_.time.count()));
+            add_failure(reason_of_end(made, limits_.time) + ".");
         else if (made.output_exceeded)
             add_failure("it prints more than 16 MB.");
         else if (made.exit_code == 128 + SIGXFSZ)
@@ -291,7 +292,7 @@ class FolderCheck {
         GradingSetup setup;
         setup.lesson = *lesson;
         setup.isolation = isolation_;
-        setup.timeout = limits_.time;
+        setup.time = limits_.time;
         setup.program = program_;
         setup.jobs = static_cast<int>(std::thread::hardware_concurrency());
         const GradingRules::GroupSeed own = group_seed_of(copy() / "data");

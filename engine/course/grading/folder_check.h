@@ -4,21 +4,22 @@
 #include <filesystem>
 
 #include "course/findings/document_findings.h"
+#include "platform/time_limits.h"
 
 namespace dynlab::inline course {
 
 /// What a student's folder may cost.
 struct FolderLimits {
-    std::chrono::seconds time{120};             ///< for the analysis and its report
-    std::uint64_t folder_bytes = 500ull << 20;  ///< of all files together
+    TimeLimits time{std::chrono::seconds(120)};  ///< for the analysis and its report
+    std::uint64_t folder_bytes = 500ull << 20;   ///< of all files together
     int files = 5000;
     PdfLimits pdf;
 };
 
 /// Checks a folder made by `dynlab new`: copies it, without links that lead elsewhere, runs its analysis and makes its
-/// report there with `program` (dynlab), in a box as grading does (the strongest isolation of this machine), with a
-/// time limit, without caches and without any file but the folder's and the installed data; then checks that report.
-/// Nothing is written into the folder. Findings besides those of check_pdf: analysis-missing, folder-too-large,
+/// report there with `program` (dynlab), in a box as grading does (the strongest isolation of this machine), with
+/// limits of time, without caches and without any file but the folder's and the installed data; then checks that
+/// report. Nothing is written into the folder. Findings besides those of check_pdf: analysis-missing, folder-too-large,
 /// file-outside (the analysis loads what is not in the folder), analysis-fails, answer-open, answer-missing (rules),
 /// not-shown (reported without a place in the text), members-missing (group.toml names nobody), pdf-outdated,
 /// pdf-differs, link-left-out, and check-failed, by the lesson's own checks (hints), which are tried on

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <exception>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <mutex>
 #include <set>
@@ -49,6 +50,7 @@ class ClassGrader {
         if (!request.timezone.empty()) const CourseClock clock(request.timezone);
         if (request.deadlines) deadlines_ = Deadlines(*request.deadlines);
         outcome_.complaints = rules_.try_solution(request.out / "runs/.worked_solution.cbor", request.regrade);
+        if (const auto note = rules_.note_on_time()) outcome_.notes.push_back(*note);
         owners_.emplace(request);
         if (owners_->roster() != nullptr && owners_->roster()->converted())
             outcome_.complaints.push_back(
@@ -70,7 +72,7 @@ class ClassGrader {
         if (failure_) std::rethrow_exception(failure_);
         if (shared_) {
             shared_->conclude();
-            outcome_.notes = shared_->notes();
+            std::ranges::copy(shared_->notes(), std::back_inserter(outcome_.notes));
         }
         take_the_others();
         tell_strays();

@@ -196,8 +196,9 @@ std::optional<KeptRuns> read_kept_runs(const fs::path& file, const std::string& 
     return {};
 }
 
-void write_kept_runs(const fs::path& file, KeptRuns runs) {
-    for (auto& [name, run] : runs.work.runs) run.seconds = 0;  // equal classes give equal files
+void write_kept_runs(const fs::path& file, KeptRuns runs, KeptTimes times) {
+    if (times == KeptTimes::kNo)
+        for (auto& [name, run] : runs.work.runs) run.seconds = 0;
     fs::create_directories(file.parent_path());
     write_file_atomically(file, cbor_of(runs));
 }

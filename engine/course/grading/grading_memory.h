@@ -37,6 +37,8 @@ struct KeptRuns {
 };
 
 std::optional<KeptRuns> read_kept_runs(const std::filesystem::path& file, const std::string& fingerprint);
-void write_kept_runs(const std::filesystem::path& file, KeptRuns runs);
+/// Without the runs' times equal classes give equal files.
+enum class KeptTimes { kNo, kYes };
+void write_kept_runs(const std::filesystem::path& file, KeptRuns runs, KeptTimes times = KeptTimes::kNo);
 
 }  // namespace dynlab::inline course

@@ -134,4 +134,13 @@ fs::path GradingRules::data_of(const GroupSeed& group_seed) const {
     return data;
 }
 
+std::map<std::string, Specimens> GradingRules::specimens_of(const GroupSeed& group_seed) const {
+    std::map<std::string, Specimens> all = specimens_;
+    if (!group_seed) return all;
+    const std::lock_guard lock(*making_);
+    for (const std::string& name : simulated())
+        for (const char* run : {kMainRun, kOtherSeedRun}) all[run][name] = *group_seed;
+    return all;
+}
+
 }  // namespace dynlab::inline course

@@ -29,9 +29,8 @@ constexpr char kDocumentFails[] = "document-fails";               // a finding
 constexpr auto kCheckTime = std::chrono::milliseconds(10000);     // of one check
 constexpr auto kSingleTime = std::chrono::milliseconds(60000);    // of all, where each needs a box of its own
 constexpr auto kDocumentTime = std::chrono::milliseconds(15000);  // beyond the script's own
+constexpr double kMuchOfTheTime = 0.5;                            // that a worked solution uses
 constexpr std::size_t kLongestTrouble = 2000;
-constexpr auto kMargin = std::chrono::milliseconds(300);  // the script's own limit comes first: its answers are kept
-constexpr auto kStartTime = std::chrono::milliseconds(500);
 constexpr std::uint64_t kScriptMemory = 1ull << 30;
 constexpr std::uintmax_t kMostSource = 1u << 20;    // bytes of a script that checks may read
 constexpr std::uint64_t kMostAnswers = 4ull << 20;  // bytes of a run's result
@@ -163,18 +162,20 @@ GradedRun GradingRules::run(const std::string& name, const fs::path& folder, con
     job.seed = name == kOtherSeedRun ? drawn("seed") : seed_;
     job.answers = answers_;
     job.memory_bytes = kScriptMemory;
-    job.time_ms = (setup_.timeout - kMargin).count();
+    job.time_ms = setup_.time.processor.count();
+    job.clock_multiple = setup_.time.clock_multiple;
     job.recalls = setup_.call_memory.has_value();
     if (job.recalls)
         box.set_environment("XDG_CACHE_HOME",
                             box.add_writable(*setup_.call_memory, "/box/caches/dynlab").parent_path());
-    const auto result = run_boxed(box, setup_.program, job, setup_.timeout + kStartTime, kMostAnswers);
-    const std::chrono::duration<double> most = setup_.timeout;
-    const std::string reason = result.timed_out ? fmt::format("it took more than {} s", most.count()) : result.reason;
+    const auto result = run_boxed(box, setup_.program, job, setup_.time, kMostAnswers);
     GradedRun run = result.output.value_or(GradedRun());
-    if (!result.output) run.error = fmt::format("The script was ended: {}.", reason);
-    log += fmt::format("run {}: {:.3f} s of the script, {:.3f} s in its box\n{}", name, run.seconds, result.seconds,
-                       run.error ? "  " + shortened_trouble(*run.error) + "\n" : "");
+    if (!result.output) run.error = fmt::format("The script was ended: {}.", result.reason);
+    const auto solution = solution_seconds_.find(name);
+    log += fmt::format(
+        "run {}: {:.3f} s of processor time{}, {:.3f} s by the clock in its box\n{}", name, run.seconds,
+        solution == solution_seconds_.end() ? "" : fmt::format(" (the worked solution: {:.3f} s)", solution->second),
+        result.seconds, run.error ? "  " + shortened_trouble(*run.error) + "\n" : "");
     return run;
 }
 
@@ -204,15 +205,16 @@ Findings GradingRules::findings(const fs::path& folder, const GroupSeed& group_s
     const bool file = standard_.ends_with(".md");
     const std::string standard = file ? box.add(standard_, "/box/standard/report.md").string() : standard_;
     Box::Limits limits;
-    limits.timeout = setup_.timeout + kDocumentTime;
+    limits.time = setup_.time;
+    limits.time.processor += kDocumentTime;
     const ChildResult child =
         box.run({program.string(), "check", "--json", "--document-only", "--template", standard, inside.string()}, {},
                 "", limits);
     try {
         return findings_from_json(child.output).findings;
     } catch (const EnvironmentError&) {
-        const char* const what = child.timed_out ? "The report takes too long." : "The report cannot be made.";
-        return {{kDocumentFails, Severity::kRule, 0, "", what, ""}};
+        const std::string why = child.timed_out ? ": " + reason_of_end(child, limits.time) : "";
+        return {{kDocumentFails, Severity::kRule, 0, "", "The report cannot be made" + why + ".", ""}};
     }
 }
 
@@ -223,17 +225,9 @@ BoxedResult<CheckResults> GradingRules::listed(std::vector<WantedRecord> records
     ChecksJob job;
     job.files = files_;
     job.time_ms = kCheckTime.count();
+    job.clock_multiple = setup_.time.clock_multiple;
     job.records = std::move(records);
-    return run_boxed(box, setup_.program, job, kSingleTime);
-}
-
-std::map<std::string, Specimens> GradingRules::specimens_of(const GroupSeed& group_seed) const {
-    std::map<std::string, Specimens> all = specimens_;
-    if (!group_seed) return all;
-    const std::lock_guard lock(*making_);
-    for (const std::string& name : simulated())
-        for (const char* run : {kMainRun, kOtherSeedRun}) all[run][name] = *group_seed;
-    return all;
+    return run_boxed(box, setup_.program, job, {kSingleTime, setup_.time.clock_multiple});
 }
 
 /// Each may take `most`.
@@ -246,6 +240,7 @@ BoxedResult<CheckResults> GradingRules::checked(const std::vector<Work>& works, 
     job.hidden_folder = box.add(records_.path() / kHiddenRecords, "/box/hidden");
     job.time_ms = kCheckTime.count();
     job.most_ms = most.count();
+    job.clock_multiple = setup_.time.clock_multiple;
     job.only = only;
     std::map<GroupSeed, fs::path> homes;
     for (const Work& work : works) {
@@ -256,7 +251,7 @@ BoxedResult<CheckResults> GradingRules::checked(const std::vector<Work>& works, 
         job.submissions.push_back({work.submission, home->second, specimens_of(work.group_seed)});
     }
     box.set_environment("DYNLAB_HOME", job.submissions.front().home.string());
-    return run_boxed(box, setup_.program, job, most * static_cast<int>(works.size()) + kStartTime);
+    return run_boxed(box, setup_.program, job, {most * static_cast<int>(works.size()), setup_.time.clock_multiple});
 }
 
 std::vector<std::vector<TriedCheck>> GradingRules::tried(const std::vector<CheckedSubmission>& submissions) const {
@@ -407,8 +402,9 @@ std::vector<std::string> GradingRules::try_solution(const fs::path& memory, bool
     std::optional<KeptRuns> kept = anew || memory.empty() ? std::nullopt : read_kept_runs(memory, fingerprint);
     if (!kept) {
         kept = KeptRuns{fingerprint, work_in(work.path(), {}, log), "", ""};
-        if (!memory.empty() && went_well(kept->work)) write_kept_runs(memory, *kept);
+        if (!memory.empty() && went_well(kept->work)) write_kept_runs(memory, *kept, KeptTimes::kYes);
     }
+    for (const auto& [name, run] : kept->work.runs) solution_seconds_[name] = run.seconds;
     std::vector<std::string> complaints;
     const std::map<std::string, GradedRun> runs = kept->work.runs;
     const Grade solution = judged({{"solution", std::move(kept->work), {}, log}}).front();
@@ -426,6 +422,17 @@ std::vector<std::string> GradingRules::try_solution(const fs::path& memory, bool
     return complaints;
 }
 
+std::optional<std::string> GradingRules::note_on_time() const {
+    const double most = std::chrono::duration<double>(setup_.time.processor).count();
+    double longest = 0;
+    for (const auto& [name, seconds] : solution_seconds_) longest = std::max(longest, seconds);
+    if (longest <= kMuchOfTheTime * most) return {};
+    return fmt::format(
+        "a run of the worked solution uses {:.1f} s of processor time, and submissions may use {:g} s ({:.1f} times as "
+        "much); give more with --timeout, or students with slower scripts lose marks",
+        longest, most, most / longest);
+}
+
 std::string GradingRules::fingerprint(const std::string& content_hash, const GroupSeed& group_seed) const {
     return hash_of_parts(
         {run_fingerprint(content_hash, group_seed), json_of(files_), fmt::format("{}", fmt::join(broken_, " "))});
@@ -433,8 +440,9 @@ std::string GradingRules::fingerprint(const std::string& content_hash, const Gro
 
 std::string GradingRules::run_fingerprint(const std::string& content_hash, const GroupSeed& group_seed) const {
     return hash_of_parts({content_hash, program_identity(), setup_.lesson.slug, sha256_of_file(setup_.lesson.script()),
-                          setup_.secret, std::to_string(setup_.timeout.count()), isolation_name(setup_.isolation),
-                          fmt::format("{}", fmt::join(reruns_, " ")), document_ ? standard_ : "", own_records_,
+                          setup_.secret, std::to_string(setup_.time.processor.count()),
+                          isolation_name(setup_.isolation), fmt::format("{}", fmt::join(reruns_, " ")),
+                          document_ ? standard_ : "", own_records_,
                           declared_rigs_.empty() ? "" : json_of(files_),  // which make records
                           group_seed ? std::to_string(*group_seed) : ""});
 }

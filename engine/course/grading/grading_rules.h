@@ -1,5 +1,4 @@
 #pragma once
-#include <chrono>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -14,6 +13,7 @@
 #include "course/grading/grade.h"
 #include "platform/box.h"
 #include "platform/temporary_folder.h"
+#include "platform/time_limits.h"
 #include "workflow/lesson_catalogue.h"
 
 namespace dynlab::inline course {
@@ -27,9 +27,9 @@ struct GradingSetup {
     std::optional<std::filesystem::path> more_checks;
     std::string secret;  ///< of the course: what the hidden records are drawn from
     Isolation isolation = Isolation::kFull;
-    std::chrono::milliseconds timeout{60000};  ///< of each run of a student's script
-    std::filesystem::path program;             ///< dynlab
-    int jobs = 1;                              ///< boxes that may run at once
+    TimeLimits time{std::chrono::seconds(60)};  ///< of each run of a student's script
+    std::filesystem::path program;              ///< dynlab
+    int jobs = 1;                               ///< boxes that may run at once
     /// Cache::root() of a lasting cache, from which runs recall long calls and in which they keep them: for scripts of
     /// the course itself. What is graded computes everything.
     std::optional<std::filesystem::path> call_memory;
@@ -84,6 +84,12 @@ class GradingRules {
     const GradingSetup& setup() const { return setup_; }
     const std::vector<CheckDescription>& checks() const { return checks_; }
 
+    /// Seconds of processor time of the worked solution's runs, by name; none where it was not tried.
+    const std::map<std::string, double>& solution_seconds() const { return solution_seconds_; }
+    void compare_with_solution(std::map<std::string, double> seconds) { solution_seconds_ = std::move(seconds); }
+    /// A sentence where the worked solution leaves little time to slower ones.
+    std::optional<std::string> note_on_time() const;
+
   private:
     void read_checks();
     void make_records();
@@ -126,6 +132,7 @@ class GradingRules {
     mutable std::optional<std::vector<std::string>> simulated_;  ///< once they were asked for
     std::map<std::string, Specimens> specimens_;                 ///< of hidden records and reruns (CheckSession)
     std::set<std::string> reruns_, broken_;
+    std::map<std::string, double> solution_seconds_;
     std::vector<std::string> declared_rigs_;
     std::string own_records_;  ///< hashes of all data sets that scripts find, and of the instructor's records
     bool document_ = false;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <utility>
 
 #include "course/checks/check_descriptions.h"
@@ -25,8 +26,10 @@ struct SharedRules {
     bool own_checks = false;
     std::vector<SentFile> checks;  ///< the instructor's folder
     std::string secret, isolation;
-    std::int64_t timeout_ms = 0;
+    std::int64_t time_ms = 0;  ///< of processor time
+    int clock_multiple = 0;
     std::vector<std::string> broken;
+    std::map<std::string, double> solution_seconds;
 };
 
 struct SubmissionBatch {
@@ -44,8 +47,8 @@ struct GradedBatch {
 };
 
 DYNLAB_DESCRIBE(SentFile, path, bytes)
-DYNLAB_DESCRIBE(SharedRules, lesson, lesson_folder, lesson_digest, own_checks, checks, secret, isolation, timeout_ms,
-                broken)
+DYNLAB_DESCRIBE(SharedRules, lesson, lesson_folder, lesson_digest, own_checks, checks, secret, isolation, time_ms,
+                clock_multiple, broken, solution_seconds)
 DYNLAB_DESCRIBE(SentSubmission, name, files, seed, of_notebook, linked_data)
 DYNLAB_DESCRIBE(SubmissionBatch, submissions)
 DYNLAB_DESCRIBE(GradedSubmission, work, grade, log)
@@ -58,7 +61,7 @@ namespace fs = std::filesystem;
 constexpr char kGradeKind[] = "grade", kDataFolder[] = "data";
 constexpr std::uint64_t kMostBytesOfABatch = 32 << 20;
 constexpr auto kMostOfABatch = std::chrono::seconds(2);
-constexpr auto kMarginOfASubmission = std::chrono::seconds(180);  // its box, its checks one by one, its document
+constexpr auto kMarginOfASubmission = std::chrono::seconds(900);  // its checks, also one by one, and its document
 
 enum class Links { kFollowed, kLeft };
 
@@ -98,8 +101,10 @@ SharedRules shared_rules(const GradingRules& rules) {
     if (setup.more_checks) shared.checks = files_to_send(*setup.more_checks, Links::kFollowed);
     shared.secret = setup.secret;
     shared.isolation = isolation_name(setup.isolation);
-    shared.timeout_ms = setup.timeout.count();
+    shared.time_ms = setup.time.processor.count();
+    shared.clock_multiple = setup.time.clock_multiple;
     shared.broken = {rules.broken_checks().begin(), rules.broken_checks().end()};
+    shared.solution_seconds = rules.solution_seconds();
     return shared;
 }
 
@@ -124,10 +129,11 @@ class RulesOfClass {
         }
         setup.secret = shared.secret;
         setup.isolation = shared.isolation == isolation_name(Isolation::kFull) ? Isolation::kFull : Isolation::kProcess;
-        setup.timeout = std::chrono::milliseconds(shared.timeout_ms);
+        setup.time = {std::chrono::milliseconds(shared.time_ms), shared.clock_multiple};
         setup.program = running_program();
         rules_ = std::make_unique<GradingRules>(std::move(setup));
         rules_->leave_ungraded({shared.broken.begin(), shared.broken.end()});
+        rules_->compare_with_solution(shared.solution_seconds);
     }
 
     /// As many of them, from the first on, as take about kMostOfABatch: little is lost with a worker then.
@@ -173,7 +179,7 @@ SharedGrading::SharedGrading(const GradingRequest& request, const GradingRules& 
     Spool spool = Spool::begin(folder, key_beside(out), identity);
     WorkerCommand command;
     command.words = worker_words(spool.folder());
-    command.longest_job = std::chrono::duration_cast<std::chrono::seconds>(request.setup.timeout) *
+    command.longest_job = std::chrono::duration_cast<std::chrono::seconds>(request.setup.time.clock()) *
                               static_cast<int>(rules.runs_of_a_submission()) +
                           kMarginOfASubmission;
     auto engine = engine_of(request.on, spool, command);

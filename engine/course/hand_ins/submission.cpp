@@ -253,7 +253,7 @@ std::vector<std::string> unpack_submission(const fs::path& archive, const fs::pa
     job.bytes = limits.bytes;
     job.files = limits.files;
     job.keep_times = limits.keep_times;
-    const auto result = run_boxed(box, program, job, std::chrono::seconds(60));
+    const auto result = run_boxed(box, program, job, {std::chrono::seconds(60)});
     if (!result.output) throw SubmissionError("The archive cannot be unpacked: " + result.reason + ".");
     if (result.output->error)
         throw SubmissionError(fmt::format("The file cannot be unpacked: {}.", *result.output->error));

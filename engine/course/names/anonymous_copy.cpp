@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <csignal>
 
+#include "course/boxes/boxed_work.h"
 #include "course/boxes/told_reason.h"
 #include "course/hand_ins/staging.h"
 #include "course/names/name_findings.h"
@@ -112,7 +113,7 @@ class CopyingAnonymously {
         const fs::path out = box.add_writable(report().parent_path(), "/box/made");
         const fs::path program = box.add_program(setup_.program);
         Box::Limits limits;
-        limits.timeout = setup_.report_time;
+        limits.time = setup_.report_time;
         limits.file_bytes = kLargestFile;
         const ChildResult child =
             box.run({program.string(), "report", inside.string(), "-o", (out / "report.pdf").string()}, {}, "", limits);
@@ -124,7 +125,7 @@ class CopyingAnonymously {
     }
 
     std::string reason_of(const ChildResult& child, const fs::path& folder) const {
-        if (child.timed_out) return fmt::format("it takes more than {} s", setup_.report_time.count());
+        if (child.timed_out) return reason_of_end(child, setup_.report_time);
         if (child.exit_code == 128 + SIGXFSZ)
             return fmt::format("it writes a file of more than {} MB", kLargestFile >> 20);
         return terminal_text(told_outside(child.error_output.substr(0, child.error_output.find('\n')), folder));

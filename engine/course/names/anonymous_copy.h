@@ -1,5 +1,4 @@
 #pragma once
-#include <chrono>
 #include <filesystem>
 #include <string>
 
@@ -14,8 +13,8 @@ namespace dynlab::inline course {
 struct AnonymousCopySetup {
     SoughtNames names;  ///< of everybody in the course: a hit stops the copy
     Isolation isolation = strongest_isolation();
-    std::filesystem::path program;          ///< dynlab, which makes reports again
-    std::chrono::seconds report_time{120};  ///< of a report made again
+    std::filesystem::path program;                      ///< dynlab, which makes reports again
+    TimeLimits report_time{std::chrono::seconds(120)};  ///< of a report made again
     PdfObjectLimits objects;
     bool rebuild = true;  ///< from the source, where there is one
 };

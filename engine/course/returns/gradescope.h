@@ -11,7 +11,7 @@ struct AutograderRequest {
     Lesson lesson;
     std::optional<std::filesystem::path> more_checks;  ///< the instructor's own
     std::string secret;                                ///< of the course
-    int timeout_seconds = 60;                          ///< of each run of a script
+    int timeout_seconds = 60;                          ///< of processor time, of each run of a script
     std::filesystem::path program;                     ///< dynlab
 };
 

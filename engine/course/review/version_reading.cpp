@@ -150,7 +150,7 @@ std::string make_version_in_box(const fs::path& folder, const fs::path& made, bo
     job.folder = box.add_writable(folder, "/box/submission");
     job.to = box.add_writable(made, "/box/made");
     job.pdf = pdf;
-    const auto result = run_boxed(box, program, job, kReadingTime);
+    const auto result = run_boxed(box, program, job, {kReadingTime});
     std::string reason = result.reason;
     if (result.output && result.output->error) reason = told_outside(first_line(*result.output->error), job.folder);
     while (reason.ends_with('.')) reason.pop_back();

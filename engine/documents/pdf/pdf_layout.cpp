@@ -153,7 +153,7 @@ bool is_placed(const PdfWord& word) {
 PdfLayout read_pdf_layout(const fs::path& file, const PdfLimits& limits) {
     check_outside(file, limits);
     const auto work = [&] { return cbor_of(read_all(file, limits)); };
-    const std::string answer = run_guarded_on_pdf(work, {limits.time, limits.memory_bytes, limits.memory_bytes});
+    const std::string answer = run_guarded_on_pdf(work, {{limits.time}, limits.memory_bytes, limits.memory_bytes});
     ValueLimits bounds;
     bounds.memory = limits.memory_bytes;
     try {

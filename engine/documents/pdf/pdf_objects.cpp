@@ -74,7 +74,7 @@ std::string work_on_pdf_objects(const std::filesystem::path& file, const PdfObje
         }
         throw PdfRefusal(PdfFault::kDamaged, "The file is damaged: what is inside it cannot be read.");
     };
-    return run_guarded_on_pdf(guarded, {limits.time, limits.memory_bytes, limits.bytes_inside});
+    return run_guarded_on_pdf(guarded, {{limits.time}, limits.memory_bytes, limits.bytes_inside});
 }
 
 StreamContent stream_content(QPDFObjectHandle stream, std::uint64_t most) {

@@ -207,9 +207,7 @@ bool Call::holds_vector(int index) const {
 }
 
 std::function<bool()> Call::cancel() const {
-    return [deadline = context().deadline] {
-        return interrupted() || (deadline && std::chrono::steady_clock::now() > *deadline);
-    };
+    return [budget = context().budget] { return interrupted() || (budget && budget->reached() != TimeLimit::kNone); };
 }
 
 void Call::print(const std::string& text) const {
@@ -418,7 +416,10 @@ int run_guarded(lua_State* L, Binding body) {
     } catch (const std::exception& error) {
         message = in_lua_words(error.what());
     }
-    if (message.empty()) raise_stop(L, StopReason::kInterrupted);
+    if (message.empty()) {
+        poll_stop(L);  // of a limit, where it was one
+        raise_stop(L, StopReason::kInterrupted);
+    }
     const char* name = static_cast<const char*>(lua_touserdata(L, lua_upvalueindex(1)));
     message = of_called_method(L, name, std::move(message));
     raise_error(L, name == nullptr || name[0] == '_' ? message : with_name(name, message));

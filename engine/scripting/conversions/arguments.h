@@ -45,7 +45,7 @@ class Call {
     MatrixMap matrix(int index, const char* what) const;
     bool holds_vector(int index) const;  ///< vector userdata or plain table of numbers
 
-    std::function<bool()> cancel() const;       ///< for long work of the core: true after Ctrl-C or the time limit
+    std::function<bool()> cancel() const;       ///< for long work of the core: true after Ctrl-C or a limit of time
     void print(const std::string& text) const;  ///< into the record, and live
     /// Whole lines; between two blocks of several comes an empty one.
     void print_lines(const std::string& text) const;

@@ -210,7 +210,7 @@ void Runtime::prepare(const PercentScript& script) {
     context.refusal_line = 0;
     context.calls.clear();
     context.main_chunk_known = false;
-    if (context.options.time_limit) context.deadline = std::chrono::steady_clock::now() + *context.options.time_limit;
+    if (context.options.time) context.budget = std::make_shared<TimeBudget>(*context.options.time);
 }
 
 void Runtime::begin_recording(const PercentScript& script) {

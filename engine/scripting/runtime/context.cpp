@@ -30,10 +30,12 @@ std::string innermost_line(lua_State* L) {
     return {};
 }
 
-const char* stop_sentence(StopReason reason) {
+std::string stop_sentence(const RuntimeContext& context, StopReason reason) {
     switch (reason) {
-        case StopReason::kTimeLimit:
-            return "the script ran longer than the time it is given";
+        case StopReason::kProcessorTime:
+            return "the script " + context.options.time->told(TimeLimit::kProcessor);
+        case StopReason::kClockTime:
+            return "the script " + context.options.time->told(TimeLimit::kClock);
         case StopReason::kOutputLimit:
             return "the script printed more text than a run may keep";
         default:
@@ -65,7 +67,14 @@ void poll_stop(lua_State* L) {
     RuntimeContext& context = context_of(L);
     pass_stop_on(L);
     if (interrupted()) raise_stop(L, StopReason::kInterrupted);
-    if (context.deadline && std::chrono::steady_clock::now() > *context.deadline) raise_stop(L, StopReason::kTimeLimit);
+    switch (context.budget ? context.budget->reached() : TimeLimit::kNone) {
+        case TimeLimit::kProcessor:
+            raise_stop(L, StopReason::kProcessorTime);
+        case TimeLimit::kClock:
+            raise_stop(L, StopReason::kClockTime);
+        case TimeLimit::kNone:
+            break;
+    }
 }
 
 void pass_stop_on(lua_State* L) {
@@ -78,7 +87,7 @@ void raise_stop(lua_State* L, StopReason reason) {
     context.stop = reason;
     lua_sethook(L, lua_gethook(L), LUA_MASKCOUNT, 1);  // so that a loop around pcall ends at its next step
     lua_sethook(context.main, lua_gethook(L), LUA_MASKCOUNT, 1);
-    raise_error(L, stop_sentence(reason));
+    raise_error(L, stop_sentence(context, reason));
 }
 
 void raise_error(lua_State* L, const std::string& message) {

@@ -2,6 +2,7 @@
 #include <chrono>
 #include <lua.hpp>
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,7 +18,7 @@
 
 namespace dynlab::inline scripting {
 
-enum class StopReason { kNone, kInterrupted, kTimeLimit, kOutputLimit };
+enum class StopReason { kNone, kInterrupted, kProcessorTime, kClockTime, kOutputLimit };
 
 /// What the bindings of one Lua state share.
 struct RuntimeContext {
@@ -45,10 +46,10 @@ struct RuntimeContext {
     lua_Debug main_chunk{};  ///< activation record of the running main chunk
     bool main_chunk_known = false;
     bool running = false;
-    bool told_sampling_time = false;      ///< that iddata took 1 s
-    bool told_time_unit = false;          ///< that models say s where data count in another unit
-    StopReason stop = StopReason::kNone;  ///< once set, every protected call passes the stop on
-    std::optional<std::chrono::steady_clock::time_point> deadline;
+    bool told_sampling_time = false;         ///< that iddata took 1 s
+    bool told_time_unit = false;             ///< that models say s where data count in another unit
+    StopReason stop = StopReason::kNone;     ///< once set, every protected call passes the stop on
+    std::shared_ptr<TimeBudget> budget;      ///< of the script, where it has limits
     std::string* printed_by_call = nullptr;  ///< also gets what is printed, while a call is watched
     int refusal_line = 0;                    ///< of the main chunk when memory was last refused
     std::vector<RecordedCall> calls;         ///< that led to the error which stopped the script
@@ -60,7 +61,7 @@ RuntimeContext& context_of(lua_State* L);
 int main_chunk_line(RuntimeContext& context);
 /// "file:line" of the innermost script line, empty when no script is running.
 std::string script_location(lua_State* L);
-/// Raises the stop when Ctrl-C was pressed or the time limit is over; cheap enough for every protected call.
+/// Raises the stop when Ctrl-C was pressed or a limit of time is reached; cheap enough for every protected call.
 void poll_stop(lua_State* L);
 /// Passes a stop on that is under way, whatever the script tried to catch.
 void pass_stop_on(lua_State* L);

@@ -1,10 +1,11 @@
 #pragma once
-#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
+
+#include "platform/time_limits.h"
 
 namespace dynlab::inline figures {
 class GnuplotRenderer;
@@ -23,7 +24,7 @@ struct RunOptions {
     CallCache* call_cache = nullptr;  ///< of results of calls that take long; all are computed anew without
     std::size_t memory_limit_bytes = std::size_t{2} << 30;
     std::size_t output_limit_bytes = std::size_t{16} << 20;  ///< of printed text
-    std::optional<std::chrono::milliseconds> time_limit = {};
+    std::optional<TimeLimits> time = {};
     bool stay_in_folder = false;  ///< load() refuses paths that lead out of the script's folder, as where `graded`
     bool graded = false;  ///< the course's data win over files of the same name, and saved figures are not drawn
 };

@@ -16,8 +16,8 @@ void seal_library(lua_State* L);
 /// Registry key of the table of functions, for adding to it after it was sealed.
 void push_library(lua_State* L);
 
-/// pcall, xpcall, coroutine.resume, wrap and close that let a stop (Ctrl-C, time limit) through and translate messages.
-/// Expects the table of functions on top.
+/// pcall, xpcall, coroutine.resume, wrap and close that let a stop (Ctrl-C, limit of time) through and translate
+/// messages. Expects the table of functions on top.
 void add_protected_calls(lua_State* L);
 
 /// Sets field `name` of the table on top to a C function.

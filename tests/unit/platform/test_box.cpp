@@ -82,7 +82,7 @@ TEST_F(full_box, sees_no_other_processes_and_no_network) {
 
 TEST_F(full_box, ends_with_all_it_started) {
     Box::Limits limits;
-    limits.timeout = std::chrono::milliseconds(500);
+    limits.time = {std::chrono::milliseconds(500), 1};
     const auto start = std::chrono::steady_clock::now();
     EXPECT_TRUE(shell(box_, "setsid sleep 1234 & sleep 1234", limits).timed_out);
     EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
@@ -94,6 +94,16 @@ TEST_F(full_box, ends_with_all_it_started) {
     for (int i = 0; i < 100 && !left.empty(); ++i, std::this_thread::sleep_for(std::chrono::milliseconds(20)))
         left = run_child(look, "procps").output;
     EXPECT_EQ(left, "");
+}
+
+// oracle: the kernel counts three processes in one box, none of which uses the whole time
+TEST_F(full_box, counts_the_processor_time_of_all_its_processes) {
+    Box::Limits limits;
+    limits.time = {std::chrono::milliseconds(900), 100};
+    const std::string spin = "(i=0; while [ $i -lt 100000000 ]; do i=$((i+1)); done)";
+    EXPECT_TRUE(shell(box_, spin + " & " + spin + " & " + spin + " & wait", limits).processor_time_used_up);
+    limits.time = {std::chrono::milliseconds(500), 5};
+    EXPECT_EQ(shell(box_, "sleep 1; echo whole", limits).output, "whole\n");
 }
 
 TEST(process_box, keeps_the_places_and_empties_the_environment) {

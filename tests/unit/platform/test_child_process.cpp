@@ -120,13 +120,42 @@ TEST(child_process, processor_time_is_counted_and_not_the_time_that_passes) {
     options.processor_time = 1s;
     const ChildResult busy = run_child(options, "dash");
     EXPECT_TRUE(busy.timed_out);
-    EXPECT_EQ(busy.exit_code, 128 + SIGXCPU);
+    EXPECT_TRUE(busy.processor_time_used_up);
 
     options = shell("sleep 1.5; echo whole");
     options.processor_time = 1s;
     const ChildResult idle = run_child(options, "dash");
     EXPECT_FALSE(idle.timed_out);
     EXPECT_EQ(idle.output, "whole\n");
+}
+
+// Each alone would stay below the limit; the clock's is far away.
+TEST(child_process, processor_time_of_children_that_run_together_is_counted_together) {
+    const std::string spin = "while [ $i -lt 100000000 ]; do i=$((i+1)); done";
+    ChildOptions options = shell("i=0; (" + spin + ") & (" + spin + ") & (" + spin + ") & wait");
+    options.processor_time = 900ms;
+    options.timeout = 120s;
+    const ChildResult result = run_child(options, "dash");
+    EXPECT_TRUE(result.processor_time_used_up);
+    EXPECT_EQ(result.exit_code, 128 + SIGKILL) << "no single process reached it";
+}
+
+TEST(child_process, processor_time_of_children_that_have_ended_is_counted) {
+    ChildOptions options = shell("while :; do (i=0; while [ $i -lt 20000 ]; do i=$((i+1)); done); done");
+    options.processor_time = 500ms;
+    options.timeout = 120s;
+    const ChildResult result = run_child(options, "dash");
+    EXPECT_TRUE(result.timed_out);
+    EXPECT_TRUE(result.processor_time_used_up);
+}
+
+TEST(child_process, the_clock_ends_what_only_waits) {
+    ChildOptions options = shell("sleep 60");
+    options.processor_time = 60s;
+    options.timeout = 200ms;
+    const ChildResult result = run_child(options, "dash");
+    EXPECT_TRUE(result.timed_out);
+    EXPECT_FALSE(result.processor_time_used_up);
 }
 
 TEST(child_process, is_given_up_when_asked) {
