@@ -121,8 +121,23 @@ bool begins_like_a_formula(std::string_view cell) {
     return std::any_of(kSigns.begin(), kSigns.end(), begins);
 }
 
-void append_cell(std::string& text, std::string cell) {
-    if (begins_like_a_formula(cell) && !read_number<double>(cell)) cell.insert(0, "'");
+/// Where a spreadsheet may begin a cell: what separates cells in another country ends them even between quotation
+/// marks, as these hold only where they begin a cell.
+std::string without_formulas(const std::string& cell) {
+    constexpr std::string_view kEnds = ";\t\r\n";
+    std::string text;
+    for (std::size_t from = 0; from <= cell.size();) {
+        const std::size_t end = std::min(cell.find_first_of(kEnds, from), cell.size());
+        const std::string part = cell.substr(from, end - from), rest = from == 0 ? cell : part;
+        if (begins_like_a_formula(rest) && !read_number<double>(trimmed_cell(rest))) text += "'";
+        text += cell.substr(from, end + 1 - from);
+        from = end + 1;
+    }
+    return text;
+}
+
+void append_cell(std::string& text, const std::string& given) {
+    const std::string cell = without_formulas(given);
     if (cell.find_first_of(",;\"\r\n\t") == std::string::npos) {
         text += cell;
         return;

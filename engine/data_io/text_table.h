@@ -26,8 +26,9 @@ TextTable read_text_table(const std::filesystem::path& file);
 /// The number in a whole cell, with a point or a comma before its decimals; nothing for anything else.
 std::optional<double> number_in_cell(const std::string& cell);
 
-/// RFC 4180 text with commas and CR LF. A cell that a spreadsheet would take for a formula (= + - @, tab or CR first)
-/// gets an apostrophe in front, plain numbers excepted.
+/// RFC 4180 text with commas and CR LF. What a spreadsheet would take for a formula (= + - @, tab or CR first, also
+/// behind a semicolon, tab or line end within a cell, where other countries' settings begin a new one) gets an
+/// apostrophe in front, plain numbers excepted.
 std::string csv_text(const TextTable& table);
 
 }  // namespace dynlab::inline data_io

@@ -205,6 +205,24 @@ TEST_F(kernel, what_is_not_signed_or_no_message_is_not_answered) {
     EXPECT_THAT(client().complaints(), HasSubstr("not signed with this kernel's key is not answered"));
 }
 
+// oracle: the cell counts how often it runs; whoever can read what is sent may send it again
+TEST_F(kernel, a_message_that_comes_again_is_not_answered) {
+    MessageWire& ours = client().wire();
+    client().run("times = 0");
+    const auto frames = ours.write(ours.made("execute_request", {{"code", "times = times + 1"}}, {}));
+    for (int i = 0; i < 3; ++i) client().send(frames);
+    EXPECT_EQ(client().run("print(times)").printed, "1\n");
+    EXPECT_THAT(client().complaints(), HasSubstr("a message that has come before is not answered"));
+}
+
+// oracle: the kernel's memory; nobody needs the key to send
+TEST_F(kernel, a_frame_of_many_megabytes_is_not_taken) {
+    const double before = megabytes_of(client().process());
+    client().send({"<IDS|MSG>", std::string(200 << 20, 'x'), "{}", "{}", "{}", "{}"});
+    EXPECT_EQ(client().run("print(3)").printed, "3\n");
+    EXPECT_LT(megabytes_of(client().process()), before + 100);
+}
+
 TEST_F(kernel, a_cell_that_ends_its_process_is_told_and_the_next_runs) {
     client().run("kept = 1");
     const std::string id = client().start(kEndless);

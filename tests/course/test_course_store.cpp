@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -125,6 +126,10 @@ TEST(course_store, refuses_bad_input_and_stays_untouched) {
              "2026-03-15 12:00"},
             "only deadlines may move, to later ones");
     refused({"roster", "drop", "group-77"}, "there is no group");
+    for (const char* group : {"../../up", "a/b", "..", "in\ntwo", ".hidden", "\u202Eback"}) {
+        bench.bench().write("odd.csv", fmt::format("id,name,group\ns77,Zoe,\"{}\"\n", group));
+        refused({"roster", "import", "odd.csv"}, "cannot name a folder");
+    }
 }
 
 // oracle: the columns that are there

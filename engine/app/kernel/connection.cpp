@@ -26,6 +26,11 @@ KernelConnection read_connection(const std::filesystem::path& file) {
               std::pair{"stdin_port", &KernelConnection::stdin_}, std::pair{"iopub_port", &KernelConnection::iopub},
               std::pair{"hb_port", &KernelConnection::heartbeat}})
             connection.*port = told.at(name).get<int>();
+        if (connection.key.empty())
+            throw EnvironmentError(
+                fmt::format("{} has no key, so that everybody on this machine could run cells; let Jupyter write the "
+                            "file, which makes one (do not set Session.key to nothing)",
+                            file.string()));
         const std::string scheme = told.value("signature_scheme", "hmac-sha256");
         if (scheme != "hmac-sha256")
             throw EnvironmentError(

@@ -12,7 +12,8 @@ struct KernelConnection {
     std::string address(int port) const;  ///< "tcp://127.0.0.1:5555"
 };
 
-/// Throws EnvironmentError for a file that is no such description, or asks for another signature than HMAC-SHA256.
+/// Throws EnvironmentError for a file that is no such description, has no key, or asks for another signature than
+/// HMAC-SHA256.
 KernelConnection read_connection(const std::filesystem::path& file);
 
 }  // namespace dynlab::inline app

@@ -27,8 +27,9 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kLinger = 1000;             // milliseconds for what is still to be sent at the end
-constexpr int kMillisecondsOfPoll = 200;  // until the main thread sees that it is to end
+constexpr int kLinger = 1000;                  // milliseconds for what is still to be sent at the end
+constexpr std::int64_t kMostBytes = 16 << 20;  // of a frame; who sends more is cut off before anything is signed
+constexpr int kMillisecondsOfPoll = 200;       // until the main thread sees that it is to end
 constexpr const char* kProgressName = "dynlab-progress";
 
 std::size_t byte_of_character(std::string_view text, std::size_t characters) {
@@ -80,6 +81,7 @@ class Kernel {
               std::pair{&heartbeat_, connection.heartbeat}}) {
             socket->set(zmq::sockopt::linger, kLinger);
             socket->set(zmq::sockopt::sndhwm, 0);
+            socket->set(zmq::sockopt::maxmsgsize, kMostBytes);
             try {
                 socket->bind(connection.address(port));
             } catch (const zmq::error_t& error) {

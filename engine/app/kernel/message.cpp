@@ -15,7 +15,8 @@ using nlohmann::json;
 
 constexpr const char* kProtocolVersion = "5.3";
 constexpr const char* kDelimiter = "<IDS|MSG>";
-constexpr std::size_t kPartsBehind = 5;  // signature, header, parent, metadata, content
+constexpr std::size_t kMostRemembered = 1 << 16;  // signatures, as Jupyter's own clients keep them
+constexpr std::size_t kPartsBehind = 5;           // signature, header, parent, metadata, content
 
 json object_of(const std::string& frame, const char* what) {
     json object = json::parse(frame, nullptr, false);
@@ -37,14 +38,14 @@ std::string time_now() {
 
 MessageWire::MessageWire(std::string key) : key_(std::move(key)), session_(secure_hex(16)) {}
 
-KernelMessage MessageWire::read(const std::vector<std::string>& frames) const {
+KernelMessage MessageWire::read(const std::vector<std::string>& frames) {
     const auto delimiter = std::find(frames.begin(), frames.end(), kDelimiter);
     if (frames.end() - delimiter < static_cast<std::ptrdiff_t>(kPartsBehind + 1))
         throw BadMessage("a message with too few parts");
     const std::string *const signature = &delimiter[1], *const parts = &delimiter[2];
-    if (!key_.empty() &&
-        !equal_in_constant_time(*signature, hmac_sha256(key_, {parts[0], parts[1], parts[2], parts[3]})))
+    if (!equal_in_constant_time(*signature, hmac_sha256(key_, {parts[0], parts[1], parts[2], parts[3]})))
         throw BadMessage("a message that is not signed with this kernel's key");
+    refuse_repetition(*signature);
     KernelMessage message;
     message.identities.assign(frames.begin(), delimiter);
     message.header = object_of(parts[0], "header");
@@ -55,12 +56,22 @@ KernelMessage MessageWire::read(const std::vector<std::string>& frames) const {
     return message;
 }
 
+/// A header has a name of its own, so that no two messages have the same signature.
+void MessageWire::refuse_repetition(const std::string& signature) {
+    const std::lock_guard lock(reading_);
+    if (!read_.insert(signature).second) throw BadMessage("a message that has come before");
+    order_.push_back(signature);
+    if (order_.size() <= kMostRemembered) return;
+    read_.erase(order_.front());
+    order_.pop_front();
+}
+
 std::vector<std::string> MessageWire::write(const KernelMessage& message) const {
     const std::string header = dumped(message.header), parent = dumped(message.parent), metadata = "{}",
                       content = dumped(message.content);
     std::vector<std::string> frames = message.identities;
     frames.emplace_back(kDelimiter);
-    frames.push_back(key_.empty() ? "" : hmac_sha256(key_, {header, parent, metadata, content}));
+    frames.push_back(hmac_sha256(key_, {header, parent, metadata, content}));
     for (const std::string& part : {header, parent, metadata, content}) frames.push_back(part);
     return frames;
 }

@@ -1,6 +1,9 @@
 #pragma once
+#include <deque>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include "platform/error.h"
@@ -16,24 +19,29 @@ struct KernelMessage {
     std::string type() const { return header.value("msg_type", ""); }
 };
 
-/// Frames that are no message, or not signed with our key.
+/// Frames that are no message, not signed with our key, or a message that has come before.
 class BadMessage : public EnvironmentError {
   public:
     using EnvironmentError::EnvironmentError;
 };
 
-/// Takes messages apart and puts them together; with an empty key nothing is signed.
+/// Takes messages apart and puts them together.
 class MessageWire {
   public:
     explicit MessageWire(std::string key);
-    KernelMessage read(const std::vector<std::string>& frames) const;  ///< throws BadMessage
+    KernelMessage read(const std::vector<std::string>& frames);  ///< throws BadMessage; threads may share it
     std::vector<std::string> write(const KernelMessage& message) const;
 
     /// A message of our own that follows from `parent`.
     KernelMessage made(const std::string& type, nlohmann::json content, const KernelMessage& parent);
 
   private:
+    void refuse_repetition(const std::string& signature);
+
     std::string key_, session_;
+    std::mutex reading_;
+    std::unordered_set<std::string> read_;  ///< signatures
+    std::deque<std::string> order_;         ///< of these
     std::size_t count_ = 0;
 };
 

@@ -49,8 +49,9 @@ auto with_plain_errors(const SQLite::Database& database, const Work& work) {
     try {
         return work();
     } catch (const SQLite::Exception& error) {
+        const int reason = sqlite3_system_errno(database.getHandle());
         const bool full =
-            (error.getErrorCode() & 0xFF) == SQLITE_IOERR && sqlite3_system_errno(database.getHandle()) == ENOSPC;
+            (error.getErrorCode() & 0xFF) == SQLITE_IOERR && (reason == ENOSPC || reason == EDQUOT);  // or a quota
         fail(database.getFilename(), full ? SQLITE_FULL : error.getErrorCode(), error.what());
     }
 }

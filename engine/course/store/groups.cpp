@@ -10,6 +10,7 @@
 #include "numerics/error.h"
 #include "platform/error.h"
 #include "platform/spelling.h"
+#include "platform/terminal/terminal_text.h"
 
 namespace dynlab::inline course {
 namespace {
@@ -25,6 +26,20 @@ std::set<std::string> names_in(const std::string& cell) {
         at = end + 1;
     }
     return names;
+}
+
+/// Names of groups become names of folders and files: of receipts, and of what is returned.
+void refuse_odd_group(const std::string& name) {
+    constexpr std::size_t kMostBytes = 100;
+    if (name.size() > kMostBytes)
+        throw EnvironmentError(fmt::format("the group's name \"{}...\" is too long: at most {} bytes, but it has {}",
+                                           terminal_text(name.substr(0, 40)), kMostBytes, name.size()));
+    if (!name.starts_with('.') && name.find_first_of("/\\\n\r\t") == name.npos && terminal_text(name) == name) return;
+    throw EnvironmentError(fmt::format(
+        "the group's name \"{}\" cannot name a folder: it must not begin with a full stop, nor hold /, \\ or "
+        "characters "
+        "that cannot be seen. Correct the roster, where the id names the group of who has none; nothing was changed",
+        terminal_text(name)));
 }
 
 class Import {
@@ -76,6 +91,7 @@ class Import {
     std::int64_t group(const std::string& name) {
         Rows rows = db_.query("SELECT id FROM groups WHERE name = ?", name);
         if (rows.next()) return rows.integer(0);
+        refuse_odd_group(name);
         ++change_.new_groups;
         db_.run("INSERT INTO groups (name, joined_at) VALUES (?, ?)", name, now_);
         return db_.getLastInsertRowid();
