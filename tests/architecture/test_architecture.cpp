@@ -142,10 +142,25 @@ TEST(architecture, files_that_guides_and_comments_name_are_there) {
         for (const std::string& name : matches(text_of(file), pattern))
             if (!ends.contains(name)) missing.push_back(place_of(file) + " names " + name);
     };
-    for (const char* guide : {"README.md", "engine/README.md", ".github/CONTRIBUTING.md"})
+    for (const char* guide : {"README.md", "engine/README.md", ".github/CONTRIBUTING.md", ".github/SECURITY.md"})
         look(kRoot / guide, "`([a-z_0-9./]+[.](?:h|cpp|js|cmake))`");
     for (const fs::path& file : sources_below(kRoot / "engine"))
         look(file, "//[^\n]*?[ (`]([a-z_0-9]+(?:/[a-z_0-9]+)*[.](?:h|cpp))\\b");
+    EXPECT_THAT(missing, IsEmpty());
+}
+
+// Oracle: the sources of the tests. The last cell of a row of four names suites.
+TEST(architecture, suites_that_the_threat_model_names_are_there) {
+    std::set<std::string> suites;
+    for (const fs::path& file : sources_below(kRoot / "tests"))
+        for (const std::string& suite : matches(text_of(file), "\nTEST(?:_F|_P)?\\((\\w+),")) suites.insert(suite);
+    std::vector<std::string> missing;
+    int named = 0;
+    for (const std::string& cell :
+         matches(text_of(kRoot / ".github/SECURITY.md"), "\n[|][^|\n]+[|][^|\n]+[|][^|\n]+[|]([^|\n]+)[|]"))
+        for (const std::string& suite : matches(cell, "`(\\w+)`"))
+            if (++named; !suites.contains(suite)) missing.push_back(suite);
+    EXPECT_GT(named, 30);
     EXPECT_THAT(missing, IsEmpty());
 }
 
