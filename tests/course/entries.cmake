@@ -17,6 +17,7 @@ endforeach()
 set_tests_properties(check_tolerances.05_thruster lesson_checks.05_thruster own_records.05_thruster own_records_of_many
                      PROPERTIES PROCESSORS 2)
 set_tests_properties(own_records_of_many PROPERTIES LABELS long TIMEOUT 14400)
+set_tests_properties(time_of_submissions PROPERTIES PROCESSORS 2)  # its other processes keep all of them busy
 # Classes take long: they start first, so that no processor waits for the last of them.
 set_tests_properties(${suites} PROPERTIES COST 60)
 set_tests_properties(instructor_guide_marks PROPERTIES LABELS "${labels};repeats")
