@@ -16,14 +16,11 @@ namespace fs = std::filesystem;
 
 constexpr auto kBetweenLooks = std::chrono::milliseconds(1);
 
-std::string content_of(const fs::path& file) {
-    std::ifstream stream(file);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 /// What the kernel counts of a process and of the children it waited for, in clock ticks.
 long long ticks_of(pid_t process) {
-    const std::string stat = content_of(fmt::format("/proc/{}/stat", process));
+    std::ifstream stream(fmt::format("/proc/{}/stat", process));
+    std::string stat;
+    std::getline(stream, stat, '\0');              // nothing of a process that ends meanwhile
     const std::size_t name_end = stat.rfind(')');  // the name may hold anything
     if (name_end == std::string::npos) return 0;
     long long own = 0, system = 0, children = 0, children_system = 0;
@@ -35,8 +32,9 @@ long long ticks_of(pid_t process) {
 /// A thread's children are its process's.
 void append_children(pid_t process, std::vector<pid_t>& children) {
     std::error_code gone;
-    for (const auto& thread : fs::directory_iterator(fmt::format("/proc/{}/task", process), gone)) {
-        std::ifstream stream(thread.path() / "children");
+    for (fs::directory_iterator thread(fmt::format("/proc/{}/task", process), gone), end; !gone && thread != end;
+         thread.increment(gone)) {
+        std::ifstream stream(thread->path() / "children");
         for (pid_t child = 0; stream >> child;) children.push_back(child);
     }
 }

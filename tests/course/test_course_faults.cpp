@@ -157,16 +157,17 @@ TEST_F(course_faults, a_full_disk_changes_nothing_and_is_named) {
 
 // oracle: the lock that a process holds ends with it; the file of a process that lives stays
 TEST_F(course_faults, leftovers_of_killed_runs_are_removed_and_reported) {
+    std::filesystem::create_directories(bench_.bench().path() / "k/files");
+    ReplacementFile in_use(bench_.bench().path() / "k/files/in_use");  // which also removes what lies there
     const ChildResult killed = bench_.bench().shell(
         "for place in $(seq 400); do\n"
         "  env FAULT=\"kill $place\" FAULT_COUNT=$PWD/count LD_PRELOAD=" DYNLAB_FAULTS
         " $DYNLAB-course course --course k receive in --no-checks --at 2026-03-01T10:00 >/dev/null 2>&1 && break\n"
-        "  ls -A k/files | grep -q dynlab- && exit 0\n"
+        "  ls -A k/files | grep dynlab- | grep -qv in_use && exit 0\n"
         "done; exit 1");
     ASSERT_EQ(killed.exit_code, 0) << "no kill left a file";
     const std::string other = "k/files/.0123.dynlab-" + machine_in_names() + "x-1-0";  // of another machine
     bench_.bench().write(other, "half");
-    ReplacementFile in_use(bench_.bench().path() / "k/files/in_use");
     bench_.bench().write("k/receipts/.00001-group-01-first-report.txt.4711-0", "of an earlier dynlab");
     const ChildResult told = bench_.course({"verify"});
     EXPECT_EQ(told.exit_code, 0) << told.error_output;

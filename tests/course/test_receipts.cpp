@@ -150,7 +150,10 @@ TEST_F(receipts, of_courses_of_before_are_still_known_to_the_course) {
         "TABLE pair_wishes; DROP TABLE instructor_scores; DROP TABLE returns; DROP TABLE seals; "
         "DROP TABLE student_scores; DROP TABLE oral_comments; DROP INDEX "
         "versions_of_pair; DROP INDEX versions_of_hash; DROP INDEX sendings_of_pair; ALTER TABLE assignments DROP "
-        "COLUMN costs; ALTER TABLE assignments DROP COLUMN final_weight; PRAGMA user_version = 2\""));
+        "COLUMN costs; ALTER TABLE assignments DROP COLUMN final_weight; ALTER TABLE assignments ADD COLUMN seed "
+        "INTEGER "
+        "NOT NULL DEFAULT 7; ALTER TABLE allocations ADD COLUMN seed INTEGER NOT NULL DEFAULT 7; PRAGMA user_version = "
+        "2\""));
     EXPECT_THAT(course_.course({"verify"}).output, HasSubstr("1 file, 1 version: all there and unaltered"));
     EXPECT_THAT(course_.course({"verify", "old.txt"}).output, HasSubstr("old.txt: genuine"));
     const ChildResult alone = verify({"old.txt", "--key", "mine/course.pub"});

@@ -21,7 +21,7 @@ int import_oral_scores(Course& course, const Assignment& assignment, const std::
 
 struct OralSheetWishes {
     bool students = false;  ///< a row a student as well, below the group's
-    bool drawn = false;     ///< in a random order, the same one each time, that only the course's key gives; else by name
+    bool drawn = false;  ///< in a random order, the same one each time, that only the course's key gives; else by name
 };
 /// The sheet for the oral: a row a group, a column a criterion with what was given so far, and one for comments, as
 /// CSV. Throws InvalidArgument for a report.
