@@ -13,7 +13,8 @@
 namespace dynlab::inline figures {
 namespace {
 
-constexpr double kLargestValue = 1e300;  // keeps spans and margins finite
+constexpr double kLargestValue = 1e300;                        // keeps spans and margins finite
+constexpr double kLargestEnd = 1e305, kSmallestSpan = 1e-305;  // of an axis
 
 std::string with_minus_sign(std::string text) {
     if (!text.empty() && text.front() == '-') text.replace(0, 1, "−");
@@ -108,7 +109,8 @@ void add_log_ticks(Axis& axis, double count) {
 
 double Axis::position(double value) const {
     if (!std::isfinite(value) || (log && value <= 0)) return std::numeric_limits<double>::quiet_NaN();
-    return log ? std::log(value / low) / std::log(high / low) : (value - low) / (high - low);
+    if (!log) return (value - low) / (high - low);
+    return (std::log(value) - std::log(low)) / (std::log(high) - std::log(low));  // a ratio may lie beyond all numbers
 }
 
 double Axis::widest_label(double size) const {
@@ -135,15 +137,26 @@ std::pair<double, double> Extent::padded(double margin) const {
     if (log_) {
         const double decades = std::log10(high) - std::log10(low);
         const double room = decades < 1e-6 ? 0.5 : margin * decades;
-        return {std::max(low * std::pow(10.0, -room), 1e-305), high * std::pow(10.0, room)};
+        return usable_range({low * std::pow(10.0, -room), high * std::pow(10.0, room)}, true);
     }
     const double size = std::max(std::abs(low), std::abs(high));
-    if (high - low > 1e-9 * size) return {low - margin * (high - low), high + margin * (high - low)};
-    const double room = size > 0 ? 0.1 * size : 1.0;
-    return {low - room, high + room};
+    const double room = high - low > 1e-9 * size ? margin * (high - low) : size > 0 ? 0.1 * size : 1.0;
+    return usable_range({low - room, high + room}, false);
+}
+
+std::pair<double, double> usable_range(std::pair<double, double> range, bool log) {
+    const double least = log ? 1 / kLargestEnd : -kLargestEnd;
+    double low = std::clamp(range.first, least, kLargestEnd), high = std::clamp(range.second, least, kLargestEnd);
+    if (log && !(low < high)) (high > 1 ? low : high) = high > 1 ? high / 10 : high * 10;
+    if (!log && !(high - low >= kSmallestSpan)) {
+        const double room = std::max(kSmallestSpan, 1e-9 * std::abs(high));
+        low -= room, high += room;
+    }
+    return {low, high};
 }
 
 Axis make_axis(std::pair<double, double> range, bool log, double count, std::optional<double> step) {
+    range = usable_range(range, log);
     Axis axis{range.first, range.second, log, {}, {}, 0};
     if (log)
         add_log_ticks(axis, count);

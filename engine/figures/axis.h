@@ -40,6 +40,10 @@ class Extent {
     std::optional<double> low_, high_;
 };
 
+/// The same range, or, where its ends are too large, too small or too close for computing with them, one near it:
+/// within 1e305 (for a logarithmic axis 1e-305 to 1e305), and longer than nothing.
+std::pair<double, double> usable_range(std::pair<double, double> range, bool log);
+
 /// Chooses about `count` ticks at round numbers (1, 2 or 5 times a power of ten, or multiples of `step`). Large and
 /// small magnitudes share a power of ten; logarithmic axes number decades, and digits between where these are fewer
 /// than four.

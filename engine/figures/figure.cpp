@@ -90,9 +90,10 @@ void check_motion(const Motion& motion, const std::vector<Panel>& panels) {
 }  // namespace
 
 void Figure::validate() const {
-    if (rows < 1 || columns < 1)
+    constexpr int kMostRows = 100;
+    if (rows < 1 || columns < 1 || rows > kMostRows || columns > kMostRows)
         throw InvalidArgument(
-            fmt::format("a figure needs at least one row and one column, not {} x {}", rows, columns));
+            fmt::format("a figure needs between one and {} rows and columns, not {} x {}", kMostRows, rows, columns));
     if (panels.empty()) throw InvalidArgument("a figure needs at least one panel, but it has none");
     if (panels.size() > static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns))
         throw InvalidArgument(

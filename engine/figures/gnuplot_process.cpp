@@ -52,6 +52,7 @@ GnuplotProcess::~GnuplotProcess() {
 void GnuplotProcess::end() {
     if (!reader_.joinable()) return;
     kill(-pid_, SIGKILL);
+    ends_ = {};
     retry_interrupted([this] { return waitpid(pid_, nullptr, 0); });
     reader_.join();
 }
@@ -82,6 +83,7 @@ void GnuplotProcess::start(const std::string& program) {
     posix_spawn_file_actions_destroy(&files);
     if (failure != 0)
         throw EnvironmentError(fmt::format("cannot start gnuplot (\"{}\"): {}", program, system_reason(failure)));
+    ends_ = EndsWithProgram::of_group(pid_);
     commands_ = std::move(commands.write_end);
     complaints_ = std::move(complaints.read_end);
 }

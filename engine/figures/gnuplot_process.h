@@ -8,6 +8,7 @@
 #include <string>
 #include <thread>
 
+#include "platform/files/ends_with_program.h"
 #include "platform/system_call.h"
 
 namespace dynlab::inline figures {
@@ -38,6 +39,7 @@ class GnuplotProcess {
     void collect();
 
     pid_t pid_ = -1;
+    EndsWithProgram ends_;
     FileDescriptor commands_, complaints_;
     std::thread reader_;
     std::mutex mutex_;

@@ -16,6 +16,7 @@
 #include "numerics/error.h"
 #include "platform/atomic_file.h"
 #include "platform/cache.h"
+#include "platform/files/ends_with_program.h"
 #include "platform/interrupt.h"
 #include "platform/program_identity.h"
 #include "platform/program_lookup.h"
@@ -85,9 +86,10 @@ class GnuplotRenderer::Work {
 
     void draw(const Figure& figure, const fs::path& target, FigureFormat format, bool decimal_comma) {
         const std::string script = gnuplot_script(figure, format, decimal_comma);
-        Pending next{0, format, make_temporary_beside(target), target, {}};
+        Pending next{0, format, make_temporary_beside(target), target, {}, {}};
+        next.ends = EndsWithProgram(next.temporary);
         if (cache_) next.name = name_of_drawing(format, script);
-        pending_.push_back(next);
+        pending_.push_back(std::move(next));
         try {
             if (!recall(pending_.back())) start_drawing(pending_.back(), script);
         } catch (...) {
@@ -117,7 +119,8 @@ class GnuplotRenderer::Work {
         unsigned number;  ///< of gnuplot's report; 0 for a figure that is not drawn but recalled
         FigureFormat format;
         fs::path temporary, target;
-        std::string name;  ///< in the cache
+        std::string name;      ///< in the cache
+        EndsWithProgram ends;  ///< the temporary file
     };
     struct Running {
         GnuplotProcess child;

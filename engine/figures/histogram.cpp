@@ -11,11 +11,12 @@
 namespace dynlab::inline figures {
 namespace {
 
-constexpr Index kMostBins = 200;
+constexpr Index kMostBins = 200, kMostWanted = 100'000;
 
 void check_finite(const VectorView& values) {
+    constexpr double kLargest = 1e300;  // differences of such values are numbers still
     for (Index i = 0; i < values.size(); ++i)
-        if (!std::isfinite(values[i]))
+        if (!(std::abs(values[i]) <= kLargest))
             throw InvalidArgument(fmt::format("a histogram needs finite values, but value {} is {}", i + 1, values[i]));
 }
 
@@ -40,9 +41,11 @@ Index freedman_diaconis_bins(const VectorView& values) {
 HistogramBins histogram_bins(const VectorView& values, Index bins) {
     check_sample(values);
     if (bins < 1) throw InvalidArgument(fmt::format("a histogram needs at least one bin, not {}", bins));
+    if (bins > kMostWanted)
+        throw InvalidArgument(fmt::format("a histogram has at most {} bins, but {} were wanted", kMostWanted, bins));
     double low = values.minCoeff(), high = values.maxCoeff();
     if (!(low < high)) {
-        const double room = low == 0 ? 0.5 : 0.05 * std::abs(low);
+        const double room = low == 0 ? 0.5 : std::max(0.05 * std::abs(low), 1e-290);
         low -= room, high += room;
     }
     return histogram_bins(values, Vector::LinSpaced(bins + 1, low, high));

@@ -147,13 +147,17 @@ class Placement {
         double x, y, penalty;
     };
 
-    PagePoint at(double x, double y) const { return {layout_.x.position(x) * width_, layout_.y.position(y) * height_}; }
+    static double on_page(const Axis& axis, double value, double length) {
+        constexpr double kBeyondFrame = 1000;  // cm
+        return std::clamp(axis.position(value) * length, -kBeyondFrame, kBeyondFrame);
+    }
+    PagePoint at(double x, double y) const { return {on_page(layout_.x, x, width_), on_page(layout_.y, y, height_)}; }
     std::pair<PagePoint, PagePoint> ends_of(const ReferenceLine& line) const {
         if (line.horizontal) {
-            const double y = layout_.y.position(line.at) * height_;
+            const double y = on_page(layout_.y, line.at, height_);
             return {{0, y}, {width_, y}};
         }
-        const double x = layout_.x.position(line.at) * width_;
+        const double x = on_page(layout_.x, line.at, width_);
         return {{x, 0}, {x, height_}};
     }
     void take_marker(PagePoint p, int weight) {

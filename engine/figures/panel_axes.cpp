@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "figures/style.h"
 
@@ -96,8 +97,9 @@ constexpr std::size_t kFewestNumbers = 4;
 
 /// The coarsest axis with four numbers, else that with most of those that hold their numbers; steps are 1, 2, 2.5 or 5
 /// times a power of ten.
-Axis finer_axis(const Axis& axis, Range range, AxisLength length) {
+Axis finer_axis(const Axis& axis, AxisLength length) {
     Axis best = axis;
+    const Range range = {axis.low, axis.high};
     const double decade = std::pow(10.0, std::ceil(std::log10(range.second - range.first)));
     for (const double scale : {1.0, 0.1})
         for (const double factor : {1.0, 0.5, 0.25, 0.2}) {
@@ -114,7 +116,7 @@ Axis fitted_axis(Range range, bool log, double count, std::optional<double> step
     constexpr double kFewest = 1.2, kMost = 20;
     Axis axis = make_axis(range, log, count, step);
     while (!step && !length.holds(axis) && count >= kFewest) axis = make_axis(range, log, count *= 0.75);
-    if (!step && !log && length.holds(axis)) axis = finer_axis(axis, range, length);
+    if (!step && !log && length.holds(axis)) axis = finer_axis(axis, length);
     Axis finer = axis;
     while (!step && finer.ticks.size() < 2 && count < kMost) finer = make_axis(range, log, count *= 1.5);
     if (!length.holds(finer)) finer = thinned(finer, length);
@@ -126,13 +128,18 @@ Axis fitted_axis(Range range, bool log, double count, std::optional<double> step
 std::pair<double, double> bar_edges(const Vector& centres, Index i) {
     const Index last = centres.size() - 1;
     if (last < 1) return {centres[i] - 0.5, centres[i] + 0.5};
-    const double before = i > 0 ? centres[i] - centres[i - 1] : centres[1] - centres[0];
-    const double after = i < last ? centres[i + 1] - centres[i] : centres[last] - centres[last - 1];
-    return {centres[i] - 0.5 * before, centres[i] + 0.5 * after};
+    const auto half_between = [&](Index left) {
+        const double half = 0.5 * centres[left + 1] - 0.5 * centres[left];
+        return std::isfinite(half) ? half : 0.5;
+    };
+    const double before = half_between(std::max<Index>(i - 1, 0)), after = half_between(std::min(i, last - 1));
+    const double most = std::numeric_limits<double>::max();
+    return {std::max(centres[i] - before, -most), std::min(centres[i] + after, most)};
 }
 
 void choose_axes(const Panel& panel, double width, double height, Axis& x, Axis& y) {
-    Range x_range = x_range_of(panel), y_range = y_range_of(panel, x_range);
+    Range x_range = usable_range(x_range_of(panel), panel.log_x);
+    Range y_range = usable_range(y_range_of(panel, x_range), panel.log_y);
     if (panel.equal_axes && !panel.log_x && !panel.log_y) {
         const double scale =
             std::max((x_range.second - x_range.first) / width, (y_range.second - y_range.first) / height);

@@ -71,6 +71,26 @@ TEST(script_vectors, logarithmic_axes_say_what_they_leave_out) {
     EXPECT_EQ(printed("local fig = loglog(range(1, 4), range(1, 4), {colour = 'red'})"), "");
 }
 
+// Lengths are compared before anything is read: behind the shorter one lies other memory.
+TEST(script_vectors, plots_on_logarithmic_axes_refuse_lengths_that_differ) {
+    for (const char* call :
+         {"semilogx({}, linspace(0, 1, 50))", "loglog({}, linspace(0, 1, 50))", "semilogx({1, 2}, linspace(0, 1, 50))",
+          "semilogy(linspace(0, 1, 50), {1, 2})", "semilogx({1}, {1}, {curves = {{x = {1}, y = {1, 2, 3}}}})"})
+        EXPECT_NE(error_of(call).find("x and y must have the same length"), std::string::npos) << call;
+}
+
+TEST(script_vectors, grids_of_panels_have_a_size) {
+    for (const char* call : {"subplot(100000, 100000, {plot({1, 2})})", "figure{panels = {{}}, rows = 2^40 + 1}"})
+        EXPECT_NE(error_of(call).find("rows and columns"), std::string::npos) << call;
+}
+
+// What is calculated outside of the script's memory is asked for before.
+TEST(script_vectors, signals_beyond_the_memory_are_refused_at_once) {
+    for (const char* call : {"multisine({1, 5}, 1e9, 0.1)", "sine(1, 1e9, 0.1)", "chirp(1, 2, 1e9, 0.1)",
+                             "step_signal(1e10)", "rbs(1e10)", "multisine(1000, {periods = 1e8})"})
+        EXPECT_NE(error_of(call).find("values needs 2"), std::string::npos) << call << ": " << error_of(call);
+}
+
 TEST(script_vectors, give_and_take_elements) {
     EXPECT_EQ(printed("local v = vector{1, 2, 3}\nv[2] = 7\nprint(#v, v[2], v[3.0], v:range(2, 3), v:range(2, 1))"),
               "3\t7\t3\t[7 3]\t[]\n");

@@ -35,8 +35,8 @@ json pieces_of(const std::string& text) {
 }
 
 double value_at(const Axis& axis, double position) {
-    return axis.log ? axis.low * std::pow(axis.high / axis.low, position)
-                    : axis.low + position * (axis.high - axis.low);
+    if (!axis.log) return axis.low + position * (axis.high - axis.low);
+    return std::exp(std::log(axis.low) + position * (std::log(axis.high) - std::log(axis.low)));
 }
 
 /// The value to 1e-5 of the axis' length, or, where that is logarithmic, of itself.

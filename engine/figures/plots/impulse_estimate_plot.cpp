@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "figures/plots/time_response_plots.h"
 #include "figures/style.h"
 #include "numerics/error.h"
 #include "numerics/simulation/time_response.h"
@@ -39,7 +40,7 @@ Curve band_of(const ImpulseEstimate& estimate, double Ts, double level) {
 Curve curve_of(const NamedModel& model, double end, int colour) {
     Vector t = Vector::LinSpaced(kModelPoints, 0, end);
     if (!model.G.continuous()) {
-        const Index count = static_cast<Index>(end / model.G.Ts() + 1e-9) + 1;
+        const Index count = samples_within(end, model.G.Ts());
         t = Vector::LinSpaced(count, 0, static_cast<double>(count - 1) * model.G.Ts());
     }
     const TimeResponse response = impulse_response(model.G, t);

@@ -1,5 +1,7 @@
 #include "figures/plots/time_response_plots.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -26,7 +28,7 @@ double longest_window(const std::vector<NamedModel>& models) {
 Vector instants(const TransferFunction& G, const Vector& wanted, double end) {
     if (wanted.size() > 0) return wanted;
     if (G.continuous()) return Vector::LinSpaced(kCurvePoints, 0, end);
-    const Index count = static_cast<Index>(std::floor(end / G.Ts() + 1e-9)) + 1;
+    const Index count = samples_within(end, G.Ts());
     return Vector::LinSpaced(count, 0, static_cast<double>(count - 1) * G.Ts());
 }
 
@@ -52,6 +54,16 @@ Figure time_response_figure(const std::vector<NamedModel>& models, const Vector&
 }
 
 }  // namespace
+
+Index samples_within(double end, double Ts) {
+    constexpr double kMost = 1e7;
+    const double count = std::floor(end / Ts + 1e-9) + 1;
+    if (!(count <= kMost))
+        throw InvalidArgument(
+            fmt::format("a window of {} s holds too many samples of a model with Ts = {} s for one figure: {:.3g}", end,
+                        Ts, count));
+    return static_cast<Index>(count);
+}
 
 Figure step_plot(const std::vector<NamedModel>& models, const Vector& t) {
     Figure figure = time_response_figure(models, t, CurveStyle::kStairs, step_response);

@@ -15,4 +15,8 @@ Figure step_plot(const std::vector<NamedModel>& models, const Vector& t = Vector
 /// Discrete models are drawn as stems. Throws InvalidArgument for no models.
 Figure impulse_plot(const std::vector<NamedModel>& models, const Vector& t = Vector());
 
+/// How many samples of a discrete model lie in a window from 0 to `end`; throws InvalidArgument where they are too many
+/// for a figure.
+Index samples_within(double end, double Ts);
+
 }  // namespace dynlab::inline figures

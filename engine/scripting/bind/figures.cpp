@@ -145,11 +145,17 @@ int plot(Call& call) {
     panel.log_x = kLogX;
     panel.log_y = kLogY;
     read_panel_options(call, options, panel);
-    note_left_out(call, panel);
     Figure figure(std::move(panel));
     figure.width_cm = options.number("width", figure.width_cm);
     figure.height_cm = options.number("height", figure.height_cm);
+    figure.validate();  // x and y are of one length from here on
+    note_left_out(call, figure.panels.front());
     return give_figure(call, std::move(figure));
+}
+
+/// Of rows or columns; what is too large for a figure stays so as an int.
+int count_in_grid(Index count) {
+    return static_cast<int>(std::min<Index>(count, 1 << 20));
 }
 
 /// The panels of figure{...}: those under `panels`, or the one the table itself describes.
@@ -180,10 +186,10 @@ int figure(Call& call) {
          "references", "annotations", "arrows", "panels", "rows", "columns", "width", "height"});
     Figure figure;
     figure.panels = described_panels(call, options);
-    figure.columns = static_cast<int>(options.size("columns", 1));
+    figure.columns = count_in_grid(options.size("columns", 1));
     const auto columns = static_cast<std::size_t>(std::max(figure.columns, 1));
     figure.rows =
-        static_cast<int>(options.size("rows", static_cast<Index>((figure.panels.size() + columns - 1) / columns)));
+        count_in_grid(options.size("rows", static_cast<Index>((figure.panels.size() + columns - 1) / columns)));
     if (options.has("panels")) figure.title = options.text("title", "");
     figure.width_cm = options.number("width", figure.width_cm);
     figure.height_cm = options.number("height", figure.height_cm);
@@ -194,8 +200,8 @@ int subplot(Call& call) {
     call.at_most(3);
     lua_State* L = call.state();
     Figure figure;
-    figure.rows = static_cast<int>(call.size(1, "rows"));
-    figure.columns = static_cast<int>(call.size(2, "columns"));
+    figure.rows = count_in_grid(call.size(1, "rows"));
+    figure.columns = count_in_grid(call.size(2, "columns"));
     if (call.type(3) != LUA_TTABLE)
         throw InvalidArgument("the figures are given as a list: subplot(2, 1, {figure1, figure2})");
     for (lua_Integer i = 1; lua_rawgeti(L, 3, i) != LUA_TNIL; lua_pop(L, 1), ++i) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 namespace test_axis {
 
@@ -58,6 +59,39 @@ TEST(axis, wanted_steps_are_kept) {
     const Axis axis = make_axis({-190, 10}, false, 5, 45);
     ASSERT_EQ(axis.ticks.size(), 5u);
     EXPECT_EQ(axis.ticks[0].value, -180);
+}
+
+// Oracle: an axis is a rising map of a finite range with few numbers, whatever the numbers are.
+TEST(axis, numbers_without_measure_make_an_axis_that_ends) {
+    constexpr double kValues[] = {5e-324, 1e-310, 1e-300, 1, 1e300, 1e308, 1.7e308};
+    for (const bool log : {true, false})
+        for (const double a : kValues)
+            for (const double b : kValues) {
+                Extent extent(log);
+                extent.include(a);
+                extent.include(log ? b : -b);
+                const auto range = extent.padded(0.06);
+                for (const double count : {1.0, 4.0, 20.0}) {
+                    const Axis axis = make_axis(range, log, count);
+                    ASSERT_TRUE(std::isfinite(axis.low) && std::isfinite(axis.high)) << a << " " << b;
+                    ASSERT_LT(axis.low, axis.high) << a << " " << b;
+                    EXPECT_LE(axis.ticks.size(), 101u) << a << " " << b;
+                    EXPECT_LE(axis.minor.size(), 6000u) << a << " " << b;
+                    EXPECT_NEAR(axis.position(axis.low), 0, 1e-9);
+                    EXPECT_NEAR(axis.position(axis.high), 1, 1e-9);
+                }
+            }
+}
+
+TEST(axis, given_ends_without_measure_make_an_axis_that_ends) {
+    const double infinity = std::numeric_limits<double>::infinity(), least = 5e-324;
+    for (const bool log : {true, false})
+        for (const auto& [low, high] :
+             {std::pair{1.0, infinity}, {least, 2 * least}, {1e306, 1e308}, {least, 1.7e308}, {1.0, 1 + 2.3e-16}}) {
+            const Axis axis = make_axis({low, high}, log, 8);
+            EXPECT_LT(axis.low, axis.high) << low << " " << high;
+            EXPECT_LE(axis.ticks.size(), 101u) << low << " " << high;
+        }
 }
 
 }  // namespace test_axis

@@ -70,4 +70,10 @@ TEST(histogram, few_counts_have_no_fractions_on_their_axis) {
     }
 }
 
+TEST(histogram, numbers_without_measure_are_refused_or_binned) {
+    EXPECT_THROW(histogram(Vector{{-1.7e308, 0, 1.7e308}}), InvalidArgument);
+    EXPECT_THROW(histogram_bins(Vector{{1, 2}}, Index{1} << 40), InvalidArgument);
+    EXPECT_EQ(histogram_bins(Vector{{5e-324, 5e-324}}, 3).counts.sum(), 2);
+}
+
 }  // namespace test_histogram
