@@ -6,6 +6,7 @@
 #include "documents/latex_remains.h"
 #include "documents/lua_text.h"
 #include "documents/text_lines.h"
+#include "documents/words/costly_text.h"
 #include "documents/work_file.h"
 #include "platform/child_process.h"
 
@@ -162,6 +163,21 @@ ChildResult finished_pandoc(const PandocJob& job) {
     return run_child(child, "pandoc");
 }
 
+/// Says where the job's texts hold what Pandoc would not be done with.
+Complaints costly_texts_of(const PandocJob& job) {
+    Complaints found;
+    CostlyText costly;
+    if (const auto line = costly.line_of(job.markdown.text))
+        found.add(job.markdown.origin_of(*line), CostlyText::kSentence);
+    const auto look = [&](const std::string& name, const std::string& text) {
+        if (costly.line_of(text)) found.add({job.template_file, 0}, name + ": " + CostlyText::kSentence);
+    };
+    for (const auto& [name, text] : job.record->texts) look(name, text.markdown);
+    for (const auto& [name, figure] : job.record->figures) look(name, figure.caption);
+    for (const auto& [key, text] : job.metadata) look(key, text);
+    return found;
+}
+
 }  // namespace
 
 std::string figure_extension(DocumentFormat format) {
@@ -175,6 +191,10 @@ ChildProcess start_pandoc(const PandocJob& job) {
 }
 
 PandocResult run_pandoc(const PandocJob& job, Complaints& complaints) {
+    if (const Complaints costly = costly_texts_of(job); !costly.empty()) {
+        complaints.add_all(costly);
+        return {};
+    }
     write_work_file(job.work_folder / "slots.lua", slots_file(job));
     ChildResult run = finished_pandoc(job);
     if (run.timed_out)

@@ -47,6 +47,16 @@ TEST_F(hostile_documents, commands_that_reach_files_or_macros_are_refused_in_for
     EXPECT_THAT(refusal("$$ a \\end{document} $$\n", "out.pdf"), HasSubstr("\\end{document}"));
 }
 
+// Oracle: Pandoc takes minutes for each of these, and is not asked.
+TEST_F(hostile_documents, text_that_keeps_pandoc_busy_is_refused_with_its_line) {
+    std::string notes, titles;
+    for (int i = 0; i < 20; ++i) notes += "a^[b", titles += "[a](b \"c) ";
+    for (const std::string& text : {notes, titles, std::string(20000, '`')})
+        for (const char* output : {"out.pdf", "out.html"})
+            EXPECT_THAT(refusal("A\n\n" + text + "\n", output),
+                        HasSubstr("report.md:3: Pandoc would take minutes for this paragraph"));
+}
+
 // Oracle: TeX runs \NAME at \begin{NAME}; a category code makes ! begin commands that no list of words sees.
 TEST_F(hostile_documents, environments_that_are_none_are_refused) {
     write("canary.tex", "SECRETWORD");
