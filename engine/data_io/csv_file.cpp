@@ -7,17 +7,22 @@
 #include <set>
 #include <string_view>
 
+#include "data_io/reading_memory.h"
 #include "data_io/tables/cell_scanner.h"
 #include "data_io/tables/number_cell.h"
 #include "data_io/tables/table_layout.h"
 #include "data_io/tables/text_decoding.h"
 #include "data_io/tables/unit_text.h"
+#include "data_io/variable.h"
 #include "numerics/number_text.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 
 namespace dynlab::inline data_io {
 namespace {
+
+/// Of a cell as it is read and as it is given back, one beside the other.
+constexpr std::size_t kBytesOfNumber = 2 * sizeof(double), kBytesOfText = sizeof(std::string) + sizeof(Variable);
 
 class CsvReader {
   public:
@@ -53,6 +58,12 @@ class CsvReader {
             fmt::format("{}, line {}, column {}: {}", file_.string(), line, table_.names[column], what));
     }
     void note(std::string sentence) { table_.notes.push_back(std::move(sentence)); }
+    /// The first of them, as nobody reads hundreds.
+    static std::string listed(const std::vector<std::string>& told) {
+        constexpr std::size_t kMostTold = 8;
+        if (told.size() <= kMostTold) return fmt::format("{}", fmt::join(told, ", "));
+        return fmt::format("{}, ...", fmt::join(told.begin(), told.begin() + kMostTold, ", "));
+    }
 
     std::string_view rest_of_line() const { return text_.substr(at_, text_.find('\n', at_) - at_); }
     bool at_end() const { return at_ >= text_.size(); }
@@ -130,8 +141,9 @@ class CsvReader {
             if (!headers[j].empty() && headers[j] != table_.names[j])
                 table_.headers.insert({headers[j], table_.names[j]});
         }
-        for (const auto& units_by_name : {stated_units_, options_.units})
-            for (const auto& [name, unit] : units_by_name) state_unit(name, unit);
+        const std::set<std::string> known(table_.names.begin(), table_.names.end());
+        for (const auto* units_by_name : {&stated_units_, &options_.units})
+            for (const auto& [name, unit] : *units_by_name) state_unit(name, unit, known);
     }
 
     /// One for each column, some perhaps empty.
@@ -153,7 +165,7 @@ class CsvReader {
             table_.names[j] = name, units[j] = unit;
             told.push_back(fmt::format("{} in {}", name, unit));
         }
-        if (!told.empty()) note(fmt::format("units from the headers: {}", fmt::join(told, ", ")));
+        if (!told.empty()) note(fmt::format("units from the headers: {}", listed(told)));
     }
 
     void name_the_nameless() {
@@ -165,33 +177,32 @@ class CsvReader {
             told.push_back(all ? table_.names[j] : fmt::format("column {} is called {}", j + 1, table_.names[j]));
         }
         if (told.empty()) return;
-        constexpr std::size_t kMostTold = 8;
-        if (told.size() > kMostTold) told.resize(kMostTold), told.emplace_back("...");
         note(all ? fmt::format("there is no line of names, so the columns are called {}; {{names = {{...}}}} gives "
                                "them names",
-                               fmt::join(told, ", "))
-                 : fmt::format("the header has no name for it: {}", fmt::join(told, ", ")));
+                               listed(told))
+                 : fmt::format("the header has no name for it: {}", listed(told)));
     }
 
     void number_equal_names() {
-        std::set<std::string> taken(table_.names.begin(), table_.names.end()), seen;
+        std::set<std::string> taken(table_.names.begin(), table_.names.end());
+        std::map<std::string, std::size_t> numbers;  // the last one of each name
         std::vector<std::string> told;
         for (std::string& name : table_.names) {
-            if (seen.insert(name).second) continue;
-            int number = 2;
+            std::size_t& number = numbers[name];
+            if (++number == 1) continue;
             while (!taken.insert(fmt::format("{}_{}", name, number)).second) ++number;
             name = fmt::format("{}_{}", name, number);
             told.push_back(name);
         }
-        if (!told.empty()) note(fmt::format("columns of equal names are numbered: {}", fmt::join(told, ", ")));
+        if (!told.empty()) note(fmt::format("columns of equal names are numbered: {}", listed(told)));
     }
 
-    void state_unit(const std::string& name, const std::string& unit) {
+    void state_unit(const std::string& name, const std::string& unit, const std::set<std::string>& known) {
         const auto header = table_.headers.find(name);
         const std::string& column = header == table_.headers.end() ? name : header->second;
-        if (std::find(table_.names.begin(), table_.names.end(), column) == table_.names.end())
+        if (!known.contains(column))
             fail(fmt::format("a unit is given for {}, but there is no such column; the columns are {}", name,
-                             fmt::join(table_.names, ", ")));
+                             listed(table_.names)));
         table_.units[column] = unit;
     }
 
@@ -204,7 +215,7 @@ class CsvReader {
         if (layout_.units_line > 0) {
             std::vector<std::string> told;
             for (const auto& [name, unit] : table_.units) told.push_back(fmt::format("{} in {}", name, unit));
-            note(fmt::format("line {} is taken for units: {}", layout_.units_line, fmt::join(told, ", ")));
+            note(fmt::format("line {} is taken for units: {}", layout_.units_line, listed(told)));
         }
     }
 
@@ -212,11 +223,14 @@ class CsvReader {
         std::vector<Column> columns(this->columns());
         const auto begin = text_.begin() + static_cast<std::ptrdiff_t>(layout_.rows_at);
         const auto lines_left = static_cast<std::size_t>(std::count(begin, text_.end(), '\n') + 1);
+        const std::size_t rows = std::min(lines_left, (text_.size() - layout_.rows_at) / columns.size() + 1);
         for (std::size_t j = 0; j < columns.size(); ++j)
-            if (!layout_.is_text[j]) columns[j].numbers.reserve(lines_left);
+            layout_.is_text[j] ? columns[j].texts.reserve(rows) : columns[j].numbers.reserve(rows);
         CellScanner scanner(file_, text_, layout_.separator, layout_.rows_at, layout_.rows_line);
         while (scanner.next_record()) read_row(scanner, columns);
+        std::size_t rows_read = 0;
         for (std::size_t j = 0; j < columns.size(); ++j) {
+            rows_read = std::max(rows_read, columns[j].numbers.size());
             std::vector<double>& numbers = columns[j].numbers;
             if (table_.names[j] == "Ts" && is_one_number(columns[j])) {
                 note("the only number in column Ts, in its first row, is the sampling time");
@@ -224,8 +238,9 @@ class CsvReader {
             }
             table_.columns.push_back(Eigen::Map<const Vector>(numbers.data(), static_cast<Index>(numbers.size())));
             if (layout_.is_text[j]) table_.texts[table_.names[j]] = std::move(columns[j].texts);
+            columns[j].numbers = {};
         }
-        tell_missing(columns);
+        tell_missing(columns, rows_read);
         if (!first_comma_.empty())
             note(fmt::format("numbers are written with a decimal comma, such as {}", first_comma_));
     }
@@ -252,14 +267,22 @@ class CsvReader {
                      fmt::format("wanted {} as in the header line, given {}", counted(columns.size(), "cell"), cells));
     }
 
+    /// Refuses a table before it takes more memory than a file of that size may.
+    void take_memory(std::size_t bytes, const CellScanner& scanner) {
+        if ((memory_ += bytes) <= memory_for_reading(text_.size())) return;
+        fail_in_line(scanner.line(), "the table has too many cells: " + memory_refusal(text_.size()));
+    }
+
     void take_cell(Column& column, std::size_t index, std::string_view cell, const CellScanner& scanner) {
         const bool decimal_comma = layout_.separator != ',' || scanner.cell_was_quoted();
         if (layout_.is_text[index]) {
             if (column.texts.empty() && looks_grouped(cell))
                 fail_in_column(scanner.line(), index, number_complaint(cell, decimal_comma));
+            take_memory(kBytesOfText + cell.size(), scanner);
             column.texts.emplace_back(cell);
             return;
         }
+        take_memory(kBytesOfNumber, scanner);
         double number = 0;
         const NumberStatus status = parse_number(cell, decimal_comma, number);
         if (status == NumberStatus::kMissing) {
@@ -273,15 +296,14 @@ class CsvReader {
         column.numbers.push_back(number);
     }
 
-    void tell_missing(const std::vector<Column>& columns) {
+    void tell_missing(const std::vector<Column>& columns, std::size_t rows) {
         std::vector<std::string> told;
         for (std::size_t j = 0; j < columns.size(); ++j)
             if (columns[j].missing > 0)
-                told.push_back(fmt::format("{} of {} in {} (first in line {})", columns[j].missing,
-                                           columns[j].numbers.size(), table_.names[j], columns[j].first_missing_line));
+                told.push_back(fmt::format("{} of {} in {} (first in line {})", columns[j].missing, rows,
+                                           table_.names[j], columns[j].first_missing_line));
         if (!told.empty())
-            note(fmt::format("numbers are missing, NaN stands for them and fillmissing fills them: {}",
-                             fmt::join(told, ", ")));
+            note(fmt::format("numbers are missing, NaN stands for them and fillmissing fills them: {}", listed(told)));
     }
 
     const std::filesystem::path& file_;
@@ -291,6 +313,7 @@ class CsvReader {
     TableLayout layout_;
     std::map<std::string, std::string> stated_units_;
     std::string first_comma_;
+    std::size_t memory_ = 2 * text_.size();  ///< of the text, and of what its rows have become so far
     CsvTable table_;
 };
 

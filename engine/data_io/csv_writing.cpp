@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <set>
+#include <string_view>
 
 #include "data_io/csv_file.h"
 #include "data_io/tables/number_cell.h"
@@ -22,9 +24,9 @@ std::string quoted_where_needed(const std::string& text) {
 /// Number of rows; throws unless every column has it.
 std::size_t checked_rows(const CsvTable& table) {
     std::size_t rows = 0;
+    std::set<std::string_view> known;
     for (std::size_t i = 0; i < table.names.size(); ++i) {
-        if (std::find(table.names.begin(), table.names.begin() + static_cast<std::ptrdiff_t>(i), table.names[i]) !=
-            table.names.begin() + static_cast<std::ptrdiff_t>(i)) {
+        if (!known.insert(table.names[i]).second) {
             throw InvalidArgument(
                 fmt::format("two columns are named {}; every column needs a name of its own", table.names[i]));
         }

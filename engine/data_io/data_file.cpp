@@ -49,6 +49,7 @@ LoadedData from_table(CsvTable table) {
             continue;
         }
         auto list = std::make_shared<VariableList>();
+        list->reserve(texts->second.size());
         for (std::string& text : texts->second) list->push_back({std::move(text)});
         data.variables[name] = {std::move(list)};
     }

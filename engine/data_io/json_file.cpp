@@ -9,6 +9,7 @@
 #include <set>
 #include <vector>
 
+#include "data_io/reading_memory.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 
@@ -119,6 +120,22 @@ std::string place_of(const std::string& message) {
     return at == std::string::npos ? message : message.substr(at);
 }
 
+/// Of memory, for one value with what is made of it; lists grow by doubling.
+std::size_t bytes_of(Json::parse_event_t event, const Json& parsed) {
+    constexpr std::size_t kName = 96, kList = 128, kValue = 40;
+    switch (event) {
+        case Json::parse_event_t::key:
+            return kName + 2 * parsed.get_ref<const std::string&>().size();
+        case Json::parse_event_t::value:
+            return kValue + (parsed.is_string() ? kName + 2 * parsed.get_ref<const std::string&>().size() : 0);
+        case Json::parse_event_t::object_start:
+        case Json::parse_event_t::array_start:
+            return kList;
+        default:
+            return 0;
+    }
+}
+
 }  // namespace
 
 VariableTable read_json_file(const fs::path& file) {
@@ -127,7 +144,10 @@ VariableTable read_json_file(const fs::path& file) {
         throw EnvironmentError(file.string() + ": JSON files of more than 64 MB are not read");
     const std::string text = read_file(file);
     std::vector<std::set<std::string>> names;
+    std::size_t memory = text.size();
     const auto look = [&](int depth, Json::parse_event_t event, Json& parsed) {
+        if ((memory += bytes_of(event, parsed)) > memory_for_reading(text.size()))
+            throw EnvironmentError(fmt::format("{}: {}", file.string(), memory_refusal(text.size())));
         if (depth > kDeepestJson)
             throw EnvironmentError(fmt::format("{}: more than {} levels", file.string(), kDeepestJson));
         if (event == Json::parse_event_t::object_start) names.emplace_back();

@@ -75,7 +75,50 @@ void write_piece(std::ofstream& file, const Piece& piece) {
     file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
 }
 
+/// Whether the elements in a matrix fill it.
+bool is_filled(std::string_view matrix) {
+    while (!matrix.empty()) {
+        if (matrix.size() < kElementTag) return false;
+        const ElementTag tag = tag_at(matrix, 0);
+        const bool small = tag.type >> 16 != 0;  // the data stand within the tag
+        const std::size_t padded = small ? 0 : (std::size_t{tag.bytes} + 7) / 8 * 8;
+        matrix.remove_prefix(kElementTag);
+        if (padded > matrix.size()) return false;
+        if (!small && tag.type == kPlainElement && !is_filled(matrix.substr(0, tag.bytes))) return false;
+        matrix.remove_prefix(padded);
+    }
+    return true;
+}
+
+bool ends_well(std::string_view stream) {
+    z_stream state{};
+    if (inflateInit(&state) != Z_OK) return false;
+    state.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(stream.data()));
+    state.avail_in = static_cast<uInt>(stream.size());
+    Bytef block[1 << 16];
+    int result = Z_OK;
+    while (result == Z_OK) {
+        state.next_out = block, state.avail_out = sizeof block;
+        result = inflate(&state, Z_NO_FLUSH);
+    }
+    inflateEnd(&state);
+    return result == Z_STREAM_END;
+}
+
 }  // namespace
+
+bool is_whole(const std::filesystem::path& file) {
+    const std::string content = read_file(file);
+    std::size_t at = kFileHeader;
+    while (at + kElementTag <= content.size()) {
+        const ElementTag tag = tag_at(content, at);
+        if (tag.bytes > content.size() - at - kElementTag) return false;
+        const std::string_view element = std::string_view(content).substr(at + kElementTag, tag.bytes);
+        if (!(tag.type == kDeflatedElement ? ends_well(element) : is_filled(element))) return false;
+        at += kElementTag + tag.bytes;
+    }
+    return at == content.size();
+}
 
 std::filesystem::path with_quick_compression(const std::filesystem::path& file) {
     if (std::filesystem::file_size(file) < kLargeElement) return file;

@@ -9,4 +9,8 @@ namespace dynlab::inline data_io {
 /// new file cannot be written. Reference: MathWorks, MAT-File Format (R2022b), chapter 1, miCOMPRESSED.
 std::filesystem::path with_quick_compression(const std::filesystem::path& file);
 
+/// Whether all that the tags of a MAT v5 file announce is there: libmatio does not notice every failed write, and the
+/// tags that it sets afterwards fit what a full disk has left.
+bool is_whole(const std::filesystem::path& file);
+
 }  // namespace dynlab::inline data_io

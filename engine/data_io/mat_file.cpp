@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <new>
 
 #include "data_io/mat_compression.h"
 #include "data_io/mat_layout.h"
 #include "data_io/mat_variable.h"
+#include "data_io/reading_memory.h"
 #include "data_io/values/cbor_values.h"
 #include "data_io/values/described.h"
 #include "platform/atomic_file.h"
@@ -89,7 +91,9 @@ MatContent read_variables(const fs::path& file) {
     const MatFile mat(Mat_Open(file.c_str(), MAT_ACC_RDONLY));
     if (!mat) fail_damaged(file, "it cannot be opened as a MATLAB file");
     const bool is_hdf5 = layout.version == MatVersion::k73;
-    const std::size_t most_values = is_hdf5 ? 0 : kLargestDeflateRatio * fs::file_size(file);
+    constexpr std::size_t kBytesOfValue = 3 * sizeof(double);  // as stored, converted, and on its way
+    const std::size_t bytes = fs::file_size(file), most_in_memory = memory_for_reading(bytes) / kBytesOfValue;
+    const std::size_t most_values = is_hdf5 ? most_in_memory : std::min(kLargestDeflateRatio * bytes, most_in_memory);
     if (is_hdf5 && is_guarded_copy()) confine_to_memory();
     MatContent content;
     std::size_t count = 0;
@@ -123,18 +127,20 @@ MatContent read_variables(const fs::path& file) {
 
 MatContent read_guarded(const fs::path& file) {
     load_matio();
-    const GuardLimits limits;
-    const auto read = [&file] {
+    const std::size_t bytes = bytes_of_file(file);
+    GuardLimits limits;
+    limits.memory_bytes = limits.output_bytes = memory_for_reading(bytes);
+    const auto read = [&file, bytes] {
         try {
             return cbor_of(read_variables(file));
         } catch (const std::bad_alloc&) {
-            fail_damaged(file, "reading it takes more than 2 GiB of memory");
+            fail_damaged(file, memory_refusal(bytes));
         }
     };
     const ChildResult result = run_guarded(read, limits);
     if (result.timed_out)
         fail_damaged(file, fmt::format("reading it takes more than {} s", limits.time.processor.count() / 1000));
-    if (result.output_exceeded) fail_damaged(file, "it unpacks to more than 2 GiB");
+    if (result.output_exceeded) fail_damaged(file, memory_refusal(bytes));
     if (result.exit_code == 1 && !result.error_output.empty()) throw EnvironmentError(result.error_output);
     if (result.exit_code != 0) fail_damaged(file, "reading it ends in a crash");
     try {
@@ -152,6 +158,15 @@ std::size_t number_count(const Variable& variable) {
     if (const auto* table = std::get_if<std::shared_ptr<VariableTable>>(&variable.value))
         for (const auto& [name, entry] : **table) count += number_count(entry);
     return count;
+}
+
+/// libmatio does not notice every failed write; a file cut off by a full disk is seen here.
+bool holds_all(const fs::path& draft, std::size_t variables) {
+    try {
+        return check_mat_layout(draft).variables == variables && is_whole(draft);
+    } catch (const EnvironmentError&) {
+        return false;
+    }
 }
 
 }  // namespace
@@ -175,8 +190,7 @@ void write_mat_file(const fs::path& file, const VariableTable& variables, int di
         written = written && Mat_VarWrite(mat.get(), converted.get(), compression) == 0;
     }
     written = written && Mat_Close(mat.release()) == 0 && complaints.first().empty();
-    // libmatio does not notice every failed write; a file cut off by a full disk is seen here.
-    if (!written || check_mat_layout(draft).variables != variables.size()) {
+    if (!written || !holds_all(draft, variables.size())) {
         throw EnvironmentError(fmt::format("cannot write {}: no room for its draft in {}", file.string(),
                                            folder.path().parent_path().string()));
     }

@@ -13,10 +13,10 @@ namespace dynlab::inline data_io {
 /// EnvironmentError that names the file and the reason: not there, not a MAT file, of an unknown version, cut off,
 /// damaged, or no variable of it can be represented.
 ///
-/// `guarded`: a forked copy of this process with limits (2 GiB, 3 s) reads the file, so that a damaged one can
-/// neither crash nor hang the caller; costs a few milliseconds. The copy opens no other file: what a v7.3 file (HDF5)
-/// links to outside of itself is left out. Works from any program. Only files that ship with dynlab need no guard. Not
-/// to be called from several threads at once (libmatio and HDF5 keep global state).
+/// `guarded`: a forked copy of this process with limits (memory as in reading_memory.h, 3 s) reads the file, so that a
+/// damaged one can neither crash nor hang the caller; costs a few milliseconds. The copy opens no other file: what a
+/// v7.3 file (HDF5) links to outside of itself is left out. Works from any program. Only files that ship with dynlab
+/// need no guard. Not to be called from several threads at once (libmatio and HDF5 keep global state).
 VariableTable read_mat_file(const std::filesystem::path& file, bool guarded = true,
                             std::vector<std::string>* left_out = nullptr);
 

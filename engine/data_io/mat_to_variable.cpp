@@ -96,7 +96,7 @@ void check_header(const matvar_t& variable, const std::string& name, std::size_t
         values *= static_cast<double>(variable.dims[i]);
     }
     if (most_values > 0 && !is_empty && values > static_cast<double>(most_values)) {
-        fail(name, fmt::format("is damaged: it claims {:g} values, more than the file can hold", values));
+        fail(name, fmt::format("is damaged: it claims {:g} values, more than a file of its size has", values));
     }
     for (const matvar_t* part : parts_of(variable)) {
         if (part) check_header(*part, part->name ? name + "." + part->name : name + "{}", most_values, depth + 1);

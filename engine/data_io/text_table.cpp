@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 
 #include "data_io/tables/number_cell.h"
 #include "numerics/number_text.h"
@@ -15,6 +16,8 @@
 
 namespace dynlab::inline data_io {
 namespace {
+
+constexpr std::size_t kMostTableCells = 4'000'000;  // the empty ones at the ends of short rows count, too
 
 /// The separator that the first line has most of.
 char table_separator_of(std::string_view text) {
@@ -44,6 +47,8 @@ class Reader {
                 fail(line, fmt::format("{}, but the header has {}", counted(row.size(), "cell"),
                                        counted(table.names.size(), "column")));
             row.resize(table.names.size());
+            if (table.rows.size() >= kMostTableCells / row.size())
+                fail(line, fmt::format("the table has more than {} cells", kMostTableCells));
             table.rows.push_back(row);
             table.lines.push_back(line);
         }
@@ -57,9 +62,10 @@ class Reader {
     }
 
     void take_header(TextTable& table, const std::vector<std::string>& row, int line) const {
+        std::set<std::string> known;
         for (const std::string& cell : row) {
             std::string name = in_small_letters(cell);
-            if (table.column(name)) fail(line, fmt::format("there are two columns \"{}\"", name));
+            if (!known.insert(name).second) fail(line, fmt::format("there are two columns \"{}\"", name));
             table.names.push_back(std::move(name));
         }
     }

@@ -7,8 +7,11 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <new>
 #include <pugixml.hpp>
+#include <utility>
 
+#include "data_io/reading_memory.h"
 #include "data_io/values/cbor_values.h"
 #include "data_io/values/described.h"
 #include "platform/atomic_file.h"
@@ -24,7 +27,7 @@ DYNLAB_DESCRIBE(SheetText, csv, sheets)
 
 namespace {
 
-constexpr std::size_t kMostUnpacked = std::size_t{512} << 20, kMostText = std::size_t{512} << 20;
+constexpr std::size_t kSmallestSheet = std::size_t{64} << 20;  // as text; where the file is larger, its size
 constexpr int kMostParts = 10000;
 constexpr std::size_t kMostRows = 1048576, kMostSheetColumns = 16384;  // of the format
 
@@ -46,6 +49,7 @@ WorkbookParts unpacked(const std::string& bytes) {
         ::archive_read_open_memory(zip.get(), bytes.data(), bytes.size()) != ARCHIVE_OK)
         fail_workbook("is no workbook (.xlsx): it is no zip archive");
     WorkbookParts parts;
+    const std::size_t most = memory_for_reading(bytes.size()) / 2;
     std::size_t total = 0;
     archive_entry* entry = nullptr;
     int result = ARCHIVE_OK;
@@ -59,7 +63,7 @@ WorkbookParts unpacked(const std::string& bytes) {
         la_ssize_t size = 0;
         while ((size = ::archive_read_data(zip.get(), block, sizeof block)) > 0) {
             total += static_cast<std::size_t>(size);
-            if (total > kMostUnpacked) fail_workbook("unpacks to more than 512 MiB");
+            if (total > most) fail_workbook(fmt::format("unpacks to more than {} MB", most >> 20));
             part.append(block, static_cast<std::size_t>(size));
         }
         if (size < 0) fail_workbook("is damaged: a part of it cannot be unpacked");
@@ -84,13 +88,15 @@ std::string attribute_of(const pugi::xml_node& node, std::string_view name) {
 }
 
 /// pugixml knows XML's own five entities and character references; it reads no document type.
-pugi::xml_document parsed(const WorkbookParts& parts, const std::string& path) {
-    const auto part = parts.find(path);
-    if (part == parts.end()) fail_workbook(fmt::format("is no workbook, or damaged: it has no part {}", path));
+/// The part's text goes with it.
+pugi::xml_document parsed(WorkbookParts& parts, const std::string& path) {
+    const auto part = parts.extract(path);
+    if (part.empty()) fail_workbook(fmt::format("is no workbook, or damaged: it has no part {}", path));
     pugi::xml_document document;
     constexpr unsigned kOptions =
         pugi::parse_cdata | pugi::parse_escapes | pugi::parse_eol | pugi::parse_ws_pcdata_single;
-    const auto result = document.load_buffer(part->second.data(), part->second.size(), kOptions);
+    const auto result = document.load_buffer(part.mapped().data(), part.mapped().size(), kOptions);
+    if (result.status == pugi::status_out_of_memory) throw std::bad_alloc();
     if (!result)
         fail_workbook(
             fmt::format("is damaged: {} at byte {} of its part {}", result.description(), result.offset, path));
@@ -114,7 +120,7 @@ std::string item_text(const pugi::xml_node& item) {
     return text;
 }
 
-std::vector<std::string> shared_texts(const WorkbookParts& parts) {
+std::vector<std::string> shared_texts(WorkbookParts& parts) {
     std::vector<std::string> texts;
     if (parts.count("xl/sharedStrings.xml") == 0) return texts;
     const pugi::xml_document document = parsed(parts, "xl/sharedStrings.xml");
@@ -140,38 +146,43 @@ std::string number_or_text(const std::string& value) {
 
 class SheetReader {
   public:
-    explicit SheetReader(std::vector<std::string> texts) : texts_(std::move(texts)) {}
+    SheetReader(std::vector<std::string> texts, std::size_t most_bytes)
+        : texts_(std::move(texts)), most_bytes_(most_bytes) {}
 
     std::string csv(const pugi::xml_node& sheet_data) {
         for (const pugi::xml_node& row : sheet_data.children())
             if (local_name(row.name()) == "row") add_row(row);
         std::size_t width = 0;
-        for (const auto& [number, cells] : rows_)
-            width = std::max(width, cells.empty() ? 0 : cells.rbegin()->first + 1);
-        if (width * rows_.size() > kMostText) fail_workbook("has a sheet of more than 512 MiB");
+        for (const Row& row : rows_) width = std::max(width, row.width);
+        if (bytes_ + width * rows_.size() > most_bytes_) fail_large();
         std::string text;
         std::size_t line = 1;
-        for (const auto& [number, cells] : rows_) {
-            text.append(number - line, '\n');
-            line = number + 1;
-            for (std::size_t j = 0; j < width && !cells.empty(); ++j) {
-                const auto cell = cells.find(j);
-                if (cell != cells.end()) text += cell->second;
-                if (j + 1 < width) text += ',';
-            }
+        for (Row& row : rows_) {
+            text.append(row.number - line, '\n');
+            line = row.number + 1;
+            text += std::exchange(row.text, {});
+            if (row.width > 0) text.append(width - row.width, ',');
             text += '\n';
-            if (text.size() > kMostText) fail_workbook("has a sheet of more than 512 MiB");
         }
         return text;
     }
 
   private:
+    struct Row {
+        std::size_t number, width;  ///< from 1; cells up to the last that is not empty
+        std::string text;
+    };
+
+    [[noreturn]] void fail_large() const {
+        fail_workbook(fmt::format("has a sheet of more than {} MB", most_bytes_ >> 20));
+    }
+
     void add_row(const pugi::xml_node& row) {
         const std::string stated = attribute_of(row, "r");
-        const std::size_t before = rows_.empty() ? 0 : rows_.rbegin()->first;
+        const std::size_t before = rows_.empty() ? 0 : rows_.back().number;
         const std::size_t number = stated.empty() ? before + 1 : whole_number(stated);
         if (number <= before || number > kMostRows) fail_workbook("is damaged: its rows are not in order");
-        auto& cells = rows_[number];
+        std::map<std::size_t, std::string> cells;  // by column, from 0
         std::size_t next = 0;
         for (const pugi::xml_node& cell : row.children()) {
             if (local_name(cell.name()) != "c") continue;
@@ -182,6 +193,14 @@ class SheetReader {
             if (!text.empty()) cells[column] = std::move(text);
             next = column + 1;
         }
+        Row& added = rows_.emplace_back(Row{number, 0, {}});
+        for (const auto& [column, text] : cells) {
+            added.text.append(added.width == 0 ? column : column + 1 - added.width, ',');
+            added.text += text;
+            added.width = column + 1;
+        }
+        bytes_ += number - before + added.text.size();
+        if (bytes_ > most_bytes_) fail_large();
     }
 
     static std::size_t whole_number(const std::string& text) {
@@ -214,11 +233,12 @@ class SheetReader {
     }
 
     std::vector<std::string> texts_;
-    std::map<std::size_t, std::map<std::size_t, std::string>> rows_;  ///< by number, from 1; cells by column, from 0
+    std::size_t most_bytes_, bytes_ = 0;  ///< of the sheet as text
+    std::vector<Row> rows_;
 };
 
 SheetText sheet_of(const std::string& bytes, const std::string& wanted) {
-    const WorkbookParts parts = unpacked(bytes);
+    WorkbookParts parts = unpacked(bytes);
     const pugi::xml_document workbook = parsed(parts, "xl/workbook.xml");
     const pugi::xml_document relations = parsed(parts, "xl/_rels/workbook.xml.rels");
     SheetText text;
@@ -232,8 +252,10 @@ SheetText sheet_of(const std::string& bytes, const std::string& wanted) {
     std::string path;
     for (const pugi::xml_node& entry : relations.document_element().children())
         if (attribute_of(entry, "Id") == relation) path = part_path(attribute_of(entry, "Target"));
+    std::vector<std::string> texts = shared_texts(parts);
     const pugi::xml_document sheet = parsed(parts, path);
-    text.csv = SheetReader(shared_texts(parts)).csv(child_of(sheet.document_element(), "sheetData"));
+    text.csv = SheetReader(std::move(texts), std::max(kSmallestSheet, bytes.size()))
+                   .csv(child_of(sheet.document_element(), "sheetData"));
     return text;
 }
 
@@ -242,16 +264,18 @@ SheetText sheet_of(const std::string& bytes, const std::string& wanted) {
 SheetText read_sheet(const std::filesystem::path& file, const std::string& sheet) {
     GuardLimits limits;
     limits.time.processor = std::chrono::seconds(20);
+    const std::size_t bytes = bytes_of_file(file);
+    limits.memory_bytes = limits.output_bytes = memory_for_reading(bytes);
     const std::string name = file.string();
-    const auto read = [&file, &sheet, &name] {
-        const std::string bytes = read_file(file);
+    const auto read = [&file, &sheet, &name, bytes] {
+        const std::string content = read_file(file);
         if (is_guarded_copy()) confine_to_memory();
         try {
-            return cbor_of(sheet_of(bytes, sheet));
+            return cbor_of(sheet_of(content, sheet));
         } catch (const EnvironmentError& error) {
             throw EnvironmentError(fmt::format("{} {}", name, error.what()));
         } catch (const std::bad_alloc&) {
-            throw EnvironmentError(name + " is damaged: reading it takes more than 2 GiB of memory");
+            throw EnvironmentError(fmt::format("{}: {}", name, memory_refusal(bytes)));
         }
     };
     const ChildResult result = run_guarded(read, limits);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "data_io/dataset_index.h"
 #include "figures/plots/id_plot.h"
@@ -53,8 +54,9 @@ class DataLooker {
   public:
     explicit DataLooker(LoadedData data) : data_(std::move(data)) {
         names_ = data_.columns;
+        std::set<std::string> known(names_.begin(), names_.end());
         for (const auto& [name, variable] : data_.variables)
-            if (std::find(names_.begin(), names_.end(), name) == names_.end()) names_.push_back(name);
+            if (known.insert(name).second) names_.push_back(name);
         for (const std::string& name : names_) collect(name, data_.variables.at(name));
         find_length();
         time_ = time_column(data_, samples_);

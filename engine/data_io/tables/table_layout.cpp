@@ -17,6 +17,7 @@ namespace dynlab::inline data_io {
 namespace {
 
 constexpr std::size_t kMostRecords = 300, kMostCells = 200000;  // of the sample
+constexpr std::size_t kMostColumns = 100000;
 
 struct TableRecord {
     std::size_t at = 0, line = 1;
@@ -44,7 +45,11 @@ NumberStatus kind_of(const CellScanner& scanner, std::string_view cell, char sep
     return parse_number(cell, separator != ',' || scanner.cell_was_quoted(), number);
 }
 
-/// Nothing when quotation marks show that the separator is another.
+[[noreturn]] void fail_wide(const CellScanner& scanner) {
+    scanner.fail(fmt::format("there are more than {} cells in one row", kMostColumns));
+}
+
+/// Nothing when quotation marks, or rows of no sensible length, show that the separator is another.
 std::optional<TableSample> sample_of(const std::filesystem::path& file, std::string_view text, std::size_t at,
                                      std::size_t line, char separator) try {
     TableSample sample{separator, {}, {}, 0, 0};
@@ -54,6 +59,7 @@ std::optional<TableSample> sample_of(const std::filesystem::path& file, std::str
         if (sample.records.empty()) sample.last_comment = scanner.last_comment();
         TableRecord record{scanner.place(), scanner.line(), {}, {}};
         do {
+            if (record.cells.size() == kMostColumns) fail_wide(scanner);
             const std::string_view cell = scanner.next_cell();
             record.kinds.push_back(kind_of(scanner, cell, separator));
             record.cells.emplace_back(cell);
@@ -254,12 +260,14 @@ double score_of(const std::filesystem::path& file, const TableSample& sample) {
     return LayoutFinder(file, sample, false).is_complete() ? good : good * kWithoutNames;
 }
 
-/// Throws what is wrong with the quotation marks, or that there is no record.
+/// Throws what is wrong with the quotation marks or the length of a row, or that there is no record.
 [[noreturn]] void walk_through(const std::filesystem::path& file, std::string_view text, std::size_t at,
                                std::size_t line, char separator) {
     CellScanner scanner(file, text, separator, at, line);
     while (scanner.next_record()) {
+        std::size_t cells = 0;
         do {
+            if (cells++ == kMostColumns) fail_wide(scanner);
             scanner.next_cell();
         } while (!scanner.record_ended());
     }
@@ -280,7 +288,7 @@ TableLayout find_layout(const std::filesystem::path& file, std::string_view text
         if (!best || sample->score > best->score) best = std::move(sample);
     }
     if (!best) walk_through(file, text, at, line, separators.front());
-    // In a single column, a quotation mark that is never closed may hide the separator.
+    // In a single column, a quotation mark that is never closed, or a row without end, may hide the separator.
     const std::string_view first_line = text.substr(at, text.find('\n', at) - at);
     for (const char separator : separators)
         if (best->cells == 1 && separator != ' ' && first_line.find(separator) != std::string_view::npos &&

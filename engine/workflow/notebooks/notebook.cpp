@@ -229,6 +229,7 @@ bool is_notebook(const std::filesystem::path& file) {
 std::string notebook_of(const PercentScript& script, const RunRecord* record,
                         const std::map<std::string, std::string>& figures) {
     const std::vector<Segment> segments = segments_of(script.source);
+    const Cell* const failed = record && record->error ? script.cell_at_line(record->error->line) : nullptr;
     NotebookIds ids;
     json cells = json::array();
     int runs = 0;
@@ -236,21 +237,20 @@ std::string notebook_of(const PercentScript& script, const RunRecord* record,
         const bool last = i + 1 == segments.size();
         const CellText cell = read_cell(segments[i].written);
         const int end = last ? std::numeric_limits<int>::max() : segments[i + 1].first_line;
-        const auto parsed = std::find_if(script.cells.begin(), script.cells.end(), [&](const Cell& one) {
-            return one.first_line >= segments[i].first_line && one.first_line < end;
-        });
+        const auto parsed = std::lower_bound(script.cells.begin(), script.cells.end(), segments[i].first_line,
+                                             [](const Cell& one, int line) { return one.first_line < line; });
         json ours = json::object();
         if (!cell.options.empty()) ours["options"] = cell.options;
         if (!cell.marked) ours["marked"] = false;
         if (write_cell(cell, last) != segments[i].written) ours["written"] = lines_as_json(segments[i].written);
-        const bool there = parsed != script.cells.end();
+        const bool there = parsed != script.cells.end() && parsed->first_line < end;
         json made = {{"cell_type", cell.text ? "markdown" : "code"},
                      {"id", ids.next(there ? parsed->id : "header")},
                      {"metadata", ours.empty() ? json::object() : json{{kOurs, ours}}},
                      {"source", lines_as_json(cell.source)}};
         if (!cell.text) {
             const bool shows = record != nullptr && there;
-            const bool stopped = shows && record->error && script.cell_at_line(record->error->line) == &*parsed;
+            const bool stopped = shows && failed == &*parsed;
             made["outputs"] = shows ? outputs_of(*record, *parsed, stopped, figures) : json::array();
             made["execution_count"] = record != nullptr ? json(++runs) : json();
         }
@@ -302,18 +302,26 @@ PercentScript read_script_or_notebook(const std::filesystem::path& file) {
     return is_notebook(file) ? parse_percent_script(read_notebook(file).source, file) : read_percent_script(file);
 }
 
+namespace {
+
+std::string place_in_segments(const std::vector<Segment>& segments, int line) {
+    const auto behind = std::upper_bound(segments.begin(), segments.end(), line,
+                                         [](int wanted, const Segment& one) { return wanted < one.first_line; });
+    if (behind == segments.begin()) return {};
+    const Segment& segment = *(behind - 1);
+    const int behind_marker = line - segment.first_line + (is_cell_marker(first_line_of(segment.written)) ? 0 : 1);
+    return behind_marker == 0 ? "" : fmt::format("cell {}, line {}", behind - segments.begin(), behind_marker);
+}
+
+}  // namespace
+
 std::string place_in_notebook(const std::string& source, int line) {
-    const std::vector<Segment> segments = segments_of(source);
-    for (std::size_t i = segments.size(); i-- > 0;) {
-        if (segments[i].first_line > line) continue;
-        const int behind_marker = line - segments[i].first_line + (read_cell(segments[i].written).marked ? 0 : 1);
-        return behind_marker == 0 ? "" : fmt::format("cell {}, line {}", i + 1, behind_marker);
-    }
-    return {};
+    return place_in_segments(segments_of(source), line);
 }
 
 std::string with_places_in_notebook(const std::string& text, const std::string& script, const std::string& notebook,
                                     const std::string& source) {
+    const std::vector<Segment> segments = segments_of(source);
     std::string result;
     std::size_t at = 0;
     for (std::size_t found; (found = text.find(script, at)) != std::string::npos;) {
@@ -322,7 +330,7 @@ std::string with_places_in_notebook(const std::string& text, const std::string& 
         std::size_t end = at + 1;
         while (end < text.size() && std::isdigit(static_cast<unsigned char>(text[end]))) ++end;
         const bool placed = at < text.size() && text[at] == ':' && end > at + 1 && end < at + 9;
-        const std::string place = placed ? place_in_notebook(source, std::stoi(text.substr(at + 1))) : "";
+        const std::string place = placed ? place_in_segments(segments, std::stoi(text.substr(at + 1, 8))) : "";
         result += notebook + (place.empty() ? "" : ", " + place);
         if (!place.empty()) at = end;
     }

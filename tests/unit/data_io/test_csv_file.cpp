@@ -12,6 +12,7 @@
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/temporary_folder.h"
+#include "support/peak_memory.h"
 
 namespace dynlab {
 namespace test_csv_file {
@@ -331,6 +332,47 @@ TEST_F(csv_file, reads_a_million_rows) {
     ASSERT_EQ(table.columns[2].size(), 1000000);
     EXPECT_EQ(table.columns[0].sum(), 499999500000.0);
     EXPECT_EQ(table.columns[2][999999], -0.0999999);
+}
+
+/// `text` n times, with commas between.
+std::string row_of(std::size_t n, const std::string& text) {
+    std::string row = text;
+    for (std::size_t i = 1; i < n; ++i) row += ',' + text;
+    return row + '\n';
+}
+
+// Oracle: what the header of reading_memory states, as the kernel counts it.
+TEST_F(csv_file, many_cells_take_a_memory_with_a_limit) {
+    constexpr double kMost = 512;  // MB
+    const std::string commas = "t,y\n" + std::string(50 << 20, ',') + "\n";
+    const auto peak_of = [this](const std::string& text, const std::string& wanted) {
+        return test::peak_memory([&] { EXPECT_THAT(complaint(text), HasSubstr(wanted)); });
+    };
+    const double before = test::peak_memory([] {});
+    EXPECT_LT(peak_of(commas, "line 2: there are more than 100000 cells in one row") - before, kMost);
+    std::string words = "name\n";
+    for (int i = 0; i < 16 << 20; ++i) words += "ab\n";
+    EXPECT_LT(peak_of(words, "the table has too many cells: reading it takes more than 512 MB") - before, kMost);
+}
+
+TEST_F(csv_file, headers_of_one_name_are_numbered_at_once) {
+    constexpr std::size_t kColumns = 50000;  // in quadratic time that takes minutes
+    const CsvTable table = read(row_of(kColumns, "y") + row_of(kColumns, "1") + row_of(kColumns, "2"));
+    ASSERT_EQ(table.names.size(), kColumns);
+    EXPECT_EQ(table.names[0], "y");
+    EXPECT_EQ(table.names[1], "y_2");
+    EXPECT_EQ(table.names.back(), fmt::format("y_{}", kColumns));
+    EXPECT_LT(table.notes.back().size(), 200u);
+}
+
+TEST_F(csv_file, numbered_names_pass_over_those_that_are_there) {
+    EXPECT_THAT(read("y,y_2,y,y,y_2\n1,2,3,4,5\n").names, ElementsAre("y", "y_2", "y_3", "y_4", "y_2_2"));
+}
+
+TEST_F(csv_file, a_million_rows_are_ordinary) {
+    std::string text = "t,u,y\n";
+    for (int i = 0; i < 1'000'000; ++i) text += "0.123456,1,-2.5\n";
+    EXPECT_EQ(read(text).columns[2].size(), 1'000'000);
 }
 
 }  // namespace test_csv_file

@@ -10,6 +10,7 @@
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/temporary_folder.h"
+#include "support/peak_memory.h"
 
 namespace dynlab::test {
 namespace test_json_file {
@@ -83,6 +84,18 @@ TEST_F(json_file, refuses_what_is_none_with_its_place) {
                 HasSubstr("more than 100 levels"));
     EXPECT_THAT(told("{\"x\": \"\xff\"}"), HasSubstr("is no JSON"));
     EXPECT_THAT(refusal_of([&] { read_json_file(folder_.path() / "none.json"); }), HasSubstr("none.json"));
+}
+
+// Oracle: the limit that the header of reading_memory states, as the kernel counts it.
+TEST_F(json_file, many_values_take_a_memory_with_a_limit) {
+    std::string text = "{\"a\": [";
+    for (int i = 0; i < 8'000'000; ++i) text += "[],";
+    const std::filesystem::path lists = file(text + "1]}");
+    const double before = peak_memory([] {});
+    const double taken = peak_memory([&] {
+        EXPECT_THAT(refusal_of([&] { read_json_file(lists); }), HasSubstr("reading it takes more than 512 MB"));
+    });
+    EXPECT_LT(taken - before, 512);
 }
 
 }  // namespace test_json_file

@@ -369,5 +369,43 @@ TEST_F(mat_file, a_full_disk_leaves_the_old_file) {
     EXPECT_THROW(write_mat_file(folder_.path() / "none/x.mat", large), EnvironmentError);
 }
 
+// Wherever the room ends, what is there afterwards is the old file, whole: libmatio does not tell of every failed
+// write.
+TEST_F(mat_file, no_place_where_a_disk_fills_up_is_passed_over) {
+    VariableTable many = sample_variables();
+    many["noise"] = {Vector(Vector::Random(30000))};
+    many["large"] = {Vector(Vector::Random(600000))};  // not compressed
+    rlimit before;
+    getrlimit(RLIMIT_FSIZE, &before);
+    const auto signal_before = std::signal(SIGXFSZ, SIG_IGN);
+    for (const rlim_t bytes :
+         {rlim_t{100}, rlim_t{130}, rlim_t{5000}, rlim_t{65536}, rlim_t{200000}, rlim_t{3000000}}) {
+        write_mat_file(file_, plain_variables());
+        const rlimit limit{bytes, before.rlim_max};
+        setrlimit(RLIMIT_FSIZE, &limit);
+        std::string message;
+        try {
+            write_mat_file(file_, many);
+        } catch (const EnvironmentError& error) {
+            message = error.what();
+        }
+        setrlimit(RLIMIT_FSIZE, &before);
+        EXPECT_THAT(message, HasSubstr("no room for its draft in ")) << bytes;
+        EXPECT_TRUE(equal(read_mat_file(file_), plain_variables())) << bytes;
+    }
+    std::signal(SIGXFSZ, signal_before);
+    write_mat_file(file_, many);
+    EXPECT_TRUE(equal(read_mat_file(file_), many));
+}
+
+// Oracle: the limit that the header of reading_memory states.
+TEST_F(mat_file, small_files_of_many_values_are_refused) {
+    VariableTable zeros;
+    zeros["x"] = {Vector(Vector::Zero(24'000'000))};
+    write(MAT_FT_MAT5, zeros, MAT_COMPRESSION_ZLIB);
+    EXPECT_LT(std::filesystem::file_size(file_), 1u << 20);
+    EXPECT_THAT(complaint(), HasSubstr("more than a file of its size has"));
+}
+
 }  // namespace test_mat_file
 }  // namespace dynlab

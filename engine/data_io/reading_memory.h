@@ -1,0 +1,21 @@
+#pragma once
+#include <cstddef>
+#include <filesystem>
+#include <string>
+
+namespace dynlab::inline data_io {
+
+/// The bytes of memory that reading a file of so many may take: 512 MB, or eight times as much as a larger file. What
+/// asks for more is refused, before it is taken where its size is known.
+constexpr std::size_t memory_for_reading(std::size_t file_bytes) {
+    constexpr std::size_t kSmallest = std::size_t{512} << 20, kTimes = 8;
+    return file_bytes > kSmallest / kTimes ? kTimes * file_bytes : kSmallest;
+}
+
+/// "reading it takes more than 512 MB of memory, too much for a file of 2 MB"
+std::string memory_refusal(std::size_t file_bytes);
+
+/// 0 for one that is not there; who reads it says so.
+std::size_t bytes_of_file(const std::filesystem::path& file);
+
+}  // namespace dynlab::inline data_io
