@@ -19,6 +19,7 @@
 #include "platform/interrupt.h"
 #include "platform/memory.h"
 #include "platform/program_lookup.h"
+#include "platform/system_call.h"
 #include "platform/terminal/terminal_text.h"
 
 namespace dynlab::inline cli {
@@ -44,9 +45,18 @@ constexpr const char* kFooter =
     "Exit codes: 0 done, 1 the script or document failed, 2 wrong usage, 3 a needed program is missing,\n"
     "130 interrupted.";
 
+/// Where what was printed has not been taken by whatever standard output is.
+std::optional<std::string> complaint_about_output() {
+    std::cout.flush();
+    errno = 0;
+    const bool taken = std::fflush(stdout) == 0 && std::cout && std::ferror(stdout) == 0;
+    if (taken) return {};
+    return "cannot write what was printed" + (errno != 0 ? ": " + system_reason(errno) : "");
+}
+
 /// Runs the chosen command and turns what it throws into one line on standard error and an exit code.
 int run_action(const Action& action) {
-    const InterruptScope interrupts;
+    const InterruptScope interrupts(InterruptScope::Unheard::kEnds);
     const auto say = [](const std::string& sentence, int code) {
         std::fflush(stdout);
         std::cerr << "dynlab: " << terminal_text(sentence) << std::endl;
@@ -54,7 +64,9 @@ int run_action(const Action& action) {
     };
     const auto complain = [&say](const std::exception& error, int code) { return say(error.what(), code); };
     try {
-        return action();
+        const int code = action();
+        const std::optional<std::string> complaint = complaint_about_output();
+        return complaint ? say(*complaint, kFailed) : code;
     } catch (const Interrupted& error) {
         const int code = complain(error, kInterrupted);
         pass_on_termination();
@@ -97,7 +109,7 @@ int Program::run(int count, char** words) {
     } catch (const CLI::ParseError& error) {
         const bool asked_for_text = error.get_exit_code() == 0;
         app_.exit(error);
-        return asked_for_text ? kDone : kUsage;
+        return asked_for_text ? run_action([] { return kDone; }) : kUsage;
     }
     if (!action_) action_ = [this] { return open_prompt("", shows_figures_ ? view_() : nullptr); };
     return run_action(action_);

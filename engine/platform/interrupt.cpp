@@ -1,9 +1,15 @@
 #include "platform/interrupt.h"
 
+#include <sys/time.h>
+#include <unistd.h>
+
+#include <atomic>
 #include <csignal>
 #include <iterator>
+#include <string_view>
 
 #include "platform/error.h"
+#include "platform/files/ends_with_program.h"
 
 namespace dynlab::inline platform {
 namespace {
@@ -11,24 +17,56 @@ namespace {
 volatile std::sig_atomic_t interrupt_count = 0;
 volatile std::sig_atomic_t ending_count = 2;
 volatile std::sig_atomic_t termination = 0;  // the signal
-int open_scopes = 0;                         // scopes are made by the main thread only
+volatile std::sig_atomic_t ends_unheard = 0;
+std::atomic<int> slow_endings{0};
+int open_scopes = 0;  // scopes are made by the main thread only
 
 constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
-struct sigaction actions_before[std::size(kSignals)];
+struct sigaction actions_before[std::size(kSignals)], alarm_action_before;
+
+constexpr suseconds_t kMicrosecondsToHear = 400'000;
+
+void set_alarm(suseconds_t microseconds) {
+    const itimerval timer{{0, 0}, {0, microseconds}};
+    ::setitimer(ITIMER_REAL, &timer, nullptr);
+}
 
 void count_interrupt(int number) {
     interrupt_count = interrupt_count + 1;
     if (number != SIGINT) termination = number;
-    if (interrupt_count < ending_count) return;
+    if (interrupt_count < ending_count) {
+        if (ends_unheard != 0) set_alarm(kMicrosecondsToHear);
+        return;
+    }
     ::signal(number, SIG_DFL);
     ::raise(number);  // held back until this handler returns, then ends the program
 }
 
+/// Whatever the program was doing, locks and memory may be in any state here: system calls only.
+void end_unheard(int) {
+    if (ends_unheard == 0) return;
+    if (slow_endings > 0) return set_alarm(kMicrosecondsToHear);
+    end_what_ends_with_program();
+    constexpr std::string_view kLastWords =
+        "\r\x1B[Kdynlab: interrupted\n";  // on a terminal behind what shows the progress
+    const std::size_t from = ::isatty(STDERR_FILENO) == 1 ? 0 : kLastWords.find('d');
+    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kLastWords.data() + from, kLastWords.size() - from);
+    pass_on_termination();
+    ::_exit(128 + SIGINT);
+}
+
+void begin_anew(int count_that_ends) {
+    set_alarm(0);
+    ending_count = count_that_ends;
+    interrupt_count = 0;
+}
+
 }  // namespace
 
-InterruptScope::InterruptScope() {
+InterruptScope::InterruptScope(Unheard unheard) {
     if (open_scopes++ > 0) return;
-    forget_interrupts();
+    begin_anew(2);
+    ends_unheard = unheard == Unheard::kEnds ? 1 : 0;
     struct sigaction action {};
     action.sa_handler = count_interrupt;
     sigemptyset(&action.sa_mask);
@@ -38,12 +76,23 @@ InterruptScope::InterruptScope() {
         const bool ignored = kSignals[i] != SIGINT && actions_before[i].sa_handler == SIG_IGN;  // nohup
         if (!ignored) ::sigaction(kSignals[i], &action, nullptr);
     }
+    action.sa_handler = end_unheard;
+    ::sigaction(SIGALRM, &action, &alarm_action_before);
 }
 
 InterruptScope::~InterruptScope() {
     if (--open_scopes > 0) return;
     for (std::size_t i = 0; i < std::size(kSignals); ++i) ::sigaction(kSignals[i], &actions_before[i], nullptr);
-    forget_interrupts();
+    begin_anew(2);
+    ::sigaction(SIGALRM, &alarm_action_before, nullptr);
+}
+
+SlowEnding::SlowEnding() {
+    ++slow_endings;
+}
+
+SlowEnding::~SlowEnding() {
+    --slow_endings;
 }
 
 bool interrupted() {
@@ -55,11 +104,12 @@ void throw_if_interrupted() {
 }
 
 void forget_interrupts(int count_that_ends) {
-    ending_count = count_that_ends;
-    interrupt_count = 0;
+    ends_unheard = 0;
+    begin_anew(count_that_ends);
 }
 
 void end_when_terminated() {
+    ends_unheard = 0;
     for (const int number : {SIGTERM, SIGHUP}) ::signal(number, SIG_DFL);
 }
 

@@ -69,6 +69,7 @@ TemporaryFolder::TemporaryFolder() {
         }
         if (!folder || !lock_as_in_use(folder.get(), path)) continue;  // removed as a leftover, before it had its lock
         path_ = path;
+        ends_ = EndsWithProgram(path_);
         folders_in_use().add(path_, std::move(folder));
         return;
     }

@@ -1,6 +1,8 @@
 #pragma once
 #include <filesystem>
 
+#include "platform/files/ends_with_program.h"
+
 namespace dynlab::inline platform {
 
 /// A private folder below $TMPDIR, removed with everything in it when this object goes.
@@ -14,6 +16,7 @@ class TemporaryFolder {
 
   private:
     std::filesystem::path path_;
+    EndsWithProgram ends_;
 };
 
 }  // namespace dynlab::inline platform

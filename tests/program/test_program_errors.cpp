@@ -83,6 +83,15 @@ TEST(program_errors, output_that_cannot_be_written_is_named) {
     expect_failure(bench.dynlab({"report", "mine", "-o", "report.docx"}), 1, ".pdf");
 }
 
+TEST(program_errors, printing_into_a_full_device_is_told) {
+    const Workbench bench;
+    for (const char* words : {"help", "help srivc", "--help", "lessons", "run -e 'print(1)'"}) {
+        const ChildResult result = bench.shell("\"$DYNLAB\" " + std::string(words) + " > /dev/full");
+        expect_failure(result, 1, "dynlab: cannot write what was printed");
+    }
+    EXPECT_EQ(bench.shell("\"$DYNLAB\" help > /dev/null").exit_code, 0);
+}
+
 TEST(program_errors, full_disk_leaves_the_old_report) {
     const Workbench bench;
     write_folder(bench, "print(1)\n", "Text.\n");

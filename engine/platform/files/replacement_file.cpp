@@ -49,7 +49,8 @@ ReplacementFile::ReplacementFile(const fs::path& file, const fs::path& made_in) 
 ReplacementFile::ReplacementFile(ReplacementFile&& other) noexcept
     : file_(std::move(other.file_)),
       temporary_(std::exchange(other.temporary_, fs::path())),
-      fd_(std::move(other.fd_)) {}
+      fd_(std::move(other.fd_)),
+      ends_(std::move(other.ends_)) {}
 
 ReplacementFile ReplacementFile::of_owner(const fs::path& file) {
     ReplacementFile made;
@@ -83,7 +84,9 @@ void ReplacementFile::commit() {
 void ReplacementFile::create_in(const fs::path& folder, mode_t mode) {
     TemporaryFile made = make_temporary_file(folder, file_.filename().string(), mode);
     fd_ = std::move(made.file);
-    if (fd_) temporary_ = std::move(made.path);
+    if (!fd_) return;
+    temporary_ = std::move(made.path);
+    ends_ = EndsWithProgram(temporary_);
 }
 
 }  // namespace dynlab::inline platform

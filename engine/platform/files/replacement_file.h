@@ -5,6 +5,7 @@
 #include <optional>
 #include <string_view>
 
+#include "platform/files/ends_with_program.h"
 #include "platform/system_call.h"
 
 namespace dynlab::inline platform {
@@ -34,6 +35,7 @@ class ReplacementFile {
 
     std::filesystem::path file_, temporary_;
     FileDescriptor fd_;
+    EndsWithProgram ends_;
 };
 
 [[noreturn]] void fail_to_write(const std::filesystem::path& file, int error_number);

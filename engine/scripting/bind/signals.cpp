@@ -5,6 +5,7 @@
 #include "numerics/signals/random_phase_multisine.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/conversions/boxed.h"
+#include "scripting/conversions/numeric.h"
 #include "scripting/conversions/table_fields.h"
 
 namespace dynlab::inline scripting {
@@ -31,18 +32,21 @@ int make_rbs(Call& call) {
     call.at_most(3);
     const auto [low, high] = levels(call, 3, -1, 1);
     const Index hold = call.given(2) ? call.size(2, "p") : 1;
+    need_room_for_signal(call.state(), static_cast<double>(call.size(1, "N")));
     return call.give_vector(rbs(call.size(1, "N"), static_cast<int>(hold), call.context().random, low, high));
 }
 
 int make_step(Call& call) {
     call.at_most(3);
     const auto [low, high] = levels(call, 3, 0, 1);
+    need_room_for_signal(call.state(), static_cast<double>(call.size(1, "N")));
     return call.give_vector(step_signal(call.size(1, "N"), call.given(2) ? call.size(2, "first") : 1, low, high));
 }
 
 int make_sine(Call& call) {
     call.at_most(4);
     const Options options(call, 4, {"amplitude", "phase"});
+    need_room_for_signal(call.state(), call.number(2, "T") / call.number(3, "Ts"));
     return call.give_vector(sine(call.number(1, "frequency"), call.number(2, "T"), call.number(3, "Ts"),
                                  options.number("amplitude", 1), options.number("phase", 0)));
 }
@@ -52,6 +56,7 @@ int make_chirp(Call& call) {
     const Options options(call, 5, {"shape"});
     const ChirpShape shape =
         options.choice("shape", {"sine", "square"}, 0) == 0 ? ChirpShape::kSine : ChirpShape::kSquare;
+    need_room_for_signal(call.state(), call.number(3, "T") / call.number(4, "Ts"));
     return call.give_vector(
         chirp(call.number(1, "f0"), call.number(2, "f1"), call.number(3, "T"), call.number(4, "Ts"), shape));
 }
@@ -68,6 +73,7 @@ int make_random_phases(Call& call) {
     wanted.low_crest = options.flag("low_crest", false);
     const Index period = call.size(1, "N"), periods = options.size("periods", 1);
     if (periods < 1) throw InvalidArgument("option 'periods' must be at least 1, but 0 was given");
+    need_room_for_signal(call.state(), static_cast<double>(period) * static_cast<double>(periods));
     RandomStream own(static_cast<std::uint32_t>(options.size("seed", 1)));
     const RandomPhaseMultisine signal =
         random_phase_multisine(period, wanted, options.has("seed") ? own : call.context().random);
@@ -80,6 +86,7 @@ int make_random_phases(Call& call) {
 int make_multisine(Call& call) {
     if (call.type(1) == LUA_TNUMBER && !(call.type(2) == LUA_TNUMBER)) return make_random_phases(call);
     call.at_most(3);
+    need_room_for_signal(call.state(), call.number(2, "T") / call.number(3, "Ts"));
     return call.give_vector(multisine(call.vector(1, "frequencies"), call.number(2, "T"), call.number(3, "Ts")));
 }
 

@@ -100,6 +100,12 @@ NumericBlock& push_vector(lua_State* L, Index size) {
     return block;
 }
 
+void need_room_for_signal(lua_State* L, double count) {
+    constexpr double kAtOnce = 3;
+    if (count >= 1)  // else the calculation says what is wrong with it
+        need_memory(L, kAtOnce * sizeof(double) * count, fmt::format("a vector of {:.0f} values", count).c_str());
+}
+
 void push_named_vector(lua_State* L, const Vector& values, const std::vector<std::string>& names) {
     auto& block = push_block<NumericBlock>(L, bytes_of(values.size(), 1), "a vector with names", kVectorType, 1);
     block = {values.size(), 1};

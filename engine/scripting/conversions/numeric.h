@@ -37,6 +37,10 @@ NumericBlock& push_vector(lua_State* L, Index size);
 NumericBlock& push_matrix(lua_State* L, Index rows, Index columns);
 MaskBlock& push_mask(lua_State* L, Index size);
 
+/// Before a signal of `count` values is calculated outside: throws InvalidArgument when the memory limit cannot hold
+/// it, with the two others that are there meanwhile.
+void need_room_for_signal(lua_State* L, double count);
+
 /// The block at a stack index, nullptr when something else is there.
 NumericBlock* to_vector(lua_State* L, int index);
 NumericBlock* to_matrix(lua_State* L, int index);

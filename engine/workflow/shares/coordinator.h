@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "platform/interrupt.h"
 #include "workflow/shares/heartbeat.h"
 #include "workflow/shares/spool.h"
 #include "workflow/shares/worker_engine.h"
@@ -68,6 +69,7 @@ class Coordinator {
     bool is_guilty(int losses) const;
     std::string log_of(const JobFile& job) const;
 
+    SlowEnding slow_ending_;
     Spool spool_;
     std::unique_ptr<WorkerEngine> engine_;
     std::mutex mutex_;

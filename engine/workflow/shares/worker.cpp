@@ -97,6 +97,7 @@ class WorkerProcess {
     WorkerProcess& operator=(const WorkerProcess&) = delete;
 
     std::optional<std::string> run() {
+        const SlowEnding hands_are_told_to_end;
         status_.refused = reason_to_refuse();
         if (!status_.refused.empty()) {
             end();

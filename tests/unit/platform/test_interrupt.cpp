@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <functional>
 
@@ -120,6 +121,58 @@ TEST(interrupt, termination_is_held_back_until_all_is_undone) {
     });
     ASSERT_TRUE(WIFEXITED(nothing));
     EXPECT_EQ(WEXITSTATUS(nothing), 5);
+}
+
+/// How a copy of this process ends that does `work` and then hears nothing.
+int status_of_deaf(const std::function<void()>& work) {
+    const pid_t child = fork();
+    if (child == 0) {
+        work();
+        for (int second = 0; second < 20; ++second) sleep(1);
+        _exit(5);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    return status;
+}
+
+TEST(interrupt, unheard_one_ends_a_program_that_said_so) {
+    for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+        const auto began = std::chrono::steady_clock::now();
+        const int status = status_of_deaf([number] {
+            static const InterruptScope scope(InterruptScope::Unheard::kEnds);
+            std::raise(number);
+        });
+        if (number == SIGINT) {
+            EXPECT_EQ(WEXITSTATUS(status), 130);
+        } else {
+            EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == number) << number;
+        }
+        EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(15));
+    }
+}
+
+TEST(interrupt, programs_that_go_on_are_not_ended) {
+    const auto status_after = [](const std::function<void()>& work) {
+        return status_of_deaf([&work] {
+            work();
+            usleep(600'000);
+            _exit(6);
+        });
+    };
+    const int forgotten = status_after([] {
+        static const InterruptScope scope(InterruptScope::Unheard::kEnds);
+        std::raise(SIGINT);
+        forget_interrupts();
+        std::raise(SIGINT);
+    });
+    EXPECT_EQ(WEXITSTATUS(forgotten), 6);
+    const int slow = status_after([] {
+        static const InterruptScope scope(InterruptScope::Unheard::kEnds);
+        static const SlowEnding slow_ending;
+        std::raise(SIGINT);
+    });
+    EXPECT_EQ(WEXITSTATUS(slow), 6);
 }
 
 }  // namespace test_interrupt
