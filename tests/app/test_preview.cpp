@@ -177,7 +177,7 @@ TEST_F(preview_page, a_stranger_s_document_is_shown_and_runs_only_when_told) {
                 R"({"type": "keyUp", "value": " "}, {"type": "keyDown", "value": "\uE007"}, )"
                 R"({"type": "keyUp", "value": "\uE007"}]}])");
     // The printed document runs it, too; the refusal comes after all that the keys could have asked for.
-    browser.evaluate("fetch('/document.pdf').then(async r => { window.refused = r.status + await r.text() })");
+    browser.evaluate("fetch('document.pdf').then(async r => { window.refused = r.status + await r.text() })");
     EXPECT_TRUE(browser.comes("/^403.*allowed/.test(window.refused)"));
     EXPECT_EQ(browser.evaluate("return document.getElementById('question').hidden"), "false");
     EXPECT_EQ(browser.evaluate("return document.getElementById('document').innerText.includes('x is 20')"), "false");
@@ -208,7 +208,7 @@ TEST_F(preview_page, gives_the_pdf) {
     browser.open(preview.address());
     ASSERT_TRUE(shows(browser, "x is 20"));
     browser.evaluate(
-        "fetch('/document.pdf').then(r => r.arrayBuffer()).then(b => { window.pdf = new "
+        "fetch('document.pdf').then(r => r.arrayBuffer()).then(b => { window.pdf = new "
         "TextDecoder('latin1').decode(b.slice(0, 5)) })");
     EXPECT_TRUE(browser.comes("window.pdf === '%PDF-'", 60));
 }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "platform/atomic_file.h"
+#include "support/page_client.h"
 #include "support/preview.h"
 
 namespace test_preview_editing {
@@ -241,8 +242,9 @@ TEST_F(preview_editing, a_late_save_writes_nothing) {
     browser.open(preview.address());
     ASSERT_TRUE(editor_has(browser, "local x = 20"));
     const auto saves = [&](const std::string& json) {
-        browser.evaluate("window.reply = null; fetch('/save', {method: 'POST', body: JSON.stringify(" + json +
-                         ")}).then(async r => { window.reply = r.status + ' ' + await r.text() })");
+        browser.evaluate(
+            "window.reply = null; fetch('save', {method: 'POST', headers: {'X-Dynlab': '1'}, body: JSON.stringify(" +
+            json + ")}).then(async r => { window.reply = r.status + ' ' + await r.text() })");
         browser.comes("window.reply");
         return browser.evaluate("return window.reply");
     };
@@ -303,7 +305,7 @@ TEST_F(preview_editing, choices_follow_the_script) {
     write(other);
     EXPECT_TRUE(shows(browser, "k is 50"));
     EXPECT_TRUE(browser.comes("document.getElementById('view').classList.contains('ready')", 60));
-    browser.evaluate("fetch('/document.pdf').then(r => { window.pdf = r.status })");
+    browser.evaluate("fetch('document.pdf').then(r => { window.pdf = r.status })");
     EXPECT_TRUE(browser.comes("window.pdf === 200", 60));
 }
 
@@ -314,7 +316,8 @@ TEST_F(preview_editing, nothing_is_written_without_the_option) {
     browser.open(preview.address());
     ASSERT_TRUE(shows(browser, "x is 20"));
     browser.evaluate(
-        "fetch('/save', {method: 'POST', body: JSON.stringify({number: 0, name: 'x', text: 'bad', digest: ''})})"
+        "fetch('save', {method: 'POST', headers: {'X-Dynlab': '1'}, body: JSON.stringify({number: 0, name: 'x', text: "
+        "'bad', digest: ''})})"
         ".then(r => { window.reply = r.status })");
     EXPECT_TRUE(browser.comes("window.reply === 500"));
     EXPECT_EQ(browser.evaluate("return document.body.classList.contains('editing')"), "false");
@@ -377,7 +380,10 @@ TEST_F(preview_editing, a_second_preview_leads_to_the_first) {
                                .c_str());
     };
     EXPECT_EQ(second(), 0);
-    EXPECT_EQ(read_text(told), first.address() + "\n(it is shown there already)\n");
+    const std::string words = read_text(told), address = words.substr(0, words.find('\n'));
+    EXPECT_EQ(words, address + "\n(it is shown there already)\n");
+    EXPECT_NE(address, first.address()) << "an address works once";
+    EXPECT_EQ(PageClient(address).folder(), PageClient(first.address()).folder());
 }
 
 }  // namespace test_preview_editing

@@ -128,7 +128,7 @@ TEST_F(preview_french, a_stranger_s_document_asks_in_french) {
     ASSERT_TRUE(browser.comes("!document.getElementById('question').hidden"));
     EXPECT_TRUE(says(browser, "question", "Ce document exécute des programmes. L.exécuter.\\?"));
     EXPECT_TRUE(says(browser, "allow", "^L.exécuter$"));
-    browser.evaluate("fetch('/document.pdf').then(async r => { window.refused = r.status + await r.text() })");
+    browser.evaluate("fetch('document.pdf').then(async r => { window.refused = r.status + await r.text() })");
     EXPECT_TRUE(browser.comes("/^403Ce document n.a pas encore le droit/.test(window.refused)"));
     browser.click("#allow");
     EXPECT_TRUE(shows(browser, "x vaut 20"));

@@ -75,8 +75,9 @@ TEST_F(preview_hand_in, nothing_is_made_of_what_was_not_allowed_to_run) {
     ASSERT_TRUE(shows(browser, "Which gain?"));
     EXPECT_EQ(browser.evaluate("return document.getElementById('show-hand-in').hidden"), "true");
     for (const char* what : {"report", "pack"}) {
-        browser.evaluate(std::string("window.refused = 0; fetch('/") + what +
-                         "', {method: 'POST'}).then(reply => { window.refused = reply.status })");
+        browser.evaluate(
+            std::string("window.refused = 0; fetch('") + what +
+            "', {method: 'POST', headers: {'X-Dynlab': '1'}}).then(reply => { window.refused = reply.status })");
         EXPECT_TRUE(browser.comes("window.refused === 403"));
     }
     EXPECT_FALSE(fs::exists(mine() / "report.pdf"));

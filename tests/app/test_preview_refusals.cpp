@@ -4,7 +4,11 @@
 #include <netinet/in.h>
 #include <sys/socket.h>
 
+#include <future>
+#include <thread>
+
 #include "platform/system_call.h"
+#include "support/page_client.h"
 #include "support/program.h"
 
 namespace test_preview_refusals {
@@ -62,6 +66,32 @@ TEST_F(preview_refusals, a_missing_browser_is_no_reason_to_stop) {
     const ChildResult result = bench.shell("timeout --signal=INT 2 $DYNLAB preview a.lua");
     EXPECT_THAT(result.output, testing::StartsWith("http://127.0.0.1:"));
     EXPECT_EQ(result.error_output, "");
+}
+
+/// All users of a machine see the words of every command (ps). Oracle: /proc, and the modes of the file and its folder.
+TEST_F(preview_refusals, the_browser_gets_the_address_where_no_other_user_sees_it) {
+    bench.write("a.lua", "print(1)\n");
+    bench.write("bin/xdg-open",
+                "#!/bin/bash\n"
+                "grep -a token= /proc/[0-9]*/cmdline /proc/[0-9]*/comm >seen\n"
+                "stat -c %a \"$1\" >modes; stat -c %a \"$(dirname \"$1\")\" >>modes\n"
+                "cp \"$1\" copy; mv copy opened; sleep 3\n");
+    auto preview = std::async(std::launch::async, [this] {
+        return bench.shell(
+            "chmod +x bin/xdg-open; export DISPLAY=:1 PATH=$PWD/bin:$PATH; umask 022; timeout --signal=INT 5 $DYNLAB "
+            "preview a.lua");
+    });
+    for (int i = 0; i < 400 && !fs::exists(bench.path("opened")); ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    const std::string opened = bench.read("opened");
+    const std::size_t from = opened.find("http://");
+    ASSERT_NE(from, std::string::npos) << opened;
+    const std::string address = opened.substr(from, opened.find('"', from) - from);
+    EXPECT_NO_THROW(PageClient{address});
+    EXPECT_ANY_THROW(PageClient{address}) << "a second time";
+    preview.get();
+    EXPECT_EQ(bench.read("seen"), "");
+    EXPECT_EQ(bench.read("modes"), "600\n700\n");
 }
 
 }  // namespace test_preview_refusals

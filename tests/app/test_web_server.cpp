@@ -10,13 +10,16 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <future>
 #include <thread>
 
 #include "platform/error.h"
 #include "platform/system_call.h"
+#include "support/page_client.h"
 
 namespace test_web_server {
 using namespace dynlab;
+using dynlab::test::PageClient;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -33,8 +36,6 @@ class web_server : public testing::Test {
         });
         server.on_stream([] { return std::string("{\"first\":1}"); });
         server.start();
-        const std::string address = server.address();
-        token = address.substr(address.find('=') + 1);
     }
 
     httplib::Client client() const {
@@ -43,57 +44,100 @@ class web_server : public testing::Test {
         return made;
     }
     std::string host() const { return "127.0.0.1:" + std::to_string(server.port()); }
-    std::string cookie() const { return "dynlab-" + std::to_string(server.port()) + "=" + token; }
-    httplib::Headers ours() const { return {{"Cookie", cookie()}}; }
+    const PageClient& page() const {
+        if (!page_) page_ = std::make_unique<PageClient>(server.address());
+        return *page_;
+    }
+    /// Of a path within the pages' folder.
     int status(const std::string& path, const httplib::Headers& headers) const {
+        return status_of(page().folder() + path, headers);
+    }
+    int status_of(const std::string& path, const httplib::Headers& headers) const {
         auto asking = client();
         const auto reply = asking.Get(path, headers);
         return reply ? reply->status : -1;
     }
+    int status_of_order(httplib::Headers headers) const {
+        auto asking = client();
+        const auto reply = asking.Post(page().folder() + "/order", headers, "x", "text/plain");
+        return reply ? reply->status : -1;
+    }
+    std::string token() const { return server.address().substr(server.address().find('=') + 1); }
 
     WebServer server;
-    std::string token;
     std::atomic<int> orders = 0;
+
+  private:
+    mutable std::unique_ptr<PageClient> page_;
 };
 
-TEST_F(web_server, lets_in_who_has_the_address) {
+TEST_F(web_server, a_visit_with_a_token_leads_to_the_pages_once) {
+    const std::string address = server.address(), visit = address.substr(address.find("/?"));
     auto browser = client();
-    const auto first = browser.Get("/?token=" + token);
+    const auto first = browser.Get(visit);
     ASSERT_TRUE(first);
-    EXPECT_EQ(first->status, 303);
-    EXPECT_EQ(first->get_header_value("Location"), "/");  // the token does not stay in the address
+    EXPECT_EQ(first->status, 200);
     const std::string set = first->get_header_value("Set-Cookie");
+    EXPECT_THAT(set, HasSubstr("; Path=/"));
+    EXPECT_THAT(set, Not(HasSubstr("Path=/;"))) << "servers of others on this machine would be sent it";
     EXPECT_THAT(set, HasSubstr("SameSite=Strict"));
     EXPECT_THAT(set, HasSubstr("HttpOnly"));
-    const auto page = browser.Get("/", {{"Cookie", "other=1; " + set.substr(0, set.find(';'))}});
+    EXPECT_THAT(set, Not(HasSubstr(visit.substr(visit.find('=') + 1)))) << "the token is no cookie";
+    const std::size_t path = set.find("Path=") + 5;
+    const auto page = browser.Get(set.substr(path, set.find(';', path) - path),
+                                  {{"Cookie", "other=1; " + set.substr(0, set.find(';'))}});
     ASSERT_TRUE(page);
-    EXPECT_EQ(page->status, 200);
     EXPECT_EQ(page->body, "the page");
+    EXPECT_EQ(status_of(visit, {}), 403) << "a second time";
+}
+
+TEST_F(web_server, a_visit_that_comes_late_is_told_by_a_new_address) {
+    std::promise<std::string> told;
+    WebServer other({.port = 0});
+    other.on_late_visit([&] { told.set_value(other.address()); });
+    other.start();
+    const std::string address = other.address();
+    const PageClient first(address);
+    EXPECT_ANY_THROW(PageClient{address});
+    auto next = told.get_future();
+    ASSERT_EQ(next.wait_for(std::chrono::seconds(10)), std::future_status::ready);
+    EXPECT_EQ(PageClient(next.get()).folder(), first.folder());
+}
+
+TEST_F(web_server, tokens_that_were_not_given_or_are_old_lead_nowhere) {
+    const std::string given = token();
+    std::string changed = given, later = given;
+    changed.back() = changed.back() == '0' ? '1' : '0';
+    later[11] = later[11] == '0' ? '1' : '0';  // of its time
+    for (const std::string& wrong :
+         {std::string(), std::string("0"), given + "0", changed, later, std::string(given.size(), '0'),
+          EntranceKey{server.port(), "x"}.address().substr(29)})
+        EXPECT_EQ(status_of("/?token=" + wrong, {}), 403) << wrong;
+    EXPECT_EQ(status_of("/?token=" + given, {}), 200);
 }
 
 /// 127.0.0.2 leads to this machine, too, as its addresses in a network do.
 TEST_F(web_server, listens_at_one_address_of_this_machine_alone) {
-    ASSERT_EQ(status("/", ours()), 200);
+    ASSERT_EQ(status("/", page().known()), 200);
     for (const char* address : {"127.0.0.2", "::1"}) {
         httplib::Client elsewhere(address, server.port());
         elsewhere.set_connection_timeout(5, 0);
-        EXPECT_FALSE(elsewhere.Get("/", ours())) << address;
+        EXPECT_FALSE(elsewhere.Get("/", page().known())) << address;
     }
 }
 
 TEST_F(web_server, gives_nothing_to_others) {
-    EXPECT_EQ(status("/", {}), 403);
-    EXPECT_EQ(status("/events", {}), 403);
-    EXPECT_EQ(status("/picture/a", {}), 403);
-    EXPECT_EQ(status("/?token=0123456789abcdef0123456789abcdef", {}), 403);
-    EXPECT_EQ(status("/?token=", {}), 403);
-    EXPECT_EQ(status("/picture/a?token=" + token, {}), 403);  // only the page itself exchanges it
-    EXPECT_EQ(status("/", {{"Cookie", cookie().substr(0, cookie().size() - 1)}}), 403);
-    EXPECT_EQ(status("/", {{"Cookie", "x" + cookie()}}), 403);
-    auto other = client();
-    const auto order = other.Post("/order", "x", "text/plain");
-    ASSERT_TRUE(order);
-    EXPECT_EQ(order->status, 403);
+    for (const char* path : {"/", "/events", "/picture/a"}) {
+        EXPECT_EQ(status_of(path, {}), 403) << path;
+        EXPECT_EQ(status_of(path, page().known()), 403) << path << " outside of the pages' folder";
+        EXPECT_EQ(status(path, {}), 403) << path;
+    }
+    EXPECT_EQ(status("/picture/a?token=" + token(), {}), 403);  // only the address itself exchanges it
+    EXPECT_EQ(status("/", {{"Cookie", page().cookie().substr(0, page().cookie().size() - 1)}}), 403);
+    EXPECT_EQ(status("/", {{"Cookie", page().cookie() + "0"}}), 403);
+    EXPECT_EQ(status("/", {{"Cookie", "x" + page().cookie()}}), 403);
+    EXPECT_EQ(status("/", {{"Cookie", "dynlab=; a=b; " + page().cookie()}}), 200);
+    EXPECT_EQ(status_of_order({}), 403);
     EXPECT_EQ(orders, 0);
 }
 
@@ -101,61 +145,63 @@ TEST_F(web_server, gives_nothing_to_others) {
 TEST_F(web_server, answers_to_its_own_names_only) {
     for (const std::string& name : {std::string("evil.example"), std::string("127.0.0.1"), std::string("127.0.0.1:1"),
                                     "evil.example:" + std::to_string(server.port()), std::string()}) {
-        EXPECT_EQ(status("/", {{"Host", name}, {"Cookie", cookie()}}), 403) << name;
-        EXPECT_EQ(status("/?token=" + token, {{"Host", name}}), 403) << name;
+        EXPECT_EQ(status("/", {{"Host", name}, {"Cookie", page().cookie()}}), 403) << name;
+        EXPECT_EQ(status_of("/?token=" + token(), {{"Host", name}}), 403) << name;
     }
-    EXPECT_EQ(status("/", {{"Host", "localhost:" + std::to_string(server.port())}, {"Cookie", cookie()}}), 200);
+    EXPECT_EQ(status("/", {{"Host", "localhost:" + std::to_string(server.port())}, {"Cookie", page().cookie()}}), 200);
 }
 
+/// What a page of another site can make a browser send with the cookie, were it not SameSite.
 TEST_F(web_server, other_sites_may_not_ask) {
+    const auto changed = [&](const std::string& name, const std::string& value) {
+        httplib::Headers headers = page().of_page();
+        headers.erase(name);
+        if (value != "-") headers.emplace(name, value);
+        return headers;
+    };
     for (const std::string& origin :
-         {std::string("http://evil.example"), std::string("null"), std::string("http://127.0.0.1"), "https://" + host(),
-          "http://" + host() + ".evil.example"}) {
-        httplib::Headers headers = ours();
-        headers.emplace("Origin", origin);
-        auto other = client();
-        const auto reply = other.Post("/order", headers, "x", "text/plain");
-        ASSERT_TRUE(reply);
-        EXPECT_EQ(reply->status, 403) << origin;
-        EXPECT_FALSE(reply->has_header("Access-Control-Allow-Origin"));
-    }
+         {std::string("http://evil.example"), std::string("null"), std::string("http://127.0.0.1"), std::string(" "),
+          std::string("-"), "https://" + host(), "http://" + host() + ".evil.example",
+          std::string("http://localhost:1")})
+        EXPECT_EQ(status_of_order(changed("Origin", origin)), 403) << origin;
+    for (const char* site : {"cross-site", "same-site", "none", "-"})
+        EXPECT_EQ(status_of_order(changed("Sec-Fetch-Site", site)), 403) << site;
+    for (const char* field : {"0", "-"}) EXPECT_EQ(status_of_order(changed("X-Dynlab", field)), 403) << field;
     EXPECT_EQ(orders, 0);
-    httplib::Headers own = ours();
-    own.emplace("Origin", "http://" + host());
-    auto page = client();
-    const auto reply = page.Post("/order", own, "x", "text/plain");
+    for (const char* site : {"cross-site", "same-site"})
+        EXPECT_EQ(status("/", {{"Cookie", page().cookie()}, {"Sec-Fetch-Site", site}}), 403) << site;
+    const auto reply = page().post("/order", "x");
     ASSERT_TRUE(reply);
     EXPECT_EQ(reply->body, "got x");
+    EXPECT_FALSE(reply->has_header("Access-Control-Allow-Origin"));
     EXPECT_EQ(orders, 1);
 }
 
 TEST_F(web_server, tells_browsers_to_take_nothing_from_elsewhere) {
-    auto browser = client();
-    const auto page = browser.Get("/", ours());
-    ASSERT_TRUE(page);
-    EXPECT_THAT(page->get_header_value("Content-Security-Policy"), HasSubstr("default-src 'self'"));
-    EXPECT_THAT(page->get_header_value("Content-Security-Policy"), Not(HasSubstr("script-src")));
-    EXPECT_EQ(page->get_header_value("X-Content-Type-Options"), "nosniff");
-    EXPECT_EQ(page->get_header_value("Referrer-Policy"), "no-referrer");
+    const auto reply = page().get("/");
+    ASSERT_TRUE(reply);
+    EXPECT_THAT(reply->get_header_value("Content-Security-Policy"), HasSubstr("default-src 'self'"));
+    EXPECT_THAT(reply->get_header_value("Content-Security-Policy"), Not(HasSubstr("script-src")));
+    EXPECT_EQ(reply->get_header_value("X-Content-Type-Options"), "nosniff");
+    EXPECT_EQ(reply->get_header_value("Referrer-Policy"), "no-referrer");
 }
 
 TEST_F(web_server, keeps_to_its_paths) {
-    EXPECT_EQ(status("/picture/abc.svg", ours()), 200);
-    EXPECT_EQ(status("/picture/../../etc/passwd", ours()), 404);
-    EXPECT_EQ(status("/picture/a/b", ours()), 404);
-    EXPECT_EQ(status("/nothing", ours()), 404);
+    EXPECT_EQ(status("/picture/abc.svg", page().known()), 200);
+    EXPECT_EQ(status("/picture/../../etc/passwd", page().known()), 404);
+    EXPECT_EQ(status("/picture/a/b", page().known()), 404);
+    EXPECT_EQ(status("/nothing", page().known()), 404);
 }
 
 TEST_F(web_server, refuses_bodies_that_are_too_large) {
-    auto browser = client();
-    const auto reply = browser.Post("/order", ours(), std::string(2000, 'x'), "text/plain");
-    EXPECT_TRUE(!reply || reply->status == 413);
+    const auto reply = page().post("/order", std::string(2000, 'x'));
+    ASSERT_TRUE(reply);
+    EXPECT_EQ(reply->status, 413);
     EXPECT_EQ(orders, 0);
 }
 
 TEST_F(web_server, says_why_something_failed) {
-    auto browser = client();
-    const auto reply = browser.Get("/fails", ours());
+    const auto reply = page().get("/fails");
     ASSERT_TRUE(reply);
     EXPECT_EQ(reply->status, 500);
     EXPECT_EQ(reply->body, "the disk is full");
@@ -170,8 +216,9 @@ TEST_F(web_server, answers_the_first_request_of_a_connection_however_late) {
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     address.sin_port = htons(static_cast<std::uint16_t>(server.port()));
     ASSERT_EQ(::connect(connection.get(), reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
-    const std::string request = "GET /picture/a HTTP/1.1\r\nHost: " + host() + "\r\nCookie: " + cookie() + "\r\n\r\n";
-    for (int i = 0; i < 7; ++i) {  // what a browser asks of one connection: more than httplib's five
+    const std::string request = "GET " + page().folder() + "/picture/a HTTP/1.1\r\nHost: " + host() +
+                                "\r\nCookie: " + page().cookie() + "\r\n\r\n";
+    for (int i = 0; i < 7; ++i) {  // what a browser asks of one connection
         if (i == 0) std::this_thread::sleep_for(std::chrono::seconds(2));
         ASSERT_TRUE(write_all(connection.get(), request.data(), request.size()));
         std::string reply;
@@ -189,10 +236,10 @@ TEST_F(web_server, answers_the_first_request_of_a_connection_however_late) {
 TEST_F(web_server, sends_things_as_they_are) {
     auto browser = client();
     browser.set_decompress(false);
-    auto headers = ours();
+    auto headers = page().known();
     headers.emplace("Accept-Encoding", "gzip, deflate, br");
     for (const std::string path : {"/", "/long"}) {
-        const auto reply = browser.Get(path, headers);
+        const auto reply = browser.Get(page().folder() + path, headers);
         ASSERT_TRUE(reply);
         EXPECT_EQ(reply->get_header_value("Content-Encoding"), "");
         EXPECT_EQ(reply->body, path == "/" ? "the page" : std::string(300000, 'x'));
@@ -221,11 +268,9 @@ TEST_F(web_server, a_port_that_is_wished_is_taken_where_it_is_free) {
 /// Reads a stream in a thread of its own until it has seen `wanted`.
 class Listener {
   public:
-    Listener(int port, httplib::Headers headers, std::string wanted)
-        : thread_([this, port, headers = std::move(headers), wanted = std::move(wanted)] {
-              httplib::Client asking("127.0.0.1", port);
-              asking.set_read_timeout(10, 0);
-              const auto reply = asking.Get("/events", headers, [&](const char* data, std::size_t length) {
+    Listener(const PageClient& page, std::string wanted)
+        : thread_([this, page, wanted = std::move(wanted)] {
+              const auto reply = page.get("/events", [&](const char* data, std::size_t length) {
                   text_.append(data, length);
                   open = true;
                   return text_.find(wanted) == std::string::npos;
@@ -252,7 +297,7 @@ void wait_until_open(const Listener& listener) {
 }
 
 TEST_F(web_server, streams_give_everything_first_and_then_what_is_new) {
-    Listener one(server.port(), ours(), "\"next\""), two(server.port(), ours(), "\"next\"");
+    Listener one(page(), "\"next\""), two(page(), "\"next\"");
     wait_until_open(one);
     wait_until_open(two);
     EXPECT_EQ(server.streams(), 2);
@@ -265,11 +310,11 @@ TEST_F(web_server, has_a_limit_of_streams_and_forgets_those_that_are_gone) {
     {
         std::vector<std::unique_ptr<Listener>> listeners;
         for (int i = 0; i < 3; ++i) {
-            listeners.push_back(std::make_unique<Listener>(server.port(), ours(), "\"end\""));
+            listeners.push_back(std::make_unique<Listener>(page(), "\"end\""));
             wait_until_open(*listeners.back());
         }
-        EXPECT_EQ(status("/events", ours()), 503);
-        EXPECT_EQ(status("/", ours()), 200);  // pages are still served
+        EXPECT_EQ(status("/events", page().known()), 503);
+        EXPECT_EQ(status("/", page().known()), 200);  // pages are still served
         server.send("page", "{\"end\":1}");
     }
     for (int i = 0; i < 500 && server.streams() > 0; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -286,13 +331,8 @@ TEST(web_server_streams, begin_before_the_news_that_follow) {
         return std::string("old");
     });
     server.start();
-    httplib::Client browser("127.0.0.1", server.port());
-    browser.set_read_timeout(5, 0);
-    const std::string address = server.address();
-    const httplib::Headers cookie = {
-        {"Cookie", "dynlab-" + std::to_string(server.port()) + "=" + address.substr(address.find('=') + 1)}};
     std::string told;
-    browser.Get("/events", cookie, [&](const char* bytes, std::size_t count) {
+    PageClient(server.address()).get("/events", [&](const char* bytes, std::size_t count) {
         told.append(bytes, count);
         return told.find("new") == std::string::npos || told.find("old") == std::string::npos;
     });

@@ -53,7 +53,7 @@ TEST_F(workbench, numbers_are_those_of_the_script) {
     ASSERT_TRUE(view_comes(browser, "step"));
     ASSERT_TRUE(is_ready(browser));
     const std::string fit = browser.evaluate(
-        "return import('/bench_session.js').then(({session}) => session.views.models.rows[0].estimation.fit)");
+        "return import('./bench_session.js').then(({session}) => session.views.models.rows[0].estimation.fit)");
     write("fit.lua", text_of("plant_session.lua") + "print(string.format(\"fit=%.17g\", fit(estimation, G1)))\n");
     const Workbench shell;
     std::filesystem::copy(file("plant.csv"), shell.path("plant.csv"));
@@ -149,7 +149,7 @@ TEST_F(workbench, an_editor_elsewhere_and_a_second_tab_see_the_same_session) {
     Browser browser, other;
     browser.open(program->address());
     ASSERT_TRUE(view_comes(browser, "compare"));
-    other.open(program->address());
+    other.open(program->next_address());
     ASSERT_TRUE(view_comes(other, "compare"));
     drag(browser, "lambda", "0.3");
     EXPECT_TRUE(script_has(other, "{lambda = 8.32})"));
@@ -279,7 +279,7 @@ TEST_F(workbench, figures_models_and_data_are_saved) {
         const std::string sent = browser.evaluate(
             "window.given = null; const old = URL.createObjectURL; URL.createObjectURL = (blob) => { window.given = "
             "blob; return old(blob); };"
-            "return import('/bench_views.js').then(({save}) => { save(" +
+            "return import('./bench_views.js').then(({save}) => { save(" +
             order +
             "); return new Promise((yes) => { const look = () => "
             "window.given ? window.given.slice(0, 40).text().then(yes) : setTimeout(look, 20); look(); }); })");

@@ -165,7 +165,7 @@ TEST_F(workbench_access, help_is_formatted_and_its_text_is_no_markup) {
     Browser browser;
     const auto program = open(browser);
     for (const char* name : {"srivc", "advice", "tfsrivc"}) {
-        browser.evaluate("return import('/bench_help.js').then(({help}) => help('" + std::string(name) + "'))");
+        browser.evaluate("return import('./bench_help.js').then(({help}) => help('" + std::string(name) + "'))");
         EXPECT_EQ(browser.evaluate("return /`|^#|\\n- |\\*\\*/.test([...document.querySelectorAll('#help-text > "
                                    ":not(pre)')].map((one) => one.textContent).join('\\n'))"),
                   "false")
@@ -177,7 +177,7 @@ TEST_F(workbench_access, help_is_formatted_and_its_text_is_no_markup) {
         browser.evaluate("document.getElementById('page-of-help').close()");
     }
     EXPECT_EQ(browser.evaluate(
-                  "return import('/bench_help.js').then(({formatted}) => { const box = "
+                  "return import('./bench_help.js').then(({formatted}) => { const box = "
                   "document.createElement('div'); box.append(...formatted('- a `<b>` *b*\\n  and\\n- [x](y)\\n\\n"
                   "| a | b |\\n|---|---|\\n| 1 | `2` |\\n\\n<img src=x>\\nend')); return box.innerHTML; })"),
               "\"<ul><li>a <code>&lt;b&gt;</code> *b* and</li><li><span>x</span></li></ul><table><thead><tr><th>a</th>"

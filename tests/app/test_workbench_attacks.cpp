@@ -1,12 +1,11 @@
 // The workbench's server, asked as no page asks, on disks and with files as they happen to be. Oracle: the files, what
 // is still answered afterwards, and the rules of workbench_session.h and permissions.h.
 #include <gmock/gmock.h>
-#include <httplib.h>
-
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "documents/text_lines.h"
+#include "support/page_client.h"
 #include "support/workbench.h"
 
 namespace test_workbench_attacks {
@@ -20,20 +19,13 @@ namespace fs = std::filesystem;
 constexpr int kOk = 200, kFailed = 500;
 
 /// What somebody with the page's cookie sends.
-class Asker {
+class Asker : public PageClient {
   public:
-    explicit Asker(const std::string& address) : host_(address.substr(0, address.find("/?"))) {
-        const std::string port = host_.substr(host_.rfind(':') + 1);
-        cookie_ = {{"Cookie", "dynlab-" + port + "=" + address.substr(address.find('=') + 1)}};
-    }
-    httplib::Result get(const std::string& path) const { return client().Get(path, cookie_); }
-    httplib::Result post(const std::string& path, const std::string& body = "{}") const {
-        return client().Post(path, cookie_, body, "application/json");
-    }
+    using PageClient::PageClient;
     /// All that a page shows: the event with which a stream begins.
     json page() const {
         std::string told;
-        client().Get("/events", cookie_, [&](const char* bytes, std::size_t count) {
+        get("/events", [&](const char* bytes, std::size_t count) {
             told.append(bytes, count);
             return told.find("\n\n") == std::string::npos;
         });
@@ -73,15 +65,6 @@ class Asker {
     bool prints(const std::string& cell, const std::string& text) const {
         return comes([&](const json& page) { return page["printed"].value(cell, "") == text; });
     }
-
-  private:
-    httplib::Client client() const {
-        httplib::Client made(host_);
-        made.set_read_timeout(20, 0);
-        return made;
-    }
-    std::string host_;
-    httplib::Headers cookie_;
 };
 
 class workbench_attacks : public workbench_page {

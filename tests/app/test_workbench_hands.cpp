@@ -18,7 +18,7 @@ const named = (words) => [...document.querySelectorAll('button')].find((one) => 
 const mirror = document.querySelector('.CodeMirror').CodeMirror, plain = window.fetch;
 const atEnd = (text) => mirror.replaceRange(text, { line: mirror.lineCount(), ch: 0 });
 const pause = (ms) => new Promise((yes) => setTimeout(yes, ms));
-const order = (revision, first, last, text) => plain('/script', { method: 'POST', headers: { 'Content-Type': 'application/json' },
+const order = (revision, first, last, text) => plain('script', { method: 'POST', headers: { 'X-Dynlab': '1' },
   body: JSON.stringify({ revision, edits: [{ first, last, text }], whole: false, text: '', goes_on: false, unsaved: false }) });
 )";
 
@@ -71,7 +71,7 @@ TEST_F(workbench_hands, four_clicks_at_once_are_four_steps) {
 
 TEST_F(workbench_hands, a_click_that_meets_the_edit_of_another_tab_is_done_behind_it) {
     evaluate(
-        "window.fetch = async (path, how) => { if (path !== '/script') return plain(path, how); window.fetch = plain; "
+        "window.fetch = async (path, how) => { if (path !== 'script') return plain(path, how); window.fetch = plain; "
         "await order(JSON.parse(how.body).revision, 1, 0, '-- theirs'); return plain(path, how); }; "
         "named('New model').click();");
     EXPECT_TRUE(file_comes({"-- theirs\n", "\nG1 = tfsrivc("})) << script();
@@ -79,7 +79,7 @@ TEST_F(workbench_hands, a_click_that_meets_the_edit_of_another_tab_is_done_behin
 
 TEST_F(workbench_hands, a_click_that_never_gets_through_is_told) {
     evaluate(
-        "window.fetch = async (path, how) => (path === '/script' ? new Response('', { status: 409 }) : plain(path, "
+        "window.fetch = async (path, how) => (path === 'script' ? new Response('', { status: 409 }) : plain(path, "
         "how)); named('New model').click();");
     EXPECT_TRUE(says(browser, "Not done: the script is being changed elsewhere"));
 }
@@ -167,7 +167,7 @@ TEST_F(workbench_hands, undo_behind_typing_undoes_what_was_typed) {
 
 TEST_F(workbench_hands, typing_and_the_edits_of_others_are_put_together) {
     evaluate(
-        "const { session } = await import('/bench_session.js'); atEnd('-- typed\\n'); "
+        "const { session } = await import('./bench_session.js'); atEnd('-- typed\\n'); "
         "await order(session.revision, 1, 0, '-- theirs');");
     EXPECT_TRUE(file_comes({"-- theirs\n", "-- typed\n"})) << script();
     EXPECT_TRUE(script_has(browser, "-- theirs")) << "and in the editor";
@@ -178,7 +178,7 @@ TEST_F(workbench_hands, typing_and_the_edits_of_others_are_put_together) {
 
 TEST_F(workbench_hands, lines_that_others_change_while_they_are_typed_are_told_and_can_be_had_again) {
     evaluate(
-        "const { session } = await import('/bench_session.js'); mirror.replaceRange('-- mine\\n', {line: 0, ch: 0}, "
+        "const { session } = await import('./bench_session.js'); mirror.replaceRange('-- mine\\n', {line: 0, ch: 0}, "
         "{line: 1, ch: 0}); "
         "await order(session.revision, 1, 1, '-- theirs');");
     EXPECT_TRUE(says(browser, "changed elsewhere meanwhile: yours stand"));
@@ -189,7 +189,7 @@ TEST_F(workbench_hands, lines_that_others_change_while_they_are_typed_are_told_a
 
 TEST_F(workbench_hands, keys_that_come_while_text_is_sent_follow_it) {
     evaluate(
-        "window.fetch = async (path, how) => { if (path === '/script') await pause(700); return plain(path, how); }; "
+        "window.fetch = async (path, how) => { if (path === 'script') await pause(700); return plain(path, how); }; "
         "for (const letter of 'abcdefghij') { atEnd(letter); await pause(150); } await pause(600); atEnd('klm');");
     EXPECT_TRUE(file_comes({"abcdefghijklm"})) << script();
     EXPECT_TRUE(script_has(browser, "abcdefghijklm"));
@@ -203,9 +203,10 @@ TEST_F(workbench_hands, what_is_typed_before_the_page_is_left_is_there) {
 
 TEST_F(workbench_hands, ten_tabs_are_heard_and_each_hears) {
     Browser whole(1280, 900, Browser::Kind::kWhole);  // which tells a tab that it is hidden
+    const std::string address = program->next_address();
     for (int i = 0; i < 10; ++i) {
         if (i > 0) whole.new_tab();
-        whole.open(program->address());
+        whole.open(address);
         ASSERT_TRUE(whole.comes("document.querySelector('.CodeMirror')", 10)) << "tab " << i;
         ASSERT_TRUE(press(whole, "+ Level")) << "tab " << i;
         ASSERT_TRUE(whole.comes("document.querySelectorAll('.preparing li').length === " + std::to_string(i + 1), 10));
@@ -214,7 +215,7 @@ TEST_F(workbench_hands, ten_tabs_are_heard_and_each_hears) {
 
 TEST_F(workbench_hands, what_is_typed_in_a_tab_that_is_hidden_then_is_there) {
     Browser whole(1280, 900, Browser::Kind::kWhole);
-    whole.open(program->address());
+    whole.open(program->next_address());
     ASSERT_TRUE(whole.comes("document.querySelector('.CodeMirror')"));
     whole.evaluate("document.querySelector('.CodeMirror').CodeMirror.replaceRange('-- typed\\n', {line: 1e9, ch: 0})");
     whole.new_tab();

@@ -118,7 +118,7 @@ TEST(boxed_jobs, work_in_sandboxes_has_a_program_that_starts_quickly) {
     const test::Workbench work;
     const std::string libraries = work.shell("ldd " + small.string()).output;
     EXPECT_THAT(libraries, ::testing::HasSubstr("liblua"));
-    for (const char* of_documents : {"poppler", "qpdf", "httplib", "sqlite"})
+    for (const char* of_documents : {"poppler", "qpdf", "sqlite"})
         EXPECT_THAT(libraries, ::testing::Not(::testing::HasSubstr(of_documents)));
 }
 

@@ -136,6 +136,7 @@ class Browser::Work {
         }
     }
     Chromium& chromium() { return *chromium_; }
+    std::map<std::string, std::string> opened;  ///< addresses with a token, and where they led to
 
   private:
     Kind kind_;
@@ -151,7 +152,12 @@ Browser::Browser(int width, int height, Kind kind) : work_(std::make_unique<Work
 Browser::~Browser() = default;
 
 void Browser::open(const std::string& address) {
-    work_->chromium().command("/url", {{"url", address}});
+    // An address with a token works once; the browser has the page's cookie then.
+    const auto opened = work_->opened.find(address);
+    work_->chromium().command("/url", {{"url", opened == work_->opened.end() ? address : opened->second}});
+    if (opened != work_->opened.end() || address.find("/?token=") == std::string::npos) return;
+    if (comes("location.search === '' && document.readyState === 'complete'", 10))
+        work_->opened[address] = json::parse(evaluate("return location.href"));
 }
 
 std::string Browser::evaluate(const std::string& script) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <httplib.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -40,11 +41,7 @@ class PageProgram {
             ::execv(DYNLAB_PROGRAM, pointers.data());
             ::_exit(1);
         }
-        for (int i = 0; i < 1000 && address_.empty(); ++i) {
-            std::ifstream file(address);
-            std::getline(file, address_);
-            std::this_thread::sleep_for(std::chrono::milliseconds(10));
-        }
+        address_ = printed_address(0);
     }
     ~PageProgram() { end(); }
     PageProgram(const PageProgram&) = delete;
@@ -67,6 +64,12 @@ class PageProgram {
         for (const pid_t runner : runners()) ::kill(runner, SIGCONT);
     }
     const std::string& address() const { return address_; }
+    /// The one that is printed for somebody who comes with the first after it was used.
+    std::string next_address() const {
+        httplib::Client late(address_.substr(0, address_.find("/?")));
+        late.Get(address_.substr(address_.find("/?")));
+        return printed_address(1);
+    }
     pid_t process() const { return process_; }
     /// The program's process and all that come from it, the eldest first.
     std::vector<pid_t> processes() const {
@@ -84,6 +87,17 @@ class PageProgram {
     TemporaryFolder out;
 
   private:
+    /// Empty when it does not come.
+    std::string printed_address(int number) const {
+        for (int i = 0; i < 1000; ++i) {
+            std::ifstream file(out.path() / "address");
+            int found = 0;
+            for (std::string line; std::getline(file, line);)
+                if (line.starts_with("http://") && !file.eof() && found++ == number) return line;
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+        return {};
+    }
     std::vector<pid_t> runners() const {
         std::vector<pid_t> all = processes();
         all.erase(all.begin());

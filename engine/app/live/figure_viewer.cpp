@@ -17,11 +17,12 @@ constexpr std::size_t kMostFigures = 100;
 
 }  // namespace
 
-FigureViewer::FigureViewer(int port) : server_({.port = port}) {
+FigureViewer::FigureViewer(std::function<void(const std::string& address)> late) : server_({}) {
     serve_page_files(server_, "view.html");
     server_.on_stream([this] { return list(); });
     serve("/picture/*", &Shown::picture, "image/svg+xml");
     serve("/plot/*", &Shown::plot, "application/json");
+    server_.on_late_visit([this, late] { late(server_.address()); });
     server_.start();
 }
 

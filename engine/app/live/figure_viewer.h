@@ -1,5 +1,6 @@
 #pragma once
 #include <deque>
+#include <functional>
 #include <mutex>
 #include <string>
 
@@ -12,7 +13,8 @@ namespace dynlab::inline app {
 /// A page on which figures appear as they are made, the newest first.
 class FigureViewer {
   public:
-    explicit FigureViewer(int port = 0);  ///< any free one; throws EnvironmentError when it is taken
+    /// `late` gets an address for somebody who came with one that was old or used. Throws EnvironmentError.
+    explicit FigureViewer(std::function<void(const std::string& address)> late = [](const std::string&) {});
     ~FigureViewer();
     std::string address() const { return server_.address(); }
     /// Throws as GnuplotRenderer does.

@@ -66,8 +66,7 @@ std::string LivePage::with_pictures(const SetChunk& chunk, const RunRecord& reco
             file = figure == record.figures.end() ? fs::path() : figure->second.file;
             if (figure != record.figures.end()) plot = plot_element(figure->second.plot);
         }
-        const std::string sign = "\"" + picture.written_name + "\"",
-                          address = "\"/picture/" + keep_picture(file) + "\"";
+        const std::string sign = "\"" + picture.written_name + "\"", address = "\"picture/" + keep_picture(file) + "\"";
         for (std::size_t at = html.find(sign); at != std::string::npos; at = html.find(sign, at + address.size())) {
             html.insert(html.find('>', at) + 1, plot);
             html.replace(at, sign.size(), address);

@@ -132,12 +132,12 @@ class OnlyPreview {
     /// Of the one that is there; nothing when this is it.
     std::optional<std::string> other() const {
         if (lock_.held()) return {};
-        const std::string address = read_text(file_);
-        return address.empty() ? std::nullopt : std::optional(address);
+        const auto key = EntranceKey::of_text(read_text(file_));
+        return key ? std::optional(key->address()) : std::nullopt;
     }
-    void tell(const std::string& address) const {
+    void tell(const EntranceKey& key) const {
         std::ofstream(file_, std::ios::trunc)
-            << address << std::flush;  // not another file in its place: the lock is on this
+            << key.text() << std::flush;  // not another file in its place: the lock is on this
     }
     void forget() const { fs::resize_file(file_, 0); }
 
@@ -171,7 +171,7 @@ void preview(const PreviewOptions& options) {
     const std::function<ReportRequest()> read = reader_of(options.document);
     const ReportRequest request = read();
     const OnlyPreview only(request.script.file.string());
-    if (const auto address = only.other()) return options.opened(*address, true);
+    if (const auto address = only.other()) return options.opened(*address, Visit::kElsewhere);
     Permissions permissions(request.script.file);
     LivePage page;
     LiveDocument document(read, runner, page);
@@ -211,9 +211,10 @@ void preview(const PreviewOptions& options) {
         look_for_readers();
         send_changes();
     });
+    server.on_late_visit([&] { options.opened(server.address(), Visit::kLate); });
     server.start();
-    only.tell(server.address());
-    options.opened(server.address(), false);
+    only.tell(server.key());
+    options.opened(server.address(), Visit::kFirst);
     try {
         document.work();
     } catch (...) {

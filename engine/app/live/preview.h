@@ -2,6 +2,8 @@
 #include <functional>
 #include <string>
 
+#include "app/server/web_server.h"
+
 namespace dynlab::inline app {
 
 struct PreviewOptions {
@@ -9,8 +11,7 @@ struct PreviewOptions {
     int port = 0;          ///< the document's own where it is free, else any
     bool run_at_once = false;
     bool edit = false;  ///< the page changes the document's files, too
-    /// Gets the page's address once it answers; `elsewhere`: another program shows this document there already.
-    std::function<void(const std::string& address, bool elsewhere)> opened = [](const std::string&, bool) {};
+    std::function<void(const std::string& address, Visit)> opened = [](const std::string&, Visit) {};
 };
 
 /// Serves a document that follows its source until Ctrl-C (which throws Interrupted); returns at once when another

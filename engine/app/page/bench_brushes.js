@@ -1,6 +1,6 @@
 // The parts of a record for estimation and validation, as bars over its picture that hands and arrows move.
-import { element, hold } from "/bench_fields.js";
-import { say } from "/bench_words.js";
+import { element, hold } from "./bench_fields.js";
+import { say } from "./bench_words.js";
 
 const KINDS = ["estimation", "validation"];
 

@@ -1,6 +1,6 @@
 // Which model's controls are shown, and new models, which become it.
-import { change, session } from "/bench_session.js";
-import { formOf, freeName, modelSteps, newCell, stepOf } from "/bench_steps.js";
+import { change, session } from "./bench_session.js";
+import { formOf, freeName, modelSteps, newCell, stepOf } from "./bench_steps.js";
 
 let chosen = null;  // key of the step
 

@@ -1,9 +1,9 @@
 // What leaves the session: models, the prepared record, the script.
-import { session } from "/bench_session.js";
-import { button, element } from "/bench_fields.js";
-import { modelSteps, roles } from "/bench_steps.js";
-import { download, save } from "/bench_views.js";
-import { say } from "/bench_words.js";
+import { session } from "./bench_session.js";
+import { button, element } from "./bench_fields.js";
+import { modelSteps, roles } from "./bench_steps.js";
+import { download, save } from "./bench_views.js";
+import { say } from "./bench_words.js";
 
 export function exportsPanel() {
   if (!roles().raw && modelSteps().length === 0) return "";

@@ -1,8 +1,8 @@
 // Controls of a step that calls an estimator: they follow from its form, show what the step's line says, and change that line.
-import { change, session, trouble } from "/bench_session.js";
-import { help, inline } from "/bench_help.js";
-import { formOf, luaNumber, replaced, stepOf } from "/bench_steps.js";
-import { say } from "/bench_words.js";
+import { change, session, trouble } from "./bench_session.js";
+import { help, inline } from "./bench_help.js";
+import { formOf, luaNumber, replaced, stepOf } from "./bench_steps.js";
+import { say } from "./bench_words.js";
 
 export function element(tag, fields = {}, ...children) {
   const node = Object.assign(document.createElement(tag), fields);

@@ -1,6 +1,6 @@
 // Help pages in a dialog, formatted: headings, paragraphs, lists, tables and code. Their text is never markup of this page.
-import { request } from "/bench_session.js";
-import { say } from "/bench_words.js";
+import { request } from "./bench_session.js";
+import { say } from "./bench_words.js";
 
 const node = (tag, ...children) => { const made = document.createElement(tag); made.append(...children); return made; };
 
@@ -57,7 +57,7 @@ export function formatted(text) {
 
 /// The help page of a function.
 export async function help(name) {
-  const answer = await request(`/help?name=${encodeURIComponent(name)}`);
+  const answer = await request(`help?name=${encodeURIComponent(name)}`);
   document.getElementById("help-title").textContent = `${say("help")} ${name}`;
   document.getElementById("help-text").replaceChildren(...formatted((await answer.text()).replace(/^# .*\n+/, "")));
   const dialog = document.getElementById("page-of-help");

@@ -1,8 +1,8 @@
 // A system that is known, an input, noise, and what estimators make of it: the cloud of their estimates grows while one looks.
-import { change, session } from "/bench_session.js";
-import { button, element, labelled, longField, numberField, rewrite, textField, why, withOption } from "/bench_fields.js";
-import { formOf, freeName, keyOf, newCell, stepOf, written } from "/bench_steps.js";
-import { say } from "/bench_words.js";
+import { change, session } from "./bench_session.js";
+import { button, element, labelled, longField, numberField, rewrite, textField, why, withOption } from "./bench_fields.js";
+import { formOf, freeName, keyOf, newCell, stepOf, written } from "./bench_steps.js";
+import { say } from "./bench_words.js";
 
 const kFew = 25;  // runs while a hand is at a control
 const optionOf = (step, name) => step.options.find(({ key }) => key === name)?.text ?? "";

@@ -1,12 +1,12 @@
 // Estimating, and the table of models.
-import { change, session, trouble, request } from "/bench_session.js";
-import { button, element, firstCall, labelled, rewrite, stepControls, textField, why } from "/bench_fields.js";
-import { cellRemoval, freeName, keyOf, linesWith, modelSteps, newCell, preparingSteps, replaced, roles, stepOf, taken, variables, written } from "/bench_steps.js";
-import { addModel, choose, chosenStep, rechoose, redraw, rowOf } from "/bench_choice.js";
-import { help } from "/bench_help.js";
-import { drawnModels, isHidden, setHidden } from "/bench_views.js";
-import { reportWithout } from "/bench_report.js";
-import { say, shortNumber } from "/bench_words.js";
+import { change, session, trouble, request } from "./bench_session.js";
+import { button, element, firstCall, labelled, rewrite, stepControls, textField, why } from "./bench_fields.js";
+import { cellRemoval, freeName, keyOf, linesWith, modelSteps, newCell, preparingSteps, replaced, roles, stepOf, taken, variables, written } from "./bench_steps.js";
+import { addModel, choose, chosenStep, rechoose, redraw, rowOf } from "./bench_choice.js";
+import { help } from "./bench_help.js";
+import { drawnModels, isHidden, setHidden } from "./bench_views.js";
+import { reportWithout } from "./bench_report.js";
+import { say, shortNumber } from "./bench_words.js";
 
 let method = "tfsrivc";  // that a new model will have
 let sorting = { key: null, way: 1 };
@@ -100,7 +100,7 @@ const KEYWORDS = "and break do else elseif end false for function goto if in loc
 async function unfit(name) {
   if (!/^[A-Za-z_]\w*$/.test(name) || KEYWORDS.includes(name)) return say("noName");
   if (taken(name) || linesWith(name).length > 0) return say("nameTaken");
-  return (await request(`/help?name=${encodeURIComponent(name)}`)).ok ? say("nameOfFunction") : null;
+  return (await request(`help?name=${encodeURIComponent(name)}`)).ok ? say("nameOfFunction") : null;
 }
 function renameModel(step) {
   const now = step.names[0], dialog = document.getElementById("rename"), box = document.getElementById("new-name"), told = document.getElementById("name-trouble");

@@ -1,6 +1,6 @@
 // The parts of the record that estimate and validate: samples of what was prepared, or a second record that validates.
-import { change, session } from "/bench_session.js";
-import { cellRemoval, isPreparing, linesWith, newCell, preparingSteps, replaced, roles, variables, written } from "/bench_steps.js";
+import { change, session } from "./bench_session.js";
+import { cellRemoval, isPreparing, linesWith, newCell, preparingSteps, replaced, roles, variables, written } from "./bench_steps.js";
 
 const dataOf = (name) => variables()[name];
 const kFewest = 10;  // samples of a part

@@ -1,9 +1,9 @@
 // The steps that prepare the record, and the parts of it that estimate and validate.
-import { change, session } from "/bench_session.js";
-import { button, choice, element, isNumber, numberField, textField, why } from "/bench_fields.js";
-import { insertedBehind, keyOf, preparingSteps, removed, replaced, roles, variables, written } from "/bench_steps.js";
-import { divide, movedParts, preparedAlike, preparedNow } from "/bench_parts.js";
-import { say, shortNumber } from "/bench_words.js";
+import { change, session } from "./bench_session.js";
+import { button, choice, element, isNumber, numberField, textField, why } from "./bench_fields.js";
+import { insertedBehind, keyOf, preparingSteps, removed, replaced, roles, variables, written } from "./bench_steps.js";
+import { divide, movedParts, preparedAlike, preparedNow } from "./bench_parts.js";
+import { say, shortNumber } from "./bench_words.js";
 
 /// `make(steps)` gives {edits, after}: edits of the steps that prepare, and what these are then. Parts and a second
 /// record follow.

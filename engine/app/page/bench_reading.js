@@ -1,9 +1,9 @@
 // Reading a step response by hand: marks in its picture are the numbers of a line.
-import { change, session } from "/bench_session.js";
-import { button, element, hold, why } from "/bench_fields.js";
-import { keyOf, luaNumber, newCell, roles, stepOf, freeName } from "/bench_steps.js";
-import { addModel } from "/bench_choice.js";
-import { say } from "/bench_words.js";
+import { change, session } from "./bench_session.js";
+import { button, element, hold, why } from "./bench_fields.js";
+import { keyOf, luaNumber, newCell, roles, stepOf, freeName } from "./bench_steps.js";
+import { addModel } from "./bench_choice.js";
+import { say } from "./bench_words.js";
 
 const MODELS = {
   first: (r) => `tf({${r}.K}, {${r}.T, 1})`,

@@ -1,12 +1,13 @@
 // The record: where it comes from, which column is what, what advice says of it, and the steps that prepare it.
-import { change, inTurn, post, session, settled, trouble } from "/bench_session.js";
-import { button, choice, element, labelled, rewrite, why, withOption } from "/bench_fields.js";
-import { formOf, freeName, keyOf, newCell, roles, variables } from "/bench_steps.js";
-import { chosenStep } from "/bench_choice.js";
-import { preparedAlike } from "/bench_parts.js";
-import { addPreparing, callWords, REMEDIES } from "/bench_preparation.js";
-import { showSamples } from "/bench_views.js";
-import { say, shortNumber } from "/bench_words.js";
+import { order } from "./orders.js";
+import { change, inTurn, post, session, settled, trouble } from "./bench_session.js";
+import { button, choice, element, labelled, rewrite, why, withOption } from "./bench_fields.js";
+import { formOf, freeName, keyOf, newCell, roles, variables } from "./bench_steps.js";
+import { chosenStep } from "./bench_choice.js";
+import { preparedAlike } from "./bench_parts.js";
+import { addPreparing, callWords, REMEDIES } from "./bench_preparation.js";
+import { showSamples } from "./bench_views.js";
+import { say, shortNumber } from "./bench_words.js";
 
 let offered = null;  // RecordChoice of the file that is being opened
 
@@ -17,7 +18,7 @@ async function offer(answer) {
   document.dispatchEvent(new Event("benchdraw"));
 }
 async function upload(file) {
-  await offer(await fetch(`/upload?name=${encodeURIComponent(file.name)}`, { method: "POST", body: file }));
+  await offer(await order(`upload?name=${encodeURIComponent(file.name)}`, file));
 }
 document.addEventListener("dragover", (event) => event.preventDefault());
 document.addEventListener("drop", (event) => {
@@ -29,20 +30,20 @@ document.addEventListener("drop", (event) => {
 
 /// What the program was started with and could not decide alone; gives whether the session is a new one.
 export async function openFirst() {
-  const { data, words, fresh } = await (await fetch("/opening")).json();
-  if (data && !roles().raw) await offer(await fetch(`/columns?data=${encodeURIComponent(data)}`));
+  const { data, words, fresh } = await (await fetch("opening")).json();
+  if (data && !roles().raw) await offer(await fetch(`columns?data=${encodeURIComponent(data)}`));
   if (words) trouble(words);
   return fresh;
 }
 
 let sets = null;
 async function fillSets(list) {
-  sets ??= await (await fetch("/datasets")).json();
+  sets ??= await (await fetch("datasets")).json();
   list.append(element("option", { value: "", textContent: say("course") }), ...sets.map((name) => element("option", { value: name, textContent: name })));
 }
 
 function opener() {
-  const list = element("select", { ariaLabel: say("course"), onchange: async () => list.value && offer(await fetch(`/columns?data=${encodeURIComponent(list.value)}`)) });
+  const list = element("select", { ariaLabel: say("course"), onchange: async () => list.value && offer(await fetch(`columns?data=${encodeURIComponent(list.value)}`)) });
   fillSets(list);
   const file = element("input", { type: "file", ariaLabel: say("file"), accept: ".csv,.txt,.dat,.tsv,.xlsx,.mat", onchange: () => file.files[0] && upload(file.files[0]) });
   return element("div", { className: "controls" }, element("p", { textContent: say("drop") }), file, list);
@@ -105,7 +106,7 @@ async function take(name) {
   if (outputs.length === 0 || inputs.length === 0) return trouble(say("tooFew")), false;
   const units = Object.fromEntries([...of("input"), ...of("output")].filter(({ unit }) => unit).map((column) => [column.name, column.unit]));
   try {
-    await inTurn(() => post("/record", { data: offered.data, inputs, outputs, time: named("time")[0] ?? "", Ts: Number(offered.Ts) || 0, name, units }));
+    await inTurn(() => post("record", { data: offered.data, inputs, outputs, time: named("time")[0] ?? "", Ts: Number(offered.Ts) || 0, name, units }));
     offered = null;
     trouble(null);
     redraw();

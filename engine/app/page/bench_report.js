@@ -1,7 +1,7 @@
 // What a session puts into its report: figures and tables with numbers, captions and a sentence each, as lines of the script.
-import { session } from "/bench_session.js";
-import { luaText, roles, variables } from "/bench_steps.js";
-import { isFrench } from "/bench_words.js";
+import { session } from "./bench_session.js";
+import { luaText, roles, variables } from "./bench_steps.js";
+import { isFrench } from "./bench_words.js";
 
 const labels = (models) => `{labels = {${models.map(luaText).join(", ")}}}`;
 /// The transfer functions of the models, each with what a legend calls it: several where there are several channels.

@@ -1,7 +1,7 @@
 // The script beside the pictures: what is typed is the session, too.
-import { beforeOrders, change, session, trouble } from "/bench_session.js";
-import { merged } from "/bench_merge.js";
-import { say } from "/bench_words.js";
+import { beforeOrders, change, session, trouble } from "./bench_session.js";
+import { merged } from "./bench_merge.js";
+import { say } from "./bench_words.js";
 
 const kRest = 400;  // ms after the last key
 const kPause = 2000;  // ms without a key, behind which a new step of the history begins
@@ -62,8 +62,8 @@ document.addEventListener("visibilitychange", () => { if (document.hidden) sendT
 export async function openScript() {
   const field = document.getElementById("field");
   try {
-    await loaded("/codemirror.js");
-    await Promise.all([loaded("/codemirror.css"), loaded("/codemirror-lua.js")]);
+    await loaded("codemirror.js");
+    await Promise.all([loaded("codemirror.css"), loaded("codemirror-lua.js")]);
     mirror = CodeMirror(document.getElementById("code"), { mode: "lua", lineNumbers: true, lineWrapping: true, value: session.source,
                                                           extraKeys: { Tab: false, "Shift-Tab": false, "Ctrl-Z": () => document.getElementById("undo").click(), "Ctrl-Y": () => document.getElementById("redo").click() } });
     mirror.getInputField().setAttribute("aria-label", say("script"));

@@ -1,6 +1,7 @@
 // The session as the server tells it, and orders to it. An order that changes the script is made from the state that the one
 // before it left.
-import { say } from "/bench_words.js";
+import { order } from "./orders.js";
+import { say } from "./bench_words.js";
 
 export const session = { revision: 0, shown: 0, source: "", steps: [], cells: [], states: {}, views: {}, printed: {}, forms: [],
                          running: false, undo: false, redo: false, error: null, unsaved: "", file: "", over: false };
@@ -11,16 +12,16 @@ export const onChange = (listen) => listeners.push(listen);
 const tell = (changed) => { for (const listen of listeners) listen(changed); };
 
 /// What the server answers; of one that has ended or is not reached the page's state tells already.
-export async function request(path, how) {
+export async function request(path, ask = fetch) {
   try {
-    return await fetch(path, how);
+    return await ask(path);
   } catch {
     throw new Error(say(session.over ? "ended" : "noAnswer"));
   }
 }
 export async function post(path, body, written = false) {
   const text = written ? body : JSON.stringify(body ?? {}), keepalive = document.hidden && text.length < kMostOfLeaving;
-  const answer = await request(path, { method: "POST", body: text, keepalive, headers: { "Content-Type": "application/json" } });
+  const answer = await request(path, () => order(path, text, { keepalive }));
   if (!answer.ok && answer.status !== 409) throw new Error(await answer.text());
   return answer;
 }
@@ -84,7 +85,7 @@ async function obey(order) {
     const made = make();
     if (!made || (Array.isArray(made) && made.length === 0)) return done();
     const whole = !Array.isArray(made), before = session.revision;
-    const answer = await post("/script", { revision: before, edits: whole ? [] : made, whole, text: whole ? made.text : "",
+    const answer = await post("script", { revision: before, edits: whole ? [] : made, whole, text: whole ? made.text : "",
                                            goes_on: hand ? hand.reached === before : goesOn, unsaved: held });
     const reached = answer.ok ? await answer.json() : before + 1;
     await settled(() => session.revision >= reached, kLongestNews);
@@ -116,7 +117,7 @@ export async function look(variables, settings, until) {
     while (next && next !== looked) {
       looked = next;
       next = null;
-      const answer = await post("/look", looked, true);
+      const answer = await post("look", looked, true);
       const serial = Number(await answer.text());
       await settled(() => session.looked >= serial && !session.running, kLongestFrame);
     }
@@ -185,7 +186,7 @@ function take(page) {
 
 let stream = null, here = false, onState = () => {};
 function open() {
-  stream = new EventSource("/events");
+  stream = new EventSource("events");
   stream.addEventListener("page", (event) => { here = true; onState("here"); take(JSON.parse(event.data)); });
   stream.addEventListener("over", () => { stream.close(); session.over = true; onState("over"); });
   stream.onerror = () => onState("away");

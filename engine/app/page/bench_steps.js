@@ -1,6 +1,6 @@
 // What a script's steps are to the workbench, and the edits that change them. A step is written as app/workbench/session_script.h
 // reads it.
-import { session } from "/bench_session.js";
+import { session } from "./bench_session.js";
 
 const PREPARING = ["detrend", "idfilt", "resample", "fillmissing", "filloutliers", "remove_mean", "keep", "discard", "shift"];
 

@@ -1,12 +1,12 @@
 // The pictures of a session, as many at once as wanted, and what is told with them.
-import { change, isOlder, look, request, session, trouble } from "/bench_session.js";
-import { Brushes } from "/bench_brushes.js";
-import { addModel, redraw } from "/bench_choice.js";
-import { button, choice, element, labelled, why } from "/bench_fields.js";
-import { movePart, partsNow } from "/bench_parts.js";
-import { endOfScript, insertedBehind, modelSteps, roles, variables } from "/bench_steps.js";
-import { goesIntoReport, viewLines, wholeReport } from "/bench_report.js";
-import { say, shortNumber, viewName, viewNames } from "/bench_words.js";
+import { change, isOlder, look, request, session, trouble } from "./bench_session.js";
+import { Brushes } from "./bench_brushes.js";
+import { addModel, redraw } from "./bench_choice.js";
+import { button, choice, element, labelled, why } from "./bench_fields.js";
+import { movePart, partsNow } from "./bench_parts.js";
+import { endOfScript, insertedBehind, modelSteps, roles, variables } from "./bench_steps.js";
+import { goesIntoReport, viewLines, wholeReport } from "./bench_report.js";
+import { say, shortNumber, viewName, viewNames } from "./bench_words.js";
 
 const HELP = { record: "idplot", second: "idplot", spectrum: "fft", compare: "compare", residuals: "resid", step: "step", impulse: "impulse", bode: "bode", nyquist: "nyquist",
                poles: "pzmap", parameters: "present", correlation: "impulseest", delay: "delayest", reading: "step_delayed", orders: "srivcstruc", study: "montecarlo" };
@@ -82,7 +82,7 @@ export async function takeSaved() {
   wanted = null;
   ask();
   if (saved.error) return trouble(saved.error);
-  const answer = await request(`/saved/${encodeURIComponent(saved.file)}`);
+  const answer = await request(`saved/${encodeURIComponent(saved.file)}`);
   if (!answer.ok) return trouble(await answer.text());
   download(saved.file.replace(/-\d+(\.\w+)$/, "$1"), await answer.blob());
 }

@@ -1,5 +1,5 @@
 // What the workbench says, in English and French.
-import { addWords, isFrench, withComma } from "/words.js";
+import { addWords, isFrench, withComma } from "./words.js";
 
 addWords({
   undo: ["Undo", "Annuler"], redo: ["Redo", "Rétablir"], pdf: ["Report (PDF)", "Rapport (PDF)"],
@@ -85,7 +85,7 @@ const VIEWS = {
   correlation: ["Impulse response by correlation", "Réponse par corrélation"], delay: ["Loss over the delay", "Critère selon le retard"],
   reading: ["Read by hand", "Lecture à la main"], orders: ["Orders", "Ordres"], study: ["Monte Carlo study", "Étude de Monte Carlo"],
 };
-export { isFrench, label, say, useLanguage } from "/words.js";
+export { isFrench, label, say, useLanguage } from "./words.js";
 export const viewName = (key) => VIEWS[key]?.[isFrench() ? 1 : 0] ?? key;
 export const viewNames = () => Object.keys(VIEWS);
 /// A number as a table shows it.

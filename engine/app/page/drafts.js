@@ -1,7 +1,7 @@
 // What was typed in the editor and is not saved yet, as the browser keeps it until it is saved: by the file's place, and for each
 // opening of the file apart, so that none writes over another's. What an earlier one left is offered when the page is opened
 // again and the file is another text.
-import { isFrench, say } from "/page_words.js";
+import { isFrench, say } from "./page_words.js";
 
 const kDelay = 400;  // ms behind the last letter
 const waiting = new Map();  // source -> timer

@@ -1,7 +1,8 @@
 // The document's files beside the page, where it may change them. What is saved says what it was made from: a file that
 // was changed elsewhere meanwhile is not written over, both texts are shown.
-import { draftsOf, forget, keepDraft, keepDraftSoon, setAside, wordsOf } from "/drafts.js";
-import { inEnglish, say } from "/page_words.js";
+import { draftsOf, forget, keepDraft, keepDraftSoon, setAside, wordsOf } from "./drafts.js";
+import { order } from "./orders.js";
+import { inEnglish, say } from "./page_words.js";
 
 const $ = (id) => document.getElementById(id);
 const sources = new Map();  // number -> {number, name, place, digest, saved, doc, tab, theirs, drafts, key}
@@ -185,8 +186,7 @@ async function save(source) {
   source.again = false;
   const text = source.doc.getValue(), written = source.crlf ? text.replace(/\n/g, "\r\n") : text;
   try {
-    const reply = await fetch("/save", {
-      method: "POST", body: JSON.stringify({ number: source.number, name: source.name, text: written, digest: source.digest }) });
+    const reply = await order("save", JSON.stringify({ number: source.number, name: source.name, text: written, digest: source.digest }));
     if (reply.status === 403) throw new TypeError(say("lost"));
     if (reply.status !== 200 && reply.status !== 409) throw new Error(await reply.text());
     const now = await reply.json();
@@ -229,10 +229,10 @@ export async function saveAll() {
 
 async function begin() {
   try {
-    await loaded("/codemirror.css");
-    await loaded("/codemirror.js");
-    await Promise.all(["/codemirror-lua.js", "/codemirror-markdown.js", "/codemirror-searchcursor.js", "/codemirror-dialog.js",
-      "/codemirror-dialog.css", "/codemirror-search.js", "/codemirror-continue.js"].map(loaded));
+    await loaded("codemirror.css");
+    await loaded("codemirror.js");
+    await Promise.all(["codemirror-lua.js", "codemirror-markdown.js", "codemirror-searchcursor.js", "codemirror-dialog.js",
+      "codemirror-dialog.css", "codemirror-search.js", "codemirror-continue.js"].map(loaded));
   } catch {
     window.CodeMirror = undefined;
   }
@@ -307,7 +307,7 @@ export async function follow(digests, onCursor) {
   });
   if (known) return;
   const saves = new Map([...sources].map(([number, source]) => [number, source.saves]));
-  const reply = await fetch("/sources");
+  const reply = await fetch("sources");
   if (!reply.ok) return;
   for (const text of await reply.json()) {
     const source = sources.get(text.number);

@@ -1,7 +1,7 @@
 // What `dynlab check` finds in the folder, and which answers are open, in a panel beside the document. What is said of
 // one thing is counted once: an answer that is not given stands among the open ones only, and what the lesson's checks
 // take points for stands with the points.
-import { isFrench, say, withComma } from "/page_words.js";
+import { isFrench, say, withComma } from "./page_words.js";
 
 const $ = (id) => document.getElementById(id);
 const make = (name, text = "", kind = "") => Object.assign(document.createElement(name), { textContent: text, className: kind });

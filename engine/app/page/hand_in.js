@@ -1,6 +1,7 @@
 // What is handed in: the report and the zip of the folder, made when somebody asks for them.
-import * as editor from "/editor.js";
-import { say } from "/page_words.js";
+import * as editor from "./editor.js";
+import { order } from "./orders.js";
+import { say } from "./page_words.js";
 
 const $ = (id) => document.getElementById(id);
 const kTasks = { "make-report": ["report", () => say("makingReport")], "make-pack": ["pack", () => say("makingPack")] };
@@ -16,7 +17,7 @@ async function make(command, meanwhile) {
   for (const id of Object.keys(kTasks)) $(id).disabled = true;
   tell(meanwhile());
   try {
-    const reply = await fetch(`/${command}`, { method: "POST" });
+    const reply = await order(command);
     if (!reply.ok) throw new Error(await reply.text());
     const { done, words } = await reply.json();
     tell(words.trim(), !done);

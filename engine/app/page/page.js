@@ -1,9 +1,10 @@
 // A live document: puts what the server tells of into the page, and keeps the page where the reader has it.
-import { controlsByCell } from "/sliders.js";
-import * as editor from "/editor.js";
-import { showFindings } from "/findings.js";
-import { label, say, useLanguage, withComma } from "/page_words.js";
-import "/hand_in.js";
+import { controlsByCell } from "./sliders.js";
+import * as editor from "./editor.js";
+import { showFindings } from "./findings.js";
+import { order } from "./orders.js";
+import { label, say, useLanguage, withComma } from "./page_words.js";
+import "./hand_in.js";
 
 const $ = (id) => document.getElementById(id);
 const nodes = new Map();  // id of a piece -> its element
@@ -264,7 +265,7 @@ function showPdf(ready, page = 0) {
   if (!anew && !page && $("page:pdf").firstChild) return;
   const frame = document.createElement("iframe");
   frame.title = say("asPrinted");
-  frame.src = `/document.pdf?version=${version}#${page ? `page=${page}&` : ""}navpanes=0&view=FitH`;
+  frame.src = `document.pdf?version=${version}#${page ? `page=${page}&` : ""}navpanes=0&view=FitH`;
   $("page:pdf").replaceChildren(frame);
 }
 
@@ -283,7 +284,7 @@ $("view").onclick = () => {
 function connect() {
   if (source) source.close();
   version = -1;
-  source = new EventSource("/events");
+  source = new EventSource("events");
   source.addEventListener("page", (event) => show(JSON.parse(event.data)));
   source.addEventListener("over", () => {
     source.close();
@@ -299,14 +300,14 @@ document.addEventListener("visibilitychange", () => {
   source = null;
 });
 
-async function order(path) {
-  const reply = await fetch(path, { method: "POST" }).catch(() => null);
+async function tellServer(path) {
+  const reply = await order(path).catch(() => null);
   if (!reply?.ok) $("state").textContent = say("lost");
   $("document").focus({ preventScroll: true });
 }
-$("stop").onclick = () => order("/stop");
-$("anew").onclick = () => order("/anew");
-$("allow").onclick = () => order("/allow");
+$("stop").onclick = () => tellServer("stop");
+$("anew").onclick = () => tellServer("anew");
+$("allow").onclick = () => tellServer("allow");
 
 $("document").addEventListener("click", (event) => {
   if (event.target.closest(".slider, .plot, .motion, .option, a, button, summary, input")) return;

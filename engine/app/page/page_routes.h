@@ -5,8 +5,6 @@
 
 namespace dynlab::inline app {
 
-constexpr const char* kPlainText = "text/plain; charset=utf-8";
-
 /// The files of our pages, of which `first` answers at the address itself; the style of documents; the editor's files
 /// from where Debian's libjs-codemirror puts them.
 void serve_page_files(WebServer& server, const std::string& first);

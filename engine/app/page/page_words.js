@@ -1,5 +1,5 @@
 // What the page of a live document says, and that of a prompt's figures, in English and French.
-import { addWords } from "/words.js";
+import { addWords } from "./words.js";
 
 addWords({
   // The bar and what it tells of the run
@@ -53,4 +53,4 @@ addWords({
   figures: ["Figures", "Figures"], noFigures: ["none yet: type, say, step(tf({1}, {1, 1}))", "aucune encore : tapez, par exemple, step(tf({1}, {1, 1}))"],
   lastFigures: ["dynlab has ended; these are its last figures", "dynlab est terminé ; voici ses dernières figures"],
 });
-export { inEnglish, isFrench, label, say, useLanguage, withComma } from "/words.js";
+export { inEnglish, isFrench, label, say, useLanguage, withComma } from "./words.js";

@@ -1,6 +1,7 @@
 // Sliders of a document: a control behind the cell that asks for it. What was chosen goes to the server; while a run is
 // under way only the newest choice waits, so that dragging shows every result that there was time for.
-import { say, withComma } from "/page_words.js";
+import { order } from "./orders.js";
+import { say, withComma } from "./page_words.js";
 
 const kPlaces = 1000;  // of a slider without steps
 const controls = new Map();  // name -> {node, input, output, slider}
@@ -33,7 +34,7 @@ function send() {
   if (sent && performance.now() - sent.at < kLongestWait || waiting.size === 0) return;
   sent = { values: Object.fromEntries(waiting), at: performance.now() };
   waiting.clear();
-  fetch("/slider", { method: "POST", body: JSON.stringify({ values: sent.values }) }).catch(() => { sent = null; });
+  order("slider", JSON.stringify({ values: sent.values })).catch(() => { sent = null; });
   setTimeout(send, kLongestWait + 1);
 }
 

@@ -1,12 +1,12 @@
 // The figures of a prompt as they are made, the newest first. The page speaks the browser's language.
-import { isFrench, label, say, useLanguage } from "/page_words.js";
+import { isFrench, label, say, useLanguage } from "./page_words.js";
 
 const $ = (id) => document.getElementById(id);
 const shown = new Map();  // number -> element
 
 /// What plot.js draws the figure from takes the picture's place on the screen.
 async function enliven(node, number) {
-  const answer = await fetch(`/plot/${number}`);
+  const answer = await fetch(`plot/${number}`);
   if (!answer.ok) return;  // forgotten meanwhile
   const data = document.createElement("script");
   data.type = "application/json";
@@ -18,7 +18,7 @@ async function enliven(node, number) {
 
 function make({ number, name }) {
   const node = document.createElement("figure"), picture = document.createElement("img"), words = document.createElement("figcaption");
-  picture.src = `/picture/${number}`;
+  picture.src = `picture/${number}`;
   picture.alt = words.textContent = name;
   node.append(picture, words);
   enliven(node, number);
@@ -42,7 +42,7 @@ function show({ figures }) {
 
 useLanguage(isFrench() ? "fr" : "en");
 label();
-const source = new EventSource("/events");
+const source = new EventSource("events");
 source.addEventListener("page", (event) => show(JSON.parse(event.data)));
 source.addEventListener("over", () => {
   source.close();

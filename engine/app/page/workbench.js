@@ -1,16 +1,16 @@
 // The workbench: a record, its preparation, models and views, and beside them the script that all of it is.
-import { change, connect, inTurn, onChange, post, request, session, settled, trouble } from "/bench_session.js";
-import { openFirst, recordPanel } from "/bench_record.js";
-import { partsPanel, preparationPanel } from "/bench_preparation.js";
-import { estimatePanel, modelsPanel } from "/bench_models.js";
-import { readingPanel } from "/bench_reading.js";
-import { knownPanel } from "/bench_known.js";
-import { arrange, ask, download, drawTiles, fillReport, redrawBrushes, renewTiles, shownViews, takeSaved, viewsPanel } from "/bench_views.js";
-import { exportsPanel } from "/bench_exports.js";
-import { closeScript, openScript, showMistake, showScript } from "/bench_script.js";
-import { reportIn } from "/bench_report.js";
-import { modelSteps, roles } from "/bench_steps.js";
-import { isFrench, label, say, useLanguage } from "/bench_words.js";
+import { change, connect, inTurn, onChange, post, request, session, settled, trouble } from "./bench_session.js";
+import { openFirst, recordPanel } from "./bench_record.js";
+import { partsPanel, preparationPanel } from "./bench_preparation.js";
+import { estimatePanel, modelsPanel } from "./bench_models.js";
+import { readingPanel } from "./bench_reading.js";
+import { knownPanel } from "./bench_known.js";
+import { arrange, ask, download, drawTiles, fillReport, redrawBrushes, renewTiles, shownViews, takeSaved, viewsPanel } from "./bench_views.js";
+import { exportsPanel } from "./bench_exports.js";
+import { closeScript, openScript, showMistake, showScript } from "./bench_script.js";
+import { reportIn } from "./bench_report.js";
+import { modelSteps, roles } from "./bench_steps.js";
+import { isFrench, label, say, useLanguage } from "./bench_words.js";
 
 const $ = (id) => document.getElementById(id);
 let connection = "here", opened = false, making = false, viewsBefore = "";
@@ -167,8 +167,8 @@ connect((state) => {
 
 const told = (answer) => answer.catch((error) => trouble(error.message));
 const order = (path) => told(inTurn(() => post(path)));  // of the script as all that was asked for before leaves it
-for (const name of ["undo", "redo"]) $(name).onclick = () => order(`/${name}`);
-for (const name of ["stop", "again", "allow"]) $(name).onclick = () => told(post(`/${name}`));
+for (const name of ["undo", "redo"]) $(name).onclick = () => order(name);
+for (const name of ["stop", "again", "allow"]) $(name).onclick = () => told(post(name));
 $("language").onchange = () => turnTo($("language").value);
 $("show-script").onclick = () => {
   const hidden = document.body.classList.toggle("without-script");
@@ -182,7 +182,7 @@ $("make-pdf").onclick = async () => {
     await inTurn(() => {});  // what was asked for and typed is in it
     await fillReport();
     await settled(() => session.shown === session.revision && !session.running, 3000);
-    const answer = await request("/document.pdf");
+    const answer = await request("document.pdf");
     if (answer.ok) download(session.file.split("/").pop().replace(/\.lua$/, "") + ".pdf", await answer.blob());
     else trouble(await answer.text());
   } catch (error) {
@@ -195,8 +195,8 @@ $("make-pdf").onclick = async () => {
 };
 document.addEventListener("keydown", (event) => {
   if (!(event.ctrlKey || event.metaKey) || event.target.closest(".CodeMirror, input, textarea")) return;
-  if (event.key === "z" && !event.shiftKey) order("/undo");
-  else if (event.key === "y" || (event.key === "z" && event.shiftKey)) order("/redo");
+  if (event.key === "z" && !event.shiftKey) order("undo");
+  else if (event.key === "y" || (event.key === "z" && event.shiftKey)) order("redo");
   else return;
   event.preventDefault();
 });

@@ -1,109 +1,108 @@
 #include "app/server/page_connections.h"
 
+#include <arpa/inet.h>
+#include <fmt/format.h>
+#include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/eventfd.h>
 #include <sys/socket.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
-#include <chrono>
 #include <cstdint>
+#include <memory>
+#include <system_error>
 
 #include "platform/error.h"
 
 namespace dynlab::inline app {
 namespace {
 
-using namespace std::chrono_literals;
-
-/// How long a connection without a request is kept.
-constexpr std::chrono::milliseconds kIdleConnection = 10s;
-/// Fewer new connections are fewer whose first request comes too late; a page alone asks for twenty files.
-constexpr std::size_t kRequestsOfConnection = 1000;
-
-/// Whether a socket is ready; also when it is broken, which the call behind this tells.
-bool is_ready(socket_t socket, short wanted, std::chrono::milliseconds longest) {
-    pollfd waiting{socket, wanted, 0};
-    return retry_interrupted([&] { return ::poll(&waiting, 1, static_cast<int>(longest.count())); }) > 0;
-}
-
-/// What httplib reads from and writes to; it reads the head of a request byte by byte.
-class SocketStream : public httplib::Stream {
-  public:
-    SocketStream(socket_t socket, std::chrono::milliseconds longest) : socket_(socket), longest_(longest) {}
-
-    bool has_unread() const { return begin_ < end_; }
-    bool is_readable() const override { return has_unread() || is_ready(socket_, POLLIN, longest_); }
-    bool is_writable() const override { return is_ready(socket_, POLLOUT, longest_) && !is_gone(); }
-
-    ssize_t read(char* bytes, std::size_t count) override {
-        if (!has_unread()) {
-            if (!is_readable()) return -1;
-            const ssize_t got = retry_interrupted([&] { return ::recv(socket_, read_.data(), read_.size(), 0); });
-            if (got <= 0) return got;
-            begin_ = 0;
-            end_ = static_cast<std::size_t>(got);
-        }
-        const std::size_t given = std::min(count, end_ - begin_);
-        std::copy_n(read_.data() + begin_, given, bytes);
-        begin_ += given;
-        return static_cast<ssize_t>(given);
-    }
-
-    ssize_t write(const char* bytes, std::size_t count) override {
-        if (!is_writable()) return -1;
-        return retry_interrupted([&] { return ::send(socket_, bytes, count, MSG_NOSIGNAL); });
-    }
-
-    // Who asks is known by the cookie: there is one machine.
-    void get_remote_ip_and_port(std::string&, int&) const override {}
-    void get_local_ip_and_port(std::string&, int&) const override {}
-    socket_t socket() const override { return socket_; }
-
-  private:
-    bool is_gone() const {
-        char next = 0;
-        const ssize_t got = ::recv(socket_, &next, 1, MSG_PEEK | MSG_DONTWAIT);
-        return got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR);
-    }
-
-    const socket_t socket_;
-    const std::chrono::milliseconds longest_;
-    std::array<char, std::size_t{1} << 14> read_{};
-    std::size_t begin_ = 0, end_ = 0;
-};
+constexpr int kWaiting = 64;  // connections that the system keeps until they are taken
 
 }  // namespace
 
-PageConnections::PageConnections() : ending_(::eventfd(0, EFD_CLOEXEC)) {
-    if (!ending_) throw EnvironmentError("cannot serve pages: " + system_reason(errno));
-    set_keep_alive_timeout(std::chrono::duration_cast<std::chrono::seconds>(kIdleConnection).count());
-    set_keep_alive_max_count(kRequestsOfConnection);
+PageConnections::PageConnections(int port)
+    : listening_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)), ending_(::eventfd(0, EFD_CLOEXEC)) {
+    const int yes = 1;
+    // Not SO_REUSEPORT, which would share a port that is taken.
+    ::setsockopt(listening_.get(), SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    address.sin_port = htons(static_cast<std::uint16_t>(port));
+    socklen_t size = sizeof address;
+    auto* plain = reinterpret_cast<sockaddr*>(&address);
+    if (!ending_ || ::bind(listening_.get(), plain, size) != 0 || ::listen(listening_.get(), kWaiting) != 0 ||
+        ::getsockname(listening_.get(), plain, &size) != 0)
+        throw EnvironmentError(
+            fmt::format("the port {} cannot be used: another program has it, or it is not allowed; leave --port out "
+                        "for a free one",
+                        port));
+    port_ = ntohs(address.sin_port);
+}
+
+PageConnections::~PageConnections() {
+    end();
+}
+
+void PageConnections::start(Serve serve, Limits limits, std::string fields) {
+    serve_ = std::move(serve);
+    limits_ = limits;
+    fields_ = std::move(fields);
+    accepting_ = std::thread([this] { accept_all(); });
 }
 
 void PageConnections::end() {
     const std::uint64_t one = 1;
     write_all(ending_.get(), reinterpret_cast<const char*>(&one), sizeof one);
-    stop();
+    if (accepting_.joinable()) accepting_.join();
+    std::unique_lock lock(mutex_);
+    closed_.wait(lock, [this] { return open_.empty(); });
 }
 
-/// Whether a request comes in time, and before the end.
-bool PageConnections::asks(socket_t socket) const {
-    pollfd waiting[2] = {{socket, POLLIN, 0}, {ending_.get(), POLLIN, 0}};
-    retry_interrupted([&] { return ::poll(waiting, 2, static_cast<int>(kIdleConnection.count())); });
-    return waiting[0].revents != 0 && waiting[1].revents == 0;
-}
-
-bool PageConnections::process_and_close_socket(socket_t socket) {
-    const FileDescriptor closed_at_end(socket);
-    SocketStream stream(socket, std::chrono::seconds(read_timeout_sec_));
-    for (std::size_t left = keep_alive_max_count_; left > 0 && (stream.has_unread() || asks(socket)); --left) {
-        bool over = false;
-        if (!process_request(stream, left == 1, over, nullptr) || over) break;
+void PageConnections::accept_all() {
+    pollfd waiting[2] = {{listening_.get(), POLLIN, 0}, {ending_.get(), POLLIN, 0}};
+    for (;;) {
+        retry_interrupted([&] { return ::poll(waiting, 2, -1); });
+        if (waiting[1].revents != 0) return;
+        FileDescriptor socket(::accept4(listening_.get(), nullptr, nullptr, SOCK_CLOEXEC));
+        if (socket) {
+            begin(std::move(socket));
+        } else if (errno == EMFILE || errno == ENFILE || errno == ENOMEM) {  // until one of them is closed
+            std::unique_lock lock(mutex_);
+            closed_.wait_for(lock, std::chrono::milliseconds(100));
+        }
     }
-    ::shutdown(socket, SHUT_RDWR);
-    return true;
+}
+
+void PageConnections::begin(FileDescriptor socket) {
+    const int yes = 1;
+    ::setsockopt(socket.get(), IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
+    const std::lock_guard lock(mutex_);
+    const auto is_unknown = [](const Open& open) { return !open.known && !open.dropped; };
+    if (std::count_if(open_.begin(), open_.end(), is_unknown) >= limits_.unknown) {
+        const auto oldest = std::find_if(open_.begin(), open_.end(), is_unknown);
+        oldest->dropped = true;
+        ::shutdown(oldest->socket, SHUT_RDWR);  // its thread reads the end
+    }
+    if (std::ssize(open_) >= limits_.known + 2 * limits_.unknown) return;
+    const auto mine = open_.insert(open_.end(), Open{socket.get()});
+    auto owned = std::make_shared<HttpConnection>(std::move(socket), ending_.get(), fields_);
+    try {
+        std::thread([this, mine, owned = std::move(owned)]() mutable {
+            serve_(*owned, [this, mine] {
+                const std::lock_guard known_lock(mutex_);
+                mine->known = true;
+            });
+            const std::lock_guard closing_lock(mutex_);
+            owned.reset();
+            open_.erase(mine);
+            closed_.notify_all();
+        }).detach();
+    } catch (const std::system_error&) {  // no more threads: the connection is closed
+        open_.erase(mine);
+    }
 }
 
 }  // namespace dynlab::inline app

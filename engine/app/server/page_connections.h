@@ -1,26 +1,53 @@
 #pragma once
-#include <httplib.h>
+#include <condition_variable>
+#include <cstddef>
+#include <functional>
+#include <list>
+#include <mutex>
+#include <string>
+#include <thread>
 
-#include "platform/system_call.h"
+#include "app/server/http_connection.h"
 
 namespace dynlab::inline app {
 
-/// An HTTP server that leaves a connection its time, and yet ends at once.
+/// The connections of a server on 127.0.0.1, each with a thread.
 ///
-/// Browsers open connections before they ask. One that is closed until the first request comes is a file that the page
-/// lacks: browsers ask again only where the connection had served before. A browser that gets no processor for a second
-/// (a machine under load) was too late for httplib's own loop, whose waits also hold up its end.
-class PageConnections : public httplib::Server {
+/// Everybody on the machine can connect. Of the connections that have not shown yet that they are the user's only a few
+/// are kept: for a new one the oldest of them is closed, so that whoever opens many keeps out nobody else.
+class PageConnections {
   public:
-    PageConnections();  ///< throws EnvironmentError
-    /// As stop(), without a wait for connections that have not asked anything.
+    /// Serves a connection to its end; `known` says that it is the user's.
+    using Serve = std::function<void(HttpConnection&, const std::function<void()>& known)>;
+    struct Limits {
+        std::ptrdiff_t unknown = 16, known = 64;
+    };
+
+    /// Takes `port`, or one that is free where it is 0. Throws EnvironmentError where it cannot be had.
+    explicit PageConnections(int port);
+    ~PageConnections();  ///< ends all
+    int port() const { return port_; }
+    /// `fields` begin every reply.
+    void start(Serve serve, Limits limits, std::string fields);
     void end();
 
   private:
-    bool process_and_close_socket(socket_t socket) override;
-    bool asks(socket_t socket) const;
+    struct Open {
+        int socket;
+        bool known = false, dropped = false;
+    };
+    void accept_all();
+    void begin(FileDescriptor socket);
 
-    FileDescriptor ending_;  ///< readable from the end on
+    FileDescriptor listening_, ending_;  ///< ending_ is readable from the end on
+    int port_ = 0;
+    Serve serve_;
+    Limits limits_;
+    std::string fields_;
+    std::mutex mutex_;
+    std::condition_variable closed_;
+    std::list<Open> open_;  ///< in the order in which they came
+    std::thread accepting_;
 };
 
 }  // namespace dynlab::inline app

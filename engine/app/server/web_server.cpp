@@ -1,213 +1,139 @@
 #include "app/server/web_server.h"
 
 #include <fmt/format.h>
-#include <httplib.h>
-#include <sodium.h>
 
-#include <csignal>
-#include <memory>
 #include <mutex>
-#include <thread>
 
 #include "app/server/event_streams.h"
 #include "app/server/page_connections.h"
 #include "platform/error.h"
-#include "platform/hash.h"
 
 namespace dynlab::inline app {
 namespace {
 
 using namespace std::chrono_literals;
 
-/// Threads for requests beside those that streams hold: a connection that may still ask has one, and a browser opens
-/// six.
-constexpr std::size_t kThreadsForRequests = 32;
+/// Beside those of streams; a browser opens six.
+constexpr int kConnectionsForRequests = 32;
 /// How often a silent stream looks whether its tab is gone, which gives its place to another, ...
 constexpr auto kLook = 250ms;
 /// ... and how often it says that it lives.
 constexpr auto kSignOfLife = 20s;
 
-const char* const kNoEntrance =
-    "<!DOCTYPE html><title>dynlab</title><p>This page belongs to a dynlab that runs in a terminal. Open the address "
-    "that it printed there, with everything behind the question mark.</p>";
+/// What begins every reply. The pages' own scripts, styles and pictures only; no other site may frame or read them.
+constexpr const char* kFields =
+    "Content-Security-Policy: default-src 'self'; img-src 'self' data:; style-src 'self' 'unsafe-inline'; object-src "
+    "'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'self'\r\n"
+    "X-Content-Type-Options: nosniff\r\n"
+    "Referrer-Policy: no-referrer\r\n"
+    "Cross-Origin-Resource-Policy: same-origin\r\n"
+    "Cross-Origin-Opener-Policy: same-origin\r\n"
+    "Cache-Control: no-store\r\n";
 
-std::string random_token() {
-    if (sodium_init() < 0) throw EnvironmentError("cannot make random numbers");
-    unsigned char bytes[16];
-    randombytes_buf(bytes, sizeof bytes);
-    char text[2 * sizeof bytes + 1];
-    sodium_bin2hex(text, sizeof text, bytes, sizeof bytes);
-    return text;
-}
-
-/// The value of a cookie among "a=1; b=2".
-std::string cookie_of(const std::string& cookies, const std::string& name) {
-    std::size_t at = 0;
-    while (at < cookies.size()) {
-        const std::size_t end = std::min(cookies.find(';', at), cookies.size());
-        const std::size_t begin = cookies.find_first_not_of(' ', at);
-        if (begin < end && cookies.compare(begin, name.size() + 1, name + "=") == 0)
-            return cookies.substr(begin + name.size() + 1, end - begin - name.size() - 1);
-        at = end + 1;
+std::unique_ptr<PageConnections> connections_at(const WebServer::Options& options) {
+    if (options.port == 0 && options.wished_port > 0) {
+        try {
+            return std::make_unique<PageConnections>(options.wished_port);
+        } catch (const EnvironmentError&) {  // any other will do
+        }
     }
-    return {};
-}
-
-/// A pattern for httplib: the path itself, with * at its end for what follows.
-std::string pattern_of(const std::string& path) {
-    std::string pattern;
-    for (const char c : path) {
-        if (std::string_view(".+(){}[]^$|\\").find(c) != std::string_view::npos) pattern += '\\';
-        pattern += c;
-    }
-    if (pattern.ends_with('*')) pattern.replace(pattern.size() - 1, 1, "[^/]*");
-    return pattern;
+    return std::make_unique<PageConnections>(options.port);
 }
 
 }  // namespace
 
 class WebServer::Work {
   public:
-    explicit Work(Options options) : streams_(static_cast<std::size_t>(options.most_streams)), token_(random_token()) {
-        std::signal(SIGPIPE, SIG_IGN);  // a tab that is gone must not end the program
-        const std::size_t threads = static_cast<std::size_t>(options.most_streams) + kThreadsForRequests;
-        server_.new_task_queue = [threads] { return new httplib::ThreadPool(threads); };
-        server_.set_payload_max_length(options.largest_body);
-        server_.set_tcp_nodelay(true);
-        // Not SO_REUSEPORT, which would share a port that is taken.
-        server_.set_socket_options([](socket_t socket) {
-            const int yes = 1;
-            ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-        });
-        server_.set_default_headers(
-            {{"Content-Security-Policy",
-              "default-src 'self'; img-src 'self' data:; style-src 'self' 'unsafe-inline'; object-src 'none'; "
-              "base-uri 'none'; form-action 'none'; frame-ancestors 'self'"},
-             {"X-Content-Type-Options", "nosniff"},
-             {"Referrer-Policy", "no-referrer"},
-             {"Cross-Origin-Resource-Policy", "same-origin"},
-             {"Cache-Control", "no-store"}});
-        server_.set_pre_routing_handler(
-            [this](const httplib::Request& asked, httplib::Response& reply) { return let_in(asked, reply); });
-        server_.Get("/events", [this](const httplib::Request&, httplib::Response& reply) { stream(reply); });
-        bind(options.port, options.wished_port);
-    }
+    explicit Work(Options options)
+        : options_(options),
+          streams_(static_cast<std::size_t>(options.most_streams)),
+          connections_(connections_at(options)),
+          entrance_(connections_->port()) {}
 
     ~Work() {
         streams_.end();
-        server_.end();
-        if (thread_.joinable()) thread_.join();
-    }
-
-    httplib::Server::Handler handler(Handler ours) {
-        return [ours = std::move(ours)](const httplib::Request& asked, httplib::Response& reply) {
-            PageRequest request{asked.path, {asked.params.begin(), asked.params.end()}, asked.body};
-            try {
-                PageReply answer = ours(request);
-                reply.status = answer.status;
-                give(reply, std::move(answer));
-            } catch (const std::exception& error) {
-                reply.status = 500;
-                reply.set_content(error.what(), "text/plain; charset=utf-8");
-            }
-        };
+        connections_->end();
     }
 
     void start() {
-        thread_ = std::thread([this] { server_.listen_after_bind(); });
-        while (!server_.is_running()) std::this_thread::sleep_for(1ms);  // stop() before that would be lost
+        connections_->start([this](HttpConnection& connection, const auto& known) { serve(connection, known); },
+                            {.known = options_.most_streams + kConnectionsForRequests}, kFields);
     }
 
-    PageConnections server_;
+    const Options options_;
     EventStreams streams_;
+    std::unique_ptr<PageConnections> connections_;
+    Entrance entrance_;
+    std::map<std::string, Handler> gets_, posts_;  ///< by their paths
     std::function<std::string()> first_;
+    std::function<void()> on_late_visit_ = [] {};
     std::mutex sending_;  ///< news that are sent while first_() is made would stand before what is older
-    int port_ = 0;
-    const std::string token_;
 
   private:
-    using Response = httplib::Server::HandlerResponse;
-
-    void bind(int port, int wished_port) {
-        if (port == 0 && wished_port > 0 && server_.bind_to_port("127.0.0.1", wished_port)) {
-            port_ = wished_port;
-        } else if (port == 0) {
-            port_ = server_.bind_to_any_port("127.0.0.1");
-        } else if (server_.bind_to_port("127.0.0.1", port)) {
-            port_ = port;
-        }
-        if (port_ <= 0) {
-            throw EnvironmentError(
-                fmt::format("the port {} cannot be used: another program has it, or it is not allowed; leave --port "
-                            "out for a free one",
-                            port));
+    void serve(HttpConnection& connection, const std::function<void()>& known) {
+        try {
+            while (const auto head = connection.next_head())
+                if (!answer(connection, *head, known)) return;
+        } catch (const LastReply& last) {
+            connection.reply(last.reply, true);
+            connection.close();
+            if (entrance_.had_late_visit()) on_late_visit_();
         }
     }
 
-    std::string cookie_name() const { return fmt::format("dynlab-{}", port_); }
-
-    bool is_ours(const std::string& host) const {
-        for (const char* name : {"127.0.0.1", "localhost", "[::1]"})
-            if (host == fmt::format("{}:{}", name, port_)) return true;
-        return false;
+    /// Whether the connection goes on.
+    bool answer(HttpConnection& connection, RequestHead head, const std::function<void()>& known) {
+        entrance_.admit(head);
+        known();
+        if (head.method == "GET" && head.path == "/events") return stream(connection), false;
+        const Handler& handler = handler_of(head);
+        if (*head.body > options_.largest_body)
+            throw LastReply{{413, kPlainText, fmt::format("More than {} MB were sent.", options_.largest_body >> 20)}};
+        std::optional<std::string> body = connection.body(*head.body);
+        if (!body) return false;
+        const HttpReply reply = made({head.path, std::move(head.parameters), std::move(*body)}, handler);
+        const bool closes = !head.keeps_alive || connection.has_unread();
+        return connection.reply(reply, closes, head.method == "HEAD") && !closes;
     }
 
-    /// As it is: what is set as content is compressed by httplib for browsers, which takes far longer than to send it
-    /// within the machine.
-    static void give(httplib::Response& reply, PageReply answer) {
-        if (answer.body.empty()) return reply.set_content("", answer.type.c_str());
-        const auto body = std::make_shared<const std::string>(std::move(answer.body));
-        reply.set_content_provider(body->size(), answer.type.c_str(),
-                                   [body](std::size_t from, std::size_t length, httplib::DataSink& sink) {
-                                       return sink.write(body->data() + from, length);
-                                   });
+    const Handler& handler_of(const RequestHead& head) const {
+        const auto& handlers = head.method == "POST" ? posts_ : gets_;
+        auto found = handlers.find(head.path);
+        if (found == handlers.end()) found = handlers.find(head.path.substr(0, head.path.rfind('/') + 1) + "*");
+        if (found == handlers.end()) throw LastReply{{404, kPlainText, "There is no such page."}};
+        return found->second;
     }
 
-    Response refuse(httplib::Response& reply, int status, const char* text) const {
-        reply.status = status;
-        reply.set_content(text, "text/html; charset=utf-8");
-        return Response::Handled;
-    }
-
-    Response let_in(const httplib::Request& asked, httplib::Response& reply) const {
-        const std::string host = asked.get_header_value("Host"), origin = asked.get_header_value("Origin");
-        if (!is_ours(host)) return refuse(reply, 403, "This address is not that of a dynlab.");
-        if (asked.has_header("Origin") && origin != "http://" + host)
-            return refuse(reply, 403, "Other sites may not ask here.");
-        if (equal_in_constant_time(cookie_of(asked.get_header_value("Cookie"), cookie_name()), token_)) {
-            if (!asked.has_param("token")) return Response::Unhandled;
-        } else if (!equal_in_constant_time(asked.get_param_value("token"), token_) || asked.path != "/") {
-            return refuse(reply, 403, kNoEntrance);
+    static HttpReply made(const PageRequest& request, const Handler& handler) {
+        try {
+            PageReply reply = handler(request);
+            return {reply.status, std::move(reply.type), std::move(reply.body)};
+        } catch (const std::exception& error) {
+            return {500, kPlainText, error.what()};
         }
-        reply.set_header("Set-Cookie", fmt::format("{}={}; Path=/; SameSite=Strict; HttpOnly", cookie_name(), token_));
-        reply.set_redirect("/", 303);
-        return Response::Handled;
     }
 
-    void stream(httplib::Response& reply) {
+    void stream(HttpConnection& connection) {
         std::unique_lock sending(sending_);
         const std::shared_ptr<EventStreams::Stream> stream = streams_.open();
-        if (!stream) {
-            reply.status = 503;
-            reply.set_content("There are too many tabs of this page; close some.", "text/plain; charset=utf-8");
-            return;
-        }
+        if (!stream) throw LastReply{{503, kPlainText, "There are too many tabs of this page; close some."}};
         if (first_) stream->put(EventStreams::written("page", first_()));
         sending.unlock();
-        const auto give = [stream](std::size_t, httplib::DataSink& sink) {
-            std::optional<std::string> next;
-            for (auto silent = 0ms; silent < kSignOfLife; silent += kLook) {
-                next = stream->take(kLook);
-                if (!next || !sink.is_writable()) return false;
-                if (!next->empty()) break;
-            }
-            const std::string text = next->empty() ? ": still here\n\n" : *next;
-            return sink.write(text.data(), text.size());
-        };
-        reply.set_chunked_content_provider("text/event-stream", give, [this, stream](bool) { streams_.close(stream); });
+        bool open = connection.begin_stream("text/event-stream");
+        auto silent = 0ms;
+        while (open) {
+            const std::optional<std::string> next = stream->take(kLook);
+            silent = !next || next->empty() ? silent + kLook : 0ms;
+            if (!next) break;
+            if (next->empty())
+                open = connection.is_open() && (silent < kSignOfLife || connection.write(": still here\n\n"));
+            else
+                open = connection.write(*next);
+            if (silent >= kSignOfLife) silent = 0ms;
+        }
+        streams_.close(stream);
+        connection.close();
     }
-
-    std::thread thread_;
 };
 
 const std::string& PageRequest::parameter(const std::string& name) const {
@@ -220,15 +146,19 @@ WebServer::WebServer(Options options) : work_(std::make_unique<Work>(options)) {
 WebServer::~WebServer() = default;
 
 void WebServer::on_get(const std::string& path, Handler handler) {
-    work_->server_.Get(pattern_of(path), work_->handler(std::move(handler)));
+    work_->gets_[path] = std::move(handler);
 }
 
 void WebServer::on_post(const std::string& path, Handler handler) {
-    work_->server_.Post(pattern_of(path), work_->handler(std::move(handler)));
+    work_->posts_[path] = std::move(handler);
 }
 
 void WebServer::on_stream(std::function<std::string()> first) {
     work_->first_ = std::move(first);
+}
+
+void WebServer::on_late_visit(std::function<void()> tell) {
+    work_->on_late_visit_ = std::move(tell);
 }
 
 void WebServer::start() {
@@ -236,11 +166,11 @@ void WebServer::start() {
 }
 
 int WebServer::port() const {
-    return work_->port_;
+    return work_->connections_->port();
 }
 
-std::string WebServer::address() const {
-    return fmt::format("http://127.0.0.1:{}/?token={}", work_->port_, work_->token_);
+const EntranceKey& WebServer::key() const {
+    return work_->entrance_.key();
 }
 
 void WebServer::send(const std::string& event, const std::string& data) {

@@ -5,6 +5,8 @@
 #include <memory>
 #include <string>
 
+#include "app/server/entrance.h"
+
 namespace dynlab::inline app {
 
 /// What a page of ours asks.
@@ -22,12 +24,15 @@ struct PageReply {
     int status = 200;
 };
 
-/// Serves pages to this machine's browser: HTTP on 127.0.0.1, requests and one stream of events a tab.
-///
-/// Who may ask: the address that is told holds a random token, which a first visit exchanges for a cookie of this
-/// session (SameSite=Strict, HttpOnly); without it nothing is given. Host must name this machine and this port, so that
-/// no other name leads here, and a foreign Origin is refused; no other site may read (no CORS) or frame what is served,
-/// and pages get scripts, styles and pictures from here only.
+/// What an address that is told is for.
+enum class Visit {
+    kFirst,      ///< the page answers from now on
+    kElsewhere,  ///< another program shows the document there already
+    kLate,       ///< somebody came with an address that was old or used
+};
+
+/// Serves pages to this machine's browser: HTTP on 127.0.0.1, requests and one stream of events a tab. The pages lie in
+/// a folder of a random name and find one another by relative addresses. Who may ask: entrance.h.
 class WebServer {
   public:
     struct Options {
@@ -45,15 +50,18 @@ class WebServer {
     WebServer& operator=(const WebServer&) = delete;
 
     /// Handlers run in threads of the server; what they throw becomes a reply with status 500 and its sentence. A path
-    /// that ends in * is all that begin so. Call before start().
+    /// that ends in /* is that of all files of a folder. Call before start().
     void on_get(const std::string& path, Handler handler);
     void on_post(const std::string& path, Handler handler);
     /// The data of the event "page" with which a stream begins.
     void on_stream(std::function<std::string()> first);
+    /// Called by a thread of the server when somebody came with an address that is old or used: print a new one.
+    void on_late_visit(std::function<void()> tell);
     void start();
 
     int port() const;
-    std::string address() const;  ///< "http://127.0.0.1:PORT/?token=..."
+    const EntranceKey& key() const;
+    std::string address() const { return key().address(); }  ///< another one each time, for one visit within a minute
     /// An event for all streams; a tab that does not keep up with 64 MB of them is dropped and comes again.
     void send(const std::string& event, const std::string& data);
     int streams() const;

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "app/workbench/session_script.h"
 #include "data_io/data_file.h"
@@ -68,31 +69,35 @@ class Columns {
   public:
     explicit Columns(const LoadedData& loaded) : loaded_(loaded) {
         std::vector<std::string> names = loaded.columns;
+        std::set<std::string> known(names.begin(), names.end());
         for (const auto& [name, variable] : loaded.variables)
-            if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+            if (known.insert(name).second) names.push_back(name);
         for (const std::string& name : names) collect(name, "", loaded.variables.at(name));
     }
 
     std::vector<RecordColumn> offered() const {
         std::vector<RecordColumn> columns;
         std::string guessed = signals_.empty() ? "" : signals_.front().group;  // the struct whose signals get roles
+        std::map<std::string, Index> lengths;                                  // of the groups
+        std::optional<TimeColumn> time;
+        bool first_output = true;
         for (const Signal& signal : signals_) {
-            const Index samples = samples_of(signal.group);
-            const auto time = time_column(loaded_, samples);
+            const auto [known, is_new] = lengths.try_emplace(signal.group);
+            if (is_new) known->second = samples_of(signal.group);
+            if (is_new && signal.group == guessed) time = time_column(loaded_, known->second);
+            const Index samples = known->second;
             const auto unit = loaded_.units.find(signal.name);
             columns.push_back(
                 column_of(signal.name, unit == loaded_.units.end() ? "" : unit->second, signal.numbers, samples));
             RecordColumn& column = columns.back();
             if (signal.group != guessed) continue;
             const std::string own = signal.group.empty() ? signal.name : signal.name.substr(signal.group.size() + 1);
-            const bool first_output =
-                std::ranges::none_of(columns, [](const RecordColumn& one) { return one.role == "output"; });
             if (signal.group.empty() ? time && time->name == own : own == "t" || own == "time")
                 column.role = "time";
             else if (column.usable && sounds_like(own, kInputs))
                 column.role = "input";
             else if (column.usable && first_output && sounds_like(own, kOutputs))
-                column.role = "output";
+                column.role = "output", first_output = false;
         }
         for (const std::string& name : texts_) columns.push_back({name, "", "", 0, 0, "text", false});
         if (guessed.empty()) guess_rest(columns);

@@ -247,8 +247,10 @@ void serve_workbench(const WorkbenchOptions& options) {
     bench.on_change([&] {
         if (const auto changes = bench.changes()) server.send("page", *changes);
     });
+    const fs::path script = fs::absolute(subject.script);
+    server.on_late_visit([&] { options.opened(server.address(), Visit::kLate, script); });
     server.start();
-    options.opened(server.address(), fs::absolute(subject.script));
+    options.opened(server.address(), Visit::kFirst, script);
     try {
         bench.work();
     } catch (...) {

@@ -4,6 +4,7 @@
 #include "cli/commands.h"
 #include "cli/pages/browser.h"
 #include "platform/error.h"
+#include "platform/interrupt.h"
 
 namespace dynlab::inline cli {
 namespace {
@@ -14,12 +15,13 @@ struct AppWords {
 };
 
 int show_workbench(AppWords words) {
-    words.options.opened = [no_browser = words.no_browser](const std::string& address,
-                                                           const std::filesystem::path& script) {
+    const DesktopBrowser browser;
+    words.options.opened = [&](const std::string& address, Visit visit, const std::filesystem::path& script) {
         std::cout << address << "\nThe session is " << script.string() << "\n(Ctrl-C ends it)" << std::endl;
-        if (!no_browser) open_browser(address);
+        if (visit != Visit::kLate && !words.no_browser) browser.open(address);
     };
     try {
+        const SlowEnding session_is_kept;
         serve_workbench(words.options);
     } catch (const Interrupted&) {
         std::cout << std::endl;

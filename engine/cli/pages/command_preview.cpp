@@ -5,6 +5,7 @@
 #include "cli/options/script_options.h"
 #include "cli/pages/browser.h"
 #include "platform/error.h"
+#include "platform/interrupt.h"
 
 namespace dynlab::inline cli {
 namespace {
@@ -15,11 +16,14 @@ struct PreviewWords {
 };
 
 int show_preview(PreviewWords words) {
-    words.options.opened = [no_browser = words.no_browser](const std::string& address, bool elsewhere) {
-        std::cout << address << (elsewhere ? "\n(it is shown there already)" : "\n(Ctrl-C ends it)") << std::endl;
-        if (!no_browser) open_browser(address);
+    const DesktopBrowser browser;
+    words.options.opened = [&](const std::string& address, Visit visit) {
+        std::cout << address << (visit == Visit::kElsewhere ? "\n(it is shown there already)" : "\n(Ctrl-C ends it)")
+                  << std::endl;
+        if (visit != Visit::kLate && !words.no_browser) browser.open(address);
     };
     try {
+        const SlowEnding session_is_kept;
         preview(words.options);
     } catch (const Interrupted&) {
         std::cout << std::endl;

@@ -9,10 +9,12 @@
 namespace dynlab::inline cli {
 
 FigureListener view_in_browser() {
-    const auto viewer = std::make_shared<FigureViewer>();
-    std::cerr << "figures: " << viewer->address() << std::endl;
-    open_browser(viewer->address());
-    return [viewer](const std::string& name, const Figure& figure) { viewer->show(name, figure); };
+    const auto tell = [](const std::string& address) { std::cerr << "figures: " << address << std::endl; };
+    const auto viewer = std::make_shared<FigureViewer>(tell);
+    const auto browser = std::make_shared<DesktopBrowser>();
+    tell(viewer->address());
+    browser->open(viewer->address());
+    return [viewer, browser](const std::string& name, const Figure& figure) { viewer->show(name, figure); };
 }
 
 }  // namespace dynlab::inline cli

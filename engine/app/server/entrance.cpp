@@ -1,0 +1,146 @@
+#include "app/server/entrance.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "platform/hash.h"
+#include "platform/keys/secure_random.h"
+
+namespace dynlab::inline app {
+namespace {
+
+/// Long enough for a browser that starts on a busy machine.
+constexpr std::int64_t kTokenMilliseconds = 60'000;
+constexpr std::size_t kTimeDigits = 12, kNonceDigits = 16, kCodeDigits = 32;
+constexpr int kForbidden = 403;
+
+const char* const kNoEntrance =
+    "<!DOCTYPE html><title>dynlab</title><p>This page belongs to a dynlab that runs in a terminal. Open the address "
+    "that it printed there. An address works once and for a minute; the terminal shows a new one for a browser that "
+    "comes too late.</p>";
+constexpr std::int64_t kNextNews = 5'000;  // ms between two late visits that are told
+
+/// The same clock in all processes of this machine, which nobody sets.
+std::int64_t now() {
+    return std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+}
+
+std::string code_of(const std::string& secret, std::string_view time_and_nonce) {
+    return hmac_sha256(secret, {time_and_nonce}).substr(0, kCodeDigits);
+}
+
+/// Whether "a=1; b=2" has the cookie "b=2".
+bool has_cookie(std::string_view cookies, std::string_view wanted) {
+    while (!cookies.empty()) {
+        const std::string_view cookie = cookies.substr(0, cookies.find(';'));
+        if (equal_in_constant_time(cookie, wanted)) return true;
+        cookies.remove_prefix(std::min(cookie.size() + 1, cookies.size()));
+        while (cookies.starts_with(' ')) cookies.remove_prefix(1);
+    }
+    return false;
+}
+
+LastReply forbidden(const char* text) {
+    return {{kForbidden, "text/html; charset=utf-8", text}};
+}
+
+}  // namespace
+
+std::string EntranceKey::address() const {
+    const std::string sealed =
+        fmt::format("{:0{}x}{}", now() + kTokenMilliseconds, kTimeDigits, secure_hex(kNonceDigits / 2));
+    return fmt::format("http://127.0.0.1:{}/?token={}{}", port, sealed, code_of(secret, sealed));
+}
+
+std::string EntranceKey::text() const {
+    return fmt::format("{} {}\n", port, secret);
+}
+
+std::optional<EntranceKey> EntranceKey::of_text(const std::string& text) {
+    EntranceKey key;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), key.port);
+    const auto at = static_cast<std::size_t>(end - text.data());
+    if (error != std::errc() || at + 2 > text.size() || text[at] != ' ' || text.back() != '\n') return {};
+    key.secret = text.substr(at + 1, text.size() - at - 2);
+    return key;
+}
+
+Entrance::Entrance(int port)
+    : key_{port, secure_hex(16)}, folder_("/" + secure_hex(16)), cookie_("dynlab=" + secure_hex(16)) {}
+
+void Entrance::admit(RequestHead& head) {
+    check_origin(head);
+    const bool changes = head.method == "POST";
+    if (!changes && head.method != "GET" && head.method != "HEAD")
+        throw LastReply{{405, kPlainText, "Pages are asked by GET, HEAD and POST."}};
+    if (!head.body || head.has("expect") || (changes ? !head.has("content-length") : *head.body != 0))
+        throw LastReply{{400, kPlainText, "A body comes with POST, its length and nothing else."}};
+    if (head.path == "/") visit(head);
+    const auto [first, last] = head.fields.equal_range("cookie");
+    const bool known = std::any_of(first, last, [&](const auto& field) { return has_cookie(field.second, cookie_); });
+    if (!known || !head.path.starts_with(folder_ + "/")) throw forbidden(kNoEntrance);
+    head.path.erase(0, folder_.size());
+    const bool from_page =
+        head.field("x-dynlab") == "1" && head.field("sec-fetch-site") == "same-origin" && head.has("origin");
+    if (changes && !from_page) throw forbidden("Only the page itself may ask for this.");
+}
+
+void Entrance::check_origin(const RequestHead& head) const {
+    const std::string host(head.field("host").value_or(""));
+    bool ours = false;
+    for (const char* name : {"127.0.0.1", "localhost", "[::1]"})
+        ours = ours || host == fmt::format("{}:{}", name, key_.port);
+    if (!ours) throw forbidden("This address is not that of a dynlab.");
+    if (head.has("origin") && head.field("origin") != "http://" + host)
+        throw forbidden("Other sites may not ask here.");
+    // A first visit may come from a file that holds the address; whoever knows the token may come from anywhere.
+    if (head.has("sec-fetch-site") && head.path != "/") {
+        const auto site = head.field("sec-fetch-site");
+        if (site != "same-origin" && site != "none") throw forbidden("Other sites may not ask here.");
+    }
+}
+
+void Entrance::visit(const RequestHead& head) {
+    const auto token = head.parameters.find("token");
+    const bool ours = token != head.parameters.end() && is_ours(token->second);
+    if (!ours || head.method != "GET" || !takes(token->second)) {
+        const std::lock_guard lock(mutex_);
+        late_visit_ = ours || head.field("sec-fetch-site") == "none";  // by the user's hand
+        throw forbidden(kNoEntrance);
+    }
+    // A page of our own that goes on: after a redirect the browser would still count the site that led here, and would
+    // hold back the cookie.
+    HttpReply reply{200, "text/html; charset=utf-8",
+                    fmt::format("<!DOCTYPE html><title>dynlab</title><meta http-equiv=\"refresh\" "
+                                "content=\"0;url={}/\">",
+                                folder_)};
+    reply.fields.emplace_back("Set-Cookie", fmt::format("{}; Path={}/; SameSite=Strict; HttpOnly", cookie_, folder_));
+    throw LastReply{std::move(reply)};
+}
+
+bool Entrance::is_ours(const std::string& token) const {
+    if (token.size() != kTimeDigits + kNonceDigits + kCodeDigits) return false;
+    const std::string sealed = token.substr(0, kTimeDigits + kNonceDigits);
+    return equal_in_constant_time(token.substr(sealed.size()), code_of(key_.secret, sealed));
+}
+
+/// Whether a token of ours is neither old nor used; it is used then.
+bool Entrance::takes(const std::string& token) {
+    const std::int64_t end = std::strtoll(token.substr(0, kTimeDigits).c_str(), nullptr, 16), time = now();
+    const std::lock_guard lock(mutex_);
+    std::erase_if(used_, [time](const auto& used) { return used.second < time; });
+    return end >= time && end <= time + kTokenMilliseconds && used_.emplace(token, end).second;
+}
+
+bool Entrance::had_late_visit() {
+    const std::lock_guard lock(mutex_);
+    const std::int64_t time = now();
+    if (!std::exchange(late_visit_, false) || time < told_ + kNextNews) return false;
+    told_ = time;
+    return true;
+}
+
+}  // namespace dynlab::inline app

@@ -1,0 +1,60 @@
+#pragma once
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "app/server/http_connection.h"
+
+namespace dynlab::inline app {
+
+/// What opens the pages of a server for whoever can read it. It belongs into files that the user alone can read.
+struct EntranceKey {
+    int port = 0;
+    std::string secret = {};
+
+    /// An address for one visit within a minute.
+    std::string address() const;
+    std::string text() const;                                            ///< of a file
+    static std::optional<EntranceKey> of_text(const std::string& text);  ///< nothing for another text
+};
+
+/// Decides who may ask a server of pages on 127.0.0.1, which every user of the machine and every site in the user's
+/// browser can reach.
+///
+/// * The address that is printed holds a token for one visit. The visit gets a cookie of this server (SameSite=Strict,
+///   HttpOnly) and is sent on to the pages, which lie in a folder of a random name. The cookie holds for that folder
+///   alone: cookies know no ports, and a server of somebody else on this machine would be sent it otherwise.
+/// * `Host` must name this machine and this port, so that no other name leads here (DNS rebinding).
+/// * No other site may ask: a foreign `Origin` and a `Sec-Fetch-Site` of another site are refused.
+/// * What changes something (POST) needs the own `Origin`, `Sec-Fetch-Site: same-origin` and `X-Dynlab: 1`, a field
+///   that no form can send.
+/// * Bodies come behind POST only, with their length.
+class Entrance {
+  public:
+    explicit Entrance(int port);
+
+    const EntranceKey& key() const { return key_; }
+    /// Takes the pages' folder from the path, which then begins with a slash. Throws LastReply: what refuses the
+    /// request, or what leads a visit with a token to the pages.
+    void admit(RequestHead& head);
+    /// Whether somebody came with an address that is used or old and is to be told a new one: every 5 s at most.
+    bool had_late_visit();
+
+  private:
+    void check_origin(const RequestHead& head) const;
+    void visit(const RequestHead& head);
+    bool is_ours(const std::string& token) const;
+    bool takes(const std::string& token);
+
+    EntranceKey key_;
+    std::string folder_, cookie_;  ///< "/NAME", "dynlab=VALUE"
+    std::mutex mutex_;
+    std::map<std::string, std::int64_t> used_;  ///< tokens, with the time from which on they are too old
+    bool late_visit_ = false;
+    std::int64_t told_ = 0;
+};
+
+}  // namespace dynlab::inline app
