@@ -115,7 +115,7 @@ void measure_live(Report& report) {
         }
         const CutLine line(preview.address());
         Browser distant;
-        distant.open(line.address(preview.address()));
+        distant.open(line.address(preview.next_address()));
         if (!distant.comes(kComplete, 60)) throw std::runtime_error("lesson 4 is never complete");
         for (int i = kEdits + 1; i <= 2 * kEdits; ++i) {
             const std::size_t before = line.bytes_from_server();
