@@ -20,7 +20,7 @@ const char* const kNoEntrance =
     "<!DOCTYPE html><title>dynlab</title><p>This page belongs to a dynlab that runs in a terminal. Open the address "
     "that it printed there. An address works once and for a minute; the terminal shows a new one for a browser that "
     "comes too late.</p>";
-constexpr std::int64_t kNextNews = 5'000;  // ms between two late visits that are told
+constexpr std::int64_t kNextNews = 5'000;  // ms between two late visits that are reported
 
 /// The same clock in all processes of this machine, which nobody sets.
 std::int64_t now() {
@@ -96,7 +96,7 @@ void Entrance::check_origin(const RequestHead& head) const {
     if (!ours) throw forbidden("This address is not that of a dynlab.");
     if (head.has("origin") && head.field("origin") != "http://" + host)
         throw forbidden("Other sites may not ask here.");
-    // A first visit may come from a file that holds the address; whoever knows the token may come from anywhere.
+    // A first visit may come from a file that holds the address; with the right token, any origin is accepted.
     if (head.has("sec-fetch-site") && head.path != "/") {
         const auto site = head.field("sec-fetch-site");
         if (site != "same-origin" && site != "none") throw forbidden("Other sites may not ask here.");

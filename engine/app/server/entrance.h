@@ -10,7 +10,7 @@
 
 namespace dynlab::inline app {
 
-/// What opens the pages of a server for whoever can read it. It belongs into files that the user alone can read.
+/// Opens the pages of a server to everyone who can read it. Keep it in files that only the user can read.
 struct EntranceKey {
     int port = 0;
     std::string secret = {};
@@ -40,7 +40,7 @@ class Entrance {
     /// Takes the pages' folder from the path, which then begins with a slash. Throws LastReply: what refuses the
     /// request, or what leads a visit with a token to the pages.
     void admit(RequestHead& head);
-    /// Whether somebody came with an address that is used or old and is to be told a new one: every 5 s at most.
+    /// Whether a visitor came with a used or old address, so that a new one should be printed: at most every 5 s.
     bool had_late_visit();
 
   private:

@@ -126,7 +126,7 @@ std::optional<RequestHead> HttpConnection::next_head() {
     const auto until = steady_clock::now() + kWholeHead;
     HeadParser parser;
     parser.header_limit(kLargestHead);
-    parser.body_limit(std::numeric_limits<std::uint64_t>::max());  // whoever reads the body has a limit of its own
+    parser.body_limit(std::numeric_limits<std::uint64_t>::max());  // WebServer limits bodies
     for (;;) {
         boost::beast::error_code error;
         const std::size_t used = parser.put(boost::asio::buffer(unread_), error);

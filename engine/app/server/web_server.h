@@ -24,7 +24,7 @@ struct PageReply {
     int status = 200;
 };
 
-/// What an address that is told is for.
+/// Why an address is printed.
 enum class Visit {
     kFirst,      ///< the page answers from now on
     kElsewhere,  ///< another program shows the document there already

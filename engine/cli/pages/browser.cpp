@@ -8,11 +8,11 @@
 
 namespace dynlab::inline cli {
 
-void DesktopBrowser::open(const std::string& address) const {
+void DesktopBrowser::open(const std::string& address) {
     if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
     if (!find_program("xdg-open")) return;
     try {
-        const std::filesystem::path file = folder_.path() / "open.html";
+        const std::filesystem::path file = folder_.emplace().path() / "open.html";
         write_file_atomically(
             file,
             "<!DOCTYPE html><title>dynlab</title><meta http-equiv=\"refresh\" content=\"0;url=" + address + "\">");

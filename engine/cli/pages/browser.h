@@ -1,19 +1,20 @@
 #pragma once
+#include <optional>
 #include <string>
 
 #include "platform/temporary_folder.h"
 
 namespace dynlab::inline cli {
 
-/// The browser of the desktop, where there is one. It is given a file that the user alone can read and that leads on to
-/// the address: all users of the machine see the words of a command.
+/// The browser of the desktop, where there is one. It gets a file that only the user can read and that leads to the
+/// address: all users of the machine can see the arguments of a command.
 class DesktopBrowser {
   public:
-    /// What fails is passed over, as the address stands on the terminal.
-    void open(const std::string& address) const;
+    /// Failures are ignored: the address is on the terminal.
+    void open(const std::string& address);
 
   private:
-    TemporaryFolder folder_;
+    std::optional<TemporaryFolder> folder_;
 };
 
 }  // namespace dynlab::inline cli

@@ -15,7 +15,7 @@ struct AppWords {
 };
 
 int show_workbench(AppWords words) {
-    const DesktopBrowser browser;
+    DesktopBrowser browser;
     words.options.opened = [&](const std::string& address, Visit visit, const std::filesystem::path& script) {
         std::cout << address << "\nThe session is " << script.string() << "\n(Ctrl-C ends it)" << std::endl;
         if (visit != Visit::kLate && !words.no_browser) browser.open(address);

@@ -16,7 +16,7 @@ struct PreviewWords {
 };
 
 int show_preview(PreviewWords words) {
-    const DesktopBrowser browser;
+    DesktopBrowser browser;
     words.options.opened = [&](const std::string& address, Visit visit) {
         std::cout << address << (visit == Visit::kElsewhere ? "\n(it is shown there already)" : "\n(Ctrl-C ends it)")
                   << std::endl;

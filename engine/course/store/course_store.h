@@ -56,7 +56,7 @@ class Course {
                     const std::function<void(std::size_t, const KeptFile&)>& look,
                     const std::function<void(std::size_t done, std::size_t total)>& progress = {}) const;
     /// Writes files anywhere below the course's folder, as write_files_atomically does. Their temporary files lie in
-    /// files/, so that whoever opens the course finds leftovers there without a search through all folders.
+    /// files/, so that opening the course finds leftovers without searching all folders.
     void write(const std::vector<NewFile>& files) const;
     /// Within a transaction: the store speaks of this content from now on.
     void record_file(const std::string& hash, std::int64_t bytes, Instant at);
