@@ -7,6 +7,7 @@
 #include <set>
 #include <string_view>
 
+#include "base/number_text.h"
 #include "data_io/reading_memory.h"
 #include "data_io/tables/cell_scanner.h"
 #include "data_io/tables/number_cell.h"
@@ -14,7 +15,6 @@
 #include "data_io/tables/text_decoding.h"
 #include "data_io/tables/unit_text.h"
 #include "data_io/variable.h"
-#include "numerics/number_text.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <optional>
 
-#include "numerics/number_text.h"
+#include "base/number_text.h"
 #include "platform/error.h"
 #include "platform/file_blocks.h"
 

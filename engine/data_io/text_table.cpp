@@ -6,8 +6,8 @@
 #include <array>
 #include <set>
 
+#include "base/number_text.h"
 #include "data_io/tables/number_cell.h"
-#include "numerics/number_text.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/text/foreign_text.h"

@@ -8,10 +8,10 @@
 #include <csignal>
 #include <optional>
 
+#include "base/number_text.h"
 #include "data_io/values/cbor_values.h"
 #include "documents/text_lines.h"
 #include "documents/work_file.h"
-#include "numerics/number_text.h"
 #include "platform/cache.h"
 #include "platform/child_process.h"
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/number_text.h"
 #include "documents/lua_text.h"
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 #include "workflow/recording.h"
 
 namespace dynlab::inline workflow {

@@ -7,9 +7,9 @@
 #include <map>
 #include <set>
 
+#include "base/number_text.h"
 #include "data_io/dataset_index.h"
 #include "figures/plots/id_plot.h"
-#include "numerics/number_text.h"
 #include "platform/terminal/terminal_text.h"
 #include "platform/utf8.h"
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/number_text.h"
 #include "data_io/tables/unit_text.h"
 #include "documents/lua_text.h"
-#include "numerics/number_text.h"
 #include "platform/error.h"
 #include "platform/spelling.h"
 #include "scripting/source/lua_tokens.h"

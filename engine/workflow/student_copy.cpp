@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "base/number_text.h"
 #include "documents/error.h"
 #include "documents/solutions.h"
 #include "documents/text_lines.h"
-#include "numerics/number_text.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/program_lookup.h"

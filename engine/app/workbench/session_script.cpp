@@ -8,9 +8,9 @@
 #include <set>
 #include <span>
 
+#include "base/number_text.h"
 #include "data_io/values/value_limits.h"
 #include "documents/text_lines.h"
-#include "numerics/number_text.h"
 #include "scripting/source/lua_tokens.h"
 
 namespace dynlab::inline app {

@@ -3,10 +3,10 @@
 #include <filesystem>
 #include <iostream>
 
+#include "base/number_text.h"
 #include "cli/course/course_commands.h"
 #include "course/review/final_changes.h"
 #include "course/review/final_changes_document.h"
-#include "numerics/number_text.h"
 #include "platform/error.h"
 #include "platform/program_lookup.h"
 #include "platform/terminal/terminal_text.h"

@@ -2,11 +2,11 @@
 
 #include <iostream>
 
+#include "base/number_text.h"
 #include "cli/course/course_commands.h"
 #include "course/names/anonymous_copy.h"
 #include "course/returns/returned_files.h"
 #include "course/review/peer_review.h"
-#include "numerics/number_text.h"
 #include "platform/program_lookup.h"
 #include "platform/terminal/aligned_table.h"
 #include "platform/terminal/terminal_text.h"

@@ -3,13 +3,13 @@
 #include <filesystem>
 #include <iostream>
 
+#include "base/number_text.h"
 #include "cli/course/course_commands.h"
 #include "course/corrections/arrival_times.h"
 #include "course/office/receive.h"
 #include "course/store/graded_work.h"
 #include "course/store/receipts.h"
 #include "course/store/store_check.h"
-#include "numerics/number_text.h"
 #include "platform/atomic_file.h"
 #include "platform/program_lookup.h"
 #include "platform/terminal/aligned_table.h"

@@ -4,12 +4,12 @@
 #include <memory>
 #include <thread>
 
+#include "base/number_text.h"
 #include "cli/commands.h"
 #include "cli/course/grading_options.h"
 #include "cli/course/share_options.h"
 #include "cli/document_command.h"
 #include "course/grading/grading.h"
-#include "numerics/number_text.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/program_lookup.h"

@@ -6,12 +6,12 @@
 #include <memory>
 #include <optional>
 
+#include "base/number_text.h"
 #include "cli/commands.h"
 #include "cli/options/script_options.h"
 #include "course/grading/hand_in.h"
 #include "course/hand_ins/roster.h"
 #include "documents/pdf/pdf_layout.h"
-#include "numerics/number_text.h"
 #include "platform/error.h"
 #include "platform/temporary_folder.h"
 #include "platform/terminal/terminal_text.h"

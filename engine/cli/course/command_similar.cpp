@@ -3,9 +3,9 @@
 #include <iostream>
 #include <memory>
 
+#include "base/number_text.h"
 #include "cli/commands.h"
 #include "course/similarity/class_similarity.h"
-#include "numerics/number_text.h"
 #include "platform/program_lookup.h"
 #include "platform/terminal/terminal_text.h"
 

@@ -2,10 +2,10 @@
 
 #include <iostream>
 
+#include "base/number_text.h"
 #include "cli/commands.h"
 #include "cli/course/grading_options.h"
 #include "course/grading/lesson_trial.h"
-#include "numerics/number_text.h"
 #include "platform/terminal/activity_line.h"
 #include "platform/terminal/terminal_text.h"
 

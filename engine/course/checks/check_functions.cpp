@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "base/number_text.h"
 #include "course/checks/check_records.h"
 #include "course/checks/check_session.h"
 #include "data_io/values/json_values.h"
-#include "numerics/number_text.h"
 #include "platform/spelling.h"
 #include "scripting/answers/answer_value.h"
 #include "scripting/conversions/arguments.h"

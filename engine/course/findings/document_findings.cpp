@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "base/number_text.h"
 #include "course/findings/document_text.h"
 #include "course/findings/figure_findings.h"
 #include "course/findings/language_findings.h"
@@ -15,7 +16,6 @@
 #include "course/names/name_findings.h"
 #include "documents/percent_script.h"
 #include "documents/template_file.h"
-#include "numerics/number_text.h"
 #include "platform/atomic_file.h"
 #include "platform/program_lookup.h"
 

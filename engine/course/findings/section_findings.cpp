@@ -6,8 +6,8 @@
 #include <optional>
 #include <set>
 
+#include "base/number_text.h"
 #include "course/names/plain_words.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline course {
 namespace {

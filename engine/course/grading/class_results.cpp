@@ -6,12 +6,12 @@
 #include <cmath>
 #include <map>
 
+#include "base/number_text.h"
 #include "course/grading/class_statistics.h"
 #include "course/grading/feedback.h"
 #include "data_io/text_table.h"
 #include "figures/gnuplot_renderer.h"
 #include "figures/histogram.h"
-#include "numerics/number_text.h"
 #include "numerics/signals/robust_statistics.h"
 #include "platform/atomic_file.h"
 #include "platform/temporary_folder.h"

@@ -8,10 +8,10 @@
 #include <ctime>
 #include <set>
 
+#include "base/number_text.h"
 #include "course/hand_ins/course_clock.h"
 #include "course/hand_ins/owners.h"
 #include "data_io/text_table.h"
-#include "numerics/number_text.h"
 #include "platform/error.h"
 
 namespace dynlab::inline course {

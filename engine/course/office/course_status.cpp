@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <map>
 
+#include "base/number_text.h"
 #include "course/review/review_pairs.h"
 #include "course/store/exceptions.h"
 #include "course/store/groups.h"
 #include "course/store/newest_versions.h"
-#include "numerics/number_text.h"
 #include "platform/terminal/aligned_table.h"
 
 namespace dynlab::inline course {

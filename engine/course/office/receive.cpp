@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "base/number_text.h"
 #include "course/office/packed_document.h"
 #include "course/review/pack_scores.h"
 #include "course/review/review_marks.h"
@@ -20,7 +21,6 @@
 #include "course/store/side_by_side.h"
 #include "documents/pdf/pdf_layout.h"
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/hash.h"

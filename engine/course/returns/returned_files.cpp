@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
+#include "base/number_text.h"
 #include "course/office/receive.h"
 #include "course/returns/mailing.h"
 #include "course/store/groups.h"
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 #include "platform/atomic_file.h"
 #include "platform/hash.h"
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "base/number_text.h"
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline course {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "base/number_text.h"
 #include "course/review/marked_text.h"
 #include "course/store/side_by_side.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline course {
 namespace {

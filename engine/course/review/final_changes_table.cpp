@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "base/number_text.h"
 #include "course/review/final_changes.h"
-#include "numerics/number_text.h"
 #include "platform/terminal/aligned_table.h"
 
 namespace dynlab::inline course {

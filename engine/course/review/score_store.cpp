@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "base/number_text.h"
 #include "course/review/oral_marks.h"
 #include "course/review/review_marks.h"
 #include "course/review/score_sheet.h"
@@ -9,7 +10,6 @@
 #include "course/store/groups.h"
 #include "course/store/newest_versions.h"
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline course {
 namespace {

@@ -7,10 +7,10 @@
 #include <optional>
 #include <span>
 
+#include "base/number_text.h"
 #include "data_io/tables/cell_scanner.h"
 #include "data_io/tables/number_cell.h"
 #include "data_io/tables/unit_text.h"
-#include "numerics/number_text.h"
 #include "platform/error.h"
 
 namespace dynlab::inline data_io {

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/number_text.h"
 #include "figures/axis.h"
 #include "figures/style.h"
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline figures {
 namespace {

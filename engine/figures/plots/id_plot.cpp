@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "base/number_text.h"
 #include "figures/style.h"
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline figures {
 namespace {

@@ -1,8 +1,8 @@
 #include "numerics/criteria/function_library.h"
 
+#include "base/number_text.h"
 #include "numerics/criteria/monomials.h"
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 

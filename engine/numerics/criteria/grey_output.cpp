@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "numerics/number_text.h"
+#include "base/number_text.h"
 #include "numerics/simulation/sensitivity_solver.h"
 
 namespace dynlab::inline numerics {

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/number_text.h"
 #include "numerics/error.h"
 #include "numerics/filters/transfer_filters.h"
 #include "numerics/linalg/polynomial.h"
 #include "numerics/linalg/side_by_side.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 
+#include "base/number_text.h"
 #include "numerics/criteria/reparametrised.h"
 #include "numerics/criteria/transfer_output.h"
 #include "numerics/error.h"
@@ -14,7 +15,6 @@
 #include "numerics/fit/operating_points.h"
 #include "numerics/fit/output_error.h"
 #include "numerics/fit/transfer_search.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
+#include "base/number_text.h"
 #include "numerics/error.h"
 #include "numerics/fit/spectral_estimate.h"
 #include "numerics/linalg/least_squares.h"
-#include "numerics/number_text.h"
 #include "numerics/signals/lagged_gram.h"
 #include "numerics/statistics/distributions.h"
 

@@ -5,11 +5,11 @@
 #include <limits>
 #include <vector>
 
+#include "base/number_text.h"
 #include "numerics/error.h"
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/least_squares.h"
 #include "numerics/linalg/polynomial.h"
-#include "numerics/number_text.h"
 #include "numerics/statistics/distributions.h"
 
 namespace dynlab::inline numerics {

@@ -2,11 +2,11 @@
 
 #include <cmath>
 
+#include "base/number_text.h"
 #include "numerics/criteria/estimating_terms.h"
 #include "numerics/error.h"
 #include "numerics/fit/diagnosis.h"
 #include "numerics/linalg/decompositions.h"
-#include "numerics/number_text.h"
 #include "numerics/statistics/robust_covariance.h"
 
 namespace dynlab::inline numerics {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/number_text.h"
 #include "numerics/criteria/process_output.h"
 #include "numerics/error.h"
 #include "numerics/fit/delay_scan.h"
@@ -14,7 +15,6 @@
 #include "numerics/fit/output_error.h"
 #include "numerics/fit/process_start.h"
 #include "numerics/fit/transfer_refinement.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/number_text.h"
 #include "numerics/error.h"
 #include "numerics/fit/diagnosis.h"
 #include "numerics/fit/doubts.h"
@@ -12,7 +13,6 @@
 #include "numerics/fit/simulation_error.h"
 #include "numerics/fit/srivc_iteration.h"
 #include "numerics/fit/transfer_search.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "base/number_text.h"
 #include "numerics/error.h"
 #include "numerics/linalg/least_squares.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <vector>
 
+#include "base/number_text.h"
 #include "numerics/criteria/discrete_output.h"
 #include "numerics/criteria/transfer_output.h"
 #include "numerics/error.h"
@@ -15,7 +16,6 @@
 #include "numerics/fit/transfer_search.h"
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/least_squares.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 

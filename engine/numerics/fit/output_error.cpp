@@ -6,12 +6,12 @@
 #include <optional>
 #include <sstream>
 
+#include "base/number_text.h"
 #include "numerics/error.h"
 #include "numerics/fit/diagnosis.h"
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/least_squares.h"
 #include "numerics/linalg/side_by_side.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 

@@ -4,10 +4,10 @@
 #include <optional>
 #include <unsupported/Eigen/MatrixFunctions>
 
+#include "base/number_text.h"
 #include "numerics/error.h"
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/short_step.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 

@@ -1,7 +1,7 @@
 #include "numerics/models/free_run.h"
 
+#include "base/number_text.h"
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 

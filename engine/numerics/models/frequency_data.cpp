@@ -5,8 +5,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "base/number_text.h"
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/number_text.h"
 #include "numerics/error.h"
 #include "numerics/linalg/polynomial.h"
-#include "numerics/number_text.h"
 #include "numerics/signals/checks.h"
 
 namespace dynlab::inline numerics {

@@ -4,11 +4,11 @@
 #include <string>
 #include <utility>
 
+#include "base/number_text.h"
 #include "numerics/error.h"
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/polynomial.h"
 #include "numerics/models/transfer_function.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 

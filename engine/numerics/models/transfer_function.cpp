@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "base/number_text.h"
 #include "numerics/error.h"
 #include "numerics/linalg/polynomial.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/number_text.h"
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 #include "numerics/signals/checks.h"
 
 namespace dynlab::inline numerics {

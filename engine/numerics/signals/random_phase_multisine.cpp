@@ -5,8 +5,8 @@
 #include <numbers>
 #include <vector>
 
+#include "base/number_text.h"
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 #include "numerics/signals/fourier.h"
 
 namespace dynlab::inline numerics {

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <string>
 
+#include "base/number_text.h"
 #include "numerics/error.h"
 #include "numerics/linalg/decompositions.h"
 #include "numerics/models/convert.h"
 #include "numerics/models/sampled_system.h"
-#include "numerics/number_text.h"
 #include "numerics/signals/checks.h"
 #include "numerics/simulation/lsim.h"
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/number_text.h"
 #include "numerics/linalg/matrix_exponential.h"
-#include "numerics/number_text.h"
 #include "numerics/simulation/sensitivity_solver.h"
 
 namespace dynlab::inline numerics {

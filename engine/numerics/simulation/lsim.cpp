@@ -4,10 +4,10 @@
 #include <cmath>
 #include <string>
 
+#include "base/number_text.h"
 #include "numerics/error.h"
 #include "numerics/linalg/polynomial.h"
 #include "numerics/models/sampled_system.h"
-#include "numerics/number_text.h"
 #include "numerics/signals/checks.h"
 #include "numerics/simulation/exact_filter.h"
 #include "numerics/simulation/irregular_filter.h"

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/number_text.h"
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 #include "numerics/signals/checks.h"
 #include "numerics/simulation/lsim.h"
 

@@ -8,8 +8,8 @@
 #include <numbers>
 #include <string>
 
+#include "base/number_text.h"
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 

@@ -5,9 +5,9 @@
 #include <numeric>
 #include <string>
 
+#include "base/number_text.h"
 #include "numerics/error.h"
 #include "numerics/linalg/least_squares.h"
-#include "numerics/number_text.h"
 #include "numerics/statistics/autoregression.h"
 
 namespace dynlab::inline numerics {

@@ -5,9 +5,9 @@
 #include <numbers>
 #include <numeric>
 
+#include "base/number_text.h"
 #include "numerics/error.h"
 #include "numerics/estimators/srivc.h"
-#include "numerics/number_text.h"
 #include "numerics/signals/correlation.h"
 #include "numerics/signals/robust_statistics.h"
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
+#include "base/number_text.h"
 #include "numerics/error.h"
 #include "numerics/fit/equation_error.h"
 #include "numerics/linalg/least_squares.h"
-#include "numerics/number_text.h"
 #include "numerics/validation/fit_measures.h"
 
 namespace dynlab::inline numerics {

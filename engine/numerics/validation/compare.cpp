@@ -5,10 +5,10 @@
 #include <limits>
 #include <span>
 
+#include "base/number_text.h"
 #include "numerics/error.h"
 #include "numerics/fit/fit.h"
 #include "numerics/linalg/least_squares.h"
-#include "numerics/number_text.h"
 #include "numerics/simulation/lsim.h"
 #include "numerics/validation/fit_measures.h"
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <mutex>
 
+#include "base/number_text.h"
 #include "numerics/error.h"
 #include "numerics/fit/first_estimate.h"
 #include "numerics/fit/operating_points.h"
-#include "numerics/number_text.h"
 #include "numerics/validation/delay_profile.h"
 
 namespace dynlab::inline numerics {

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "numerics/number_text.h"
+#include "base/number_text.h"
 #include "numerics/signals/repair.h"
 #include "numerics/signals/robust_statistics.h"
 #include "numerics/validation/model_findings.h"

@@ -3,7 +3,7 @@
 #include <limits>
 #include <numbers>
 
-#include "numerics/number_text.h"
+#include "base/number_text.h"
 #include "numerics/signals/robust_statistics.h"
 #include "numerics/simulation/frequency_response.h"
 #include "numerics/simulation/lsim.h"

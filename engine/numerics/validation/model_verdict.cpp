@@ -1,7 +1,7 @@
 #include "numerics/validation/model_verdict.h"
 
+#include "base/number_text.h"
 #include "numerics/fit/diagnosis.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 

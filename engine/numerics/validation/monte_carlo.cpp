@@ -10,9 +10,9 @@
 #include <limits>
 #include <mutex>
 
+#include "base/number_text.h"
 #include "numerics/error.h"
 #include "numerics/linalg/side_by_side.h"
-#include "numerics/number_text.h"
 #include "numerics/signals/random.h"
 #include "numerics/signals/robust_statistics.h"
 #include "numerics/simulation/closed_loop.h"

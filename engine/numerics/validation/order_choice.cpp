@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/number_text.h"
 #include "numerics/error.h"
 #include "numerics/fit/missed_options.h"
-#include "numerics/number_text.h"
 #include "numerics/validation/order_selection.h"
 
 namespace dynlab::inline numerics {

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/number_text.h"
 #include "numerics/error.h"
 #include "numerics/fit/discrete/arma_noise.h"
 #include "numerics/fit/discrete/discrete_fit.h"
 #include "numerics/fit/discrete/prediction_model.h"
 #include "numerics/fit/operating_points.h"
 #include "numerics/linalg/polynomial.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 

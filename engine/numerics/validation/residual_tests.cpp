@@ -6,10 +6,10 @@
 #include <cmath>
 #include <limits>
 
+#include "base/number_text.h"
 #include "numerics/error.h"
 #include "numerics/fit/diagnosis.h"
 #include "numerics/linalg/decompositions.h"
-#include "numerics/number_text.h"
 #include "numerics/statistics/distributions.h"
 #include "numerics/statistics/lagged_sums.h"
 #include "numerics/validation/prediction.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "numerics/number_text.h"
+#include "base/number_text.h"
 #include "numerics/signals/robust_statistics.h"
 
 namespace dynlab::inline numerics {

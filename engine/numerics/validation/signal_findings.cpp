@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/number_text.h"
 #include "numerics/linalg/decompositions.h"
-#include "numerics/number_text.h"
 #include "numerics/signals/correlation.h"
 #include "numerics/signals/quantisation.h"
 #include "numerics/signals/repair.h"

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/number_text.h"
 #include "numerics/criteria/process_output.h"
 #include "numerics/error.h"
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/polynomial.h"
-#include "numerics/number_text.h"
 #include "numerics/simulation/time_response.h"
 #include "numerics/statistics/distributions.h"
 

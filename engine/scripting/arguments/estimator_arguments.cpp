@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "base/number_text.h"
 #include "numerics/fit/integrated_input.h"
-#include "numerics/number_text.h"
 #include "scripting/arguments/simulation_options.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/model.h"

@@ -1,6 +1,6 @@
 #include <array>
 
-#include "numerics/number_text.h"
+#include "base/number_text.h"
 #include "numerics/validation/advice.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/conversions/table_fields.h"

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <vector>
 
-#include "numerics/number_text.h"
+#include "base/number_text.h"
 #include "numerics/signals/robust_statistics.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/traced_value.h"

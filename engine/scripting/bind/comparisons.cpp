@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "numerics/number_text.h"
+#include "base/number_text.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/traced_value.h"
 

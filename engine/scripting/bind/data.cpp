@@ -3,9 +3,9 @@
 #include <set>
 #include <utility>
 
+#include "base/number_text.h"
 #include "data_io/dataset_index.h"
 #include "figures/plots/id_plot.h"
-#include "numerics/number_text.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/conversions/table_fields.h"
 #include "scripting/objects/data_object.h"

@@ -1,7 +1,7 @@
 #include <array>
 #include <cmath>
 
-#include "numerics/number_text.h"
+#include "base/number_text.h"
 #include "numerics/signals/preprocess.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/bind/preprocess_bindings.h"

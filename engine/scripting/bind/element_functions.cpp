@@ -1,7 +1,7 @@
 #include <cmath>
 #include <optional>
 
-#include "numerics/number_text.h"
+#include "base/number_text.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/model.h"
 #include "scripting/objects/traced_value.h"

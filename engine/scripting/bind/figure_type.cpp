@@ -1,7 +1,7 @@
 #include <array>
 #include <cmath>
 
-#include "numerics/number_text.h"
+#include "base/number_text.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/conversions/table_fields.h"
 #include "scripting/objects/figure_object.h"

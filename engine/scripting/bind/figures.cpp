@@ -2,11 +2,11 @@
 #include <array>
 #include <cmath>
 
+#include "base/number_text.h"
 #include "figures/figure_text.h"
 #include "figures/gnuplot_renderer.h"
 #include "figures/gnuplot_script.h"
 #include "figures/plots/motion_plot.h"
-#include "numerics/number_text.h"
 #include "platform/atomic_file.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/figure_object.h"

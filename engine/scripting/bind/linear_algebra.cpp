@@ -1,7 +1,7 @@
 
+#include "base/number_text.h"
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/least_squares.h"
-#include "numerics/number_text.h"
 #include "numerics/signals/fourier.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/model.h"

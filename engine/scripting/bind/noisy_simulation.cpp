@@ -1,8 +1,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/number_text.h"
 #include "figures/confidence_band.h"
-#include "numerics/number_text.h"
 #include "numerics/simulation/frequency_response.h"
 #include "numerics/simulation/lsim.h"
 #include "numerics/statistics/distributions.h"

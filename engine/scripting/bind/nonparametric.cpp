@@ -1,12 +1,12 @@
 #include <array>
 
+#include "base/number_text.h"
 #include "figures/plots/impulse_estimate_plot.h"
 #include "figures/plots/spectral_plot.h"
 #include "numerics/estimators/cra.h"
 #include "numerics/estimators/frequency/etfe.h"
 #include "numerics/estimators/frequency/spa.h"
 #include "numerics/estimators/impulseest.h"
-#include "numerics/number_text.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/conversions/table_fields.h"
 #include "scripting/conversions/told_sentences.h"

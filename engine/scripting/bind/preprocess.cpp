@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "numerics/number_text.h"
+#include "base/number_text.h"
 #include "numerics/signals/butterworth.h"
 #include "numerics/signals/preprocess.h"
 #include "numerics/signals/repair.h"

@@ -1,7 +1,7 @@
 #include <cctype>
 #include <cmath>
 
-#include "numerics/number_text.h"
+#include "base/number_text.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/conversions/arguments.h"
 #include "scripting/objects/figure_object.h"

@@ -1,9 +1,9 @@
 
+#include "base/number_text.h"
 #include "figures/plots/cross_validation_plot.h"
 #include "figures/plots/residual_plot.h"
 #include "numerics/fit/diagnosis.h"
 #include "numerics/fit/missed_options.h"
-#include "numerics/number_text.h"
 #include "numerics/validation/crossvalidate.h"
 #include "numerics/validation/residual_tests.h"
 #include "scripting/arguments/simulation_options.h"

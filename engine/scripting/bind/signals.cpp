@@ -1,5 +1,5 @@
 
-#include "numerics/number_text.h"
+#include "base/number_text.h"
 #include "numerics/signals/excitation.h"
 #include "numerics/signals/prbs.h"
 #include "numerics/signals/random_phase_multisine.h"

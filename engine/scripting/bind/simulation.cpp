@@ -1,10 +1,10 @@
 
+#include "base/number_text.h"
 #include "figures/histogram.h"
 #include "figures/plots/bode_plot.h"
 #include "figures/plots/nyquist_plot.h"
 #include "figures/plots/pole_zero_map.h"
 #include "figures/plots/time_response_plots.h"
-#include "numerics/number_text.h"
 #include "numerics/simulation/frequency_response.h"
 #include "numerics/simulation/lsim.h"
 #include "numerics/simulation/time_response.h"

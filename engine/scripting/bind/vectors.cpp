@@ -2,8 +2,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/number_text.h"
 #include "numerics/linalg/polynomial.h"
-#include "numerics/number_text.h"
 #include "numerics/signals/interpolation.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/conversions/boxed.h"

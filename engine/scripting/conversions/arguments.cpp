@@ -7,8 +7,8 @@
 #include <new>
 #include <string_view>
 
+#include "base/number_text.h"
 #include "numerics/estimators/catalogue.h"
-#include "numerics/number_text.h"
 #include "platform/error.h"
 #include "platform/interrupt.h"
 #include "scripting/conversions/boxed.h"

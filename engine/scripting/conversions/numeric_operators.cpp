@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "numerics/number_text.h"
+#include "base/number_text.h"
 #include "scripting/conversions/numeric.h"
 
 namespace dynlab::inline scripting {

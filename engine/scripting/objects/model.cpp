@@ -1,6 +1,6 @@
 #include "scripting/objects/model.h"
 
-#include "numerics/number_text.h"
+#include "base/number_text.h"
 #include "numerics/simulation/grey_simulation.h"
 #include "scripting/objects/grey_object.h"
 #include "scripting/objects/simulated_model.h"

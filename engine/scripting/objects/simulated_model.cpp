@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "numerics/number_text.h"
+#include "base/number_text.h"
 #include "scripting/conversions/table_fields.h"
 #include "scripting/objects/fit_model.h"
 #include "scripting/objects/grey_object.h"

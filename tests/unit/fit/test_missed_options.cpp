@@ -7,12 +7,12 @@
 
 #include <cmath>
 
+#include "base/number_text.h"
 #include "numerics/estimators/coe.h"
 #include "numerics/estimators/oe.h"
 #include "numerics/estimators/sriv.h"
 #include "numerics/estimators/srivc.h"
 #include "numerics/linalg/polynomial.h"
-#include "numerics/number_text.h"
 #include "support/transfer_cases.h"
 #include "support/without_doubts.h"
 

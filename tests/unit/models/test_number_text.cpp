@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <limits>
 
-#include "numerics/number_text.h"
+#include "base/number_text.h"
 
 namespace test_number_text {
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/number_text.h"
 #include "numerics/error.h"
 #include "numerics/estimators/closed_loop/clivsvf.h"
 #include "numerics/estimators/srivc.h"
@@ -10,7 +11,6 @@
 #include "numerics/fit/diagnosis.h"
 #include "numerics/fit/first_estimate.h"
 #include "numerics/fit/simulation_error.h"
-#include "numerics/number_text.h"
 #include "numerics/statistics/robust_covariance.h"
 
 namespace dynlab::inline numerics {

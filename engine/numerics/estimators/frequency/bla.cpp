@@ -5,9 +5,9 @@
 #include <limits>
 #include <numbers>
 
+#include "base/number_text.h"
 #include "numerics/error.h"
 #include "numerics/fit/spectral_estimate.h"
-#include "numerics/number_text.h"
 #include "numerics/signals/fourier.h"
 
 namespace dynlab::inline numerics {

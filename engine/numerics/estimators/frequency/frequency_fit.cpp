@@ -5,6 +5,7 @@
 #include <numbers>
 #include <optional>
 
+#include "base/number_text.h"
 #include "numerics/criteria/frequency_output.h"
 #include "numerics/error.h"
 #include "numerics/fit/diagnosis.h"
@@ -13,7 +14,6 @@
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/least_squares.h"
 #include "numerics/linalg/polynomial.h"
-#include "numerics/number_text.h"
 #include "numerics/simulation/sampled_response.h"
 #include "numerics/statistics/distributions.h"
 

@@ -6,13 +6,13 @@
 #include <optional>
 #include <utility>
 
+#include "base/number_text.h"
 #include "numerics/criteria/grey_output.h"
 #include "numerics/error.h"
 #include "numerics/estimators/grey_box/missed_initial_state.h"
 #include "numerics/fit/diagnosis.h"
 #include "numerics/fit/output_error.h"
 #include "numerics/linalg/decompositions.h"
-#include "numerics/number_text.h"
 #include "numerics/simulation/sensitivity_solver.h"
 #include "numerics/statistics/distributions.h"
 #include "numerics/statistics/identifiability.h"

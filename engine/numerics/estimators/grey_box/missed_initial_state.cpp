@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/number_text.h"
 #include "numerics/criteria/grey_output.h"
 #include "numerics/linalg/least_squares.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 

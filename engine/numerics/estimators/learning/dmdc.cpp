@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
+#include "base/number_text.h"
 #include "numerics/error.h"
 #include "numerics/estimators/learning/cancelled.h"
 #include "numerics/fit/diagnosis.h"
 #include "numerics/linalg/decompositions.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 

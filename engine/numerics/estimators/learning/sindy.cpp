@@ -4,13 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "base/number_text.h"
 #include "numerics/criteria/rate_equations.h"
 #include "numerics/error.h"
 #include "numerics/estimators/learning/cancelled.h"
 #include "numerics/fit/diagnosis.h"
 #include "numerics/linalg/least_squares.h"
 #include "numerics/linalg/triangular_factor.h"
-#include "numerics/number_text.h"
 #include "numerics/simulation/ode_solver.h"
 
 namespace dynlab::inline numerics {

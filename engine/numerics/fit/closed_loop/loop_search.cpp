@@ -2,12 +2,12 @@
 
 #include <cmath>
 
+#include "base/number_text.h"
 #include "numerics/criteria/denominator_group.h"
 #include "numerics/error.h"
 #include "numerics/fit/diagnosis.h"
 #include "numerics/fit/simulation_error.h"
 #include "numerics/linalg/decompositions.h"
-#include "numerics/number_text.h"
 #include "numerics/statistics/robust_covariance.h"
 
 namespace dynlab::inline numerics {

@@ -3,10 +3,10 @@
 #include <limits>
 #include <numeric>
 
+#include "base/number_text.h"
 #include "numerics/error.h"
 #include "numerics/fit/operating_points.h"
 #include "numerics/fit/output_error.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 

@@ -1,8 +1,8 @@
 #include "numerics/fit/discrete/prediction_fit.h"
 
+#include "base/number_text.h"
 #include "numerics/error.h"
 #include "numerics/fit/output_error.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "base/number_text.h"
 #include "numerics/criteria/denominator_group.h"
 #include "numerics/error.h"
 #include "numerics/filters/evolving_filter.h"
@@ -13,7 +14,6 @@
 #include "numerics/linalg/matrix_exponential.h"
 #include "numerics/linalg/polynomial.h"
 #include "numerics/models/sampled_system.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 

@@ -1,6 +1,6 @@
 #include "numerics/validation/grey_box/grey_comparison.h"
 
-#include "numerics/number_text.h"
+#include "base/number_text.h"
 #include "numerics/validation/fit_measures.h"
 
 namespace dynlab::inline numerics {

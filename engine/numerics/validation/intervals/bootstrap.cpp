@@ -8,8 +8,8 @@
 #include <cmath>
 #include <mutex>
 
+#include "base/number_text.h"
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 #include "numerics/signals/random.h"
 #include "numerics/signals/robust_statistics.h"
 #include "numerics/simulation/noise.h"

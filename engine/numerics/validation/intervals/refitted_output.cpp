@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
+#include "base/number_text.h"
 #include "numerics/criteria/process_output.h"
 #include "numerics/error.h"
 #include "numerics/fit/diagnosis.h"
 #include "numerics/fit/output_error.h"
 #include "numerics/fit/transfer_refinement.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 

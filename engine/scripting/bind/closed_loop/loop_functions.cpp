@@ -1,9 +1,9 @@
 #include <array>
 
+#include "base/number_text.h"
 #include "numerics/error.h"
 #include "numerics/estimators/closed_loop/clivsvf.h"
 #include "numerics/estimators/closed_loop/clsrivc.h"
-#include "numerics/number_text.h"
 #include "scripting/arguments/estimator_arguments.h"
 #include "scripting/arguments/loop_arguments.h"
 #include "scripting/arguments/simulation_options.h"

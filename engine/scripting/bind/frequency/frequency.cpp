@@ -1,9 +1,9 @@
 #include <cmath>
 #include <optional>
 
+#include "base/number_text.h"
 #include "figures/plots/levels_plot.h"
 #include "numerics/estimators/frequency/bla.h"
-#include "numerics/number_text.h"
 #include "numerics/simulation/sampled_response.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/conversions/table_fields.h"

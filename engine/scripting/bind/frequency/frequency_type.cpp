@@ -1,9 +1,9 @@
 #include <array>
 #include <cmath>
 
+#include "base/number_text.h"
 #include "data_io/values/model_descriptions.h"
 #include "numerics/estimators/frequency/bla.h"
-#include "numerics/number_text.h"
 #include "numerics/simulation/frequency_response.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/conversions/table_fields.h"

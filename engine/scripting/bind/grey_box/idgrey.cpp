@@ -2,7 +2,7 @@
 #include <array>
 #include <cmath>
 
-#include "numerics/number_text.h"
+#include "base/number_text.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/bind/grey_box/script_equations.h"
 #include "scripting/conversions/table_fields.h"

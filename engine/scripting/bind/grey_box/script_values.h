@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "numerics/number_text.h"
+#include "base/number_text.h"
 #include "scripting/arguments/script_function.h"
 
 namespace dynlab::inline scripting {

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "numerics/number_text.h"
+#include "base/number_text.h"
 #include "scripting/arguments/script_function.h"
 
 namespace dynlab::inline scripting {

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "numerics/number_text.h"
+#include "base/number_text.h"
 #include "support/grey_cases.h"
 #include "support/transfer_cases.h"
 

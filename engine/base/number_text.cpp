@@ -1,10 +1,10 @@
-#include "numerics/number_text.h"
+#include "base/number_text.h"
 
 #include <array>
 #include <charconv>
 #include <cmath>
 
-namespace dynlab::inline numerics {
+namespace dynlab::inline base {
 
 std::string number_text(double value, int significant_digits) {
     if (std::isnan(value)) return "NaN";
@@ -26,4 +26,4 @@ std::string enumerated(const std::vector<std::string>& texts, const char* betwee
     return all;
 }
 
-}  // namespace dynlab::inline numerics
+}  // namespace dynlab::inline base

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace dynlab::inline numerics {
+namespace dynlab::inline base {
 
 /// A number as messages and displays show it: that many significant digits (at most 17), no trailing zeros ("0.05"),
 /// no sign of a zero, and "NaN", "Inf" or "-Inf" where there is no number.
@@ -15,4 +15,4 @@ std::string counted(std::int64_t count, const std::string& one, const std::strin
 /// The texts in a row, "a1, b0".
 std::string enumerated(const std::vector<std::string>& texts, const char* between = ", ");
 
-}  // namespace dynlab::inline numerics
+}  // namespace dynlab::inline base
