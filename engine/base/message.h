@@ -25,7 +25,7 @@ struct Number {
 inline Number significant(double value, int digits) {
     return {value, digits, Number::Digits::kSignificant};
 }
-/// Exactly that many digits behind the decimal point: "93.20".
+/// Exactly that many digits (0 to 17) behind the decimal point: "93.20".
 inline Number decimals(double value, int digits) {
     return {value, digits, Number::Digits::kDecimals};
 }
@@ -118,7 +118,7 @@ class Message {
     static Message verbatim(std::string text);
 
     /// From its parts, as another process or an earlier run stored them. Throws std::invalid_argument when the
-    /// arguments are not as many as the {}.
+    /// arguments are not as many as the {}, or a number has more than 17 digits.
     static Message stored(std::string id, std::string many, std::vector<MessageArgument> arguments);
 
     bool empty() const { return id_.empty(); }

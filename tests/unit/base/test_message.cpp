@@ -108,6 +108,20 @@ TEST(message, stored_parts_give_the_same_message) {
     EXPECT_THROW(Message::stored("{}", "{}", {Number{1.0}}), std::invalid_argument);
 }
 
+TEST(message, stored_parts_of_an_empty_message_are_empty) {
+    EXPECT_TRUE(Message::stored("", "", {}).empty());
+    EXPECT_THROW(Message::stored("", "", {std::int64_t{1}}), std::invalid_argument);
+    EXPECT_THROW(Message::stored("", "{} samples", {std::int64_t{2}}), std::invalid_argument);
+}
+
+TEST(message, stored_numbers_have_at_most_17_digits) {
+    for (const Number& number : {significant(1, 1), significant(1, 17), decimals(1, 0), decimals(1, 17)})
+        EXPECT_EQ(Message::stored("{}", "", {number}), Message("{}", number));
+    for (const Number& number :
+         {significant(1, 0), significant(1, -1), significant(1, 18), decimals(1, -1), decimals(1, 400)})
+        EXPECT_THROW(Message::stored("{}", "", {number}), std::invalid_argument);
+}
+
 TEST(message, errors_carry_their_message) {
     try {
         throw InvalidArgument("{} needs at least {}", "srivc", plural(4, "{} sample", "{} samples"));
