@@ -13,6 +13,7 @@
 #include <iostream>
 #include <optional>
 
+#include "base/reader.h"
 #include "cli/usage_error.h"
 #include "platform/error.h"
 #include "platform/files/file_error.h"
@@ -74,7 +75,7 @@ int run_action(const Action& action) {
     } catch (const MissingProgram& error) {
         return complain(error, kMissingProgram);
     } catch (const std::filesystem::filesystem_error& error) {
-        return say(file_error_sentence(error), kFailed);
+        return say(message_text(file_error_sentence(error)), kFailed);
     } catch (const std::exception& error) {
         return complain(error, kFailed);
     }

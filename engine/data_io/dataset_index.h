@@ -26,7 +26,7 @@ LoadedData load_data(const std::string& name_or_path, const std::filesystem::pat
 /// Tells of a data set in its folder: origin, signals, units.
 inline constexpr char kSourceFile[] = "SOURCE.md";
 
-/// How a refusal to read files of others begins, behind their name.
+/// How a refusal to read files of others begins in English, behind their name.
 inline constexpr char kLeadsOutside[] = "leads outside the folder";
 
 /// Names of the data sets in the installed data/, sorted.

@@ -1,7 +1,5 @@
 #include "data_io/json_file.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -141,29 +139,30 @@ std::size_t bytes_of(Json::parse_event_t event, const Json& parsed) {
 VariableTable read_json_file(const fs::path& file) {
     std::error_code error;
     if (fs::file_size(file, error) > kMostJsonBytes && !error)
-        throw EnvironmentError(file.string() + ": JSON files of more than 64 MB are not read");
+        throw EnvironmentError("{}: JSON files of more than 64 MB are not read", file.string());
     const std::string text = read_file(file);
     std::vector<std::set<std::string>> names;
     std::size_t memory = text.size();
     const auto look = [&](int depth, Json::parse_event_t event, Json& parsed) {
-        if ((memory += bytes_of(event, parsed)) > memory_for_reading(text.size()))
-            throw EnvironmentError(fmt::format("{}: {}", file.string(), memory_refusal(text.size())));
-        if (depth > kDeepestJson)
-            throw EnvironmentError(fmt::format("{}: more than {} levels", file.string(), kDeepestJson));
+        if ((memory += bytes_of(event, parsed)) > memory_for_reading(text.size())) {
+            const ReadingMegabytes megabytes = megabytes_for_reading(text.size());
+            throw EnvironmentError("{}: reading it takes more than {} MB of memory, too much for a file of {} MB",
+                                   file.string(), megabytes.most, megabytes.of_file);
+        }
+        if (depth > kDeepestJson) throw EnvironmentError("{}: more than {} levels", file.string(), kDeepestJson);
         if (event == Json::parse_event_t::object_start) names.emplace_back();
         if (event == Json::parse_event_t::object_end) names.pop_back();
         if (event == Json::parse_event_t::key && !names.back().insert(parsed.get<std::string>()).second)
-            throw EnvironmentError(
-                fmt::format("{}: the name \"{}\" occurs twice", file.string(), parsed.get<std::string>()));
+            throw EnvironmentError("{}: the name \"{}\" occurs twice", file.string(), parsed.get<std::string>());
         return true;
     };
     try {
         const Json read = Json::parse(text, look);
         if (!read.is_object())
-            throw EnvironmentError(file.string() + ": the outermost value must be an object, {\"name\": value, ...}");
+            throw EnvironmentError("{}: the outermost value must be an object, {\"name\": value, ...}", file.string());
         return from_json_object(read);
     } catch (const Json::exception& problem) {
-        throw EnvironmentError(fmt::format("{} is no JSON: {}", file.string(), place_of(problem.what())));
+        throw EnvironmentError("{} is no JSON: {}", file.string(), place_of(problem.what()));
     }
 }
 

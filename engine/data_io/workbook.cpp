@@ -2,7 +2,6 @@
 
 #include <archive.h>
 #include <archive_entry.h>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
@@ -14,6 +13,7 @@
 #include "data_io/reading_memory.h"
 #include "data_io/values/cbor_values.h"
 #include "data_io/values/described.h"
+#include "data_io/values/message_values.h"
 #include "platform/atomic_file.h"
 #include "platform/confinement.h"
 #include "platform/error.h"
@@ -31,45 +31,57 @@ constexpr std::size_t kSmallestSheet = std::size_t{64} << 20;  // as text; where
 constexpr int kMostParts = 10000;
 constexpr std::size_t kMostRows = 1048576, kMostSheetColumns = 16384;  // of the format
 
-[[noreturn]] void fail_workbook(const std::string& what) {
-    throw EnvironmentError(what);
-}
+/// A sheet as it comes from a guarded copy.
+struct SheetOutcome {
+    SheetText sheet;
+    Message refusal = {};  ///< why nothing was read
+};
 
-/// The parts of the workbook that matter, by path.
-using WorkbookParts = std::map<std::string, std::string>;
+DYNLAB_DESCRIBE(SheetOutcome, sheet, refusal)
+
+/// The parts of the workbook that matter.
+struct WorkbookParts {
+    std::string file;  ///< for messages
+    std::map<std::string, std::string> by_path = {};
+};
+
+[[noreturn]] void fail_as_no_archive(const std::string& file) {
+    throw EnvironmentError("{} is no workbook (.xlsx): it is no zip archive", file);
+}
 
 bool is_wanted(std::string_view path) {
     return path.ends_with(".xml") || path.ends_with(".rels");
 }
 
-WorkbookParts unpacked(const std::string& bytes) {
+WorkbookParts unpacked(const std::string& file, const std::string& bytes) {
     const Utf8Locale names_are_utf8;
     const std::unique_ptr<archive, int (*)(archive*)> zip(::archive_read_new(), ::archive_read_free);
     if (!zip || ::archive_read_support_format_zip(zip.get()) != ARCHIVE_OK ||
         ::archive_read_open_memory(zip.get(), bytes.data(), bytes.size()) != ARCHIVE_OK)
-        fail_workbook("is no workbook (.xlsx): it is no zip archive");
-    WorkbookParts parts;
+        fail_as_no_archive(file);
+    WorkbookParts parts{file};
     const std::size_t most = memory_for_reading(bytes.size()) / 2;
     std::size_t total = 0;
     archive_entry* entry = nullptr;
     int result = ARCHIVE_OK;
     for (int count = 0; (result = ::archive_read_next_header(zip.get(), &entry)) == ARCHIVE_OK; ++count) {
-        if (count == kMostParts) fail_workbook(fmt::format("has more than {} parts", kMostParts));
+        if (count == kMostParts) throw EnvironmentError("{} has more than {} parts", file, kMostParts);
         const char* path = ::archive_entry_pathname(entry);
         if (path == nullptr || !is_wanted(path)) continue;
-        std::string& part = parts[path];
+        std::string& part = parts.by_path[path];
         part.clear();
         char block[65536];
         la_ssize_t size = 0;
         while ((size = ::archive_read_data(zip.get(), block, sizeof block)) > 0) {
             total += static_cast<std::size_t>(size);
-            if (total > most) fail_workbook(fmt::format("unpacks to more than {} MB", most >> 20));
+            if (total > most) throw EnvironmentError("{} unpacks to more than {} MB", file, most >> 20);
             part.append(block, static_cast<std::size_t>(size));
         }
-        if (size < 0) fail_workbook("is damaged: a part of it cannot be unpacked");
+        if (size < 0) throw EnvironmentError("{} is damaged: a part of it cannot be unpacked", file);
     }
-    if (result != ARCHIVE_EOF && parts.empty()) fail_workbook("is no workbook (.xlsx): it is no zip archive");
-    if (result != ARCHIVE_EOF) fail_workbook("is damaged: it is cut off, or no zip archive throughout");
+    if (result != ARCHIVE_EOF && parts.by_path.empty()) fail_as_no_archive(file);
+    if (result != ARCHIVE_EOF)
+        throw EnvironmentError("{} is damaged: it is cut off, or no zip archive throughout", file);
     return parts;
 }
 
@@ -90,16 +102,16 @@ std::string attribute_of(const pugi::xml_node& node, std::string_view name) {
 /// pugixml knows XML's own five entities and character references; it reads no document type.
 /// The part's text goes with it.
 pugi::xml_document parsed(WorkbookParts& parts, const std::string& path) {
-    const auto part = parts.extract(path);
-    if (part.empty()) fail_workbook(fmt::format("is no workbook, or damaged: it has no part {}", path));
+    const auto part = parts.by_path.extract(path);
+    if (part.empty()) throw EnvironmentError("{} is no workbook, or damaged: it has no part {}", parts.file, path);
     pugi::xml_document document;
     constexpr unsigned kOptions =
         pugi::parse_cdata | pugi::parse_escapes | pugi::parse_eol | pugi::parse_ws_pcdata_single;
     const auto result = document.load_buffer(part.mapped().data(), part.mapped().size(), kOptions);
     if (result.status == pugi::status_out_of_memory) throw std::bad_alloc();
     if (!result)
-        fail_workbook(
-            fmt::format("is damaged: {} at byte {} of its part {}", result.description(), result.offset, path));
+        throw EnvironmentError("{} is damaged: {} at byte {} of its part {}", parts.file, result.description(),
+                               result.offset, path);
     return document;
 }
 
@@ -122,7 +134,7 @@ std::string item_text(const pugi::xml_node& item) {
 
 std::vector<std::string> shared_texts(WorkbookParts& parts) {
     std::vector<std::string> texts;
-    if (parts.count("xl/sharedStrings.xml") == 0) return texts;
+    if (!parts.by_path.contains("xl/sharedStrings.xml")) return texts;
     const pugi::xml_document document = parsed(parts, "xl/sharedStrings.xml");
     for (const pugi::xml_node& item : document.document_element().children())
         if (local_name(item.name()) == "si") texts.push_back(item_text(item));
@@ -146,8 +158,8 @@ std::string number_or_text(const std::string& value) {
 
 class SheetReader {
   public:
-    SheetReader(std::vector<std::string> texts, std::size_t most_bytes)
-        : texts_(std::move(texts)), most_bytes_(most_bytes) {}
+    SheetReader(const std::string& file, std::vector<std::string> texts, std::size_t most_bytes)
+        : file_(file), texts_(std::move(texts)), most_bytes_(most_bytes) {}
 
     std::string csv(const pugi::xml_node& sheet_data) {
         for (const pugi::xml_node& row : sheet_data.children())
@@ -174,21 +186,23 @@ class SheetReader {
     };
 
     [[noreturn]] void fail_large() const {
-        fail_workbook(fmt::format("has a sheet of more than {} MB", most_bytes_ >> 20));
+        throw EnvironmentError("{} has a sheet of more than {} MB", file_, most_bytes_ >> 20);
     }
 
     void add_row(const pugi::xml_node& row) {
         const std::string stated = attribute_of(row, "r");
         const std::size_t before = rows_.empty() ? 0 : rows_.back().number;
         const std::size_t number = stated.empty() ? before + 1 : whole_number(stated);
-        if (number <= before || number > kMostRows) fail_workbook("is damaged: its rows are not in order");
+        if (number <= before || number > kMostRows)
+            throw EnvironmentError("{} is damaged: its rows are not in order", file_);
         std::map<std::size_t, std::string> cells;  // by column, from 0
         std::size_t next = 0;
         for (const pugi::xml_node& cell : row.children()) {
             if (local_name(cell.name()) != "c") continue;
             const std::string place = attribute_of(cell, "r");
             const std::size_t column = place.empty() ? next : column_of(place);
-            if (column >= kMostSheetColumns) fail_workbook("is damaged: a cell lies beyond the last column");
+            if (column >= kMostSheetColumns)
+                throw EnvironmentError("{} is damaged: a cell lies beyond the last column", file_);
             std::string text = cell_text(cell);
             if (!text.empty()) cells[column] = std::move(text);
             next = column + 1;
@@ -203,19 +217,19 @@ class SheetReader {
         if (bytes_ > most_bytes_) fail_large();
     }
 
-    static std::size_t whole_number(const std::string& text) {
+    std::size_t whole_number(const std::string& text) const {
         if (const auto number = read_number<std::size_t>(text)) return *number;
-        fail_workbook(fmt::format("is damaged: wanted a whole number, given \"{}\"", text.substr(0, 20)));
+        throw EnvironmentError("{} is damaged: wanted a whole number, given \"{}\"", file_, text.substr(0, 20));
     }
 
     /// 0 for A5, 26 for AA5.
-    static std::size_t column_of(const std::string& place) {
+    std::size_t column_of(const std::string& place) const {
         std::size_t column = 0;
         for (const char c : place) {
             if (c < 'A' || c > 'Z' || column > kMostSheetColumns) break;
             column = column * 26 + static_cast<std::size_t>(c - 'A' + 1);
         }
-        if (column == 0) fail_workbook(fmt::format("is damaged: \"{}\" is no cell", place.substr(0, 20)));
+        if (column == 0) throw EnvironmentError("{} is damaged: \"{}\" is no cell", file_, place.substr(0, 20));
         return column - 1;
     }
 
@@ -225,20 +239,22 @@ class SheetReader {
         const std::string value = child_of(cell, "v").text().get();
         if (type == "s") {
             const std::size_t index = whole_number(value);
-            if (index >= texts_.size()) fail_workbook("is damaged: a cell has a text that is not there");
+            if (index >= texts_.size())
+                throw EnvironmentError("{} is damaged: a cell has a text that is not there", file_);
             return texts_[index].empty() ? "" : in_quotes(texts_[index]);
         }
         if (type == "str" || type == "e" || type == "d") return value.empty() ? "" : in_quotes(value);
         return number_or_text(value);
     }
 
+    const std::string& file_;
     std::vector<std::string> texts_;
     std::size_t most_bytes_, bytes_ = 0;  ///< of the sheet as text
     std::vector<Row> rows_;
 };
 
-SheetText sheet_of(const std::string& bytes, const std::string& wanted) {
-    WorkbookParts parts = unpacked(bytes);
+SheetText sheet_of(const std::string& file, const std::string& bytes, const std::string& wanted) {
+    WorkbookParts parts = unpacked(file, bytes);
     const pugi::xml_document workbook = parsed(parts, "xl/workbook.xml");
     const pugi::xml_document relations = parsed(parts, "xl/_rels/workbook.xml.rels");
     SheetText text;
@@ -248,13 +264,13 @@ SheetText sheet_of(const std::string& bytes, const std::string& wanted) {
         if (relation.empty() && (wanted.empty() || text.sheets.back() == wanted)) relation = attribute_of(sheet, "id");
     }
     if (relation.empty())
-        fail_workbook(fmt::format("has no sheet \"{}\"; it has {}", wanted, fmt::join(text.sheets, ", ")));
+        throw EnvironmentError("{} has no sheet \"{}\"; it has {}", file, wanted, listed(text.sheets));
     std::string path;
     for (const pugi::xml_node& entry : relations.document_element().children())
         if (attribute_of(entry, "Id") == relation) path = part_path(attribute_of(entry, "Target"));
     std::vector<std::string> texts = shared_texts(parts);
     const pugi::xml_document sheet = parsed(parts, path);
-    text.csv = SheetReader(std::move(texts), std::max(kSmallestSheet, bytes.size()))
+    text.csv = SheetReader(file, std::move(texts), std::max(kSmallestSheet, bytes.size()))
                    .csv(child_of(sheet.document_element(), "sheetData"));
     return text;
 }
@@ -268,24 +284,29 @@ SheetText read_sheet(const std::filesystem::path& file, const std::string& sheet
     limits.memory_bytes = limits.output_bytes = memory_for_reading(bytes);
     const std::string name = file.string();
     const auto read = [&file, &sheet, &name, bytes] {
-        const std::string content = read_file(file);
-        if (is_guarded_copy()) confine_to_memory();
         try {
-            return cbor_of(sheet_of(content, sheet));
+            const std::string content = read_file(file);
+            if (is_guarded_copy()) confine_to_memory();
+            return cbor_of(SheetOutcome{sheet_of(name, content, sheet)});
         } catch (const EnvironmentError& error) {
-            throw EnvironmentError(fmt::format("{} {}", name, error.what()));
+            return cbor_of(SheetOutcome{{}, error.message()});
         } catch (const std::bad_alloc&) {
-            throw EnvironmentError(fmt::format("{}: {}", name, memory_refusal(bytes)));
+            const ReadingMegabytes megabytes = megabytes_for_reading(bytes);
+            return cbor_of(SheetOutcome{{},
+                                        Message("{}: reading it takes more than {} MB of memory, too much for a file "
+                                                "of {} MB",
+                                                name, megabytes.most, megabytes.of_file)});
         }
     };
     const ChildResult result = run_guarded(read, limits);
     if (result.timed_out)
-        throw EnvironmentError(
-            fmt::format("{}: reading it takes more than {} s", name, limits.time.processor.count() / 1000));
+        throw EnvironmentError("{}: reading it takes more than {} s", name, limits.time.processor.count() / 1000);
     if (result.exit_code == 1 && !result.error_output.empty()) throw EnvironmentError(result.error_output);
     if (result.exit_code != 0 || result.output_exceeded)
-        throw EnvironmentError(name + " is damaged: reading it ends in a crash");
-    return from_cbor<SheetText>(result.output);
+        throw EnvironmentError("{} is damaged: reading it ends in a crash", name);
+    SheetOutcome outcome = from_cbor<SheetOutcome>(result.output);
+    if (!outcome.refusal.empty()) throw EnvironmentError(outcome.refusal);
+    return std::move(outcome.sheet);
 }
 
 }  // namespace dynlab::inline data_io

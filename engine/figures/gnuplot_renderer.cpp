@@ -59,11 +59,12 @@ std::optional<std::string> first_error(const std::string& complaints) {
     return {};
 }
 
+/// The last line; empty where there is none.
 std::string last_words(const std::string& complaints) {
     const std::size_t end = complaints.find_last_not_of(" \n");
-    if (end == std::string::npos) return "it said nothing";
+    if (end == std::string::npos) return "";
     const std::size_t line = complaints.rfind('\n', end);
-    return fmt::format("its last words were \"{}\"", complaints.substr(line + 1, end - line));
+    return complaints.substr(line + 1, end - line);
 }
 
 /// Which gnuplot draws: its file's name, size and date.
@@ -99,7 +100,7 @@ class GnuplotRenderer::Work {
     }
 
     void finish() {
-        std::optional<std::string> first_complaint;
+        std::optional<Message> first_complaint;
         try {
             for (; !pending_.empty(); pending_.pop_front()) {
                 const auto complaint = complete(pending_.front());
@@ -162,9 +163,14 @@ class GnuplotRenderer::Work {
     [[noreturn]] void fail_as_ended(const fs::path& target) const {
         const std::string complaints = running_->child.last_complaints();
         if (const auto error = first_error(complaints))
-            throw FigureError(fmt::format("gnuplot could not draw \"{}\": {}", target.string(), *error));
-        throw FigureError(fmt::format("gnuplot ended or no longer answered while it drew \"{}\"; {}", target.string(),
-                                      last_words(complaints)));
+            throw FigureError(Message("gnuplot could not draw \"{}\": {}", target.string(), *error));
+        const std::string last = last_words(complaints);
+        if (last.empty())
+            throw FigureError(
+                Message("gnuplot ended or no longer answered while it drew \"{}\"; it said nothing", target.string()));
+        throw FigureError(
+            Message("gnuplot ended or no longer answered while it drew \"{}\"; its last words were \"{}\"",
+                    target.string(), last));
     }
 
     void send(const std::string& script, const fs::path& target) {
@@ -176,11 +182,12 @@ class GnuplotRenderer::Work {
     }
 
     /// Waits until gnuplot has drawn a figure; returns what went wrong.
-    std::optional<std::string> wait_for(const Pending& figure) {
+    std::optional<Message> wait_for(const Pending& figure) {
         const std::optional<std::string> complaints = running_->child.wait_for_report(figure.number);
         if (!complaints) fail_as_ended(figure.target);
-        if (const auto error = first_error(*complaints)) return error;
-        if (!is_complete(figure.temporary, figure.format)) return "the file is not complete (is the disk full?)";
+        if (const auto error = first_error(*complaints)) return Message::verbatim(*error);
+        if (!is_complete(figure.temporary, figure.format))
+            return Message("the file is not complete (is the disk full?)");
         if (figure.format == FigureFormat::kPdf) blank_creation_date(figure.temporary);
         if (figure.format == FigureFormat::kSvg) finish_svg(figure.temporary);
         ++use_.made;
@@ -189,19 +196,18 @@ class GnuplotRenderer::Work {
     }
 
     /// Puts a figure in place, once it is drawn; returns what went wrong.
-    std::optional<std::string> complete(const Pending& figure) {
+    std::optional<Message> complete(const Pending& figure) {
         if (figure.number > 0) {
             if (const auto error = wait_for(figure)) {
                 remove(figure);
-                return fmt::format("gnuplot could not draw \"{}\": {}", figure.target.string(), *error);
+                return Message("gnuplot could not draw \"{}\": {}", figure.target.string(), *error);
             }
         }
         std::error_code failure;
         fs::rename(figure.temporary, figure.target, failure);
         if (!failure) return {};
         remove(figure);
-        return fmt::format("cannot write the figure \"{}\": {}", figure.target.string(),
-                           system_reason(failure.value()));
+        return Message("cannot write the figure \"{}\": {}", figure.target.string(), system_reason(failure.value()));
     }
 
     const Cache* cache_;

@@ -23,9 +23,9 @@ class EnvironmentError : public ErrorOf<std::runtime_error> {
 };
 
 /// The user pressed Ctrl-C. Exit code 130.
-class Interrupted : public std::runtime_error {
+class Interrupted : public ErrorOf<std::runtime_error> {
   public:
-    Interrupted() : std::runtime_error("interrupted") {}
+    Interrupted() : ErrorOf("interrupted") {}
 };
 
 }  // namespace dynlab::inline platform

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "base/number_text.h"
+#include "base/reader.h"
 #include "data_io/dataset_index.h"
 #include "figures/plots/id_plot.h"
 #include "platform/terminal/terminal_text.h"
@@ -103,7 +104,7 @@ class DataLooker {
 
     std::string notes() const {
         std::string text;
-        for (const std::string& note : data_.notes) text += fmt::format("- {}\n", note);
+        for (const Message& note : data_.notes) text += fmt::format("- {}\n", message_text(note));
         return text;
     }
 

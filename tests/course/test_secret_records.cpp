@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "base/reader.h"
 #include "course/checks/check_descriptions.h"
 #include "course/grading/grading_rules.h"
 #include "course/grading_bench.h"
@@ -176,7 +177,7 @@ class secret_records_box : public ::testing::Test {
 
 // oracle: the programs inside; the official files' checksums
 TEST_F(secret_records_box, holds_the_data_of_its_run_alone) {
-    if (const auto obstacle = obstacle_to(Isolation::kFull)) GTEST_SKIP() << *obstacle;
+    if (const auto obstacle = obstacle_to(Isolation::kFull)) GTEST_SKIP() << message_text(*obstacle);
     const Grade grade = graded(Isolation::kFull);
     EXPECT_EQ(grade.trouble, "records: " + sum_of("suspension.csv") + sum_of("suspension.mat") + " left: .");
     EXPECT_THAT(grade.log, HasSubstr("  records: /box/home/data/suspension/suspension.mat "));

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "base/reader.h"
 #include "platform/program_lookup.h"
 
 namespace dynlab::inline course {
@@ -22,8 +23,9 @@ ValueLimits boxed_limits(std::uint64_t bytes) {
 }
 
 std::string reason_of_end(const ChildResult& child, const TimeLimits& time) {
-    if (child.timed_out)
-        return "it " + time.told(child.processor_time_used_up ? TimeLimit::kProcessor : TimeLimit::kClock);
+    if (child.timed_out && child.processor_time_used_up)
+        return message_text(Message("it used more than {} s of processor time", time.seconds(TimeLimit::kProcessor)));
+    if (child.timed_out) return message_text(Message("it had not ended after {} s", time.seconds(TimeLimit::kClock)));
     if (child.output_exceeded) return "it gave out too much";
     if (child.exit_code > 128) return fmt::format("it crashed (signal {})", child.exit_code - 128);
     if (child.exit_code == 0) return "";

@@ -1,7 +1,5 @@
 #include "figures/plots/bode_plot.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -55,8 +53,8 @@ Vector below_nyquist(const NamedModel& model, const Vector& w) {
     std::vector<double> kept;
     std::copy_if(w.begin(), w.end(), std::back_inserter(kept), [end](double value) { return value <= end; });
     if (kept.empty())
-        throw InvalidArgument(
-            fmt::format("all frequencies lie above pi/Ts = {:.4g} rad/s, where a discrete model and samples end", end));
+        throw InvalidArgument("all frequencies lie above pi/Ts = {} rad/s, where a discrete model and samples end",
+                              significant(end, 4));
     return Eigen::Map<const Vector>(kept.data(), static_cast<Index>(kept.size()));
 }
 
@@ -143,7 +141,7 @@ Figure bode_plot(const std::vector<NamedModel>& given, const Vector& w, const st
     const std::vector<NamedModel> models = beside(given, responses);
     if (models.empty() && responses.empty()) throw InvalidArgument("there are no models to plot");
     if (w.size() > 0 && !(w.minCoeff() > 0))
-        throw InvalidArgument(fmt::format("frequencies must be positive, but the smallest is {}", w.minCoeff()));
+        throw InvalidArgument("frequencies must be positive, but the smallest is {}", w.minCoeff());
     const Vector grid = w.size() > 0 ? w : chosen_frequencies(models, responses);
     auto [magnitude, phase] = frequency_panels();
     for (const NamedModel& model : models) {

@@ -15,9 +15,9 @@ void check_model_output(const ModelOutput& model, const Matrix& measured) {
     if (model.y.rows() == measured.rows() && model.y.cols() == measured.cols() &&
         model.fit_percent.size() == measured.cols())
         return;
-    throw InvalidArgument(fmt::format(
+    throw InvalidArgument(
         "the output of model \"{}\" must be {} x {} with {} fits, as the data, but it is {} x {} with {}", model.name,
-        measured.rows(), measured.cols(), measured.cols(), model.y.rows(), model.y.cols(), model.fit_percent.size()));
+        measured.rows(), measured.cols(), measured.cols(), model.y.rows(), model.y.cols(), model.fit_percent.size());
 }
 
 constexpr double kMeasuredWidth = 2.4;  ///< points: seen on both sides of a model's line that lies upon it
@@ -51,8 +51,7 @@ void keep_to_the_others(Panel& panel) {
 
 Figure compare_plot(const IdData& data, const std::vector<ModelOutput>& models, std::size_t experiment) {
     if (experiment >= data.experiments.size())
-        throw InvalidArgument(
-            fmt::format("there is no experiment {}; the data hold {}", experiment + 1, data.experiments.size()));
+        throw InvalidArgument("there is no experiment {}; the data hold {}", experiment + 1, data.experiments.size());
     const Matrix& measured = data.experiments[experiment].y;
     for (const ModelOutput& model : models) check_model_output(model, measured);
     const Vector t = data.time(experiment);

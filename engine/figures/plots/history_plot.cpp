@@ -1,6 +1,5 @@
 #include "figures/plots/history_plot.h"
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
@@ -68,8 +67,7 @@ Figure history_plot(const ParameterHistory& history, const std::vector<std::stri
     if (history.t.size() == 0) throw InvalidArgument("there is no history to draw");
     for (const auto& [name, values] : truth)
         if (std::find(names.begin(), names.end(), name) == names.end())
-            throw InvalidArgument(
-                fmt::format("the truth of '{}' was given, but the parameters are {}", name, fmt::join(names, ", ")));
+            throw InvalidArgument("the truth of '{}' was given, but the parameters are {}", name, listed(names));
     Figure figure;
     for (Index i = 0; i < history.theta.cols(); ++i) {
         const std::string& name = names[static_cast<std::size_t>(i)];

@@ -33,8 +33,8 @@ Vector estimates_of(const MonteCarloResult& result, Index column) {
 Index index_of_parameter(const MonteCarloResult& result, const std::string& name) {
     const auto found = std::find(result.names.begin(), result.names.end(), name);
     if (found == result.names.end())
-        throw InvalidArgument(fmt::format("{} has no parameter '{}'; its parameters are {}", result.label, name,
-                                          fmt::join(result.names, ", ")));
+        throw InvalidArgument("{} has no parameter '{}'; its parameters are {}", result.label, name,
+                              listed(result.names));
     return found - result.names.begin();
 }
 
@@ -50,12 +50,11 @@ void check_study(const MonteCarlo& study) {
     if (study.results.empty()) throw InvalidArgument("the study has no results to draw");
     for (const MonteCarloResult& result : study.results) {
         if (result.estimated == 0)
-            throw InvalidArgument(fmt::format("there is nothing to draw: {} gave no estimates", result.label));
+            throw InvalidArgument("there is nothing to draw: {} gave no estimates", result.label);
         if (result.names != study.results.front().names)
-            throw InvalidArgument(
-                fmt::format("{} and {} have different parameters ({} and {}): draw them in separate studies",
-                            study.results.front().label, result.label, fmt::join(study.results.front().names, ", "),
-                            fmt::join(result.names, ", ")));
+            throw InvalidArgument("{} and {} have different parameters ({} and {}): draw them in separate studies",
+                                  study.results.front().label, result.label, listed(study.results.front().names),
+                                  listed(result.names));
     }
 }
 
@@ -211,7 +210,7 @@ Figure monte_carlo_scatter(const MonteCarlo& study, const std::string& x_name, c
                            double level) {
     if (x_name == y_name) throw InvalidArgument("the two parameters of a scatter figure must differ");
     if (!(level > 0 && level < 1))
-        throw InvalidArgument(fmt::format("level must be a probability between 0 and 1, but {} was given", level));
+        throw InvalidArgument("level must be a probability between 0 and 1, but {} was given", level);
     Panel panel;
     const MonteCarloResult* reference = nullptr;
     std::vector<Vector> xs, ys;

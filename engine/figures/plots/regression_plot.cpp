@@ -1,7 +1,5 @@
 #include "figures/plots/regression_plot.h"
 
-#include <fmt/format.h>
-
 #include "numerics/error.h"
 
 namespace dynlab::inline figures {
@@ -22,8 +20,8 @@ void add_band(Panel& panel, const RegressionPicture& picture, const Vector& lowe
               const std::string& label, int colour) {
     if (lower.size() == 0 && upper.size() == 0) return;
     if (lower.size() != picture.line_x.size() || upper.size() != picture.line_x.size())
-        throw InvalidArgument(fmt::format("the {} needs one value for each of the {} points of the line, not {} and {}",
-                                          label, picture.line_x.size(), lower.size(), upper.size()));
+        throw InvalidArgument("the {} needs one value for each of the {} points of the line, not {} and {}", label,
+                              picture.line_x.size(), lower.size(), upper.size());
     panel.curves.push_back(curve_of(picture.line_x, lower, label, CurveStyle::kBand, colour));
     panel.curves.back().y_upper = upper;
 }

@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "base/number_text.h"
 #include "figures/style.h"
 #include "numerics/error.h"
 
@@ -58,8 +57,8 @@ Panel correlation_panel(const Vector& correlation, Index first, double bound, do
 
 Figure residual_plot(const ResidualTests& tests, const IdData& data, double confidence) {
     if (static_cast<Index>(tests.outputs.size()) != data.output_count())
-        throw InvalidArgument(fmt::format("the tests are of {}, but the data have {}",
-                                          counted(tests.outputs.size(), "output"), data.output_count()));
+        throw InvalidArgument("the tests are of {}, but the data have {}",
+                              plural(std::ssize(tests.outputs), "{} output", "{} outputs"), data.output_count());
     std::vector<std::vector<Panel>> columns;
     for (std::size_t i = 0; i < tests.outputs.size(); ++i) {
         const OutputResiduals& output = tests.outputs[i];

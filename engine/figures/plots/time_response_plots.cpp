@@ -1,7 +1,5 @@
 #include "figures/plots/time_response_plots.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -59,9 +57,8 @@ Index samples_within(double end, double Ts) {
     constexpr double kMost = 1e7;
     const double count = std::floor(end / Ts + 1e-9) + 1;
     if (!(count <= kMost))
-        throw InvalidArgument(
-            fmt::format("a window of {} s holds too many samples of a model with Ts = {} s for one figure: {:.3g}", end,
-                        Ts, count));
+        throw InvalidArgument("a window of {} s holds too many samples of a model with Ts = {} s for one figure: {}",
+                              end, Ts, significant(count, 3));
     return static_cast<Index>(count);
 }
 

@@ -171,7 +171,7 @@ Matrix matrix_members(ValueReader& answer) {
     const auto rows = member_of<Index>(answer, "rows"), columns = member_of<Index>(answer, "columns");
     const Vector values = member_of<Vector>(answer, "values");
     if (rows < 0 || columns < 0 || (rows > 0 && columns > values.size() / rows) || rows * columns != values.size())
-        answer.refuse("there are not rows x columns values");
+        answer.refuse(Message("there are not rows x columns values"));
     return values.reshaped(rows, columns);
 }
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/number_text.h"
+#include "base/reader.h"
 #include "data_io/dataset_index.h"
 #include "figures/plots/id_plot.h"
 #include "scripting/bind/bindings.h"
@@ -122,8 +123,8 @@ int load(Call& call) {
     if (run.graded || run.stay_in_folder) check_stays_inside(name);
     const LoadedData loaded = load_data(name, run.script_folder, run.graded, import_options(options));
     call.context().recorder.note_file_read(loaded.file);
-    for (const std::string& note : loaded.notes)
-        call.print(fmt::format("{}: {}\n", loaded.file.filename().string(), note));
+    for (const Message& note : loaded.notes)
+        call.print(fmt::format("{}: {}\n", loaded.file.filename().string(), message_text(note)));
     push_variables(call, loaded.variables, name);
     add_units_and_headers(call, loaded);
     return 1;

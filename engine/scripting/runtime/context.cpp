@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "base/reader.h"
 #include "platform/interrupt.h"
 
 namespace dynlab::inline scripting {
@@ -33,9 +34,11 @@ std::string innermost_line(lua_State* L) {
 std::string stop_sentence(const RuntimeContext& context, StopReason reason) {
     switch (reason) {
         case StopReason::kProcessorTime:
-            return "the script " + context.options.time->told(TimeLimit::kProcessor);
+            return message_text(Message("the script used more than {} s of processor time",
+                                        context.options.time->seconds(TimeLimit::kProcessor)));
         case StopReason::kClockTime:
-            return "the script " + context.options.time->told(TimeLimit::kClock);
+            return message_text(
+                Message("the script had not ended after {} s", context.options.time->seconds(TimeLimit::kClock)));
         case StopReason::kOutputLimit:
             return "the script printed more text than a run may keep";
         default:

@@ -15,6 +15,7 @@
 #include <thread>
 #include <vector>
 
+#include "base/reader.h"
 #include "platform/error.h"
 #include "platform/interrupt.h"
 #include "platform/keys/secure_random.h"
@@ -137,7 +138,7 @@ class WorkerProcess {
                 options_.node);
         if (spool_.identity().isolation != isolation_name(Isolation::kFull)) return "";
         const auto obstacle = obstacle_to(Isolation::kFull);
-        return obstacle ? fmt::format("{}: {}", options_.node, *obstacle) : "";
+        return obstacle ? fmt::format("{}: {}", options_.node, message_text(*obstacle)) : "";
     }
 
     bool must_end() {
