@@ -68,8 +68,7 @@ std::vector<StartCondition> start_conditions(const MatrixView& u, InitialState s
     if (flat && state == InitialState::kEstimate && offset == Offset::kEstimate)
         throw InvalidArgument(
             "With a constant input, {} \"estimate\" and {} \"estimate\" together leave the gain unknown: estimate one "
-            "of "
-            "them",
+            "of them",
             OptionName{"initial_state"}, OptionName{"offset"});
     std::vector<StartCondition> conditions;
     const auto add = [&](InitialState candidate, bool with_offset) {

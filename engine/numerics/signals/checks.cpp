@@ -11,8 +11,8 @@ namespace {
 
 // Whole sentences for the input, the output, the reference and the signal, because languages decline their names.
 
-Message of(SignalName name, const std::array<Message, 4>& sentences) {
-    return sentences[static_cast<std::size_t>(name)];
+Message of(SignalName name, const std::array<Message, 4>& all) {
+    return all[static_cast<std::size_t>(name)];
 }
 
 Message not_a_number(SignalName name, Index sample) {
