@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "numerics/signals/iddata.h"
 
 namespace dynlab::inline numerics {
@@ -49,7 +50,7 @@ std::vector<StartCondition> start_conditions(const MatrixView& u, InitialState s
 std::vector<StartCondition> start_conditions(const IdData& data, InitialState state, Offset offset);
 
 /// "from rest at zero input, with an estimated offset" and the like, for messages.
-std::string description(const StartCondition& condition);
+Message description(const StartCondition& condition);
 
 /// ln V + d ln(N)/N for the mean square V, which is counted as no less than rounding leaves of outputs of mean
 /// square `output_power`.

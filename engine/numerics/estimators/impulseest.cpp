@@ -130,13 +130,14 @@ RegressedResponse impulseest(const IdData& data, const ImpulseestOptions& option
     RegressedResponse estimate;
     estimate.t = Vector::LinSpaced(n + 1, 0, static_cast<double>(n)) * data.Ts;
     options.smooth ? fit_smoothly(sums, options.kernel, estimate) : fit_plainly(record, n, sums.count, estimate);
-    estimate.message = "Impulse response over " + counted(n, "lag") + " by " +
-                       (options.smooth ? "regularised" : "plain") + " least squares.";
+    const Message lags = plural(n, "{} lag", "{} lags");
+    estimate.message = options.smooth ? Message("Impulse response over {} by regularised least squares.", lags)
+                                      : Message("Impulse response over {} by plain least squares.", lags);
     read_dead_time(estimate, data.Ts, data.hold, normal_half_width(options.confidence));
     const Index tail = std::max<Index>(n / 10, 1);
     if (estimate.response.tail(tail).cwiseAbs().maxCoeff() > 0.1 * estimate.response.cwiseAbs().maxCoeff())
-        estimate.warnings.push_back(
-            "The response has not died out at the last lag: take more lags, or resample the data to a lower rate.");
+        estimate.warnings.push_back(Message(
+            "The response has not died out at the last lag: take more lags, or resample the data to a lower rate."));
     return estimate;
 }
 

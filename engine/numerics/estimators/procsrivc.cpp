@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "base/number_text.h"
+#include "base/reader.h"
 #include "numerics/criteria/process_output.h"
 #include "numerics/error.h"
 #include "numerics/fit/delay_scan.h"
@@ -256,7 +257,7 @@ void warn_of_zero(Fit& result) {
 }
 
 std::string process_message(const Fit& fit) {
-    return "Output error " + ending_text(fit) + ", simulating " + description(fit.start) + ": fit " +
+    return "Output error " + ending_text(fit) + ", simulating " + message_text(description(fit.start)) + ": fit " +
            number_text(fit.fit_percent[0], 4) + " %.";
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <span>
 
+#include "base/reader.h"
 #include "numerics/criteria/process_output.h"
 #include "numerics/error.h"
 #include "numerics/filters/transfer_sensitivity.h"
@@ -150,7 +151,7 @@ std::string verdict_of(const Assessment& assessment, const Fit& fit, const std::
         if (test.verdict.empty()) continue;
         if (!text.empty()) text += ' ';
         if (assessment.whiteness.size() > 1) text += names[i] + ": ";
-        text += test.verdict;
+        text += message_text(test.verdict);
     }
     const std::string worthless = fit.polynomial ? "" : worthlessness(fit);
     if (!worthless.empty())

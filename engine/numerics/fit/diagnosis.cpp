@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/number_text.h"
+#include "base/reader.h"
 #include "numerics/error.h"
 
 namespace dynlab::inline numerics {
@@ -240,7 +241,7 @@ void describe_search(Fit& fit, const IdData& data, const std::string& method, co
     for (std::size_t i = 0; i < fit.models.size() && fit.structure.free_delays && range.largest > range.least; ++i)
         warn_of_delay(fit, fit.models[i].delay(), range, channel_text(fit.structure, i));
     warn_of_ambiguous_delays(fit, data);
-    set_message(fit, method + " " + ending_text(fit) + ", simulated " + description(fit.start) + ": " +
+    set_message(fit, method + " " + ending_text(fit) + ", simulated " + message_text(description(fit.start)) + ": " +
                          simulation_text(fit) + ".");
 }
 

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "base/number_text.h"
+#include "base/reader.h"
 #include "numerics/error.h"
 #include "numerics/fit/fit.h"
 #include "numerics/linalg/least_squares.h"
@@ -257,7 +258,8 @@ Compared compare_record(const ComparedRecord& record, Channels channels, const C
     compared.squares = (record.y - result.output).squaredNorm();
     compared.variation = variation_about_mean(record.y);
     result.fit_percent = fit_percent_of_sums(compared.squares, compared.variation);
-    result.message = "Simulated " + description(result.start) + ": fit " + number_text(result.fit_percent, 4) + " %.";
+    result.message =
+        "Simulated " + message_text(description(result.start)) + ": fit " + number_text(result.fit_percent, 4) + " %.";
     return compared;
 }
 
@@ -310,8 +312,9 @@ Comparison compare_all(const IdData& data, const FreeRunModel& model) {
             CompareResult& result = row.emplace_back();
             result.output = run.output.col(i);
             result.fit_percent = fit_percent_of_sums(errors, own);
-            result.message = "Simulated freely " + run.start + ": fit " + number_text(result.fit_percent, 4) + " %.";
-            if (run.lost_at) result.message += " " + divergence_text(data, k, *run.lost_at);
+            result.message =
+                "Simulated freely " + message_text(run.start) + ": fit " + number_text(result.fit_percent, 4) + " %.";
+            if (run.lost_at) result.message += " " + message_text(divergence_text(data, k, *run.lost_at));
         }
     }
     all.fit_percent = squares.binaryExpr(variation, &fit_percent_of_sums);

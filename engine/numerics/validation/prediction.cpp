@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/number_text.h"
+#include "base/reader.h"
 #include "numerics/error.h"
 #include "numerics/fit/discrete/arma_noise.h"
 #include "numerics/fit/discrete/discrete_fit.h"
@@ -176,7 +177,7 @@ Predictions predict_difference_equation(const IdData& data, const NoisyModel& mo
     }
     Predictions all = without_results(data);
     add_output(all, records, model, options.steps);
-    all.message = description(best.condition);
+    all.message = message_text(description(best.condition));
     return all;
 }
 
@@ -207,7 +208,7 @@ Predictions predict_from_simulation(const IdData& data, const NoisyModel& model,
         }
         add_output(all, records, model, options.steps);
     }
-    all.message = description(comparison.results.front().front().start);
+    all.message = message_text(description(comparison.results.front().front().start));
     return all;
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/number_text.h"
+#include "base/reader.h"
 #include "numerics/error.h"
 #include "numerics/fit/diagnosis.h"
 #include "numerics/linalg/decompositions.h"
@@ -19,11 +20,7 @@ namespace dynlab::inline numerics {
 namespace {
 
 // What the tested errors are, in words.
-enum class ErrorKind { kOutput, kPrediction };
-
-const char* error_name(ErrorKind kind) {
-    return kind == ErrorKind::kOutput ? "output error" : "prediction error";
-}
+using ErrorKind = ModelError;
 
 using Signals = std::vector<Vector>;  // one channel, an entry per experiment
 
@@ -104,14 +101,14 @@ Index strongest_lag(const IndependenceTest& test) {
 std::string independence_verdict(const IndependenceTest& test, const IdData& data) {
     const std::string name = data.input_names[static_cast<std::size_t>(test.input)];
     if (!test.independent) {
-        return name + " still explains part of it (" + probability_text(test.p_value) + "; most at " +
+        return name + " still explains part of it (" + message_text(probability_text(test.p_value)) + "; most at " +
                lag_text(strongest_lag(test), data) + ").";
     }
     if (!test.without_feedback)
-        return name + " explains nothing more of it (" + probability_text(test.p_value) +
-               "), but its later values go with the error (" + probability_text(test.p_value_future) +
+        return name + " explains nothing more of it (" + message_text(probability_text(test.p_value)) +
+               "), but its later values go with the error (" + message_text(probability_text(test.p_value_future)) +
                "): the output seems to act back on the input.";
-    return name + " explains nothing more of it (" + probability_text(test.p_value) + ").";
+    return name + " explains nothing more of it (" + message_text(probability_text(test.p_value)) + ").";
 }
 
 // An input, its covariances at lags 0 and on, and those with the error at lags of both signs.
@@ -210,8 +207,8 @@ OutputResiduals test_output(const std::vector<Matrix>& errors, const IdData& dat
                          " output equals the measured one to rounding, so nothing is left to test.";
         return result;
     }
-    result.whiteness = whiteness_of_covariances(e, R, options.confidence, error_name(kind));
-    result.verdict = name + ": " + result.whiteness.verdict;
+    result.whiteness = whiteness_of_covariances(e, R, options.confidence, kind);
+    result.verdict = name + ": " + message_text(result.whiteness.verdict);
     for (Index j = 0; j < data.input_count(); ++j) {
         const TestedInput& tested = inputs[static_cast<std::size_t>(j)];
         result.inputs.push_back(test_independence(e, R[0], tested, data, j, result.whiteness.white, options));
@@ -283,8 +280,9 @@ std::string better_start(const IdData& data, const std::vector<TransferFunction>
     const Comparison best = compare_all(data, channels, {});
     const double reached = best.fit_percent[static_cast<Index>(output)];
     if (!(reached - fit >= kBetterStart * (100 - fit))) return "";
-    return "The record does not start as was assumed: simulated " + description(best.results[0][output].start) +
-           ", the fit is " + number_text(reached, 4) + " % instead of " + number_text(fit, 4) + " %.";
+    return "The record does not start as was assumed: simulated " +
+           message_text(description(best.results[0][output].start)) + ", the fit is " + number_text(reached, 4) +
+           " % instead of " + number_text(fit, 4) + " %.";
 }
 
 }  // namespace

@@ -244,7 +244,7 @@ TEST(step_test, refuses_an_output_that_does_not_answer) {  // justified: it is n
 TEST(step_test, refuses_records_it_cannot_read) {
     Experimental e;
     e.N = 105;
-    EXPECT_THAT(refusal([&] { step_first_order(record_of(e, 1, first_order(0.8))); }), HasSubstr("5 sample(s)"));
+    EXPECT_THAT(refusal([&] { step_first_order(record_of(e, 1, first_order(0.8))); }), HasSubstr("5 samples"));
     e.N = 1000;
     EXPECT_THAT(refusal([&] { step_first_order(record_of(e, 1, first_order(1e-4))); }), HasSubstr("sample faster"));
     const IdData two_inputs(Matrix::Zero(50, 1), Matrix::Ones(50, 2), 1.0);

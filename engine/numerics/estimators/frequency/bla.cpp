@@ -258,9 +258,10 @@ class Approximation {
                                   " samples: " + number_text(100 * part, 3) +
                                   " % of its power changes from period to period; give the period of the excitation");
         if (part > kRepeatsRoughly)
-            result_.warnings.push_back("The input repeats only roughly (" + number_text(100 * part, 3) +
-                                       " % of its power changes from period to period): the period is not right or "
-                                       "the input is noisy, and leakage may bias the response.");
+            result_.warnings.push_back(
+                Message("The input repeats only roughly ({} % of its power changes from period to period): the period "
+                        "is not right or the input is noisy, and leakage may bias the response.",
+                        significant(100 * part, 3)));
     }
 
     /// Each input is held against the first one and the one before it.
@@ -282,42 +283,46 @@ class Approximation {
         const double chance = kChance / std::sqrt(count_ * static_cast<double>(all_.front().Y.size()));
         if (unsettled > kSeen * power && unsettled > (kMore + chance) * spread)
             result_.warnings.push_back(
-                "The first period differs from the others by more than noise explains: the "
-                "system was not yet in steady state; leave it out with `transient` = " +
-                std::to_string(options_.transient + 1) + ".");
+                Message("The first period differs from the others by more than noise explains: the system was not yet "
+                        "in steady state; leave it out with {} = {}.",
+                        OptionName{"transient"}, options_.transient + 1));
     }
 
     void warn_of_record() {
         if (rest_ > 0)
-            result_.warnings.push_back("The period does not divide the record: its first " + counted(rest_, "sample") +
-                                       " are left out, so that whole periods remain.");
+            result_.warnings.push_back(Message(
+                "The period does not divide the record: its first {} are left out, so that whole periods remain.",
+                plural(rest_, "{} sample", "{} samples")));
         if (lines_.some_differ)
             result_.warnings.push_back(
-                "The realisations excite different lines: those that all of them excite are used.");
+                Message("The realisations excite different lines: those that all of them excite are used."));
         if (periods_ < 2)
             result_.warnings.push_back(
-                "One period does not tell noise from nonlinear distortion, nor whether the "
-                "system was in steady state.");
+                Message("One period does not tell noise from nonlinear distortion, nor whether the system was in "
+                        "steady state."));
         if (all_.size() < 2)
             result_.warnings.push_back(
-                "One realisation does not tell nonlinear distortion at the excited lines: the "
-                "variance is that of noise alone.");
+                Message("One realisation does not tell nonlinear distortion at the excited lines: the variance is that "
+                        "of noise alone."));
     }
 
     void describe() {
         warn_of_transient();
         warn_of_record();
-        result_.message = "Best linear approximation at " + counted(result_.w.size(), "frequency", "frequencies") +
-                          " from " + counted(all_.size(), "realisation") + " of " + counted(periods_, "period") + ".";
+        std::vector<Message> all = {Message("Best linear approximation at {} from {} of {}.",
+                                            plural(result_.w.size(), "{} frequency", "{} frequencies"),
+                                            plural(std::ssize(all_), "{} realisation", "{} realisations"),
+                                            plural(periods_, "{} period", "{} periods"))};
         const LevelSums sums = level_sums(result_);
         const auto decibels = [&](double part) {
-            return number_text(10 * std::log10(std::max(part, 0.0) / sums.power), 3);
+            return significant(10 * std::log10(std::max(part, 0.0) / sums.power), 3);
         };
         if (std::isfinite(sums.noise))
-            result_.message += " Noise lies at " + decibels(sums.noise) + " dB of the output in the mean over " +
-                               counted(periods_, "period") + ".";
+            all.push_back(Message("Noise lies at {} dB of the output in the mean over {}.", decibels(sums.noise),
+                                  plural(periods_, "{} period", "{} periods")));
         if (std::isfinite(sums.distortion))
-            result_.message += " Nonlinear distortion lies at " + decibels(sums.distortion) + " dB of the output.";
+            all.push_back(Message("Nonlinear distortion lies at {} dB of the output.", decibels(sums.distortion)));
+        result_.message = sentences(std::move(all));
     }
 
     const BlaOptions& options_;

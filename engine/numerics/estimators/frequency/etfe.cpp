@@ -53,16 +53,22 @@ void set_size(SpectralEstimate& estimate, Index count, bool smoothed) {
 }
 
 void describe(SpectralEstimate& estimate, const EtfeOptions& options, Index lines) {
-    estimate.message = "Empirical transfer function estimate at " + std::to_string(estimate.w.size()) + " of " +
-                       std::to_string(lines) + " frequencies";
-    estimate.message +=
-        options.smooth > 0 ? ", smoothed over " + std::to_string(2 * options.smooth + 1) + " lines." : ".";
+    estimate.message =
+        options.smooth > 0
+            ? Message("Empirical transfer function estimate at {} of {} frequencies, smoothed over {} lines.",
+                      estimate.w.size(), lines, 2 * options.smooth + 1)
+            : Message("Empirical transfer function estimate at {} of {} frequencies.", estimate.w.size(), lines);
     if (estimate.w.size() < lines)
-        estimate.message += " At the others the input has less than " + number_text(100 * options.least_input, 3) +
-                            " % of its largest amplitude, and noise alone would be shown.";
+        estimate.message =
+            sentences({estimate.message, Message("At the others the input has less than {} % of its largest "
+                                                 "amplitude, and noise alone would be shown.",
+                                                 significant(100 * options.least_input, 3))});
     if (estimate.w.size() < 3)
-        estimate.warnings.push_back("The input excites " + counted(estimate.w.size(), "frequency", "frequencies") +
-                                    " only: the response is known there and nowhere else.");
+        estimate.warnings.push_back(plural(estimate.w.size(),
+                                           "The input excites {} frequency only: the response is known there and "
+                                           "nowhere else.",
+                                           "The input excites {} frequencies only: the response is known there and "
+                                           "nowhere else."));
 }
 
 }  // namespace

@@ -87,13 +87,13 @@ double real_share(double angle, Index M) {
 }
 
 void describe(SpectralEstimate& estimate, Index M, double averages, double Ts) {
-    estimate.message = "Spectral analysis with a lag window of " + std::to_string(M) +
-                       " samples: details narrower than " +
-                       number_text(std::numbers::pi / (static_cast<double>(M) * Ts), 3) +
-                       " rad per time unit are smoothed away, and every value averages about " +
-                       number_text(averages, 2) + " independent ones.";
+    estimate.message = Message(
+        "Spectral analysis with a lag window of {} samples: details narrower than {} rad per time unit are smoothed "
+        "away, and every value averages about {} independent ones.",
+        M, significant(std::numbers::pi / (static_cast<double>(M) * Ts), 3), significant(averages, 2));
     if (averages < 4)
-        estimate.warnings.push_back("The window is long for so short a record: the errors are large and uncertain.");
+        estimate.warnings.push_back(
+            Message("The window is long for so short a record: the errors are large and uncertain."));
 }
 
 }  // namespace
@@ -135,7 +135,7 @@ SpectralEstimate spa(const IdData& data, const SpaOptions& options) {
     describe(estimate, M, averages, data.Ts);
     if (poor)
         estimate.warnings.push_back(
-            "At some frequencies the input has practically no power; the response there means nothing.");
+            Message("At some frequencies the input has practically no power; the response there means nothing."));
     return estimate;
 }
 

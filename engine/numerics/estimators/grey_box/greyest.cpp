@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/number_text.h"
+#include "base/reader.h"
 #include "numerics/criteria/grey_output.h"
 #include "numerics/error.h"
 #include "numerics/estimators/grey_box/missed_initial_state.h"
@@ -229,7 +230,7 @@ void look_at_sensitivities(GreyFit& result, const GreyOutput& criterion, const F
         if (!(length > 0)) length = 1;
     result.singular_values = singular_values(triangular_part(own * lengths.cwiseInverse().asDiagonal()));
     const Ambiguity found = find_ambiguity(own, names, end.theta(active), (y.array() - y.mean()).matrix().norm());
-    for (const std::string& sentence : found.sentences) result.fit.warnings.push_back(sentence);
+    for (const Message& sentence : found.sentences) result.fit.warnings.push_back(message_text(sentence));
     for (std::size_t k = 0; k < active.size(); ++k)
         if (found.parameters[k]) result.fit.covariance(active[k], active[k]) = kInfinity;
 }

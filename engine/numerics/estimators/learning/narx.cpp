@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/number_text.h"
+#include "base/reader.h"
 #include "numerics/error.h"
 #include "numerics/estimators/learning/cancelled.h"
 #include "numerics/fit/diagnosis.h"
@@ -114,7 +115,7 @@ void judge(NarxFit& found, const IdData& data, Index rows) {
     double errors = 0;
     for (std::size_t k = 0; k < data.experiments.size(); ++k) {
         const FreeRun run = found.model->free_run(data, k, Vector());
-        if (run.lost_at) fit.warnings.push_back(divergence_text(data, k, *run.lost_at));
+        if (run.lost_at) fit.warnings.push_back(message_text(divergence_text(data, k, *run.lost_at)));
         errors += (data.experiments[k].y - run.output).squaredNorm();
     }
     fit.fit_percent = Vector::Constant(1, fit_percent_of_sums(errors, variation));
@@ -223,7 +224,9 @@ FreeRun NarxModel::free_run(const IdData& data, std::size_t experiment, const Ve
     if (x0.size() != 0 && x0.size() != first)
         throw InvalidArgument("narx: x0 holds the first " + counted(first, "output") + " of the run, and has " +
                               counted(x0.size(), "value"));
-    FreeRun run{Matrix::Constant(N, 1, kNaN), {}, "from the recorded first " + counted(first, "sample")};
+    FreeRun run{Matrix::Constant(N, 1, kNaN),
+                {},
+                Message("from the recorded first {}", plural(first, "{} sample", "{} samples"))};
     auto y = run.output.col(0);
     if (x0.size() > 0) {
         y.head(first) = x0;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/number_text.h"
+#include "base/reader.h"
 #include "numerics/criteria/rate_equations.h"
 #include "numerics/error.h"
 #include "numerics/estimators/learning/cancelled.h"
@@ -102,7 +103,7 @@ void judge(SindyFit& found, const IdData& data) {
     Vector errors = Vector::Zero(data.output_count());
     for (std::size_t k = 0; k < data.experiments.size(); ++k) {
         const FreeRun run = found.model->free_run(data, k, Vector());
-        if (run.lost_at) fit.warnings.push_back(divergence_text(data, k, *run.lost_at));
+        if (run.lost_at) fit.warnings.push_back(message_text(divergence_text(data, k, *run.lost_at)));
         errors += (data.experiments[k].y - run.output).colwise().squaredNorm().transpose();
     }
     fit.fit_percent = errors.binaryExpr(output_variations(data), &fit_percent_of_sums);
@@ -176,7 +177,7 @@ FreeRun SindyModel::free_run(const IdData& data, std::size_t experiment, const V
     if (x0.size() != 0 && x0.size() != n)
         throw InvalidArgument("sindy: x0 holds " + counted(n, "state") + " at the first sample, and has " +
                               counted(x0.size(), "value"));
-    FreeRun run{Matrix::Constant(N, n, kNaN), {}, "from the recorded first sample"};
+    FreeRun run{Matrix::Constant(N, n, kNaN), {}, Message("from the recorded first sample")};
     OdeState x = OdeState::Zero(n);
     if (x0.size() > 0)
         x = x0;

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "base/number_text.h"
+#include "base/reader.h"
 #include "numerics/error.h"
 #include "numerics/fit/operating_points.h"
 #include "numerics/fit/output_error.h"
@@ -60,8 +61,8 @@ Fit fit_condition(const DiscreteOutput& model, const IdData& data, const FitOpti
         fit.warnings.push_back("Unstable poles turned up on the way and were mirrored into the unit circle.");
     warn_of_doubtful_parameters(fit);
     warn_of_unstable_polynomials(fit);
-    set_message(fit, "The search " + ending_text(fit) + ", simulating " + description(fit.start) + ": fit " +
-                         number_text(fit.fit_percent[0], 4) + " %.");
+    set_message(fit, "The search " + ending_text(fit) + ", simulating " + message_text(description(fit.start)) +
+                         ": fit " + number_text(fit.fit_percent[0], 4) + " %.");
     return fit;
 }
 
