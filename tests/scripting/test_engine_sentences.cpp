@@ -7,6 +7,7 @@
 #include <regex>
 #include <set>
 
+#include "base/reader.h"
 #include "documents/text_lines.h"
 #include "documents/words/sentence_catalogue.h"
 #include "numerics/validation/advice.h"
@@ -208,7 +209,7 @@ spa(d:range(101, 160), {window = 30})
 TEST(engine_sentences, of_advice_are_french) {
     const auto expect_advice = [](const IdData& data) {
         for (const RecordFinding& finding : advise(data).findings) {
-            const std::string english = in_lua_words(finding.message);
+            const std::string english = in_lua_words(message_text(finding.message));
             expect_french(english, french_engine_sentences().translated(english));
         }
     };

@@ -132,24 +132,28 @@ OrderCandidate candidate_of(const IdData& data, const TransferStructure& structu
         if (!candidate.estimate.theta.allFinite()) throw InvalidArgument("a parameter is not finite");
         measure(candidate, data, options);
     } catch (const std::exception& error) {
-        candidate.failure = error.what();
+        candidate.failure = message_of(error);
     }
     return candidate;
 }
 
-void check_channels(const char* what, const IdData& data) {
-    if (data.input_count() != 1 || data.output_count() != 1)
-        throw InvalidArgument(std::string(what) + " must have one input and one output, but they have " +
-                              std::to_string(data.input_count()) + " and " + std::to_string(data.output_count()) +
-                              "; select one of each");
+void check_channels(const IdData& data, bool of_validation) {
+    const Index inputs = data.input_count(), outputs = data.output_count();
+    if (inputs == 1 && outputs == 1) return;
+    throw InvalidArgument(
+        of_validation
+            ? Message("the validation data must have one input and one output, but they have {} and {}; select one of "
+                      "each",
+                      inputs, outputs)
+            : Message("the data must have one input and one output, but they have {} and {}; select one of each",
+                      inputs, outputs));
 }
 
 void check_selection(const IdData& data, const std::vector<TransferStructure>& candidates,
                      const OrderSelectionOptions& options) {
-    check_channels("the data", data);
-    if (options.validation != nullptr) check_channels("the validation data", *options.validation);
-    if (options.threads < 0)
-        throw InvalidArgument("threads must not be negative, but " + std::to_string(options.threads) + " was given");
+    check_channels(data, false);
+    if (options.validation != nullptr) check_channels(*options.validation, true);
+    if (options.threads < 0) throw InvalidArgument("threads must not be negative, but {} was given", options.threads);
     if (candidates.empty()) throw InvalidArgument("there is no structure to try: there must be fewer zeros than poles");
     for (const TransferStructure& structure : candidates) {
         structure.validate();
@@ -205,8 +209,7 @@ std::vector<TransferStructure> order_grid(std::pair<int, int> poles, std::pair<i
     const double wanted =
         (1.0 + poles.second - poles.first) * (1.0 + zeros.second - zeros.first) * static_cast<double>(delays.size());
     if (wanted > kMostCandidates)
-        throw InvalidArgument("there are more than " + std::to_string(kMostCandidates) +
-                              " structures to try: take smaller ranges");
+        throw InvalidArgument("there are more than {} structures to try: take smaller ranges", kMostCandidates);
     std::vector<TransferStructure> grid;
     for (int n = poles.first; n <= poles.second; ++n)
         for (int m = zeros.first; m <= std::min(zeros.second, feedthrough ? n : n - 1); ++m)
@@ -236,7 +239,7 @@ OrderSelection select_order(const IdData& data, const std::vector<TransferStruct
     const auto try_one = [&](std::size_t i) {
         OrderCandidate& candidate = selection.candidates[i];
         if (stopped()) {
-            candidate.failure = "the search was stopped before its turn";
+            candidate.failure = Message("the search was stopped before its turn");
             return;
         }
         candidate = candidate_of(seen, candidates[i], options, poorer_fits(candidates, i, selection.candidates));
@@ -272,7 +275,7 @@ OrderSelection select_order(const IdData& data, const std::vector<TransferStruct
         for (OrderCandidate& candidate : selection.candidates)
             if (estimated(candidate)) append_integrator(candidate.estimate);
     if (!selection.cancelled && std::none_of(selection.candidates.begin(), selection.candidates.end(), estimated))
-        throw InvalidArgument("none of the structures could be estimated; the first one says: " +
+        throw InvalidArgument("none of the structures could be estimated; the first one says: {}",
                               selection.candidates.front().failure);
     if (!selection.cancelled) doubt_the_choice(selection, data, options.estimation);
     return selection;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "numerics/fit/fit.h"
 #include "numerics/validation/elsewhere.h"
 
@@ -16,8 +17,8 @@ enum class OrderCriterion { kRecommended, kRSquared, kYic, kAic, kBic, kFpe, kFi
 /// One structure that was tried. Measures are those of the simulation error (validation/fit_measures.h).
 struct OrderCandidate {
     int poles = 1, zeros = 0;
-    double delay = 0;     ///< s, fixed or estimated
-    std::string failure;  ///< why there is no estimate; empty when there is one, and nothing below holds otherwise
+    double delay = 0;  ///< s, fixed or estimated
+    Message failure;   ///< why there is no estimate; empty when there is one, and nothing below holds otherwise
     Fit estimate;
     double r_squared = 0, yic = 0, aic = 0, bic = 0, fpe = 0;
     double log_condition = 0;  ///< log10 of the column-scaled equations' condition number
@@ -83,11 +84,11 @@ std::span<const OrderMeasure> order_measures();               ///< of all criter
 const OrderMeasure& order_measure(OrderCriterion criterion);  ///< of any but kRecommended
 
 /// "2 poles, 1 zero and a delay of 0.5 s"
-std::string structure_text(const OrderCandidate& candidate);
+Message structure_text(const OrderCandidate& candidate);
 
 struct OrderChoice {
-    std::size_t place = 0;    ///< among the candidates
-    std::string explanation;  ///< plain sentences
+    std::size_t place = 0;  ///< among the candidates
+    Message explanation;    ///< plain sentences
 };
 /// kRecommended: among the sound candidates, the stable ones if there are any, with a second record the one with fewest
 /// parameters whose validation fit is within half a point of the best; otherwise the smallest BIC, or a candidate with

@@ -1,5 +1,4 @@
 
-#include "base/number_text.h"
 #include "figures/plots/cross_validation_plot.h"
 #include "figures/plots/residual_plot.h"
 #include "numerics/fit/diagnosis.h"
@@ -8,7 +7,6 @@
 #include "numerics/validation/residual_tests.h"
 #include "scripting/arguments/simulation_options.h"
 #include "scripting/bind/bindings.h"
-#include "scripting/conversions/option_words.h"
 #include "scripting/conversions/table_fields.h"
 #include "scripting/conversions/told_sentences.h"
 #include "scripting/objects/data_object.h"
@@ -58,8 +56,8 @@ ModelDoubts doubts_of(const Call& call, int index) {
     if (model == nullptr || !model->estimate) return {};
     const Estimate& estimate = *model->estimate;
     const std::optional<MissedOption>& missed = estimate.doubts.missed_option;
-    return {enumerated(undetermined_parameters(estimate.names, estimate.theta, estimate.std)),
-            missed ? in_lua_words(sentence_of(*missed)) : std::string()};
+    return {undetermined_parameters(estimate.names, estimate.theta, estimate.std),
+            missed ? Message("{}", sentence_of(*missed)) : Message()};
 }
 
 /// Of the model at argument 2.

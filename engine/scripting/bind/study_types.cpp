@@ -91,7 +91,7 @@ int table_best(Call& call) {
     const OrderTable& table = object_argument<OrderTable>(call, 1, "table");
     return push_candidate(call, table.selection.candidates[table.choice.place]);
 }
-std::string recommendation(const OrderTable& table) {
+Message recommendation(const OrderTable& table) {
     return table.choice.explanation;
 }
 std::string table_text(const OrderTable& table) {
@@ -121,7 +121,7 @@ int arx_best(Call& call) {
     const ArxSelection& table = object_argument<ArxSelection>(call, 1, "table");
     return push_arx_candidate(call, table.candidates[usual_arx_choice(table).place]);
 }
-std::string arx_recommendation(const ArxSelection& table) {
+Message arx_recommendation(const ArxSelection& table) {
     return usual_arx_choice(table).explanation;
 }
 std::string arx_text(const ArxSelection& table) {

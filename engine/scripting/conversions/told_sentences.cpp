@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/reader.h"
 #include "documents/words/sentence_catalogue.h"
 #include "scripting/conversions/option_words.h"
 
@@ -32,6 +33,16 @@ std::string told(const Call& call, const std::string& text) {
 std::vector<std::string> told(const Call& call, const std::vector<std::string>& sentences) {
     std::vector<std::string> result;
     for (const std::string& sentence : sentences) result.push_back(told(call, sentence));
+    return result;
+}
+
+std::string told(const Call& call, const Message& message) {
+    return told(call, message_text(message));
+}
+
+std::vector<std::string> told(const Call& call, const std::vector<Message>& messages) {
+    std::vector<std::string> result;
+    for (const Message& message : messages) result.push_back(told(call, message));
     return result;
 }
 

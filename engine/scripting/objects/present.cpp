@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/reader.h"
 #include "scripting/runtime/text_form.h"
 
 namespace dynlab::inline scripting {
@@ -81,7 +82,7 @@ std::string gain_and_poles(const TransferFunction& G, const std::optional<ModelU
     for (std::size_t i = 0; i < rows.size(); ++i)
         text += pole_row(rows[i], uncertainty ? &uncertainty->modes[i] : nullptr, widths);
     if (uncertainty)
-        for (const std::string& warning : uncertainty->warnings) text += warning + "\n";
+        for (const Message& warning : uncertainty->warnings) text += message_text(warning) + "\n";
     return text;
 }
 

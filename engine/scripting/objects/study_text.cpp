@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/number_text.h"
+#include "base/reader.h"
 #include "scripting/conversions/option_words.h"
 
 namespace dynlab::inline scripting {
@@ -51,7 +52,7 @@ std::string troubles_of(const MonteCarloResult& result, int runs) {
     std::string text;
     if (result.failed > 0)
         text += fmt::format("{}: {} of {} runs failed and are left out; the first one says: {}.\n", result.label,
-                            result.failed, runs, in_lua_words(result.first_failure));
+                            result.failed, runs, in_lua_words(message_text(result.first_failure)));
     if (result.not_converged > 0)
         text += fmt::format("{}: {} of {} runs did not converge; their last values are counted.\n", result.label,
                             result.not_converged, runs);
@@ -70,7 +71,8 @@ std::string notes_on(const OrderCandidate& candidate) {
 std::string candidate_row(const OrderCandidate& candidate, bool chosen, bool validated, bool delays) {
     std::string row = fmt::format("{} {:>5} {:>5}", chosen ? '*' : ' ', candidate.poles, candidate.zeros);
     if (delays) row += fmt::format(" {:>9}", number_text(candidate.delay, 4));
-    if (!candidate.failure.empty()) return row + "  not estimated: " + in_lua_words(candidate.failure) + "\n";
+    if (!candidate.failure.empty())
+        return row + "  not estimated: " + in_lua_words(message_text(candidate.failure)) + "\n";
     row += fmt::format(" {:>9.5f} {:>8.3f} {:>9.4f} {:>9.4f} {:>10} {:>8.2f} {:>5} {:>7.2f}", candidate.r_squared,
                        candidate.yic, candidate.aic, candidate.bic, number_text(candidate.fpe, 4),
                        candidate.log_condition, candidate.iterations, candidate.fit_percent);
@@ -110,7 +112,7 @@ std::string order_table_text(const OrderSelection& selection, const OrderChoice&
     text += "\n";
     for (std::size_t i = 0; i < selection.candidates.size(); ++i)
         text += candidate_row(selection.candidates[i], i == choice.place, selection.validated, delays);
-    return text + in_lua_words(choice.explanation) + "\n";
+    return text + in_lua_words(message_text(choice.explanation)) + "\n";
 }
 
 std::string arx_table_text(const ArxSelection& selection, const OrderChoice& choice) {
@@ -125,7 +127,7 @@ std::string arx_table_text(const ArxSelection& selection, const OrderChoice& cho
         if (one.validation_loss) text += fmt::format(" {:>11}", number_text(*one.validation_loss, 5));
         text += one.determined ? "\n" : "  not determined: the input is too poor\n";
     }
-    return text + choice.explanation + "\n";
+    return text + message_text(choice.explanation) + "\n";
 }
 
 }  // namespace dynlab::inline scripting

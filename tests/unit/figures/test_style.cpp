@@ -144,7 +144,7 @@ CrossValidation folds(Index outputs) {
 std::vector<std::pair<std::string, Figure>> further_figures() {
     return {{"pzmap", pole_zero_map(models_with_zeros(3))},
             {"scatter", monte_carlo_scatter(study(3), "a1", "b0")},
-            {"order selection", order_plot(orders(5), OrderCriterion::kBic, {1, ""})},
+            {"order selection", order_plot(orders(5), OrderCriterion::kBic, {1, {}})},
             {"spa", spectral_plot(spectrum(), "estimate", models(3))},
             {"crossvalidate", cross_validation_plot(folds(3), {"x", "y", "z"})}};
 }
