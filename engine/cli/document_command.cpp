@@ -5,6 +5,7 @@
 
 #include <iostream>
 
+#include "base/reader.h"
 #include "cli/commands.h"
 #include "platform/terminal/activity_line.h"
 #include "platform/terminal/terminal_text.h"
@@ -42,8 +43,8 @@ void show(const ReportResult& result) {
 
 ReportResult make_showing_activity(ReportRequest& request) {
     ActivityLine activity;
-    request.step = [&activity](const std::string& step) { activity.begin_step(step); };
-    request.enter_cell = [&activity](const std::string& cell) { activity.begin_part(cell); };
+    request.step = [&activity](const Message& step) { activity.begin_step(message_text(step)); };
+    request.enter_cell = [&activity](const Message& cell) { activity.begin_part(message_text(cell)); };
     if (request.print)
         request.print = [&activity, print = std::move(request.print)](const std::string& text) {
             activity.print(text, print);
@@ -62,9 +63,10 @@ int make_document(ReportRequest request, bool show_timings) {
                                                      : "";
     if (result.error) std::cerr << "dynlab: " << terminal_text(*result.error) << std::endl;
     if (!result.gaps.empty())
-        std::cerr << "dynlab: " << terminal_text(fmt::format("{}", fmt::join(result.gaps, "\n"))) << '\n';
-    for (const std::string& sentence : result.unplaced)
-        std::cerr << "dynlab: note: " << terminal_text(sentence) << '\n';
+        std::cerr << "dynlab: " << terminal_text(message_text(Message("{}", MessageList{result.gaps, Join::kLines})))
+                  << '\n';
+    for (const UnplacedEntries& entries : result.unplaced)
+        std::cerr << "dynlab: note: " << terminal_text(message_text(entries.message())) << '\n';
     std::cout << file << state << '\n';
     if (show_timings) show(result);
     return result.error || !result.gaps.empty() ? kFailed : kDone;

@@ -50,19 +50,21 @@ bool PrintableCharacters::can_print(char32_t c) const {
     return everything_ || c < 0x7F || is_in_latex_fonts(c) || declared_.count(c) > 0;
 }
 
-std::optional<std::string> PrintableCharacters::complaint(std::string_view text) const {
+std::optional<Message> PrintableCharacters::complaint(std::string_view text) const {
     while (!text.empty()) {
         const std::optional<char32_t> taken = take_character(text);
-        if (!taken) return "this is not UTF-8 text; save the file with the encoding UTF-8";
+        if (!taken) return Message("this is not UTF-8 text; save the file with the encoding UTF-8");
         const char32_t c = *taken;
         if (can_print(c)) continue;
         const std::string code = fmt::format("U+{:04X}", static_cast<std::uint32_t>(c));
-        if (is_control(c)) return "the control character " + code + " cannot be printed; remove it";
+        if (is_control(c)) return Message("the control character {} cannot be printed; remove it", code);
         if (c >= 0x0300 && c <= 0x036F)
-            return "the combining accent " + code +
-                   " cannot be printed; type the letter with its accent as one character";
-        return "the character \"" + utf8_of(c) + "\" (" + code +
-               ") cannot be printed by LaTeX; write it in words or as a formula between dollar signs";
+            return Message(
+                "the combining accent {} cannot be printed; type the letter with its accent as one character", code);
+        return Message(
+            "the character \"{}\" ({}) cannot be printed by LaTeX; write it in words or as a formula between dollar "
+            "signs",
+            utf8_of(c), code);
     }
     return std::nullopt;
 }

@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "base/message.h"
+
 namespace dynlab::inline documents {
 
 /// What LaTeX can print: ASCII, the letters of the T1 fonts, and the symbols that report_templates/latex/
@@ -14,7 +16,7 @@ class PrintableCharacters {
     static PrintableCharacters of_html();
 
     /// A sentence about the first character of `text` that cannot be printed, naming it; nothing when all can.
-    std::optional<std::string> complaint(std::string_view text) const;
+    std::optional<Message> complaint(std::string_view text) const;
 
   private:
     bool can_print(char32_t character) const;

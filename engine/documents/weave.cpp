@@ -172,7 +172,7 @@ void MarkdownText::append(const std::string& lines, const std::filesystem::path&
     }
 }
 
-SourceLine MarkdownText::origin_of(int line) const {
+Place MarkdownText::origin_of(int line) const {
     if (line < 1 || line > static_cast<int>(origin.size())) return {};
     return origin[static_cast<std::size_t>(line) - 1];
 }

@@ -1,24 +1,19 @@
 #pragma once
 #include <string>
 
+#include "documents/error.h"
 #include "documents/percent_script.h"
 #include "documents/run_record.h"
 
 namespace dynlab::inline documents {
 
-/// Where a line of assembled Markdown came from, for messages.
-struct SourceLine {
-    std::filesystem::path file;
-    int line = 0;
-};
-
 /// Markdown with the origin of every line.
 struct MarkdownText {
     std::string text;
-    std::vector<SourceLine> origin;  ///< one per line of text
+    std::vector<Place> origin;  ///< one per line of text
 
     void append(const std::string& lines, const std::filesystem::path& file, int first_line);
-    SourceLine origin_of(int line) const;  ///< 1-based
+    Place origin_of(int line) const;  ///< 1-based
 };
 
 /// The script's cells in reading order: text, code, printed output, captured figures. Solution markers are

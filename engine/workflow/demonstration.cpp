@@ -51,15 +51,13 @@ std::vector<Demonstration> demonstrations() {
 
 Demonstration find_demonstration(const std::string& name) {
     std::vector<std::string> names;
-    std::string list;
     for (const Demonstration& demonstration : demonstrations()) {
         if (demonstration.name == name) return demonstration;
         names.push_back(demonstration.name);
-        list += (list.empty() ? "" : ", ") + demonstration.name;
     }
-    const auto near = nearest_word(name, names);
-    throw EnvironmentError("there is no demonstration '" + name + "'; " +
-                           (near ? "did you mean '" + *near + "'?" : "there are " + list));
+    if (const auto near = nearest_word(name, names))
+        throw EnvironmentError("there is no demonstration '{}'; did you mean '{}'?", name, *near);
+    throw EnvironmentError("there is no demonstration '{}'; there are {}", name, listed(names));
 }
 
 std::vector<std::string> pages_of(const PercentScript& script, const RunRecord& record) {

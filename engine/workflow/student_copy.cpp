@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "base/number_text.h"
 #include "documents/error.h"
 #include "documents/solutions.h"
 #include "documents/text_lines.h"
@@ -84,7 +83,7 @@ void fill_review(const fs::path& folder, const std::string& language) {
 template <class Fill>
 void make_folder(const fs::path& folder, const Fill& fill) {
     if (fs::exists(folder) && !(fs::is_directory(folder) && fs::is_empty(folder))) {
-        throw EnvironmentError(folder.string() + " exists already; choose another name, nothing was changed");
+        throw EnvironmentError("{} exists already; choose another name, nothing was changed", folder.string());
     }
     const fs::path target = fs::absolute(folder).lexically_normal();
     const fs::path clean = target.has_filename() ? target : target.parent_path();
@@ -92,7 +91,7 @@ void make_folder(const fs::path& folder, const Fill& fill) {
     std::error_code error;
     fs::remove_all(growing, error);
     if (!fs::create_directories(growing, error)) {
-        throw EnvironmentError("cannot make the folder " + folder.string() + ": " + error.message());
+        throw EnvironmentError("cannot make the folder {}: {}", folder.string(), error.message());
     }
     try {
         fill(growing);
@@ -132,8 +131,9 @@ PercentScript lesson_script(const Lesson& lesson, const std::string& language) {
     std::vector<std::string> lines = lines_of(source);
     const std::vector<const Cell*> texts = text_cells(script), translated = text_cells(tasks);
     if (texts.size() != translated.size())
-        throw DocumentError(file.string() + " has " + counted(translated.size(), "cell") + ", but the lesson has " +
-                            counted(texts.size(), "cell") + " of text");
+        throw DocumentError(Message("{} has {}, but the lesson has {} of text", file.string(),
+                                    plural(translated.size(), "{} cell", "{} cells"),
+                                    plural(texts.size(), "{} cell", "{} cells")));
     for (std::size_t i = texts.size(); i-- > 0;) {
         const auto first = lines.begin() + texts[i]->first_line - 1;
         const auto after = lines.erase(first, lines.begin() + texts[i]->last_line());

@@ -26,7 +26,7 @@ class live_page : public testing::Test {
         chunk.pictures.push_back({"@picture@", false, "", file});
         SetDocument set;
         set.chunks = {chunk};
-        set.complaints = {"analysis.lua:3: no such figure"};
+        set.complaints = {Message("analysis.lua:3: no such figure")};
         return set;
     }
     json whole() const { return json::parse(page.whole()); }
@@ -110,7 +110,7 @@ TEST_F(live_page, tells_again_in_a_new_language_what_was_wrong_before) {
     page.speak("en", "");
     EXPECT_EQ(changed(), english);
     SetDocument set = document("<svg>1</svg>");
-    set.complaints = {wrong};
+    set.complaints = {Message::verbatim(wrong)};
     page.speak("fr", "");
     page.show(set, script, {});
     EXPECT_EQ(changed(), french);

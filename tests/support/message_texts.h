@@ -4,7 +4,7 @@
 
 #include "base/reader.h"
 
-namespace dynlab {
+namespace dynlab::test {
 
 /// In English.
 inline std::vector<std::string> texts_of(const std::vector<Message>& messages) {
@@ -13,4 +13,4 @@ inline std::vector<std::string> texts_of(const std::vector<Message>& messages) {
     return texts;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::test

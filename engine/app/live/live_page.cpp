@@ -83,7 +83,8 @@ void LivePage::show(const SetDocument& document, const PercentScript& script, co
     content_.name = script.file.filename().string();
     content_.head = document.head;
     content_.notes = document.notes;
-    content_.complaints = document.complaints;
+    content_.complaints.clear();
+    for (const Message& complaint : document.complaints) content_.complaints.push_back(message_text(complaint));
     content_.sliders = record.sliders;
     content_.pieces.clear();
     fresh_.clear();

@@ -38,7 +38,7 @@ std::vector<std::string> names_in(const std::string& file, const CheckNames& che
 
 /// Where editors find it; in a notebook, where people do.
 std::string finding_place(const LintFinding& found, const std::string& file, const std::string& source) {
-    const std::string cell = is_notebook(file) ? place_in_notebook(source, found.line) : "";
+    const std::string cell = is_notebook(file) ? message_text(place_in_notebook(source, found.line)) : "";
     return cell.empty() ? fmt::format("{}:{}:{}", file, found.line, found.column) : fmt::format("{}, {}", file, cell);
 }
 

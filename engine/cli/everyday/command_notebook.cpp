@@ -61,7 +61,8 @@ int convert(const NotebookArguments& words) {
     if (is_notebook(words.file)) {
         const NotebookScript script = read_notebook(words.file);
         parse_percent_script(script.source, words.file);  // throws where the cells do not make a script
-        for (const std::string& loss : script.losses) std::cerr << "dynlab: note: " << terminal_text(loss) << '\n';
+        for (const Message& loss : script.losses)
+            std::cerr << "dynlab: note: " << terminal_text(message_text(loss)) << '\n';
         write(words, ".lua", script.source);
         return kDone;
     }

@@ -74,14 +74,14 @@ void show_reported(const PercentScript& script, const RunRecord& record) {
     for (const auto& [name, text] : record.texts)
         std::cout << terminal_text(fmt::format("text {}: {}\n", name, text.markdown));
     std::cout.flush();
-    for (const std::string& sentence : entries_without_place(script, record))
-        std::cerr << "dynlab: note: " << terminal_text(sentence) << '\n';
+    for (const UnplacedEntries& entries : entries_without_place(script, record))
+        std::cerr << "dynlab: note: " << terminal_text(message_text(entries.message())) << '\n';
 }
 
 RunRecord run_showing_activity(RunRequest& request, GnuplotRenderer& renderer) {
     ActivityLine activity;
     request.print = [&activity](const std::string& text) { activity.print(text, print_shown); };
-    request.enter_cell = [&activity](const std::string& cell) { activity.begin_part(cell); };
+    request.enter_cell = [&activity](const Message& cell) { activity.begin_part(message_text(cell)); };
     return run_script(request, renderer);
 }
 

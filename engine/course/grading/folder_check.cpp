@@ -8,6 +8,7 @@
 #include <optional>
 #include <thread>
 
+#include "base/reader.h"
 #include "course/boxes/boxed_work.h"
 #include "course/grading/feedback.h"
 #include "course/grading/grading_rules.h"
@@ -37,6 +38,35 @@ constexpr int kMissingProgramCode = 3;  ///< dynlab's exit code when pandoc or t
 constexpr std::uint64_t kMostCheckOutput = 16u << 20, kLargestMade = 200u << 20;
 constexpr const char *kOwnScript = "analysis.lua", *kOwnNotebook = "analysis.ipynb";
 constexpr char kInBox[] = "/box/submission";
+
+Message sentence_about(const UnplacedEntries& entries) {
+    const bool one = entries.names.size() == 1;
+    const MessageList names = entries.quoted_names();
+    switch (entries.kind) {
+        case UnplacedEntries::Kind::kTable:
+            return one ? Message("In analysis.lua the table {} is reported, but has no place in the text.", names)
+                       : Message("In analysis.lua the tables {} are reported, but have no place in the text.", names);
+        case UnplacedEntries::Kind::kText:
+            return one ? Message("In analysis.lua the text {} is reported, but has no place in the text.", names)
+                       : Message("In analysis.lua the texts {} are reported, but have no place in the text.", names);
+        case UnplacedEntries::Kind::kValue:
+            return one ? Message("In analysis.lua the value {} is reported, but has no place in the text.", names)
+                       : Message("In analysis.lua the values {} are reported, but have no place in the text.", names);
+        case UnplacedEntries::Kind::kFigure:
+            break;
+    }
+    return one ? Message("In analysis.lua the figure {} is reported, but has no place in the text.", names)
+               : Message("In analysis.lua the figures {} are reported, but have no place in the text.", names);
+}
+
+Message remedy_for(const UnplacedEntries& entries) {
+    const std::string& name = entries.names.front();
+    if (entries.kind == UnplacedEntries::Kind::kTable)
+        return Message("Write ::: {.table name={}} above and ::: below its caption there.", name);
+    if (entries.kind == UnplacedEntries::Kind::kText)
+        return Message("Write ::: {.text name={}} and ::: below there.", name);
+    return Message("Write {} there.", entries.slot());
+}
 
 /// One folder's check: a clean copy, what runs in it, and what is found.
 class FolderCheck {
@@ -186,7 +216,8 @@ class FolderCheck {
             if (!find_program(name)) throw MissingProgram(name, package);
         const ChildResult made = run_report();
         if (made.exit_code == 0) return true;
-        if (made.exit_code == kMissingProgramCode) throw MissingProgram(in_folder(made.error_output));
+        if (made.exit_code == kMissingProgramCode)
+            throw MissingProgram(Message::verbatim(in_folder(made.error_output)));
         if (made.timed_out)
             add_failure(reason_of_end(made, limits_.time) + ".");
         else if (made.output_exceeded)
@@ -260,11 +291,9 @@ class FolderCheck {
 
     /// What the analysis reports and no reader would see.
     void check_places(const PercentScript& script, const RunRecord& run) {
-        for (const std::string& sentence : entries_without_place(script, run)) {
-            const std::size_t remedy = sentence.find("; write ");
-            add("not-shown", Severity::kHint, "report.md", "In analysis.lua " + sentence.substr(0, remedy) + ".",
-                "Write " + sentence.substr(remedy + 8) + " there.");
-        }
+        for (const UnplacedEntries& entries : entries_without_place(script, run))
+            add("not-shown", Severity::kHint, "report.md", message_text(sentence_about(entries)),
+                message_text(remedy_for(entries)));
     }
 
     /// Where the lesson itself is not on this machine: the checks that came with the folder, and the answers that its

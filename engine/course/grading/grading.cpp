@@ -72,7 +72,7 @@ class ClassGrader {
         if (failure_) std::rethrow_exception(failure_);
         if (shared_) {
             shared_->conclude();
-            std::ranges::copy(shared_->notes(), std::back_inserter(outcome_.notes));
+            for (const Message& note : shared_->notes()) outcome_.notes.push_back(message_text(note));
         }
         take_the_others();
         tell_strays();
@@ -185,7 +185,7 @@ class ClassGrader {
         const auto batch = shared_->done();
         {
             const std::lock_guard lock(mutex_);
-            bar.message(fmt::format("grading on {}", shared_->sight()));
+            bar.message(message_text(Message("grading on {}", shared_->sight())));
         }
         if (!batch) return false;
         for (const SharedGrading::Done& done : batch->submissions)

@@ -172,8 +172,8 @@ void look_at_report(const Lesson& lesson, const std::string& language, const std
     faults.attempt(source, [&] {
         const fs::path pdf = folder / (lesson.slug + "." + language + ".pdf");
         const ReportResult made = make_report(report_of(lesson.folder.string(), pdf, has_report ? language : ""));
-        if (made.error) throw DocumentError(*made.error);
-        for (const std::string& gap : made.gaps) faults.add(source, 0, gap);
+        if (made.error) throw DocumentError(Message::verbatim(*made.error));
+        for (const Message& gap : made.gaps) faults.add(source, 0, message_text(gap));
         look_at_pdf(pdf, source, standard_of_report(lesson, language), faults);
     });
 }

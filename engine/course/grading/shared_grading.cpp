@@ -228,9 +228,9 @@ std::optional<SharedGrading::DoneBatch> SharedGrading::done() {
         const std::lock_guard lock(mutex_);
         batch = std::move(out_.extract(finished->key).mapped());
     }
-    std::string trouble = finished->trouble;
+    Message trouble = finished->trouble;
     if (finished->result && finished->result->trouble)
-        trouble = fmt::format("{} says: {}", finished->result->node, *finished->result->trouble);
+        trouble = Message("{} says: {}", finished->result->node, *finished->result->trouble);
     if (!trouble.empty() && batch.size() > 1) {
         for (Given& one : batch) give({std::move(one)});
         return done();

@@ -204,7 +204,7 @@ class NameSearch {
         try {
             return from_cbor<SearchedObjects>(answer);
         } catch (const ValueError&) {
-            throw PdfRefusal(PdfFault::kDamaged, "Searching it gives nothing that can be read.");
+            throw PdfRefusal(PdfFault::kDamaged, Message("Searching it gives nothing that can be read."));
         }
     }
 

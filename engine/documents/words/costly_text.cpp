@@ -149,6 +149,12 @@ std::size_t end_of_code(const std::vector<std::string_view>& lines, std::size_t 
 
 }  // namespace
 
+Message CostlyText::complaint() {
+    return Message(
+        "Pandoc would take minutes for this paragraph: too much in it opens and is never closed, or lies within each "
+        "other ([, ^[, ](, <, &, ' or `); close it, or put a backslash before a sign that stands for itself");
+}
+
 std::optional<int> CostlyText::line_of(std::string_view markdown) {
     const std::vector<std::string_view> lines = lines_with_ends(markdown);
     bool fences_end = true;  // one that nothing ends is looked for once

@@ -2,6 +2,8 @@
 #include <optional>
 #include <string_view>
 
+#include "base/message.h"
+
 namespace dynlab::inline documents {
 
 /// Pandoc tries every way to read what opens and is never closed: each further `[` of a paragraph may double its time,
@@ -11,9 +13,7 @@ class CostlyText {
     /// The line (1-based) on which the paragraph begins with which the document would take minutes, if there is one.
     std::optional<int> line_of(std::string_view markdown);
 
-    static constexpr const char* kSentence =
-        "Pandoc would take minutes for this paragraph: too much in it opens and is never closed, or lies within each "
-        "other ([, ^[, ](, <, &, ' or `); close it, or put a backslash before a sign that stands for itself";
+    static Message complaint();  ///< about that paragraph
 
   private:
     double left_ = 250;  ///< of some 0.03 s of Pandoc each

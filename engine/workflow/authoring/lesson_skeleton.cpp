@@ -184,10 +184,10 @@ std::vector<std::string> make_lesson_skeleton(const fs::path& folder) {
     const fs::path whole = fs::absolute(folder).lexically_normal();
     const std::string slug = (whole.has_filename() ? whole : whole.parent_path()).filename().string();
     if (!is_name("_" + slug))
-        throw EnvironmentError("'" + slug +
-                               "' is no name for a lesson: letters, digits, _ and - make one, as in 08_springs");
+        throw EnvironmentError("'{}' is no name for a lesson: letters, digits, _ and - make one, as in 08_springs",
+                               slug);
     if (fs::exists(folder) && !(fs::is_directory(folder) && fs::is_empty(folder)))
-        throw EnvironmentError(folder.string() + " exists already; choose another name, nothing was changed");
+        throw EnvironmentError("{} exists already; choose another name, nothing was changed", folder.string());
     const std::map<std::string, std::string> files = {{"lesson.lua", replaced(kLesson, "SLUG", slug)},
                                                       {"record.csv", record()},
                                                       {"checks.lua", kChecks},

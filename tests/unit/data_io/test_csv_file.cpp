@@ -18,6 +18,7 @@
 namespace dynlab {
 namespace test_csv_file {
 
+using test::texts_of;
 using testing::ElementsAre;
 using testing::HasSubstr;
 

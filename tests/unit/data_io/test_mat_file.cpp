@@ -20,6 +20,7 @@
 namespace dynlab {
 namespace test_mat_file {
 
+using test::texts_of;
 using testing::HasSubstr;
 
 class mat_file : public testing::Test {

@@ -25,7 +25,7 @@ TEST(weave, every_line_knows_its_line_of_the_script) {
     ASSERT_EQ(woven.size(), text.origin.size());
     for (std::size_t i = 0; i < woven.size(); ++i) {
         if (woven[i].empty() || woven[i].starts_with("```")) continue;
-        const SourceLine from = text.origin_of(static_cast<int>(i) + 1);
+        const Place from = text.origin_of(static_cast<int>(i) + 1);
         EXPECT_EQ(from.file, "lesson.lua");
         EXPECT_THAT(script.at(static_cast<std::size_t>(from.line) - 1), HasSubstr(woven[i]));
     }
