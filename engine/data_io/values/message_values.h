@@ -11,8 +11,8 @@
 namespace dynlab::inline data_io {
 
 /// Messages as described.h stores them: the id, the plural's id, and each argument under the name of its kind, such as
-/// {"number": {"value": 0.05, "digits": 3, "meaning": "significant"}} or {"text": "y1"}. Whoever reads one again still
-/// chooses its language.
+/// {"number": {"value": 0.05, "digits": 3, "meaning": "significant"}} or {"text": "y1"}. A message that is read again is
+/// the same value: its language is chosen then.
 
 constexpr std::array<const char*, 2> names_of(Number::Digits) {
     return {"significant", "decimals"};
@@ -22,11 +22,6 @@ constexpr std::array<const char*, 6> names_of(Join) {
 }
 
 DYNLAB_DESCRIBE(Number, value, digits, meaning)
-inline void check_value(const Number& number, const ValueLimits&) {
-    const int least = number.meaning == Number::Digits::kSignificant ? 1 : 0;
-    if (number.digits < least || number.digits > 17) throw std::invalid_argument("a number has at most 17 digits");
-}
-
 DYNLAB_DESCRIBE(MessageList, items, join)
 
 /// One of them is there.
@@ -83,8 +78,6 @@ struct StoredAs<Message> {
     using Form = MessageMembers;
     static Form form(const Message& message) { return {message.id(), message.many(), message.arguments()}; }
     static Message value(Form&& form) {
-        if (form.id.empty() && !(form.many.empty() && form.arguments.empty()))
-            throw std::invalid_argument("an empty message has no arguments");
         return Message::stored(std::move(form.id), std::move(form.many), std::move(form.arguments));
     }
 };
