@@ -35,4 +35,14 @@ std::vector<std::string> told(const Call& call, const std::vector<std::string>& 
     return result;
 }
 
+std::string told(const Call& call, const Message& message) {
+    return told(call, in_lua_words(message));
+}
+
+std::vector<std::string> told(const Call& call, const std::vector<Message>& messages) {
+    std::vector<std::string> result;
+    for (const Message& message : messages) result.push_back(told(call, message));
+    return result;
+}
+
 }  // namespace dynlab::inline scripting

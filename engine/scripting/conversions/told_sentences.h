@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "scripting/conversions/boxed.h"
 
 namespace dynlab::inline scripting {
@@ -11,6 +12,9 @@ namespace dynlab::inline scripting {
 /// (ReportLanguage), line by line. What report_templates/engine_sentences.fr.txt does not know stays as it is.
 std::string told(const Call& call, const std::string& text);
 std::vector<std::string> told(const Call& call, const std::vector<std::string>& sentences);
+/// By the message's English text.
+std::string told(const Call& call, const Message& message);
+std::vector<std::string> told(const Call& call, const std::vector<Message>& messages);
 
 template <class T, auto kGet>
 int give_told_field(Call& call) {
