@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "base/number_text.h"
+#include "base/reader.h"
 #include "numerics/error.h"
 #include "numerics/fit/first_estimate.h"
 #include "numerics/fit/operating_points.h"
@@ -94,7 +95,7 @@ std::string explanation_of(const DelaySearch& search, const IdData& data) {
     if (search.rival)
         text += " A delay of " + number_text(*search.rival) +
                 " s explains them nearly as well: look at the curve, and decide by what you know of the plant.";
-    for (const std::string& warning : search.candidate.estimate.warnings) text += " " + warning;
+    for (const Message& warning : search.candidate.estimate.warnings) text += " " + message_text(warning);
     return text;
 }
 

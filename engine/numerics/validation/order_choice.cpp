@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "base/number_text.h"
+#include "base/reader.h"
 #include "numerics/error.h"
 #include "numerics/fit/missed_options.h"
 #include "numerics/validation/order_selection.h"
@@ -106,7 +107,7 @@ std::string validation_doubt(const OrderSelection& selection, const Places& soun
 /// With the blank before it: which option its fit lacks.
 std::string missed_by(const OrderCandidate& candidate) {
     const std::optional<MissedOption>& missed = candidate.estimate.doubts.missed_option;
-    return missed ? " " + sentence_of(*missed) + " Then compare the structures again." : "";
+    return missed ? " " + message_text(sentence_of(*missed)) + " Then compare the structures again." : "";
 }
 
 OrderChoice recommend(const OrderSelection& selection, const Places& estimated) {

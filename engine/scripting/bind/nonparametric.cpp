@@ -53,8 +53,10 @@ double confidence_of(const Options& options) {
         "option 'confidence' must be a probability between 0 and 1, such as 0.99, but {} was given", level));
 }
 
-void print_message(const Call& call, const std::string& message, const std::vector<std::string>& warnings) {
-    call.print(told(call, fmt::format("{}{}{}\n", message, warnings.empty() ? "" : " ", fmt::join(warnings, " "))));
+void print_message(const Call& call, const Message& message, const std::vector<Message>& warnings) {
+    std::vector<Message> all = {message};
+    all.insert(all.end(), warnings.begin(), warnings.end());
+    call.print(told(call, sentences(std::move(all))) + "\n");
 }
 
 int give_spectral(const Call& call, const Options& options, SpectralModels& read, const SpectralEstimate& estimate,

@@ -96,8 +96,9 @@ int approximate(Call& call) {
     if (options.has("InterSample")) wanted.inter_sample = inter_sample_option(options, InterSample::kZoh);
     wanted.cancel = call.cancel();
     const FrequencyData response = bla(data, wanted);
-    const std::string warnings = fmt::format("{}", fmt::join(response.warnings, " "));
-    call.print(told(call, response.message + (warnings.empty() ? "" : " ") + warnings + "\n"));
+    std::vector<Message> all = {response.message};
+    all.insert(all.end(), response.warnings.begin(), response.warnings.end());
+    call.print(told(call, sentences(std::move(all))) + "\n");
     push_object(call.state(), response);
     return 1 + give_figure(call, levels_plot(response));
 }
