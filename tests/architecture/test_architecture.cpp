@@ -471,10 +471,15 @@ TEST(architecture, numerics_knows_no_option_of_lua) {
 TEST(architecture, scripting_has_a_word_for_every_option_that_messages_name) {
     const std::vector<std::string> known = dynlab::translated_options();
     std::set<std::string> unknown, named;
-    for (const fs::path& file : sources_below(kRoot / "engine/numerics"))
-        for (const std::string& literal : literals_of(text_of(file)))
-            for (const std::string& option : matches(literal, "`([a-z_]+)`"))
-                (std::find(known.begin(), known.end(), option) == known.end() ? unknown : named).insert(option);
+    const auto count = [&](const std::vector<std::string>& options) {
+        for (const std::string& option : options)
+            (std::find(known.begin(), known.end(), option) == known.end() ? unknown : named).insert(option);
+    };
+    for (const fs::path& file : sources_below(kRoot / "engine/numerics")) {
+        const std::string text = text_of(file);
+        count(matches(text, R"re(OptionName(?: \w+)?\{"([a-z_]+)"\})re"));
+        for (const std::string& literal : literals_of(text)) count(matches(literal, "`([a-z_]+)`"));
+    }
     EXPECT_THAT(unknown, IsEmpty());
     EXPECT_EQ(named.size(), known.size()) << "a word that no message needs";
 }

@@ -19,6 +19,14 @@ TEST(option_words, names_in_backticks_become_those_of_lua) {  // oracle: definit
     EXPECT_EQ(in_lua_words(""), "");
 }
 
+TEST(option_words, options_in_messages_become_those_of_lua) {  // oracle: definition
+    EXPECT_EQ(lua_option_name("max_iterations"), "MaxIter");
+    EXPECT_EQ(lua_option_name("foreign"), "`foreign`");
+    EXPECT_EQ(in_lua_words(Message("raise {} = {}, or {}", OptionName{"largest_delay"}, 2, OptionName{"foreign"})),
+              "raise TdMax = 2, or `foreign`");
+    EXPECT_EQ(in_lua_words(Message::verbatim("raise `largest_delay`")), "raise TdMax");
+}
+
 const std::string kRecord =
     "rng(1) local u = prbs(7, 4)\n"
     "local y = lsim(tf({2}, {1, 4, 3}, {IODelay = 0.5}), u, 0.05) + 0.01*randn(#u, 1)\n"

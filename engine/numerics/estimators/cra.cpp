@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/number_text.h"
 #include "numerics/error.h"
 #include "numerics/fit/spectral_estimate.h"
 #include "numerics/signals/correlation.h"
@@ -47,8 +46,8 @@ void whiten(IdData& data, const Autoregression& filter) {
 
 void CraOptions::validate() const {
     if (whitening < 0 || whitening > 100)
-        throw InvalidArgument("cra: the order of the whitening filter must lie between 0 and 100, but it is " +
-                              std::to_string(whitening));
+        throw InvalidArgument("cra: the order of the whitening filter must lie between 0 and 100, but it is {}",
+                              whitening);
     normal_half_width(confidence);
 }
 

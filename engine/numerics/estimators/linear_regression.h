@@ -1,6 +1,7 @@
 #pragma once
 #include <string>
 
+#include "base/message.h"
 #include "numerics/linalg/types.h"
 
 namespace dynlab::inline numerics {
@@ -22,7 +23,7 @@ struct LinearRegression {
     double rmse = 0;              ///< sqrt(residuals^2/N)
     double condition_number = 0;  ///< of Phi as given
     Index rank = 0;               ///< numerical rank of Phi; below d, theta is the solution of least norm
-    std::string message;          ///< one sentence
+    Message message;              ///< one sentence
 };
 
 /// Phi is N x d with N >= d. Throws InvalidArgument for sizes that do not fit, values that are not finite, and for

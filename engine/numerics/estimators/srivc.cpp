@@ -4,7 +4,6 @@
 #include <cmath>
 #include <optional>
 
-#include "base/number_text.h"
 #include "numerics/error.h"
 #include "numerics/fit/diagnosis.h"
 #include "numerics/fit/doubts.h"
@@ -71,12 +70,12 @@ Fit srivc_by_passes(const IdData& data, const TransferStructure& structure, cons
     measure_simulation(estimate, data);
     set_covariance(estimate, data, options, solution.mirrored ? Matrix() : solution.gram);
     describe_models(estimate);
-    const std::string passes = counted(estimate.trace.size(), "pass", "passes");
+    const Message passes = plural(static_cast<std::int64_t>(estimate.trace.size()), "{} pass", "{} passes");
     if (estimate.termination == Termination::kConverged)
-        set_message(estimate, "SRIVC converged after " + passes + ": " + simulation_text(estimate) + ".");
+        estimate.message = Message("SRIVC converged after {}: {}.", passes, simulation_text(estimate));
     else
-        set_message(estimate, "SRIVC had not settled after " + passes +
-                                  "; the best of them is given: " + simulation_text(estimate) + ".");
+        estimate.message = Message("SRIVC had not settled after {}; the best of them is given: {}.", passes,
+                                   simulation_text(estimate));
     return estimate;
 }
 
@@ -111,12 +110,13 @@ Fit better_by_search(Fit estimate, const IdData& data, const FitOptions& options
     Fit searched = search_transfer("srivc", data, estimate.structure, options, aids);
     const bool settled = estimate.termination == Termination::kConverged;
     if (!(searched.loss < (settled ? 1 - kNoGain : 1) * estimate.loss)) return estimate;
-    const std::string passes = std::to_string(estimate.trace.size()) + " passes";
-    set_message(searched, (settled ? "SRIVC converged after " + passes +
-                                         " to a local minimum; a further search found this lower one: "
-                                   : "SRIVC had not settled after " + passes +
-                                         "; this is the minimum of the output error, which they aim at: ") +
-                              simulation_text(searched) + ".");
+    const Message passes = plural(static_cast<std::int64_t>(estimate.trace.size()), "{} pass", "{} passes");
+    searched.message =
+        settled
+            ? Message("SRIVC converged after {} to a local minimum; a further search found this lower one: {}.", passes,
+                      simulation_text(searched))
+            : Message("SRIVC had not settled after {}; this is the minimum of the output error, which they aim at: {}.",
+                      passes, simulation_text(searched));
     return searched;
 }
 

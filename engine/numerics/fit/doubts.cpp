@@ -31,7 +31,7 @@ Fit finished(const IdData& data, const FitOptions& options, IdData (*integrate)(
 void add_missed_option(Fit& fit, const std::optional<MissedOption>& missed) {
     if (!missed) return;
     fit.doubts.missed_option = missed;
-    add_warning(fit, sentence_of(*missed));
+    fit.warnings.push_back(sentence_of(*missed));
 }
 
 void add_assessment(Fit& fit, const IdData& data, const FitOptions& options) {

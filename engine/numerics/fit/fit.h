@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "numerics/criteria/initial_conditions.h"
 #include "numerics/fit/further_results.h"
 #include "numerics/models/transfer_structure.h"
@@ -35,7 +36,6 @@ struct FitIteration {
 };
 
 /// What all iterative estimators ask. Methods for difference equations have no use for lambda, hold_y and delays.
-/// Messages write the names of options in backticks: `max_iterations`.
 struct FitOptions {
     InitialState initial_state = InitialState::kZero;
     Offset offset = Offset::kNone;
@@ -123,8 +123,11 @@ struct Fit {
     Termination termination = Termination::kConverged;
     std::vector<FitIteration> trace;
     FitDoubts doubts;
-    std::vector<std::string> warnings;  ///< whole sentences
-    std::string message;                ///< one sentence, then the warnings
+    std::vector<Message> warnings;  ///< whole sentences
+    Message message;                ///< one sentence: how the estimation ended
+
+    /// The message, then the warnings.
+    Message full_message() const;
 
     // Compiled once (fit.cpp): most sources of the later layers copy or destroy fits.
     Fit();

@@ -5,7 +5,6 @@
 #include <numeric>
 #include <vector>
 
-#include "base/number_text.h"
 #include "numerics/criteria/discrete_output.h"
 #include "numerics/criteria/transfer_output.h"
 #include "numerics/error.h"
@@ -222,24 +221,32 @@ bool is_direct(const IdData& record, const TransferStructure& structure, const E
     return fastest * record.mean_step() > kFastestPole;
 }
 
-std::string option_text(const MissedOption& missed) {
-    if (missed.feedthrough) return "as many zeros as poles";
-    std::string text;
-    if (missed.start.state != InitialState::kZero)
-        text = missed.start.state == InitialState::kSteady ? "`initial_state` = \"steady\""
-                                                           : "`initial_state` = \"estimate\"";
-    if (missed.start.offset) text += (text.empty() ? "" : " and ") + std::string("`offset` = \"estimate\"");
-    return text;
+/// A setting, as a script writes it.
+Message option_text(const MissedOption& missed) {
+    if (missed.feedthrough) return Message("as many zeros as poles");
+    const OptionName initial_state{"initial_state"}, offset{"offset"};
+    const bool steady = missed.start.state == InitialState::kSteady;
+    if (missed.start.state == InitialState::kZero) return Message("{} = \"estimate\"", offset);
+    if (!missed.start.offset)
+        return steady ? Message("{} = \"steady\"", initial_state) : Message("{} = \"estimate\"", initial_state);
+    return steady ? Message("{} = \"steady\" and {} = \"estimate\"", initial_state, offset)
+                  : Message("{} = \"estimate\" and {} = \"estimate\"", initial_state, offset);
 }
 
-std::string reason_text(const MissedOption& missed) {
-    if (missed.feedthrough) return "the output follows the input at once (a direct feedthrough)";
-    std::string text;
-    if (missed.start.state == InitialState::kEstimate) text = "the record begins in the middle of a movement";
-    if (missed.start.state == InitialState::kSteady)
-        text = "the record begins at rest at the first value of the input, not at zero";
-    if (!missed.start.offset) return text;
-    return text + (text.empty() ? "" : ", and ") + "the output stands on a constant that no input explains";
+Message reason_text(const MissedOption& missed) {
+    if (missed.feedthrough) return Message("the output follows the input at once (a direct feedthrough)");
+    const bool steady = missed.start.state == InitialState::kSteady;
+    if (missed.start.state == InitialState::kZero)
+        return Message("the output stands on a constant that no input explains");
+    if (!missed.start.offset)
+        return steady ? Message("the record begins at rest at the first value of the input, not at zero")
+                      : Message("the record begins in the middle of a movement");
+    return steady ? Message(
+                        "the record begins at rest at the first value of the input, not at zero, and the output "
+                        "stands on a constant that no input explains")
+                  : Message(
+                        "the record begins in the middle of a movement, and the output stands on a constant that "
+                        "no input explains");
 }
 
 std::vector<Remedy> promised_remedies(const IdData& data, const IdData& record, const TransferStructure& structure,
@@ -406,14 +413,26 @@ std::optional<MissedOption> missed_discrete_option(const IdData& data, const Fit
     return MissedOption{.start = chosen, .fit_percent = present.fit(), .better_fit_percent = best.fit()};
 }
 
-std::string sentence_of(const MissedOption& missed) {
-    const std::string of_output = missed.output.empty() ? "" : " of " + missed.output;
-    const std::string where =
-        missed.samples > 0 ? " of the first " + std::to_string(missed.samples) + " samples" : std::string();
-    const std::string instead =
-        std::isfinite(missed.fit_percent) ? " instead of " + number_text(missed.fit_percent, 4) + " %" : std::string();
-    return "With " + option_text(missed) + " the fit" + of_output + where + " is " +
-           number_text(missed.better_fit_percent, 4) + " %" + instead + ": " + reason_text(missed) + ".";
+Message sentence_of(const MissedOption& missed) {
+    const Message option = option_text(missed), reason = reason_text(missed);
+    const Number better = significant(missed.better_fit_percent, 4), fit = significant(missed.fit_percent, 4);
+    const bool finite = std::isfinite(missed.fit_percent);
+    if (missed.output.empty() && missed.samples == 0)
+        return finite ? Message("With {} the fit is {} % instead of {} %: {}.", option, better, fit, reason)
+                      : Message("With {} the fit is {} %: {}.", option, better, reason);
+    if (missed.samples == 0)
+        return finite ? Message("With {} the fit of {} is {} % instead of {} %: {}.", option, missed.output, better,
+                                fit, reason)
+                      : Message("With {} the fit of {} is {} %: {}.", option, missed.output, better, reason);
+    if (missed.output.empty())
+        return finite ? Message("With {} the fit of the first {} samples is {} % instead of {} %: {}.", option,
+                                missed.samples, better, fit, reason)
+                      : Message("With {} the fit of the first {} samples is {} %: {}.", option, missed.samples, better,
+                                reason);
+    return finite ? Message("With {} the fit of {} of the first {} samples is {} % instead of {} %: {}.", option,
+                            missed.output, missed.samples, better, fit, reason)
+                  : Message("With {} the fit of {} of the first {} samples is {} %: {}.", option, missed.output,
+                            missed.samples, better, reason);
 }
 
 }  // namespace dynlab::inline numerics

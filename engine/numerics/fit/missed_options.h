@@ -1,7 +1,6 @@
 #pragma once
 #include <functional>
 #include <optional>
-#include <string>
 
 #include "numerics/fit/fit.h"
 
@@ -32,6 +31,6 @@ std::optional<MissedOption> missed_discrete_option(const IdData& data, const Fit
                                                    const std::function<Fit(const FitOptions&)>& again);
 
 /// "With `offset` = "estimate" the fit is 88.1 % instead of 66.2 %: the output stands on a constant ..."
-std::string sentence_of(const MissedOption& missed);
+Message sentence_of(const MissedOption& missed);
 
 }  // namespace dynlab::inline numerics

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/number_text.h"
 #include "numerics/error.h"
 #include "numerics/fit/delay_scan.h"
 #include "numerics/fit/diagnosis.h"
@@ -165,7 +164,9 @@ Vector start_at_delays(const IdData& data, const TransferStructure& structure, c
 
 void check_search(const TransferStructure& structure, const FitOptions& options) {
     for (const auto& [name, value] : options.fixed)
-        if (name.starts_with("Td")) throw InvalidArgument("`fixed`: a delay is fixed with `delay`, and not as " + name);
+        if (name.starts_with("Td"))
+            throw InvalidArgument("{}: a delay is fixed with {}, and not as {}", OptionName{"fixed"},
+                                  OptionName{"delay"}, name);
     check_output_weights(options.output_weights, structure.outputs);
 }
 
@@ -277,8 +278,9 @@ Fit search_transfer(const char* method, const IdData& data, const TransferStruct
         stable.stable = true;
         starts.insert(starts.end(), {first_end, best.theta});
         if (Fit other = further(stable, search(stable, {})); other.loss <= kClearly * best.loss) {
-            add_warning(other, "An unstable model has a loss " + number_text(100 * (1 - best.loss / other.loss), 2) +
-                                   " % smaller, which is no evidence for it: `stable` = false gives it.");
+            other.warnings.push_back(
+                Message("An unstable model has a loss {} % smaller, which is no evidence for it: {} = false gives it.",
+                        significant(100 * (1 - best.loss / other.loss), 2), OptionName{"stable"}));
             best = std::move(other);
         }
     }

@@ -108,7 +108,7 @@ Message explanation_of(const DelaySearch& search, const IdData& data) {
             Message("A delay of {} s explains them nearly as well: look at the curve, and decide by what you "
                     "know of the plant.",
                     *search.rival));
-    for (const auto& warning : search.candidate.estimate.warnings) all.push_back(Message("{}", warning));
+    for (const Message& warning : search.candidate.estimate.warnings) all.push_back(warning);
     return sentences(std::move(all));
 }
 

@@ -123,7 +123,7 @@ Message validation_doubt(const OrderSelection& selection, const Places& sound, s
 Message missed_by(const OrderCandidate& candidate) {
     const std::optional<MissedOption>& missed = candidate.estimate.doubts.missed_option;
     if (!missed) return {};
-    return sentences({Message("{}", sentence_of(*missed)), Message("Then compare the structures again.")});
+    return sentences({sentence_of(*missed), Message("Then compare the structures again.")});
 }
 
 Message sentences_that_are_there(std::vector<Message> all) {

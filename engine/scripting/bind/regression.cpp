@@ -1,5 +1,6 @@
 #include <array>
 
+#include "base/reader.h"
 #include "figures/plots/regression_plot.h"
 #include "numerics/estimators/gradient_descent.h"
 #include "numerics/estimators/linear_regression.h"
@@ -39,14 +40,15 @@ double centre_of(const RegressionFit& fit) {
     return fit.polynomial ? fit.polynomial->centre : 0.0;
 }
 
-std::string message_of(const RegressionFit& fit) {
+const Message& message_of(const RegressionFit& fit) {
     return fit.regression.message;
 }
 
 std::string regression_text(const RegressionFit& given) {
     const LinearRegression& fit = given.regression;
     return fmt::format("theta = {}\nstandard errors = {}\nRMSE = {}, condition number = {}\n{}", vector_text(fit.theta),
-                       vector_text(fit.std), number_text(fit.rmse), number_text(fit.condition_number), fit.message);
+                       vector_text(fit.std), number_text(fit.rmse), number_text(fit.condition_number),
+                       message_text(fit.message));
 }
 
 constexpr std::array kRegressionFields = {

@@ -57,7 +57,7 @@ ModelDoubts doubts_of(const Call& call, int index) {
     const Estimate& estimate = *model->estimate;
     const std::optional<MissedOption>& missed = estimate.doubts.missed_option;
     return {undetermined_parameters(estimate.names, estimate.theta, estimate.std),
-            missed ? Message("{}", sentence_of(*missed)) : Message()};
+            missed ? sentence_of(*missed) : Message()};
 }
 
 /// Of the model at argument 2.

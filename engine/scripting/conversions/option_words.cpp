@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <optional>
 #include <utility>
 
+#include "base/reader.h"
 #include "platform/spelling.h"
 
 namespace dynlab::inline scripting {
@@ -51,19 +53,30 @@ constexpr std::array kOptionWords = {
     OptionWord{"outputs", "outputs"},
 };
 
+std::optional<std::string> word_of(std::string_view name) {
+    const auto found = std::ranges::find(kOptionWords, name, &OptionWord::first);
+    return found == kOptionWords.end() ? std::nullopt : std::optional<std::string>(found->second);
+}
+
 }  // namespace
+
+std::string lua_option_name(std::string_view member) {
+    return word_of(member).value_or("`" + std::string(member) + "`");
+}
+
+std::string in_lua_words(const Message& message) {
+    return in_lua_words(message_text(message, {nullptr, &lua_option_name}));
+}
 
 std::string in_lua_words(std::string_view message) {
     std::string text;
     while (!message.empty()) {
         const std::size_t begin = message.find('`'), end = message.find('`', begin + 1);
         if (begin == std::string_view::npos || end == std::string_view::npos) break;
-        const std::string_view name = message.substr(begin + 1, end - begin - 1);
-        const auto word = std::ranges::find(kOptionWords, name, &OptionWord::first);
-        const bool known = word != kOptionWords.end();
-        text += message.substr(0, known ? begin : end);  // a closing backtick may open the next name
-        if (known) text += word->second;
-        message.remove_prefix(known ? end + 1 : end);
+        const std::optional<std::string> word = word_of(message.substr(begin + 1, end - begin - 1));
+        text += message.substr(0, word ? begin : end);  // a closing backtick may open the next name
+        text += word.value_or("");
+        message.remove_prefix(word ? end + 1 : end);
     }
     return text += message;
 }

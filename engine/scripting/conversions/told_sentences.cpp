@@ -37,7 +37,7 @@ std::vector<std::string> told(const Call& call, const std::vector<std::string>& 
 }
 
 std::string told(const Call& call, const Message& message) {
-    return told(call, message_text(message));
+    return told(call, in_lua_words(message));
 }
 
 std::vector<std::string> told(const Call& call, const std::vector<Message>& messages) {

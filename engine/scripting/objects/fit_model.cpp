@@ -1,6 +1,5 @@
 #include "scripting/objects/fit_model.h"
 
-#include "scripting/conversions/option_words.h"
 #include "scripting/conversions/table_fields.h"
 #include "scripting/conversions/told_sentences.h"
 
@@ -74,8 +73,8 @@ Estimate basic_estimate(const char* method, const Fit& fit) {
     estimate.theta = fit.theta;
     estimate.std = fit.std;
     estimate.covariance = fit.covariance;
-    estimate.message = in_lua_words(fit.message);
-    for (const std::string& warning : fit.warnings) estimate.warnings.push_back(in_lua_words(warning));
+    estimate.message = fit.full_message();
+    estimate.warnings = fit.warnings;
     estimate.converged = fit.termination == Termination::kConverged;
     estimate.numbers = {
         {"fit_percent", fit.fit_percent[0]}, {"loss", fit.loss}, {"condition_number", fit.condition_number}};

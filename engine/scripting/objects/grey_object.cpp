@@ -56,7 +56,7 @@ std::string grey_presentation(const GreyFit& grey) {
     text += " % (simulation), noise variance ";
     for (Index i = 0; i < grey.fit.noise_variance.size(); ++i)
         text += (i > 0 ? " and " : "") + number_text(grey.fit.noise_variance[i], 4);
-    return text + ".\n" + in_lua_words(grey.fit.message) + "\n";
+    return text + ".\n" + in_lua_words(grey.fit.full_message()) + "\n";
 }
 
 }  // namespace dynlab::inline scripting

@@ -22,8 +22,8 @@ struct Estimate {
     std::vector<std::string> names;  ///< of the parameters
     Vector theta, std;               ///< std is empty when the method gives none
     Matrix covariance;
-    std::string message;
-    std::vector<std::string> warnings;
+    Message message;  ///< with the warnings
+    std::vector<Message> warnings;
     std::vector<std::pair<std::string, double>> numbers;        ///< fit_percent, noise_variance, iterations, ...
     std::vector<std::pair<std::string, Vector>> vectors;        ///< output, delay_grid, delay_loss, ...
     std::vector<std::pair<std::string, Matrix>> matrices = {};  ///< path (parameters after each iteration)

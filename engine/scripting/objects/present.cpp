@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/reader.h"
+#include "scripting/conversions/option_words.h"
 #include "scripting/runtime/text_form.h"
 
 namespace dynlab::inline scripting {
@@ -136,8 +137,8 @@ std::string estimate_lines(const Estimate& estimate) {
         if (name == "noise_variance") text += fmt::format(", noise variance {}", number_text(value, 4));
     }
     text += ".\n";
-    if (!estimate.message.empty()) text += estimate.message + "\n";
-    if (estimate.errors_are_coloured()) text += estimate.doubts.assessment->verdict + "\n";
+    if (!estimate.message.empty()) text += in_lua_words(estimate.message) + "\n";
+    if (estimate.errors_are_coloured()) text += in_lua_words(estimate.doubts.assessment->verdict) + "\n";
     return text;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/number_text.h"
+#include "scripting/conversions/option_words.h"
 #include "scripting/conversions/table_fields.h"
 #include "scripting/objects/fit_model.h"
 #include "scripting/objects/grey_object.h"
@@ -77,7 +78,7 @@ std::string presentation(const SimulatedModel& model) {
         if (estimate.std.size() > index) text += "  +- " + number_text(estimate.std[index], 3);
         text += '\n';
     }
-    return text + fmt::format("Estimated by {}.\n{}\n", estimate.method, estimate.message);
+    return text + fmt::format("Estimated by {}.\n{}\n", estimate.method, in_lua_words(estimate.message));
 }
 
 }  // namespace dynlab::inline scripting

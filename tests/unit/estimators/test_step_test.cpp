@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "base/reader.h"
 #include "numerics/error.h"
 #include "numerics/estimators/step_test.h"
 #include "numerics/rigs/heat_exchanger.h"
@@ -135,7 +136,8 @@ TEST(step_test, delayed_without_delay_says_so) {  // oracle: analytic
         const auto result = step_delayed(record_of(e, 1, first_order(0.9)));
         EXPECT_GE(parameter(result, "D"), 0);
         EXPECT_LT(parameter(result, "D"), 0.02);
-        EXPECT_EQ(parameter(result, "D") == 0, result.message.find("no room for a delay") != std::string::npos);
+        EXPECT_EQ(parameter(result, "D") == 0,
+                  message_text(result.message).find("no room for a delay") != std::string::npos);
         least = std::min(least, parameter(result, "D"));
     }
     EXPECT_EQ(least, 0);

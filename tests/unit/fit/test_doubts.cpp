@@ -18,6 +18,7 @@
 #include "numerics/signals/prbs.h"
 #include "numerics/signals/random.h"
 #include "numerics/simulation/lsim.h"
+#include "support/message_texts.h"
 #include "support/transfer_cases.h"
 #include "support/without_doubts.h"
 
@@ -48,8 +49,8 @@ TEST(doubts, offset_in_the_record_is_a_missed_option_of_srivc_and_coe) {
         EXPECT_TRUE(fit.doubts.missed_option->start.offset);
         EXPECT_EQ(fit.doubts.missed_option->start.state, InitialState::kZero);
         EXPECT_FALSE(fit.doubts.missed_option->feedthrough);
-        EXPECT_THAT(fit.warnings, testing::Contains(HasSubstr("With `offset` = \"estimate\" the fit is 9")));
-        EXPECT_THAT(fit.message, EndsWith(fit.warnings.back()));
+        EXPECT_THAT(texts_of(fit.warnings), testing::Contains(HasSubstr("With `offset` = \"estimate\" the fit is 9")));
+        EXPECT_THAT(message_text(fit.full_message()), EndsWith(message_text(fit.warnings.back())));
         FitOptions with_offset;
         with_offset.offset = Offset::kEstimate;
         const Fit better = method(data, kStructure, with_offset, {});

@@ -5,7 +5,6 @@
 #include <limits>
 #include <numbers>
 
-#include "base/number_text.h"
 #include "numerics/error.h"
 #include "numerics/fit/spectral_estimate.h"
 #include "numerics/signals/fourier.h"
@@ -43,15 +42,15 @@ std::vector<Cut> cuts_of(const IdData& data, const BlaOptions& options, Index& r
     for (std::size_t e = 0; e < data.experiments.size(); ++e) {
         const Index N = data.sample_count(e), length = N / options.realisations;
         if (length * options.realisations != N)
-            throw InvalidArgument("bla: " + std::to_string(options.realisations) + " realisations do not divide the " +
-                                  std::to_string(N) + " samples of the record");
+            throw InvalidArgument("bla: {} realisations do not divide the {} samples of the record",
+                                  options.realisations, N);
         const Index periods = length / options.period;
         if (periods < 1)
-            throw InvalidArgument("bla: a period of " + std::to_string(options.period) +
-                                  " samples is longer than a realisation of " + std::to_string(length));
+            throw InvalidArgument("bla: a period of {} samples is longer than a realisation of {}", options.period,
+                                  length);
         if (options.transient >= periods)
-            throw InvalidArgument("bla: leaving out " + std::to_string(options.transient) + " of " +
-                                  counted(periods, "period") + " leaves nothing");
+            throw InvalidArgument("bla: leaving out {} of {} leaves nothing", options.transient,
+                                  plural(periods, "{} period", "{} periods"));
         rest = length - periods * options.period;
         for (Index r = 0; r < options.realisations; ++r)
             cuts.push_back({e, r * length + rest + options.transient * options.period, periods - options.transient});
@@ -254,9 +253,10 @@ class Approximation {
         for (const Realisation& one : all_) changing += one.input_noise.sum(), all += one.U.squaredNorm();
         const double part = changing / (changing + all);
         if (part > kRepeatsNot)
-            throw InvalidArgument("bla: the input does not repeat after " + std::to_string(options_.period) +
-                                  " samples: " + number_text(100 * part, 3) +
-                                  " % of its power changes from period to period; give the period of the excitation");
+            throw InvalidArgument(
+                "bla: the input does not repeat after {} samples: {} % of its power changes from period to period; "
+                "give the period of the excitation",
+                options_.period, significant(100 * part, 3));
         if (part > kRepeatsRoughly)
             result_.warnings.push_back(
                 Message("The input repeats only roughly ({} % of its power changes from period to period): the period "
@@ -270,9 +270,10 @@ class Approximation {
             for (const std::size_t other : {m - 1, std::size_t{0}})
                 if (shifted_correlation(all_[other].U, all_[m].U, options_.period) > kSameInput)
                     throw InvalidArgument(
-                        "bla: realisations " + std::to_string(other + 1) + " and " + std::to_string(m + 1) +
-                        " have the same input, and distortion shows only where inputs differ: draw other phases for "
-                        "each (multisine does), or take them as periods of one realisation");
+                        "bla: realisations {} and {} have the same input, and distortion shows only where inputs "
+                        "differ: draw other phases for each (multisine does), or take them as periods of one "
+                        "realisation",
+                        other + 1, m + 1);
     }
 
     void warn_of_transient() {
@@ -337,20 +338,18 @@ class Approximation {
 
 void BlaOptions::validate() const {
     if (period < kFewestSamples)
-        throw InvalidArgument("bla: the period must be given in samples, at least " + std::to_string(kFewestSamples) +
-                              " of them, and is " + std::to_string(period));
+        throw InvalidArgument("bla: the period must be given in samples, at least {} of them, and is {}",
+                              kFewestSamples, period);
     if (realisations < 1)
-        throw InvalidArgument("bla: the number of realisations must be at least 1, and is " +
-                              std::to_string(realisations));
+        throw InvalidArgument("bla: the number of realisations must be at least 1, and is {}", realisations);
     if (transient < 0)
-        throw InvalidArgument("bla: the number of periods to leave out must not be negative, and is " +
-                              std::to_string(transient));
+        throw InvalidArgument("bla: the number of periods to leave out must not be negative, and is {}", transient);
     if (!(least_input > 0 && least_input < 1))
-        throw InvalidArgument("bla: the least part of the input's amplitude must lie between 0 and 1, but it is " +
-                              number_text(least_input));
+        throw InvalidArgument("bla: the least part of the input's amplitude must lie between 0 and 1, but it is {}",
+                              least_input);
     if (smooth && *smooth < 0)
-        throw InvalidArgument("bla: the number of frequencies to smooth over must not be negative, but it is " +
-                              std::to_string(*smooth));
+        throw InvalidArgument("bla: the number of frequencies to smooth over must not be negative, but it is {}",
+                              *smooth);
 }
 
 FrequencyData bla(const IdData& data, const BlaOptions& options) {

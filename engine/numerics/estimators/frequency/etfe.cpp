@@ -3,7 +3,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/number_text.h"
 #include "numerics/error.h"
 #include "numerics/signals/fourier.h"
 
@@ -75,26 +74,27 @@ void describe(SpectralEstimate& estimate, const EtfeOptions& options, Index line
 
 void EtfeOptions::validate() const {
     if (smooth < 0)
-        throw InvalidArgument("etfe: the number of frequencies to smooth over must not be negative, but it is " +
-                              std::to_string(smooth));
+        throw InvalidArgument("etfe: the number of frequencies to smooth over must not be negative, but it is {}",
+                              smooth);
     if (!(least_input >= 0 && least_input < 1))
-        throw InvalidArgument("etfe: the least part of the input's amplitude must lie between 0 and 1, but it is " +
-                              number_text(least_input));
+        throw InvalidArgument("etfe: the least part of the input's amplitude must lie between 0 and 1, but it is {}",
+                              least_input);
 }
 
 SpectralEstimate etfe(const IdData& data, const EtfeOptions& options) {
     options.validate();
     if (data.experiments.size() != 1)
-        throw InvalidArgument("etfe: the data must hold one experiment, but they hold " +
-                              std::to_string(data.experiments.size()) +
-                              "; take one with data:experiment(k), or use spa, which joins them");
+        throw InvalidArgument(
+            "etfe: the data must hold one experiment, but they hold {}; take one with data:experiment(k), or use spa, "
+            "which joins them",
+            data.experiments.size());
     const Experiment record =
         nonparametric_data("etfe", data, kFewestSamplesOfEtfe, options.remove_mean).experiments.front();
     const ComplexVector U = fourier_transform(record.u.col(0)), Y = fourier_transform(record.y.col(0));
     const Index N = U.size(), lines = N / 2;
     if (2 * options.smooth + 1 > lines)
-        throw InvalidArgument("etfe: smoothing over " + std::to_string(2 * options.smooth + 1) +
-                              " frequencies leaves nothing of the " + std::to_string(lines) + " that the record has");
+        throw InvalidArgument("etfe: smoothing over {} frequencies leaves nothing of the {} that the record has",
+                              2 * options.smooth + 1, lines);
     const Vector amplitudes = U.segment(1, lines).cwiseAbs();
     const double least = options.least_input * amplitudes.maxCoeff();
     const Vector weights = hann_weights(options.smooth);

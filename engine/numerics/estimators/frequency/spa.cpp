@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/number_text.h"
 #include "numerics/error.h"
 #include "numerics/signals/correlation.h"
 
@@ -19,8 +18,9 @@ constexpr double kLeastInput = 1e-10;  // what the response is divided by at lea
 Index window_of(const SpaOptions& options, Index shortest) {
     if (options.window == 0) return std::max<Index>(2, std::min(shortest / 10, kDefaultWindow));
     if (options.window < 2 || options.window >= shortest)
-        throw InvalidArgument("spa: the lag window must reach from 2 samples to less than the shortest experiment's " +
-                              std::to_string(shortest) + ", but it is " + std::to_string(options.window));
+        throw InvalidArgument(
+            "spa: the lag window must reach from 2 samples to less than the shortest experiment's {}, but it is {}",
+            shortest, options.window);
     return options.window;
 }
 
@@ -34,8 +34,8 @@ Vector frequencies_of(const SpaOptions& options, Index window, double Ts) {
     }
     for (const double value : options.w)
         if (!(value >= 0 && value <= end * (1 + 1e-12)))
-            throw InvalidArgument("spa: frequencies must lie between 0 and pi/Ts = " + number_text(end) +
-                                  " rad per time unit, but one is " + number_text(value));
+            throw InvalidArgument("spa: frequencies must lie between 0 and pi/Ts = {} rad per time unit, but one is {}",
+                                  end, value);
     return options.w;
 }
 
@@ -100,8 +100,7 @@ void describe(SpectralEstimate& estimate, Index M, double averages, double Ts) {
 
 void SpaOptions::validate() const {
     if (window < 0)
-        throw InvalidArgument("spa: the lag window must be a positive number of samples, but it is " +
-                              std::to_string(window));
+        throw InvalidArgument("spa: the lag window must be a positive number of samples, but it is {}", window);
     if (!w.allFinite()) throw InvalidArgument("spa: a frequency is not a finite number");
 }
 

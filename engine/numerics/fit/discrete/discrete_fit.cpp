@@ -3,8 +3,6 @@
 #include <limits>
 #include <numeric>
 
-#include "base/number_text.h"
-#include "base/reader.h"
 #include "numerics/error.h"
 #include "numerics/fit/operating_points.h"
 #include "numerics/fit/output_error.h"
@@ -58,11 +56,14 @@ Fit fit_condition(const DiscreteOutput& model, const IdData& data, const FitOpti
     add_uncertainty(fit, model, solution.theta);
     warn_of_search(fit, options);
     if (solution.reflected)
-        fit.warnings.push_back("Unstable poles turned up on the way and were mirrored into the unit circle.");
+        fit.warnings.push_back(Message("Unstable poles turned up on the way and were mirrored into the unit circle."));
     warn_of_doubtful_parameters(fit);
     warn_of_unstable_polynomials(fit);
-    set_message(fit, "The search " + ending_text(fit) + ", simulating " + message_text(description(fit.start)) +
-                         ": fit " + number_text(fit.fit_percent[0], 4) + " %.");
+    const Number percent = significant(fit.fit_percent[0], 4);
+    fit.message = has_settled(fit) ? Message("The search converged after {}, simulating {}: fit {} %.",
+                                             iteration_count(fit), description(fit.start), percent)
+                                   : Message("The search stopped after {}, simulating {}: fit {} %.",
+                                             iteration_count(fit), description(fit.start), percent);
     return fit;
 }
 
@@ -89,7 +90,7 @@ Fit fit_discrete_output(const std::string& method, const IdData& data, const Pol
     orders.validate();
     options.validate();
     if (orders.na + orders.nc + orders.nd > 0)
-        throw InvalidArgument(method + " has the orders nb, nf and nk only: na, nc and nd must be zero");
+        throw InvalidArgument("{} has the orders nb, nf and nk only: na, nc and nd must be zero", method);
     check_polynomial_data(method, data, orders);
     const CentredData record = centred_for(data, options.offset);
     const std::vector<SampledExperiment> experiments = sampled_experiments(record.data);

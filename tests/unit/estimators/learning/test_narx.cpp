@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "base/reader.h"
 #include "numerics/estimators/arx.h"
 #include "numerics/models/polynomial_model.h"
 #include "numerics/signals/random.h"
@@ -47,7 +48,7 @@ TEST(narx, finds_the_equation_of_a_clean_record) {  // oracle: the equation put 
     EXPECT_NEAR(value_of(found, "y1(k-2)^2"), -0.05, 1e-10);
     EXPECT_NEAR(value_of(found, "1"), -0.5, 1e-10);
     EXPECT_GT(found.fit.fit_percent[0], 99.9999);
-    EXPECT_TRUE(found.fit.warnings.empty()) << found.fit.message;
+    EXPECT_TRUE(found.fit.warnings.empty()) << message_text(found.fit.full_message());
 }
 
 TEST(narx, of_degree_one_is_arx) {  // oracle: arx, without a constant in the data
