@@ -138,8 +138,7 @@ MatContent read_guarded(const fs::path& file) {
         }
     };
     const ChildResult result = run_guarded(read, limits);
-    if (result.timed_out)
-        fail_damaged(file, fmt::format("reading it takes more than {} s", limits.time.processor.count() / 1000));
+    if (result.timed_out) fail_damaged(file, "reading it " + limits.time.told(result.time_limit()));
     if (result.output_exceeded) fail_damaged(file, memory_refusal(bytes));
     if (result.exit_code == 1 && !result.error_output.empty()) throw EnvironmentError(result.error_output);
     if (result.exit_code != 0) fail_damaged(file, "reading it ends in a crash");

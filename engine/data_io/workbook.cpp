@@ -280,8 +280,7 @@ SheetText read_sheet(const std::filesystem::path& file, const std::string& sheet
     };
     const ChildResult result = run_guarded(read, limits);
     if (result.timed_out)
-        throw EnvironmentError(
-            fmt::format("{}: reading it takes more than {} s", name, limits.time.processor.count() / 1000));
+        throw EnvironmentError(fmt::format("{}: reading it {}", name, limits.time.told(result.time_limit())));
     if (result.exit_code == 1 && !result.error_output.empty()) throw EnvironmentError(result.error_output);
     if (result.exit_code != 0 || result.output_exceeded)
         throw EnvironmentError(name + " is damaged: reading it ends in a crash");

@@ -22,8 +22,7 @@ ValueLimits boxed_limits(std::uint64_t bytes) {
 }
 
 std::string reason_of_end(const ChildResult& child, const TimeLimits& time) {
-    if (child.timed_out)
-        return "it " + time.told(child.processor_time_used_up ? TimeLimit::kProcessor : TimeLimit::kClock);
+    if (child.timed_out) return "it " + time.told(child.time_limit());
     if (child.output_exceeded) return "it gave out too much";
     if (child.exit_code > 128) return fmt::format("it crashed (signal {})", child.exit_code - 128);
     if (child.exit_code == 0) return "";
