@@ -104,7 +104,7 @@ TEST(ends_with_program, a_path_that_another_thread_writes_is_not_mistaken) {
             while (!done)
                 for (const std::string& name : {first, second}) EndsWithProgram(work.path() / name);
         });
-        for (int i = 0; i < 100'000; ++i) end_what_ends_with_program();
+        for (int i = 0; i < 300'000; ++i) end_what_ends_with_program();
         done = true;
         writes.join();
     });
