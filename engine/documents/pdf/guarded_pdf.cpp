@@ -26,7 +26,7 @@ std::string run_guarded_on_pdf(const std::function<std::string()>& work, const G
     ChildResult result = run_guarded([&] { return answer_of(work); }, limits);
     if (result.timed_out) {
         throw PdfRefusal(PdfFault::kTooLarge,
-                         fmt::format("Reading the file {}.", limits.time.told(result.time_limit())));
+                         fmt::format("The file is not read: reading it {}.", limits.time.told(result.time_limit())));
     }
     if (result.output_exceeded || (result.exit_code == 0 && result.output.empty())) {
         throw PdfRefusal(PdfFault::kTooLarge,
