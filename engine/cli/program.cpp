@@ -49,10 +49,10 @@ constexpr const char* kFooter =
 /// Where what was printed has not been taken by whatever standard output is.
 std::optional<std::string> complaint_about_output() {
     std::cout.flush();
-    errno = 0;
-    const bool taken = std::fflush(stdout) == 0 && std::cout && std::ferror(stdout) == 0;
-    if (taken) return {};
-    return "cannot write what was printed" + (errno != 0 ? ": " + system_reason(errno) : "");
+    if (std::fflush(stdout) == 0 && std::cout && std::ferror(stdout) == 0) return {};
+    // The write that failed may lie far back, and its reason is lost: another one fails for the same.
+    const bool taken = retry_interrupted([] { return ::write(STDOUT_FILENO, "\n", 1); }) == 1;
+    return "cannot write what was printed" + (taken ? "" : ": " + system_reason(errno));
 }
 
 /// Runs the chosen command and turns what it throws into one line on standard error and an exit code.

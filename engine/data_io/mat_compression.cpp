@@ -12,6 +12,7 @@
 
 #include "platform/atomic_file.h"
 #include "platform/error.h"
+#include "platform/system_call.h"
 
 namespace dynlab::inline data_io {
 namespace {
@@ -130,7 +131,7 @@ std::filesystem::path with_quick_compression(const std::filesystem::path& file) 
     packed.write(content.data(), kFileHeader);
     for (const Piece& piece : pieces) write_piece(packed, piece);
     packed.close();
-    if (!packed) throw EnvironmentError("cannot write {}: is the disk full?", target.string());
+    if (!packed) throw EnvironmentError("cannot write {}: {}", target.string(), system_reason(errno));
     return target;
 }
 

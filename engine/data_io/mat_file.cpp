@@ -163,9 +163,12 @@ MatContent read_guarded(const fs::path& file) {
         }
     };
     const ChildResult result = run_guarded(read, limits);
+    if (result.time_limit() == TimeLimit::kProcessor)
+        throw EnvironmentError("{} is damaged: reading it used more than {} s of processor time", file.string(),
+                               limits.time.seconds(TimeLimit::kProcessor));
     if (result.timed_out)
-        throw EnvironmentError("{} is damaged: reading it takes more than {} s", file.string(),
-                               limits.time.processor.count() / 1000);
+        throw EnvironmentError("{} is damaged: reading it had not ended after {} s", file.string(),
+                               limits.time.seconds(TimeLimit::kClock));
     if (result.output_exceeded) throw EnvironmentError(refusal_for_memory(file, bytes));
     if (result.exit_code == 1 && !result.error_output.empty()) throw EnvironmentError(result.error_output);
     if (result.exit_code != 0) throw EnvironmentError("{} is damaged: reading it ends in a crash", file.string());

@@ -300,7 +300,10 @@ SheetText read_sheet(const std::filesystem::path& file, const std::string& sheet
     };
     const ChildResult result = run_guarded(read, limits);
     if (result.timed_out)
-        throw EnvironmentError("{}: reading it takes more than {} s", name, limits.time.processor.count() / 1000);
+        throw result.time_limit() == TimeLimit::kProcessor
+            ? EnvironmentError("{}: reading it used more than {} s of processor time", name,
+                               limits.time.seconds(TimeLimit::kProcessor))
+            : EnvironmentError("{}: reading it had not ended after {} s", name, limits.time.seconds(TimeLimit::kClock));
     if (result.exit_code == 1 && !result.error_output.empty()) throw EnvironmentError(result.error_output);
     if (result.exit_code != 0 || result.output_exceeded)
         throw EnvironmentError("{} is damaged: reading it ends in a crash", name);

@@ -43,9 +43,7 @@ void place_file_atomically(const fs::path& from, const fs::path& to) {
         if (::rename(from.c_str(), target.c_str()) == 0) return;
         if (errno != EXDEV) fail_to_write(to, errno);
     }
-    ReplacementFile replacement(target);
-    for_each_block(from, [&](std::string_view block) { replacement.append(block); });
-    replacement.commit();
+    replace_by_copy(from, target);
     std::error_code ignored;  // the destination is whole; a left-over source harms nobody
     fs::remove(from, ignored);
 }

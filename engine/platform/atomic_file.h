@@ -19,7 +19,7 @@ struct NewFile {
 };
 /// As write_file_atomically for each, in their order: each appears whole or not at all, and none before those that
 /// stand before it. They wait for the disk together, which takes little longer than for one. `made_in`: the folder of
-/// the temporary files, on the same file system. Default: beside each file.
+/// the temporary files; those on another file system are copied. Default: beside each file.
 void write_files_atomically(const std::vector<NewFile>& files, const std::filesystem::path& made_in = {});
 
 std::string read_file(const std::filesystem::path& file);  ///< throws EnvironmentError

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "platform/time_limits.h"
+
 namespace dynlab::inline platform {
 
 struct ChildOptions {
@@ -34,6 +36,12 @@ struct ChildResult {
         processor_time_used_up = false,  ///< by that of processor time
         output_exceeded = false, given_up = false;
     std::string output, error_output;
+
+    /// The one of time that ended it.
+    TimeLimit time_limit() const {
+        if (!timed_out) return TimeLimit::kNone;
+        return processor_time_used_up ? TimeLimit::kProcessor : TimeLimit::kClock;
+    }
 };
 
 /// What execve takes: pointers to the texts, and a null pointer behind them.

@@ -67,7 +67,10 @@ TemporaryFolder::TemporaryFolder() {
             errno = reason;
             fail_to_make_folder(parent);
         }
-        if (!folder || !lock_as_in_use(folder.get(), path)) continue;  // removed as a leftover, before it had its lock
+        if (!folder || !lock_as_in_use(folder.get(), path)) {  // taken for a leftover, before it had its lock
+            ::rmdir(path.c_str());
+            continue;
+        }
         path_ = path;
         ends_ = EndsWithProgram(path_);
         folders_in_use().add(path_, std::move(folder));

@@ -205,6 +205,64 @@ TEST_F(kernel, what_is_not_signed_or_no_message_is_not_answered) {
     EXPECT_THAT(client().complaints(), HasSubstr("not signed with this kernel's key is not answered"));
 }
 
+/// A client's socket that sends frames as they are; nobody needs the key for that.
+class RawSocket {
+  public:
+    RawSocket(const KernelClient& client, int port) {
+        socket_.set(zmq::sockopt::linger, 0);
+        socket_.connect("ipc://" + (client.folder() / "socket-").string() + std::to_string(port));
+    }
+    void send(const std::vector<std::string>& frames) {
+        std::vector<zmq::message_t> parts(frames.begin(), frames.end());
+        zmq::send_multipart(socket_, parts);
+    }
+    std::vector<std::string> answer() {
+        zmq::pollitem_t readable{socket_, 0, ZMQ_POLLIN, 0};
+        std::vector<zmq::message_t> parts;
+        if (zmq::poll(&readable, 1, std::chrono::seconds(20)) > 0)
+            (void)zmq::recv_multipart(socket_, std::back_inserter(parts));
+        std::vector<std::string> frames;
+        for (const zmq::message_t& part : parts) frames.push_back(part.to_string());
+        return frames;
+    }
+
+  private:
+    zmq::context_t context_{1};
+    zmq::socket_t socket_{context_, ZMQ_DEALER};
+};
+
+// oracle: ZMTP's pattern of requests and replies: addresses up to an empty frame, then what comes back as it was sent.
+// What has no such frame, or nothing behind it, is no request and has no answer.
+TEST_F(kernel, heartbeats_of_any_number_of_frames_come_back_and_end_nothing) {
+    using Frames = std::vector<std::string>;
+    client().run("kept = 7");
+    RawSocket raw(client(), 5);
+    for (const Frames& beat : {Frames{"", "a", "b"}, Frames{"", ""}, Frames{"", "", "", ""}, Frames{"x", "", "a", "b"},
+                               Frames(1000), Frames{"", std::string(1 << 20, 'x'), "y"}}) {
+        for (const Frames& none : {Frames{""}, Frames{"a"}, Frames{"a", "b"}}) raw.send(none);
+        raw.send(beat);
+        EXPECT_EQ(raw.answer(), beat) << beat.size();
+    }
+    EXPECT_TRUE(client().beats());
+    EXPECT_EQ(client().run("print(kept)").printed, "7\n");
+}
+
+// oracle: the kernel's answers to its client; the frames are those that the sockets' patterns and Jupyter's mark know
+TEST_F(kernel, odd_frames_without_the_key_end_nothing) {
+    client().run("kept = 8");
+    for (const int port : {1, 3, 4}) {
+        RawSocket raw(client(), port);
+        for (const std::vector<std::string>& frames : std::vector<std::vector<std::string>>{
+                 {""}, {"a"}, {"", ""}, {"<IDS|MSG>"}, {"<IDS|MSG>", "", "{}", "{}", "{}", "{}", ""}})
+            raw.send(frames);
+        raw.send(std::vector<std::string>(1000));
+        for (const bool control : {true, false})
+            EXPECT_EQ(client().answer("kernel_info_request", {}, control)["status"], "ok");
+    }
+    EXPECT_TRUE(client().beats());
+    EXPECT_EQ(client().run("print(kept)").printed, "8\n");
+}
+
 // oracle: the cell counts how often it runs; whoever can read what is sent may send it again
 TEST_F(kernel, a_message_that_comes_again_is_not_answered) {
     MessageWire& ours = client().wire();

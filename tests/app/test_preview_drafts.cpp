@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "platform/atomic_file.h"
+#include "support/environment_variable.h"
 #include "support/preview.h"
 
 namespace test_preview_drafts {
@@ -13,6 +14,7 @@ using namespace dynlab::test;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
+namespace fs = std::filesystem;
 
 const std::string kOffered = "!document.getElementById('draft').hidden",
                   kConflict = "!document.getElementById('conflict').hidden";
@@ -39,16 +41,20 @@ class preview_drafts : public preview_page {
     bool editor_has(const std::string& text) { return browser.comes(has(text)); }
     bool is_true(const std::string& expression) { return browser.evaluate("return " + expression) == "true"; }
     bool kept(int count) {
-        return browser.comes("Object.keys(localStorage).filter((key) => key.startsWith('dynlab-draft')).length === " +
-                             std::to_string(count));
+        return browser.comes(
+            "(fetch('notes').then((reply) => reply.json()).then((notes) => "
+            "window.notes_kept = Object.keys(notes).filter((key) => "
+            "key.startsWith('dynlab-draft')).length), window.notes_kept === " +
+            std::to_string(count) + ")");
     }
     std::string text_of_file() const { return read_text(file()); }
 
+    EnvironmentVariable state{"XDG_STATE_HOME", (folder.path() / "state").string()};
     std::unique_ptr<Preview> preview;
     Browser browser;
 };
 
-/// What was typed and not saved outlives its tab, and the program: the page's address is the same again.
+/// What was typed and not saved outlives its tab, and the program.
 TEST_F(preview_drafts, what_was_not_saved_is_kept_and_offered) {
     begin();
     open();
@@ -157,20 +163,23 @@ TEST_F(preview_drafts, go_with_the_text_they_were_made_from) {
     EXPECT_THAT(text_of_file(), testing::EndsWith("-- theirs\n-- new\n"));
 }
 
-/// Under the name that drafts had when there was one for a file.
-TEST_F(preview_drafts, of_an_earlier_dynlab_are_offered) {
+/// Oracle: the file that holds them, and its rights.
+TEST_F(preview_drafts, are_kept_where_no_other_user_reads_them) {
     begin();
     open();
     type("-- typed\\n");
     ASSERT_TRUE(kept(1));
-    browser.evaluate(
-        "const [key] = Object.keys(localStorage).filter((one) => one.startsWith('dynlab-draft')), text = "
-        "localStorage.getItem(key); localStorage.removeItem(key); localStorage.setItem(key.replace(/ [\\d-]+$/, ''), "
-        "text)");
+    int files = 0;
+    for (const auto& entry : fs::directory_iterator(folder.path() / "state/dynlab/pages")) {
+        ++files;
+        EXPECT_THAT(read_text(entry.path()), HasSubstr("-- typed"));
+        EXPECT_EQ(fs::status(entry.path().parent_path()).permissions(), fs::perms::owner_all);
+    }
+    EXPECT_EQ(files, 1);
+    write_file_atomically(fs::directory_iterator(folder.path() / "state/dynlab/pages")->path(), "{broken");
     open();
-    EXPECT_TRUE(browser.comes(kOffered));
-    press("take-draft");
-    EXPECT_TRUE(is_true(has("-- typed")));
+    EXPECT_FALSE(is_true(kOffered));
+    type("-- more\\n");
     EXPECT_TRUE(kept(1));
 }
 

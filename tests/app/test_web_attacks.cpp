@@ -62,7 +62,7 @@ class web_attacks : public testing::Test {
         return rest_of(made);
     }
     /// What the page itself would send.
-    std::string order() const { return request("POST {F}/order", "{P}Content-Length: 1\r\n", "x"); }
+    std::string order() const { return request("POST /order", "{P}Content-Length: 1\r\n", "x"); }
     std::string request(std::string line, std::string fields, const std::string& body = {}) const {
         return filled(line + " HTTP/1.1\r\nHost: {H}\r\n" + fields + "\r\n") + body;
     }
@@ -73,8 +73,7 @@ class web_attacks : public testing::Test {
         const std::pair<const char*, std::string> values[] = {
             {"{P}", "{C}Origin: http://{H}\r\nSec-Fetch-Site: same-origin\r\nX-Dynlab: 1\r\n"},
             {"{C}", "Cookie: " + page->cookie() + "\r\n"},
-            {"{H}", page->host()},
-            {"{F}", page->folder()}};
+            {"{H}", page->host()}};
         for (const auto& [name, value] : values)
             for (std::size_t at = 0; (at = text.find(name)) != std::string::npos;) text.replace(at, 3, value);
         return text;
@@ -103,26 +102,25 @@ TEST_F(web_attacks, an_order_of_the_page_is_obeyed) {
 TEST_F(web_attacks, bodies_of_refused_requests_are_no_requests) {
     const std::string others = "Origin: http://evil.example\r\nContent-Type: text/plain\r\n";
     expect_held("a form of another site", with_length("POST /", others));
-    expect_held("a form of another site with the cookie", with_length("POST {F}/order", "{C}" + others));
-    expect_held("no cookie", with_length("POST {F}/order", ""));
+    expect_held("a form of another site with the cookie", with_length("POST /order", "{C}" + others));
+    expect_held("no cookie", with_length("POST /order", ""));
     expect_held("no field of the page",
-                with_length("POST {F}/order", "{C}Origin: http://{H}\r\nSec-Fetch-Site: same-origin\r\n"));
-    expect_held("no origin", with_length("POST {F}/order", "{C}X-Dynlab: 1\r\nSec-Fetch-Site: same-origin\r\n"));
-    expect_held(
-        "another site's origin of ours",
-        with_length("POST {F}/order", "{C}Origin: http://{H}\r\nSec-Fetch-Site: cross-site\r\nX-Dynlab: 1\r\n"));
-    expect_held("an unknown path", with_length("POST {F}/nothing", "{P}"));
+                with_length("POST /order", "{C}Origin: http://{H}\r\nSec-Fetch-Site: same-origin\r\n"));
+    expect_held("no origin", with_length("POST /order", "{C}X-Dynlab: 1\r\nSec-Fetch-Site: same-origin\r\n"));
+    expect_held("another site's origin of ours",
+                with_length("POST /order", "{C}Origin: http://{H}\r\nSec-Fetch-Site: cross-site\r\nX-Dynlab: 1\r\n"));
+    expect_held("an unknown path", with_length("POST /nothing", "{P}"));
     expect_held("the address itself", with_length("POST /", "{P}"));
     expect_held("a token that is wrong", with_length("GET /?token=0", ""));
-    expect_held("a body that is too long", request("POST {F}/order", "{P}Content-Length: 2000\r\n", order()));
+    expect_held("a body that is too long", request("POST /order", "{P}Content-Length: 2000\r\n", order()));
     for (const char* method : {"PUT", "DELETE", "PATCH", "OPTIONS", "TRACE", "CONNECT", "PROPFIND", "post", "FOO"})
-        expect_held(method, with_length(std::string(method) + " {F}/order", "{P}"));
+        expect_held(method, with_length(std::string(method) + " /order", "{P}"));
     for (const char* method : {"GET", "HEAD"}) {
-        expect_held(method, with_length(std::string(method) + " {F}/", "{C}"));
+        expect_held(method, with_length(std::string(method) + " /", "{C}"));
         expect_held(std::string(method) + " in chunks",
-                    request(std::string(method) + " {F}/", "{C}Transfer-Encoding: chunked\r\n", "0\r\n\r\n" + order()));
+                    request(std::string(method) + " /", "{C}Transfer-Encoding: chunked\r\n", "0\r\n\r\n" + order()));
     }
-    expect_held("an answer that is waited for", with_length("POST {F}/order", "{P}Expect: 100-continue\r\n"));
+    expect_held("an answer that is waited for", with_length("POST /order", "{P}Expect: 100-continue\r\n"));
 }
 
 /// Lengths on which two readers might not agree.
@@ -130,24 +128,21 @@ TEST_F(web_attacks, bodies_of_doubtful_length_are_refused) {
     const std::string chunks = "1\r\nx\r\n0\r\n\r\n";
     for (const char* coding :
          {"chunked", "xchunked", "chunked, identity", "identity", "gzip, chunked", "\tchunked", "CHUNKED"})
-        expect_held(coding, request("POST {F}/order", fmt::format("{{P}}Transfer-Encoding: {}\r\n", coding), chunks));
+        expect_held(coding, request("POST /order", fmt::format("{{P}}Transfer-Encoding: {}\r\n", coding), chunks));
     expect_held("chunks and a length",
-                request("POST {F}/order", "{P}Content-Length: 1\r\nTransfer-Encoding: chunked\r\n", chunks));
-    expect_held("a blank before the colon", request("POST {F}/order", "{P}Transfer-Encoding : chunked\r\n", chunks));
-    expect_held("no length", request("POST {F}/order", "{P}", "x"));
+                request("POST /order", "{P}Content-Length: 1\r\nTransfer-Encoding: chunked\r\n", chunks));
+    expect_held("a blank before the colon", request("POST /order", "{P}Transfer-Encoding : chunked\r\n", chunks));
+    expect_held("no length", request("POST /order", "{P}", "x"));
     for (const char* length :
          {"+1", "-1", "0x1", "1, 2", "1 1", "", "1.0", "one", "99999999999999999999", "18446744073709551617"})
-        expect_held(length, request("POST {F}/order", fmt::format("{{P}}Content-Length: {}\r\n", length), "x"));
-    expect_held("two lengths",
-                request("POST {F}/order", "{P}Content-Length: 1\r\nContent-Length: 2\r\n", "x" + order()));
+        expect_held(length, request("POST /order", fmt::format("{{P}}Content-Length: {}\r\n", length), "x"));
+    expect_held("two lengths", request("POST /order", "{P}Content-Length: 1\r\nContent-Length: 2\r\n", "x" + order()));
 }
 
 TEST_F(web_attacks, what_is_no_http_is_refused) {
-    const std::string order_fields = filled("Host: {H}\r\n{P}Content-Length: 1\r\n\r\nx"),
-                      line = filled("POST {F}/order");
-    expect_held("lines without a carriage return",
-                filled("POST {F}/order HTTP/1.1\nHost: {H}\nContent-Length: 1\n\nx"));
-    expect_held("carriage returns alone", filled("POST {F}/order HTTP/1.1\rHost: {H}\r\rx"));
+    const std::string order_fields = filled("Host: {H}\r\n{P}Content-Length: 1\r\n\r\nx"), line = filled("POST /order");
+    expect_held("lines without a carriage return", filled("POST /order HTTP/1.1\nHost: {H}\nContent-Length: 1\n\nx"));
+    expect_held("carriage returns alone", filled("POST /order HTTP/1.1\rHost: {H}\r\rx"));
     for (const char* version :
          {" HTTP/1.2", " HTTP/2.0", " HTTP/0.9", " http/1.1", " HTTP/1.1.1", " HTTP/11", "", " HTTP/1.1 x"})
         expect_held(version, line + version + "\r\n" + order_fields);
@@ -158,33 +153,32 @@ TEST_F(web_attacks, what_is_no_http_is_refused) {
     expect_held("TLS", std::string("\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03", 11));
     for (const std::string& field : {std::string("A b: c"), std::string("Ab"), std::string(": c"),
                                      std::string("A: b\0c", 6), std::string("A: b\rc"), std::string("A\x80: c")})
-        expect_held(field, request("POST {F}/order", "{P}Content-Length: 1\r\n" + field + "\r\n", "x"));
+        expect_held(field, request("POST /order", "{P}Content-Length: 1\r\n" + field + "\r\n", "x"));
 }
 
 TEST_F(web_attacks, other_addresses_and_hosts_are_refused) {
-    for (const char* target :
-         {"*", "http://evil.example/", "http://{H}{F}/order", "{F}/order%00", "{F}/%zz", "{F}/%6", "{F}/../order",
-          "/{F}/order", "{F}//order", "//evil.example{F}/order", "{F}/order?x=%00"})
+    for (const char* target : {"*", "http://evil.example/", "http://{H}/order", "/order%00", "/%zz", "/%6", "/../order",
+                               "//order", "//order", "//evil.example/order", "/order?x=%00"})
         expect_held(target, request(std::string("POST ") + target, "{P}Content-Length: 1\r\n", "x"));
-    const std::string fields = filled("{P}Content-Length: 1\r\n\r\nx"), line = filled("POST {F}/order HTTP/1.1\r\n");
+    const std::string fields = filled("{P}Content-Length: 1\r\n\r\nx"), line = filled("POST /order HTTP/1.1\r\n");
     for (const char* host : {"evil@{H}", "{H}.", "LOCALHOST", "{H}, {H}", "{H}\r\nHost: {H}",
                              "{H}\r\nHost: evil.example", "127.1", "0.0.0.0", "2130706433", "", "[::]"})
         expect_held(host, line + filled(fmt::format("Host: {}\r\n", host)) + fields);
     expect_held("no host", line + fields);
     for (const char* origin :
          {"", "null", "http://{H}.", "http://{H}/", "HTTP://{H}", "http://{H}\r\nOrigin: http://{H}", "https://{H}"})
-        expect_held(origin, request("POST {F}/order",
+        expect_held(origin, request("POST /order",
                                     fmt::format("{{C}}Origin: {}\r\nSec-Fetch-Site: same-origin\r\nX-Dynlab: 1\r\n"
                                                 "Content-Length: 1\r\n",
                                                 origin),
                                     "x"));
-    expect_held("another method by a field", request("GET {F}/order", "{P}X-HTTP-Method-Override: POST\r\n"));
-    expect_held("the cookie as a password", request("GET {F}/", "Authorization: Basic {C}"));
+    expect_held("another method by a field", request("GET /order", "{P}X-HTTP-Method-Override: POST\r\n"));
+    expect_held("the cookie as a password", request("GET /", "Authorization: Basic {C}"));
 }
 
 /// No browser asks before it has the reply to what it asked last.
 TEST_F(web_attacks, a_request_behind_a_request_is_not_answered) {
-    const std::string replies = exchange(request("GET {F}/", "{C}") + order());
+    const std::string replies = exchange(request("GET /", "{C}") + order());
     EXPECT_TRUE(replies.starts_with("HTTP/1.1 200"));
     EXPECT_EQ(replies.find("HTTP/1.1", 1), std::string::npos) << replies;
     EXPECT_EQ(orders, 0);
@@ -193,9 +187,9 @@ TEST_F(web_attacks, a_request_behind_a_request_is_not_answered) {
 TEST_F(web_attacks, heads_have_a_size_a_number_of_fields_and_a_time) {
     std::string fields;
     for (int i = 0; i < 120; ++i) fields += fmt::format("A{}: b\r\n", i);
-    expect_held("many fields", request("GET {F}/", "{C}" + fields));
-    expect_held("a long field", request("GET {F}/", "{C}A: " + std::string(70'000, 'b') + "\r\n"));
-    expect_held("a long address", request("GET {F}/" + std::string(70'000, 'b'), "{C}"));
+    expect_held("many fields", request("GET /", "{C}" + fields));
+    expect_held("a long field", request("GET /", "{C}A: " + std::string(70'000, 'b') + "\r\n"));
+    expect_held("a long address", request("GET /" + std::string(70'000, 'b'), "{C}"));
     const FileDescriptor endless = connection();
     const std::string line = "A: " + std::string(10'000, 'b') + "\r\n";
     std::string begun = "GET / HTTP/1.1\r\n";
@@ -260,12 +254,12 @@ class OtherSite {
 };
 
 TEST_F(web_attacks, pages_of_other_sites_achieve_nothing_in_a_browser) {
-    const std::string own = "http://" + page->host(), orders_at = own + page->folder() + "/order";
+    const std::string own = "http://" + page->host(), orders_at = own + "/order";
     // The body is the request that is to be smuggled: the next one of the user's own page would end it.
     const std::string smuggled = fmt::format(
-        "POST {}/order HTTP/1.1\\r\\nHost: {}\\r\\nOrigin: {}\\r\\nSec-Fetch-Site: "
+        "POST /order HTTP/1.1\\r\\nHost: {}\\r\\nOrigin: {}\\r\\nSec-Fetch-Site: "
         "same-origin\\r\\nX-Dynlab: 1\\r\\nContent-Length: 0\\r\\nX: ",
-        page->folder(), page->host(), own);
+        page->host(), own);
     const auto form = [&](const std::string& action, const char* type, const char* target) {
         return fmt::format(
             "const f = document.createElement('form'), t = document.createElement('textarea'); f.method = 'post'; "
@@ -287,11 +281,10 @@ TEST_F(web_attacks, pages_of_other_sites_achieve_nothing_in_a_browser) {
         attacks.push_back(fetched(to, "method: 'PUT', " + body));
         attacks.push_back("navigator.sendBeacon('" + to + "', '" + smuggled + "')");
     }
-    attacks.push_back("new WebSocket('" + orders_at.substr(0, 0) + "ws://" + page->host() + page->folder() +
-                      "/order')");
-    attacks.push_back("new EventSource('" + own + page->folder() + "/events', {withCredentials: true})");
+    attacks.push_back("new WebSocket('ws://" + page->host() + "/order')");
+    attacks.push_back("new EventSource('" + own + "/events', {withCredentials: true})");
     attacks.push_back("document.body.innerHTML = '<img src=" + orders_at + "><script src=" + orders_at + ">'");
-    attacks.push_back("window.open('" + own + page->folder() + "/').postMessage('x', '*')");
+    attacks.push_back("window.open('" + own + "/').postMessage('x', '*')");
     Browser browser;
     const std::string address = server.address();
     browser.open(address);
@@ -313,6 +306,44 @@ TEST_F(web_attacks, pages_of_other_sites_achieve_nothing_in_a_browser) {
     browser.evaluate("fetch('order', {method: 'POST', headers: {'X-Dynlab': '1'}})");
     for (int i = 0; i < 1000 && orders == 0; ++i) std::this_thread::sleep_for(10ms);
     EXPECT_EQ(orders, 1) << "the page itself may";
+}
+
+/// What another user's server leaves in the browser at a port that is ours later.
+TEST_F(web_attacks, a_service_worker_that_was_left_at_the_port_rules_no_page) {
+    Browser browser;
+    httplib::Server site;
+    site.set_socket_options([](socket_t socket) {  // its own would keep the port for a minute
+        const int yes = 1;
+        ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+    });
+    const int port = site.bind_to_any_port("127.0.0.1");
+    site.Get("/", [](const httplib::Request&, httplib::Response& reply) {
+        reply.set_content(
+            "<!DOCTYPE html><title>evil</title><script>navigator.serviceWorker.register('/worker.js')"
+            ".then(() => navigator.serviceWorker.ready).then(() => document.title = 'left')</script>",
+            "text/html");
+    });
+    site.Get("/worker.js", [](const httplib::Request&, httplib::Response& reply) {
+        reply.set_content(
+            "addEventListener('fetch', (e) => e.respondWith(new Response('<title>evil</title>', {headers: "
+            "{'Content-Type': 'text/html'}})))",
+            "text/javascript");
+    });
+    site.set_keep_alive_max_count(1);
+    std::thread thread([&] { site.listen_after_bind(); });
+    const std::string there = fmt::format("127.0.0.1:{}", port);
+    browser.open("http://" + there + "/");
+    EXPECT_TRUE(browser.comes("document.title === 'left'"));
+    site.stop();
+    thread.join();
+    browser.open("http://" + there + "/anything");
+    EXPECT_TRUE(browser.comes("document.title === 'evil'")) << "the worker works";
+
+    WebServer ours({.port = port});
+    ours.on_get("/", [](const PageRequest&) { return PageReply{"<!DOCTYPE html><title>ours</title>"}; });
+    ours.start();
+    browser.open(ours.address());
+    EXPECT_TRUE(browser.comes("document.title === 'ours' && navigator.serviceWorker.controller === null"));
 }
 
 }  // namespace test_web_attacks

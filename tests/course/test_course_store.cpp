@@ -9,6 +9,7 @@
 #include "platform/error.h"
 #include "platform/hash.h"
 #include "platform/temporary_folder.h"
+#include "support/other_file_system.h"
 
 namespace dynlab::test {
 namespace test_course_store {
@@ -51,6 +52,35 @@ TEST(course_store, knows_genuine_receipts) {
     std::string other_ends;
     for (const char c : text) other_ends += c == '\n' ? std::string("\r\n\r\n") : std::string(1, c);
     EXPECT_TRUE(genuine(other_ends, key));
+}
+
+// oracle: the store's own check, and the receipt's signature; a link leads to another file system
+TEST(course_store, writes_receipts_and_outgoing_files_to_another_file_system) {
+    const OtherFileSystem other;
+    if (!other.is_there()) GTEST_SKIP() << "no second file system";
+    CourseBench bench(2);
+    for (const char* folder : {"receipts", "outbox"}) {
+        std::filesystem::remove_all(bench.bench().path("k") / folder);
+        std::filesystem::create_directory(other.path() / folder);
+        std::filesystem::create_directory_symlink(other.path() / folder, bench.bench().path("k") / folder);
+    }
+    const auto files_in = [](const std::filesystem::path& folder) {
+        std::vector<std::filesystem::path> files;
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+            if (entry.is_regular_file()) files.push_back(entry.path());
+        return files;
+    };
+    for (int i = 0; i < 2; ++i) {  // the second time there is nothing to do
+        CourseBench::expect_done(bench.hand_in("group-01.pdf", small_pdf("one"), "2026-03-01 10:00"));
+        const std::vector<std::filesystem::path> receipts = files_in(other.path());
+        ASSERT_EQ(receipts.size(), 1u);
+        EXPECT_THAT(bench.course({"verify", receipts[0].string()}).output, HasSubstr("genuine"));
+    }
+    EXPECT_THAT(bench.course({"verify"}).output, HasSubstr("all there and unaltered"));
+    Course(bench.bench().path("k")).write({{bench.bench().path("k") / "outbox/report.pdf", "copy"}});
+    EXPECT_EQ(read_file(other.path() / "outbox/report.pdf"), "copy");
+    EXPECT_EQ(files_in(other.path()).size(), 2u);
+    EXPECT_EQ(files_in(bench.bench().path("k") / "files").size(), 1u);
 }
 
 // oracle: calendars: Paris leaves summer time at 2026-10-25 03:00, and enters it at 2026-03-29 02:00

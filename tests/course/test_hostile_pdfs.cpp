@@ -1,11 +1,13 @@
 // Files that are no sound PDF. Oracle: how each was made.
 #include <gmock/gmock.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <nlohmann/json.hpp>
 
 #include "check_fixture.h"
 #include "course/findings/findings_report.h"
+#include "documents/pdf/guarded_pdf.h"
 
 namespace dynlab {
 namespace test_hostile_pdfs {
@@ -96,7 +98,20 @@ TEST_F(hostile_pdfs, more_than_the_limits) {
     limits = {};
     limits.time = std::chrono::milliseconds(0);
     EXPECT_THAT(only(check_pdf(file("own.pdf"), {standard_, {}}, limits), "too-large").what,
-                HasSubstr("takes more than"));
+                HasSubstr("The file is not read: reading it used more than 0 s of processor time"));
+}
+
+// oracle: a process that waits uses no processor time
+TEST(guarded_pdf, says_which_limit_of_time_was_reached) {
+    const auto wait = []() -> std::string {
+        for (;;) ::pause();
+    };
+    try {
+        run_guarded_on_pdf(wait, {.time = {std::chrono::milliseconds(100)}});
+        ADD_FAILURE() << "it has ended";
+    } catch (const PdfRefusal& refusal) {
+        EXPECT_STREQ(refusal.what(), "The file is not read: reading it had not ended after 0.5 s.");
+    }
 }
 
 // Oracle: the characters that a terminal obeys.

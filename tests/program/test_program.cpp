@@ -36,6 +36,22 @@ TEST(program, seed_option_repeats_a_run_and_replaces_the_scripts_seed) {
     EXPECT_THAT(random.error_output, HasSubstr("--seed "));
 }
 
+// oracle: the numbers given
+TEST(program, sliders_take_the_numbers_of_the_command_line) {
+    const Workbench bench;
+    bench.write("a.lua", "-- ---\n-- title: A\n-- ---\n-- %% id=a\nprint(\"k is \" .. slider(\"k\", 3, 1, 10))\n");
+    EXPECT_THAT(bench.dynlab({"run", "a.lua"}).output, HasSubstr("k is 3"));
+    EXPECT_THAT(bench.dynlab({"run", "a.lua", "--set", "k=5"}).output, HasSubstr("k is 5"));
+    for (const char* command : {"weave", "report"}) {
+        const ChildResult made = bench.dynlab({command, "a.lua", "-o", std::string(command) + ".md", "--set", "k=4"});
+        EXPECT_EQ(made.exit_code, 0) << made.error_output;
+        EXPECT_THAT(bench.read(std::string(command) + ".md"), HasSubstr("k is 4")) << command;
+    }
+    const ChildResult wrong = bench.dynlab({"run", "a.lua", "--set", "kk=5"});
+    EXPECT_EQ(wrong.exit_code, 1);
+    EXPECT_THAT(wrong.error_output, HasSubstr("a.lua has no slider \"kk\"; it has k\n"));
+}
+
 TEST(program, saves_dropped_figures_and_prints_their_paths) {
     const Workbench bench;
     bench.write("a.lua", "plot({1, 2, 3}, {1, 4, 9})\n");

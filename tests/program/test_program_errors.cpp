@@ -85,9 +85,10 @@ TEST(program_errors, output_that_cannot_be_written_is_named) {
 
 TEST(program_errors, printing_into_a_full_device_is_told) {
     const Workbench bench;
-    for (const char* words : {"help", "help srivc", "--help", "lessons", "run -e 'print(1)'"}) {
+    for (const char* words : {"help", "help srivc", "--help", "lessons", "run -e 'print(1)'",
+                              "run -e 'for i = 1, 1e4 do print(i) end'", "run -e 'report.value(\"a\", 1)'"}) {
         const ChildResult result = bench.shell("\"$DYNLAB\" " + std::string(words) + " > /dev/full");
-        expect_failure(result, 1, "dynlab: cannot write what was printed");
+        expect_failure(result, 1, "dynlab: cannot write what was printed: no space left on device");
     }
     EXPECT_EQ(bench.shell("\"$DYNLAB\" help > /dev/null").exit_code, 0);
 }

@@ -36,7 +36,8 @@ bool write_whole(int file, const std::string& text) {
 }  // namespace
 
 CutLine::CutLine(const std::string& address)
-    : server_(std::stoi(address.substr(address.find(':', 6) + 1))),
+    : name_(address.substr(7, address.find(':', 7) - 7)),
+      server_(std::stoi(address.substr(address.find(':', 7) + 1))),
       socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
     int low = 10;
     while (low * 10 <= server_) low *= 10;
@@ -89,7 +90,7 @@ void CutLine::listen() {
 }
 
 void CutLine::pass_on(Connection& connection) {
-    const std::string here = "127.0.0.1:" + std::to_string(port_), there = "127.0.0.1:" + std::to_string(server_);
+    const std::string here = name_ + ":" + std::to_string(port_), there = name_ + ":" + std::to_string(server_);
     std::array<char, 65536> buffer;
     while (true) {
         pollfd waiting[2] = {{connection.from.get(), POLLIN, 0}, {connection.to.get(), POLLIN, 0}};

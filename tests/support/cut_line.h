@@ -30,6 +30,7 @@ class CutLine {
     void listen();
     void pass_on(Connection& connection);
 
+    std::string name_;  ///< of the server's host
     int server_ = 0, port_ = 0;
     FileDescriptor socket_;
     std::atomic<std::size_t> bytes_from_server_ = 0;

@@ -1,5 +1,4 @@
 #pragma once
-#include <httplib.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -14,6 +13,7 @@
 #include <vector>
 
 #include "platform/temporary_folder.h"
+#include "support/page_client.h"
 #include "support/program.h"
 
 namespace dynlab::test {
@@ -66,8 +66,7 @@ class PageProgram {
     const std::string& address() const { return address_; }
     /// The one that is printed for somebody who comes with the first after it was used.
     std::string next_address() const {
-        httplib::Client late(address_.substr(0, address_.find("/?")));
-        late.Get(address_.substr(address_.find("/?")));
+        PageClient::client_of(PageClient::host_of(address_)).Get(address_.substr(address_.find("/?")));
         return printed_address(1);
     }
     pid_t process() const { return process_; }

@@ -28,7 +28,7 @@ namespace {
 using nlohmann::json;
 
 constexpr int kLinger = 1000;                  // milliseconds for what is still to be sent at the end
-constexpr std::int64_t kMostBytes = 16 << 20;  // of a frame; who sends more is cut off before anything is signed
+constexpr std::int64_t kMostBytes = 16 << 20;  // of a frame; more cuts the line. A message may have any number
 constexpr int kMillisecondsOfPoll = 200;       // until the main thread sees that it is to end
 constexpr const char* kProgressName = "dynlab-progress";
 
@@ -110,33 +110,47 @@ class Kernel {
         sigset_t all, before;
         ::sigfillset(&all);
         ::pthread_sigmask(SIG_SETMASK, &all, &before);
-        threads_.emplace_back([this] {
-            while (!stopping_)
-                if (const auto request = receive(control_, kMillisecondsOfPoll)) answer(*request, control_);
+        repeat_in_thread([this] {
+            if (const auto request = receive(control_, kMillisecondsOfPoll)) answer(*request, control_);
         });
-        threads_.emplace_back([this] {
-            while (!stopping_) {
-                zmq::pollitem_t asked{heartbeat_, 0, ZMQ_POLLIN, 0};
-                zmq::message_t beat;
-                if (zmq::poll(&asked, 1, std::chrono::milliseconds(kMillisecondsOfPoll)) > 0 && heartbeat_.recv(beat))
-                    heartbeat_.send(beat, zmq::send_flags::none);
-            }
+        repeat_in_thread([this] {
+            std::vector<zmq::message_t> beat = parts_from(heartbeat_, kMillisecondsOfPoll);
+            if (!beat.empty()) zmq::send_multipart(heartbeat_, beat);
         });
         ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
     }
 
-    std::optional<KernelMessage> receive(zmq::socket_t& socket, int milliseconds) {
+    /// What fails in a thread is said, and ends neither the thread nor the kernel with its variables.
+    template <class Step>
+    void repeat_in_thread(Step step) {
+        threads_.emplace_back([this, step] {
+            while (!stopping_) {
+                try {
+                    step();
+                } catch (const std::exception& error) {
+                    std::cerr << "dynlab: " << terminal_text(error.what()) << std::endl;
+                }
+            }
+        });
+    }
+
+    /// Of the next message; none where none comes in this time. Nobody needs the key to send any number of them.
+    static std::vector<zmq::message_t> parts_from(zmq::socket_t& socket, int milliseconds) {
         zmq::pollitem_t readable{socket, 0, ZMQ_POLLIN, 0};
-        std::vector<std::string> frames;
+        std::vector<zmq::message_t> parts;
         try {
-            if (zmq::poll(&readable, 1, std::chrono::milliseconds(milliseconds)) == 0) return {};
-            std::vector<zmq::message_t> parts;
-            if (!zmq::recv_multipart(socket, std::back_inserter(parts))) return {};
-            for (const zmq::message_t& part : parts) frames.push_back(part.to_string());
+            if (zmq::poll(&readable, 1, std::chrono::milliseconds(milliseconds)) > 0)
+                (void)zmq::recv_multipart(socket, std::back_inserter(parts));
         } catch (const zmq::error_t& error) {
-            if (error.num() == EINTR) return {};
-            throw;
+            if (error.num() != EINTR) throw;
         }
+        return parts;
+    }
+
+    std::optional<KernelMessage> receive(zmq::socket_t& socket, int milliseconds) {
+        std::vector<std::string> frames;
+        for (const zmq::message_t& part : parts_from(socket, milliseconds)) frames.push_back(part.to_string());
+        if (frames.empty()) return {};
         try {
             return wire_.read(frames);
         } catch (const BadMessage& error) {

@@ -1,14 +1,12 @@
 #include "app/live/preview.h"
 
-#include <fmt/format.h>
-#include <unistd.h>
-
 #include <fstream>
 #include <mutex>
 #include <thread>
 
 #include "app/live/background_work.h"
 #include "app/live/live_document.h"
+#include "app/live/page_notes.h"
 #include "app/live/permissions.h"
 #include "app/live/source_files.h"
 #include "app/page/page_routes.h"
@@ -125,6 +123,14 @@ void serve_sources(WebServer& server, SourceFiles& sources, LivePage& page) {
     });
 }
 
+void serve_notes(WebServer& server, PageNotes& notes) {
+    server.on_get("/notes", [&](const PageRequest&) { return PageReply{json_of(notes.read()), "application/json"}; });
+    server.on_post("/notes", [&](const PageRequest& asked) {
+        notes.put(from_json<PageNote>(asked.body));
+        return PageReply{"", kPlainText};
+    });
+}
+
 /// The one preview of a document: another that begins is told of it.
 class OnlyPreview {
   public:
@@ -151,13 +157,6 @@ class OnlyPreview {
     FileLock lock_;
 };
 
-/// The same for a document each time: what the browser keeps for its page, it keeps by address.
-int wished_port(const fs::path& script) {
-    constexpr std::uint64_t kFirst = 20000, kCount = 12000;  // below those that systems give to whoever asks for any
-    const std::string place = fs::weakly_canonical(fs::absolute(script)).string();
-    return static_cast<int>(kFirst + digest_of(fmt::format("{} {}", ::getuid(), place)).low % kCount);
-}
-
 /// Replies that wait for the work must come while the server still is; what the work tells needs the server.
 struct StopsBeforeServer {
     BackgroundWork& work;
@@ -179,10 +178,11 @@ void preview(const PreviewOptions& options) {
     if (permissions.granted()) document.allow_runs();
 
     SourceFiles sources = options.edit ? sources_of(request) : SourceFiles({});
+    PageNotes notes(request.script.file);
     BackgroundWork background(options.document);
     std::mutex sending;  // news come from two threads, and the later must not go first
     std::function<void()> send_changes, look_for_readers;
-    WebServer server({.port = options.port, .wished_port = wished_port(request.script.file)});
+    WebServer server({.port = options.port});
     const StopsBeforeServer stops{background};
     send_changes = [&] {
         const std::lock_guard lock(sending);
@@ -193,6 +193,7 @@ void preview(const PreviewOptions& options) {
     serve_page(server, page);
     take_orders(server, document, permissions);
     serve_sources(server, sources, page);
+    serve_notes(server, notes);
     page.set_sources(sources.digests());
 
     background.start([&] {

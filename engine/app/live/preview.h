@@ -8,7 +8,7 @@ namespace dynlab::inline app {
 
 struct PreviewOptions {
     std::string document;  ///< a script, a folder with analysis.lua and report.md, or a lesson
-    int port = 0;          ///< the document's own where it is free, else any
+    int port = 0;          ///< any free one
     bool run_at_once = false;
     bool edit = false;  ///< the page changes the document's files, too
     std::function<void(const std::string& address, Visit)> opened = [](const std::string&, Visit) {};

@@ -1,6 +1,7 @@
-// What was typed in the editor and is not saved yet, as the browser keeps it until it is saved: by the file's place, and for each
+// What was typed in the editor and is not saved yet, as a note of the page until it is saved: by the file's place, and for each
 // opening of the file apart, so that none writes over another's. What an earlier one left is offered when the page is opened
 // again and the file is another text.
+import { noteNames, noteOf, setNote } from "./notes.js";
 import { isFrench, say } from "./page_words.js";
 
 const kDelay = 400;  // ms behind the last letter
@@ -10,12 +11,10 @@ const nameOf = (source) => `dynlab-draft ${source.place}`;
 const newKey = (source) => `${nameOf(source)} ${Date.now()}-${Math.floor(1e9 * Math.random())}`;
 function isOf(source, key) {
   const name = nameOf(source);
-  return key === name || (key.startsWith(`${name} `) && /^\d+-\d+$/.test(key.slice(name.length + 1)));
+  return key.startsWith(`${name} `) && /^\d+-\d+$/.test(key.slice(name.length + 1));
 }
 
-export function forget(draft) {
-  try { localStorage.removeItem(draft.key); } catch { /* a browser that keeps nothing */ }
-}
+export const forget = (draft) => setNote(draft.key, "");
 
 /// Without those that are the file's text by now.
 function stillDrafts(source, drafts) {
@@ -25,31 +24,19 @@ function stillDrafts(source, drafts) {
 
 /// The drafts that were left, the newest first: [{key, text, digest, at}]; `digest`: of the text from which it was made.
 export function draftsOf(source) {
-  const drafts = [];
-  try {
-    for (const key of Object.keys(localStorage).filter((one) => isOf(source, one))) {
-      let draft = null;
-      try { draft = JSON.parse(localStorage.getItem(key)); } catch { /* not ours */ }
-      if (typeof draft?.text === "string") drafts.push({ ...draft, key });
-    }
-  } catch { /* a browser that keeps nothing */ }
+  const drafts = noteNames().filter((key) => isOf(source, key)).map((key) => ({ ...JSON.parse(noteOf(key)), key }));
   return stillDrafts(source, drafts.sort((a, b) => b.at - a.at));
 }
 
-/// What stands in the editor; nothing where the file has it. Whether either is so. Drafts that are offered stay until they
-/// are taken or thrown away.
-export function keepDraft(source) {
+/// Stores the text in the editor; no draft where the file has that text. Resolves to whether that is done. Drafts that are
+/// offered stay until they are taken or dropped.
+export async function keepDraft(source) {
   clearTimeout(waiting.get(source));
   waiting.delete(source);
   source.drafts = stillDrafts(source, source.drafts);
   const text = source.doc.getValue();
-  try {
-    if (text !== source.saved) localStorage.setItem(source.key ??= newKey(source), JSON.stringify({ text, digest: source.digest, at: Date.now() }));
-    else if (source.key) localStorage.removeItem(source.key);
-    return true;
-  } catch {  // a browser that keeps nothing, or not so much
-    return false;
-  }
+  if (text !== source.saved) return setNote(source.key ??= newKey(source), JSON.stringify({ text, digest: source.digest, at: Date.now() }));
+  return !source.key || noteOf(source.key) === "" || setNote(source.key, "");
 }
 export function keepDraftSoon(source) {
   clearTimeout(waiting.get(source));

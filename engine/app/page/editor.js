@@ -1,6 +1,7 @@
 // The document's files beside the page, where it may change them. What is saved says what it was made from: a file that
 // was changed elsewhere meanwhile is not written over, both texts are shown.
 import { draftsOf, forget, keepDraft, keepDraftSoon, setAside, wordsOf } from "./drafts.js";
+import { noteOf, readNotes, setNote } from "./notes.js";
 import { order } from "./orders.js";
 import { inEnglish, say } from "./page_words.js";
 
@@ -166,7 +167,7 @@ function takeDraft(source) {
   const clean = file.digest === digest || file.text === text;
   Object.assign(source, { digest: clean ? file.digest : digest, saved: file.text, theirs: clean ? null : file });
   source.doc.setValue(text);
-  if (keepDraft(source)) forget(draft);
+  keepDraft(source).then((kept) => kept && forget(draft));
   showMarks();
 }
 
@@ -236,6 +237,7 @@ async function begin() {
   } catch {
     window.CodeMirror = undefined;
   }
+  await readNotes();
   document.body.classList.add("editing");
   if (window.CodeMirror) {
     const keys = { "Ctrl-S": () => save(open), "Cmd-S": () => save(open), Esc: () => $("bar").querySelector("button:not([hidden])").focus() };
@@ -277,9 +279,9 @@ async function begin() {
   };
   $("take-draft").onclick = () => takeDraft(open);
   $("drop-draft").onclick = () => dropDraft(open);
-  $("at-once").checked = localStorage.getItem("dynlab-at-once") === "yes";
+  $("at-once").checked = noteOf("at-once") === "yes";
   $("at-once").onchange = () => {
-    localStorage.setItem("dynlab-at-once", $("at-once").checked ? "yes" : "no");
+    setNote("at-once", $("at-once").checked ? "yes" : "");
     onChange();
   };
   window.addEventListener("beforeunload", (event) => {

@@ -13,7 +13,7 @@ namespace {
 
 /// Long enough for a browser that starts on a busy machine.
 constexpr std::int64_t kTokenMilliseconds = 60'000;
-constexpr std::size_t kTimeDigits = 12, kNonceDigits = 16, kCodeDigits = 32;
+constexpr std::size_t kTimeDigits = 12, kNonceDigits = 16, kCodeDigits = 32, kNameDigits = 20;
 constexpr int kForbidden = 403;
 
 const char* const kNoEntrance =
@@ -49,10 +49,14 @@ LastReply forbidden(const char* text) {
 
 }  // namespace
 
+std::string EntranceKey::host() const {
+    return fmt::format("dynlab-{}.localhost:{}", hmac_sha256(secret, {"host"}).substr(0, kNameDigits), port);
+}
+
 std::string EntranceKey::address() const {
     const std::string sealed =
         fmt::format("{:0{}x}{}", now() + kTokenMilliseconds, kTimeDigits, secure_hex(kNonceDigits / 2));
-    return fmt::format("http://127.0.0.1:{}/?token={}{}", port, sealed, code_of(secret, sealed));
+    return fmt::format("http://{}/?token={}{}", host(), sealed, code_of(secret, sealed));
 }
 
 std::string EntranceKey::text() const {
@@ -68,56 +72,50 @@ std::optional<EntranceKey> EntranceKey::of_text(const std::string& text) {
     return key;
 }
 
-Entrance::Entrance(int port)
-    : key_{port, secure_hex(16)}, folder_("/" + secure_hex(16)), cookie_("dynlab=" + secure_hex(16)) {}
+Entrance::Entrance(int port) : key_{port, secure_hex(16)}, cookie_("dynlab=" + secure_hex(16)) {}
 
-void Entrance::admit(RequestHead& head) {
-    check_origin(head);
+void Entrance::admit(const RequestHead& head) {
+    const bool visits = head.path == "/" && head.parameters.contains("token");
+    check_origin(head, visits);
     const bool changes = head.method == "POST";
     if (!changes && head.method != "GET" && head.method != "HEAD")
         throw LastReply{{405, kPlainText, "Pages are asked by GET, HEAD and POST."}};
     if (!head.body || head.has("expect") || (changes ? !head.has("content-length") : *head.body != 0))
         throw LastReply{{400, kPlainText, "A body comes with POST, its length and nothing else."}};
-    if (head.path == "/") visit(head);
     const auto [first, last] = head.fields.equal_range("cookie");
     const bool known = std::any_of(first, last, [&](const auto& field) { return has_cookie(field.second, cookie_); });
-    if (!known || !head.path.starts_with(folder_ + "/")) throw forbidden(kNoEntrance);
-    head.path.erase(0, folder_.size());
+    if (visits) visit(head, known);
+    if (!known) throw forbidden(kNoEntrance);
     const bool from_page =
         head.field("x-dynlab") == "1" && head.field("sec-fetch-site") == "same-origin" && head.has("origin");
     if (changes && !from_page) throw forbidden("Only the page itself may ask for this.");
 }
 
-void Entrance::check_origin(const RequestHead& head) const {
-    const std::string host(head.field("host").value_or(""));
-    bool ours = false;
-    for (const char* name : {"127.0.0.1", "localhost", "[::1]"})
-        ours = ours || host == fmt::format("{}:{}", name, key_.port);
-    if (!ours) throw forbidden("This address is not that of a dynlab.");
+void Entrance::check_origin(const RequestHead& head, bool visits) const {
+    const std::string host = key_.host();
+    if (head.field("host") != host) throw forbidden("This address is not that of a dynlab.");
     if (head.has("origin") && head.field("origin") != "http://" + host)
         throw forbidden("Other sites may not ask here.");
-    // A first visit may come from a file that holds the address; with the right token, any origin is accepted.
-    if (head.has("sec-fetch-site") && head.path != "/") {
+    // A first visit may come from a file that holds the address: the browser takes it for another site.
+    if (head.has("sec-fetch-site") && !visits) {
         const auto site = head.field("sec-fetch-site");
         if (site != "same-origin" && site != "none") throw forbidden("Other sites may not ask here.");
     }
 }
 
-void Entrance::visit(const RequestHead& head) {
-    const auto token = head.parameters.find("token");
-    const bool ours = token != head.parameters.end() && is_ours(token->second);
-    if (!ours || head.method != "GET" || !takes(token->second)) {
+void Entrance::visit(const RequestHead& head, bool known) {
+    const std::string& token = head.parameters.at("token");
+    const bool ours = is_ours(token);
+    if (!ours || head.method != "GET" || (!takes(token) && !known)) {
         const std::lock_guard lock(mutex_);
-        late_visit_ = ours || head.field("sec-fetch-site") == "none";  // by the user's hand
+        late_visit_ = late_visit_ || ours;
         throw forbidden(kNoEntrance);
     }
     // A page of our own that goes on: after a redirect the browser would still count the site that led here, and would
     // hold back the cookie.
     HttpReply reply{200, "text/html; charset=utf-8",
-                    fmt::format("<!DOCTYPE html><title>dynlab</title><meta http-equiv=\"refresh\" "
-                                "content=\"0;url={}/\">",
-                                folder_)};
-    reply.fields.emplace_back("Set-Cookie", fmt::format("{}; Path={}/; SameSite=Strict; HttpOnly", cookie_, folder_));
+                    "<!DOCTYPE html><title>dynlab</title><meta http-equiv=\"refresh\" content=\"0;url=/\">"};
+    reply.fields.emplace_back("Set-Cookie", cookie_ + "; Path=/; SameSite=Strict; HttpOnly");
     throw LastReply{std::move(reply)};
 }
 

@@ -15,6 +15,9 @@ struct EntranceKey {
     int port = 0;
     std::string secret = {};
 
+    /// The server's name with its port, "dynlab-1f3a...localhost:20123". Browsers take every name below localhost for
+    /// this machine (RFC 6761) and the pages of each for a site of its own.
+    std::string host() const;
     /// An address for one visit within a minute.
     std::string address() const;
     std::string text() const;                                            ///< of a file
@@ -24,10 +27,12 @@ struct EntranceKey {
 /// Decides who may ask a server of pages on 127.0.0.1, which every user of the machine and every site in the user's
 /// browser can reach.
 ///
-/// * The address that is printed holds a token for one visit. The visit gets a cookie of this server (SameSite=Strict,
-///   HttpOnly) and is sent on to the pages, which lie in a folder of a random name. The cookie holds for that folder
-///   alone: cookies know no ports, and a server of somebody else on this machine would be sent it otherwise.
-/// * `Host` must name this machine and this port, so that no other name leads here (DNS rebinding).
+/// * Each start of a server has a random name, which is a site of its own to browsers. What another server at this port
+///   left in the browser (cookies, storage, service workers) belongs to another site, and no other server is sent the
+///   cookie of this one.
+/// * The address that is printed holds a token for one visit. The visit gets a cookie (SameSite=Strict, HttpOnly) and
+///   is sent on to the page.
+/// * `Host` must be that name, so that no other name leads here (DNS rebinding).
 /// * No other site may ask: a foreign `Origin` and a `Sec-Fetch-Site` of another site are refused.
 /// * What changes something (POST) needs the own `Origin`, `Sec-Fetch-Site: same-origin` and `X-Dynlab: 1`, a field
 ///   that no form can send.
@@ -37,20 +42,20 @@ class Entrance {
     explicit Entrance(int port);
 
     const EntranceKey& key() const { return key_; }
-    /// Takes the pages' folder from the path, which then begins with a slash. Throws LastReply: what refuses the
-    /// request, or what leads a visit with a token to the pages.
-    void admit(RequestHead& head);
-    /// Whether a visitor came with a used or old address, so that a new one should be printed: at most every 5 s.
+    /// Throws LastReply: what refuses the request, or what leads a visit with a token to the page.
+    void admit(const RequestHead& head);
+    /// Whether a visitor came with an address of this server that was used or old, so that a new one should be
+    /// printed: at most every 5 s.
     bool had_late_visit();
 
   private:
-    void check_origin(const RequestHead& head) const;
-    void visit(const RequestHead& head);
+    void check_origin(const RequestHead& head, bool visits) const;
+    void visit(const RequestHead& head, bool known);
     bool is_ours(const std::string& token) const;
     bool takes(const std::string& token);
 
     EntranceKey key_;
-    std::string folder_, cookie_;  ///< "/NAME", "dynlab=VALUE"
+    std::string cookie_;  ///< "dynlab=VALUE"
     std::mutex mutex_;
     std::map<std::string, std::int64_t> used_;  ///< tokens, with the time from which on they are too old
     bool late_visit_ = false;

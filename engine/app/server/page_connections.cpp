@@ -9,8 +9,10 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <system_error>
 
 #include "platform/error.h"
@@ -19,11 +21,38 @@ namespace dynlab::inline app {
 namespace {
 
 constexpr int kWaiting = 64;  // connections that the system keeps until they are taken
+constexpr int kTries = 20;    // of ports that the system gives
+
+/// Browsers ask at ::1, too, for a name that stands for this machine: a socket that has the port there and does not
+/// listen, so that no other user's server gets what was meant for this one. Empty where the port is taken; without
+/// IPv6 nobody can listen there.
+std::optional<FileDescriptor> guard_of(int port) {
+    FileDescriptor guard(::socket(AF_INET6, SOCK_STREAM | SOCK_CLOEXEC, 0));
+    sockaddr_in6 address{};
+    address.sin6_family = AF_INET6;
+    address.sin6_addr = in6addr_loopback;
+    address.sin6_port = htons(static_cast<std::uint16_t>(port));
+    if (guard && ::bind(guard.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 &&
+        (errno == EADDRINUSE || errno == EACCES))
+        return {};
+    return guard;
+}
 
 }  // namespace
 
-PageConnections::PageConnections(int port)
-    : listening_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)), ending_(::eventfd(0, EFD_CLOEXEC)) {
+PageConnections::PageConnections(int port) : ending_(::eventfd(0, EFD_CLOEXEC)) {
+    std::signal(SIGPIPE, SIG_IGN);  // who reads a page or the program's output may be gone, which ends nothing
+    bool taken = false;
+    for (int tries = port == 0 ? kTries : 1; tries > 0 && !taken; --tries) taken = take(port);
+    if (!taken || !ending_)
+        throw EnvironmentError(
+            fmt::format("the port {} cannot be used: another program has it, or it is not allowed; leave --port out "
+                        "for a free one",
+                        port));
+}
+
+bool PageConnections::take(int port) {
+    listening_ = FileDescriptor(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
     const int yes = 1;
     // Not SO_REUSEPORT, which would share a port that is taken.
     ::setsockopt(listening_.get(), SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
@@ -33,13 +62,13 @@ PageConnections::PageConnections(int port)
     address.sin_port = htons(static_cast<std::uint16_t>(port));
     socklen_t size = sizeof address;
     auto* plain = reinterpret_cast<sockaddr*>(&address);
-    if (!ending_ || ::bind(listening_.get(), plain, size) != 0 || ::listen(listening_.get(), kWaiting) != 0 ||
+    if (::bind(listening_.get(), plain, size) != 0 || ::listen(listening_.get(), kWaiting) != 0 ||
         ::getsockname(listening_.get(), plain, &size) != 0)
-        throw EnvironmentError(
-            fmt::format("the port {} cannot be used: another program has it, or it is not allowed; leave --port out "
-                        "for a free one",
-                        port));
+        return false;
     port_ = ntohs(address.sin_port);
+    std::optional<FileDescriptor> guard = guard_of(port_);
+    if (guard) guard_ = std::move(*guard);
+    return guard.has_value();
 }
 
 PageConnections::~PageConnections() {

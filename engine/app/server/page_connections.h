@@ -36,10 +36,11 @@ class PageConnections {
         int socket;
         bool known = false, dropped = false;
     };
+    bool take(int port);
     void accept_all();
     void begin(FileDescriptor socket);
 
-    FileDescriptor listening_, ending_;  ///< ending_ is readable from the end on
+    FileDescriptor listening_, guard_, ending_;  ///< ending_ is readable from the end on
     int port_ = 0;
     Serve serve_;
     Limits limits_;

@@ -30,16 +30,6 @@ constexpr const char* kFields =
     "Cross-Origin-Opener-Policy: same-origin\r\n"
     "Cache-Control: no-store\r\n";
 
-std::unique_ptr<PageConnections> connections_at(const WebServer::Options& options) {
-    if (options.port == 0 && options.wished_port > 0) {
-        try {
-            return std::make_unique<PageConnections>(options.wished_port);
-        } catch (const EnvironmentError&) {  // any other will do
-        }
-    }
-    return std::make_unique<PageConnections>(options.port);
-}
-
 }  // namespace
 
 class WebServer::Work {
@@ -47,22 +37,22 @@ class WebServer::Work {
     explicit Work(Options options)
         : options_(options),
           streams_(static_cast<std::size_t>(options.most_streams)),
-          connections_(connections_at(options)),
-          entrance_(connections_->port()) {}
+          connections_(options.port),
+          entrance_(connections_.port()) {}
 
     ~Work() {
         streams_.end();
-        connections_->end();
+        connections_.end();
     }
 
     void start() {
-        connections_->start([this](HttpConnection& connection, const auto& known) { serve(connection, known); },
-                            {.known = options_.most_streams + kConnectionsForRequests}, kFields);
+        connections_.start([this](HttpConnection& connection, const auto& known) { serve(connection, known); },
+                           {.known = options_.most_streams + kConnectionsForRequests}, kFields);
     }
 
     const Options options_;
     EventStreams streams_;
-    std::unique_ptr<PageConnections> connections_;
+    PageConnections connections_;
     Entrance entrance_;
     std::map<std::string, Handler> gets_, posts_;  ///< by their paths
     std::function<std::string()> first_;
@@ -75,14 +65,20 @@ class WebServer::Work {
             while (const auto head = connection.next_head())
                 if (!answer(connection, *head, known)) return;
         } catch (const LastReply& last) {
-            connection.reply(last.reply, true);
-            connection.close();
-            if (entrance_.had_late_visit()) on_late_visit_();
+            end(connection, last.reply);
+        } catch (const std::exception& error) {  // no memory, for one
+            end(connection, {500, kPlainText, error.what()});
         }
     }
 
+    void end(HttpConnection& connection, const HttpReply& reply) {
+        connection.reply(reply, true);
+        connection.close();
+        if (entrance_.had_late_visit()) on_late_visit_();
+    }
+
     /// Whether the connection goes on.
-    bool answer(HttpConnection& connection, RequestHead head, const std::function<void()>& known) {
+    bool answer(HttpConnection& connection, const RequestHead& head, const std::function<void()>& known) {
         entrance_.admit(head);
         known();
         if (head.method == "GET" && head.path == "/events") return stream(connection), false;
@@ -91,7 +87,7 @@ class WebServer::Work {
             throw LastReply{{413, kPlainText, fmt::format("More than {} MB were sent.", options_.largest_body >> 20)}};
         std::optional<std::string> body = connection.body(*head.body);
         if (!body) return false;
-        const HttpReply reply = made({head.path, std::move(head.parameters), std::move(*body)}, handler);
+        const HttpReply reply = made({head.path, head.parameters, std::move(*body)}, handler);
         const bool closes = !head.keeps_alive || connection.has_unread();
         return connection.reply(reply, closes, head.method == "HEAD") && !closes;
     }
@@ -117,6 +113,7 @@ class WebServer::Work {
         std::unique_lock sending(sending_);
         const std::shared_ptr<EventStreams::Stream> stream = streams_.open();
         if (!stream) throw LastReply{{503, kPlainText, "There are too many tabs of this page; close some."}};
+        const std::shared_ptr<void> place(nullptr, [&](void*) { streams_.close(stream); });
         if (first_) stream->put(EventStreams::written("page", first_()));
         sending.unlock();
         bool open = connection.begin_stream("text/event-stream");
@@ -131,7 +128,6 @@ class WebServer::Work {
                 open = connection.write(*next);
             if (silent >= kSignOfLife) silent = 0ms;
         }
-        streams_.close(stream);
         connection.close();
     }
 };
@@ -166,7 +162,7 @@ void WebServer::start() {
 }
 
 int WebServer::port() const {
-    return work_->connections_->port();
+    return work_->connections_.port();
 }
 
 const EntranceKey& WebServer::key() const {

@@ -31,13 +31,12 @@ enum class Visit {
     kLate,       ///< somebody came with an address that was old or used
 };
 
-/// Serves pages to this machine's browser: HTTP on 127.0.0.1, requests and one stream of events a tab. The pages lie in
-/// a folder of a random name and find one another by relative addresses. Who may ask: entrance.h.
+/// Serves pages to this machine's browser: HTTP on 127.0.0.1, requests and one stream of events a tab. Who may ask:
+/// entrance.h.
 class WebServer {
   public:
     struct Options {
-        int port = 0;         ///< any free one
-        int wished_port = 0;  ///< taken where it is free, where no `port` is given
+        int port = 0;  ///< any free one
         std::size_t largest_body = std::size_t{8} << 20;
         int most_streams = 24;
     };

@@ -41,9 +41,7 @@ void add_preview(CLI::App& app, Action& action) {
         ->add_option("LESSON|FOLDER|FILE.lua", words->options.document,
                      "A script, a folder with analysis.lua and report.md, or a lesson")
         ->required();
-    command
-        ->add_option("--port", words->options.port,
-                     "The port of the page's address (default: one of its own for each document, or any free one)")
+    command->add_option("--port", words->options.port, "The port of the page's address (default: any free one)")
         ->check(CLI::Range(1, 65535));
     command->add_flag("--edit", words->options.edit,
                       "Show the script and the text beside the page, to be changed there");

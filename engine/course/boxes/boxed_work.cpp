@@ -23,7 +23,7 @@ ValueLimits boxed_limits(std::uint64_t bytes) {
 }
 
 std::string reason_of_end(const ChildResult& child, const TimeLimits& time) {
-    if (child.timed_out && child.processor_time_used_up)
+    if (child.time_limit() == TimeLimit::kProcessor)
         return message_text(Message("it used more than {} s of processor time", time.seconds(TimeLimit::kProcessor)));
     if (child.timed_out) return message_text(Message("it had not ended after {} s", time.seconds(TimeLimit::kClock)));
     if (child.output_exceeded) return "it gave out too much";

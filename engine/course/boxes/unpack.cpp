@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "platform/confinement.h"
+#include "platform/system_call.h"
 #include "platform/text/foreign_text.h"
 #include "platform/utf8_locale.h"
 
@@ -120,7 +121,10 @@ class Unpacker {
             out.write(block, count);
         }
         if (count < 0) fail();
-        if (!out) throw std::runtime_error("the archive cannot be unpacked: " + file.filename().string());
+        out.close();  // the last bytes may not find room either
+        if (!out)
+            throw std::runtime_error(
+                fmt::format("the archive cannot be unpacked: {}: {}", file.filename().string(), system_reason(errno)));
     }
 
     fs::path to_;

@@ -15,6 +15,7 @@
 #include "platform/error.h"
 #include "platform/hash.h"
 #include "platform/program_lookup.h"
+#include "platform/system_call.h"
 #include "platform/temporary_folder.h"
 #include "workflow/shares/shared_identity.h"
 
@@ -88,7 +89,8 @@ void write_sent_files(const std::vector<SentFile>& files, const fs::path& folder
         if (file.path.ends_with("/"))
             fs::create_directories(folder / file.path);
         else if (std::ofstream to(folder / file.path, std::ios::binary); !(to << file.bytes).flush())
-            throw EnvironmentError(fmt::format("cannot write {} (in {})", file.path, folder.string()));
+            throw EnvironmentError(
+                fmt::format("cannot write {}: {} (in {})", file.path, system_reason(errno), folder.string()));
 }
 
 SharedRules shared_rules(const GradingRules& rules) {

@@ -40,7 +40,11 @@ std::string run_guarded_on_pdf(const std::function<std::string()>& work, const G
     ChildResult result = run_guarded([&] { return answer_of(work); }, limits);
     if (result.timed_out) {
         throw PdfRefusal(PdfFault::kTooLarge,
-                         Message("Reading the file takes more than {} s.", limits.time.processor.count() / 1000));
+                         result.time_limit() == TimeLimit::kProcessor
+                             ? Message("The file is not read: reading it used more than {} s of processor time.",
+                                       limits.time.seconds(TimeLimit::kProcessor))
+                             : Message("The file is not read: reading it had not ended after {} s.",
+                                       limits.time.seconds(TimeLimit::kClock)));
     }
     if (result.output_exceeded || (result.exit_code == 0 && result.output.empty())) {
         throw PdfRefusal(PdfFault::kTooLarge,

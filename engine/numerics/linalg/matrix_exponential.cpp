@@ -63,7 +63,9 @@ std::optional<StepMatrices> exact_short_step(const MatrixView& A, const MatrixVi
 
 StepMatrices exact_step(const MatrixView& A, const MatrixView& B, double h) {
     std::optional<StepMatrices> short_one;
-    if (A.rows() <= 4)
+    if (A.rows() <= 2)
+        short_one = exact_short_step<2>(A, B, h);
+    else if (A.rows() <= 4)
         short_one = exact_short_step<4>(A, B, h);
     else if (A.rows() <= 8)
         short_one = exact_short_step<8>(A, B, h);

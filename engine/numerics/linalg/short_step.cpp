@@ -35,7 +35,7 @@ std::optional<ShortStep<room>> short_step(const StateMatrix<room>& A, int states
     constexpr int kMostDoublings = 3;
     using Square = StateMatrix<room>;
     // Loops of a known length are quicker than few steps.
-    const int n = room == 4 ? room : states;
+    const int n = room <= 4 ? room : states;
     const Square identity = state_identity<room>(states);
     Square Z = A;
     scale(Z, h, n);
@@ -85,6 +85,7 @@ std::optional<ShortStep<room>> short_step(const StateMatrix<room>& A, int states
     return step;
 }
 
+template std::optional<ShortStep<2>> short_step(const StateMatrix<2>&, int, double);
 template std::optional<ShortStep<4>> short_step(const StateMatrix<4>&, int, double);
 template std::optional<ShortStep<8>> short_step(const StateMatrix<8>&, int, double);
 

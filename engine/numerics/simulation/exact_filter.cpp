@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "numerics/linalg/known_order.h"
+#include "numerics/linalg/state_matrix.h"
 #include "numerics/simulation/sampled_recursion.h"
 
 namespace dynlab::inline numerics {
@@ -15,6 +16,18 @@ constexpr Index kWidestWindow = ExactFilter::kBlock + 2;  // u[k-d-1] ... u[k-d+
 /// The first columns of A B by plain loops: Eigen's take several times as long where the sizes are small and not known
 /// to the compiler.
 void multiply(const Matrix& A, const Matrix& B, Index columns, Matrix& product) {
+    constexpr int kRoom = 4;
+    if (A.rows() <= kRoom && A.cols() <= kRoom) {
+        StateMatrix<kRoom> small;
+        for (int k = 0; k < A.cols(); ++k)
+            for (int i = 0; i < A.rows(); ++i) small(i, k) = A(i, k);
+        for (Index j = 0; j < columns; ++j) {
+            StateVector<kRoom> column;
+            for (int k = 0; k < A.cols(); ++k) column.add(B(k, j), small.column[k]);
+            for (int i = 0; i < A.rows(); ++i) product(i, j) = column[i];
+        }
+        return;
+    }
     product.setZero();
     for (Index j = 0; j < columns; ++j)
         for (Index k = 0; k < A.cols(); ++k)
@@ -38,8 +51,8 @@ void ExactFilter::prepare_blocks() {
         for (Index j = 0; j < n; ++j) to(to_row, place + j) = from(row, j);
         for (Index j = first; j < last; ++j) to(to_row, place + n + j - first) = from(row, j);
     };
-    Matrix state = Matrix::Identity(n, n + kWidestWindow), next(n, n + kWidestWindow),
-           output(output_count(), n + kWidestWindow);
+    Matrix state = Matrix::Identity(n, n + kWidestWindow), next = Matrix::Zero(n, n + kWidestWindow),
+           output = Matrix::Zero(output_count(), n + kWidestWindow);
     block_outputs_.resize(kBlock, output_count() * columns);
     for (Index i = 0; i < kBlock; ++i) {
         const Index previous = n + i, now = previous + 1, after = now + 1;

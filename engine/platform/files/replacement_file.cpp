@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "platform/error.h"
+#include "platform/file_blocks.h"
 #include "platform/files/temporary_file.h"
 
 namespace dynlab::inline platform {
@@ -75,10 +76,20 @@ void ReplacementFile::begin_to_sync() const {
 void ReplacementFile::commit() {
     if (!temporary_.empty()) {  // renamed while it is open: its lock shows that it is in use
         if (retry_interrupted([&] { return ::fsync(fd_.get()); }) != 0) fail_to_write(file_, errno);
-        if (::rename(temporary_.c_str(), file_.c_str()) != 0) fail_to_write(file_, errno);
-        temporary_.clear();
+        if (::rename(temporary_.c_str(), file_.c_str()) == 0) {
+            temporary_.clear();
+        } else {
+            if (errno != EXDEV) fail_to_write(file_, errno);
+            replace_by_copy(temporary_, file_);
+        }
     }
     if (fd_.close() != 0) fail_to_write(file_, errno);
+}
+
+void replace_by_copy(const fs::path& from, const fs::path& to) {
+    ReplacementFile replacement(to);
+    for_each_block(from, [&](std::string_view block) { replacement.append(block); });
+    replacement.commit();
 }
 
 void ReplacementFile::create_in(const fs::path& folder, mode_t mode) {

@@ -15,7 +15,8 @@ namespace dynlab::inline platform {
 /// cannot be replaced and is written into. All throw EnvironmentError.
 class ReplacementFile {
   public:
-    /// `made_in`: the folder of the new file, on the same file system. Default: that of `file`.
+    /// `made_in`: the folder of the new file. Default: that of `file`. On another file system the content is copied
+    /// once more on commit().
     explicit ReplacementFile(const std::filesystem::path& file, const std::filesystem::path& made_in = {});
     /// One for its owner only, in whose place whatever stands there is replaced, a link too (plain_file.h).
     static ReplacementFile of_owner(const std::filesystem::path& file);
@@ -37,6 +38,9 @@ class ReplacementFile {
     FileDescriptor fd_;
     EndsWithProgram ends_;
 };
+
+/// Puts a copy of `from` in the place of `to`.
+void replace_by_copy(const std::filesystem::path& from, const std::filesystem::path& to);
 
 [[noreturn]] void fail_to_write(const std::filesystem::path& file, int error_number);
 /// Behind a symbolic link, so that the link itself survives.

@@ -12,6 +12,8 @@
 #include <set>
 #include <string_view>
 
+#include "platform/hash.h"
+
 namespace dynlab::inline platform {
 namespace {
 
@@ -56,22 +58,27 @@ void remove_leftovers_once(const fs::path& folder) {
 
 }  // namespace
 
+std::string machine_in_names(const std::string& machine) {
+    constexpr std::size_t kMostLetters = 24, kLettersOfHash = 12;
+    std::string name = machine;
+    for (char& c : name) {
+        const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-';
+        if (!plain) c = '_';
+    }
+    if (name == machine && name.size() <= kMostLetters) return name;
+    return name.substr(0, kMostLetters - kLettersOfHash) + sha256_of(machine).substr(0, kLettersOfHash);
+}
+
 const std::string& machine_in_names() {
     static const std::string machine = [] {
-        std::string name(256, '\0');
-        if (::gethostname(name.data(), name.size() - 1) != 0) name = "unnamed";
-        name.resize(std::min<std::size_t>(name.find('\0'), 24));
-        for (char& c : name) {
-            const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-';
-            if (!plain) c = '_';
-        }
-        return name;
+        char name[256] = {};
+        return machine_in_names(::gethostname(name, sizeof name - 1) == 0 ? name : "unnamed");
     }();
     return machine;
 }
 
 bool lock_as_in_use(int descriptor, const fs::path& path) {
-    retry_interrupted([&] { return ::flock(descriptor, LOCK_EX); });  // a process that cleans up holds it briefly
+    if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return false;
     struct stat locked {
     }, present{};
     return ::fstat(descriptor, &locked) == 0 && ::lstat(path.c_str(), &present) == 0 &&
@@ -96,6 +103,7 @@ TemporaryFile make_temporary_file(const fs::path& folder, const std::string& nam
         made.file = FileDescriptor(::open(made.path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode));
         if (!made.file && errno == EEXIST) continue;
         if (!made.file || lock_as_in_use(made.file.get(), made.path)) return made;
+        ::unlink(made.path.c_str());
     }
 }
 

@@ -27,12 +27,16 @@ TemporaryFile make_temporary_file(const std::filesystem::path& folder, const std
 /// Returns the removed files. Files that cannot be removed stay without an error.
 std::vector<std::filesystem::path> remove_leftover_files(const std::filesystem::path& folder);
 
-/// Takes the lock that shows that the temporary file or folder at `path` is in use. False where a process that cleans
-/// up removed it before: make another one.
+/// Takes the lock that shows that the temporary file or folder at `path` is in use, without waiting for it: whoever can
+/// read a folder can lock a new file before its maker does. False where another has the lock, or where a process that
+/// cleans up has removed the file: make another one.
 bool lock_as_in_use(int descriptor, const std::filesystem::path& path);
 /// Whether this user owns it and nobody uses it. If so, the lock is taken until the descriptor is closed.
 bool lock_leftover(int descriptor);
 /// This machine's name as part of file names: at most 24 letters, digits, - and _.
 const std::string& machine_in_names();
+/// The same of any machine. Names of which that cannot tell all, long ones as nodes of a cluster have them, keep their
+/// first letters and get some of their SHA-256, so that no two machines share one.
+std::string machine_in_names(const std::string& machine);
 
 }  // namespace dynlab::inline platform

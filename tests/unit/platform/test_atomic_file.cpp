@@ -13,6 +13,7 @@
 
 #include "platform/error.h"
 #include "platform/temporary_folder.h"
+#include "support/other_file_system.h"
 
 namespace dynlab {
 namespace test_atomic_file {
@@ -147,9 +148,10 @@ TEST(atomic_file, places_a_finished_file) {
 }
 
 TEST(atomic_file, places_a_file_across_file_systems) {
-    if (!fs::is_directory("/dev/shm")) GTEST_SKIP() << "no second file system";
+    const test::OtherFileSystem other;
+    if (!other.is_there()) GTEST_SKIP() << "no second file system";
     const TemporaryFolder folder;
-    const fs::path shared_memory = fs::path("/dev/shm") / folder.path().filename(), to = folder.path() / "to";
+    const fs::path shared_memory = other.path() / "from", to = folder.path() / "to";
     write_file_atomically(shared_memory, std::string(600000, 'c'));
     write_file_atomically(to, "old");
     {
@@ -161,6 +163,31 @@ TEST(atomic_file, places_a_file_across_file_systems) {
     EXPECT_EQ(read_file(to), std::string(600000, 'c'));
     EXPECT_FALSE(fs::exists(shared_memory));
     EXPECT_EQ(files_in(folder.path()), 1u);
+}
+
+TEST(atomic_file, makes_files_on_one_file_system_for_another) {
+    const test::OtherFileSystem other;
+    if (!other.is_there()) GTEST_SKIP() << "no second file system";
+    const TemporaryFolder folder;
+    const std::string large(600000, 'c');
+    const auto write = [&] {
+        write_files_atomically({{folder.path() / "first", "1"}, {folder.path() / "large", large}}, other.path());
+    };
+    write();
+    EXPECT_EQ(read_file(folder.path() / "first"), "1");
+    EXPECT_EQ(read_file(folder.path() / "large"), large);
+    write_file_atomically(folder.path() / "large", "old");
+    fs::permissions(folder.path() / "large", fs::perms::owner_read | fs::perms::owner_write);
+    {
+        const FileSizeLimit limit(1000);
+        EXPECT_THROW(write(), EnvironmentError);
+    }
+    EXPECT_EQ(read_file(folder.path() / "large"), "old");
+    write();
+    EXPECT_EQ(read_file(folder.path() / "large"), large);
+    EXPECT_EQ(fs::status(folder.path() / "large").permissions(), fs::perms::owner_read | fs::perms::owner_write);
+    EXPECT_EQ(files_in(folder.path()), 2u);
+    EXPECT_EQ(files_in(other.path()), 0u);
 }
 
 TEST(atomic_file, placing_needs_a_source_and_leaves_the_destination) {

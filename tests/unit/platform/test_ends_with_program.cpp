@@ -5,11 +5,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <csignal>
 #include <fstream>
 #include <functional>
 #include <optional>
 #include <string>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include "platform/atomic_file.h"
@@ -85,6 +88,27 @@ TEST(ends_with_program, groups_are_killed) {
     int status = 0;
     ASSERT_EQ(::waitpid(other, &status, 0), other);
     EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL);
+}
+
+// Files whose names begin as one path and end as another: what a path is called while it is written over the other.
+TEST(ends_with_program, a_path_that_another_thread_writes_is_not_mistaken) {
+    constexpr std::size_t kLetters = 200;
+    const TemporaryFolder work;
+    const std::string first(kLetters, 'a'), second(kLetters, 'b');
+    for (std::size_t i = 1; i < kLetters; ++i)
+        for (const auto& [begin, end] : {std::pair(first, second), std::pair(second, first)})
+            std::ofstream(work.path() / (begin.substr(i) + end.substr(kLetters - i))) << i;
+    in_a_copy([&] {
+        std::atomic<bool> done = false;
+        std::thread writes([&] {
+            while (!done)
+                for (const std::string& name : {first, second}) EndsWithProgram(work.path() / name);
+        });
+        for (int i = 0; i < 300'000; ++i) end_what_ends_with_program();
+        done = true;
+        writes.join();
+    });
+    EXPECT_EQ(std::distance(fs::directory_iterator(work.path()), fs::directory_iterator()), 2 * (kLetters - 1));
 }
 
 TEST(ends_with_program, more_than_it_can_hold_are_left_behind) {

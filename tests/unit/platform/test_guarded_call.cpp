@@ -44,11 +44,11 @@ TEST(guarded_call, survives_crash_hang_and_gluttony) {
     const auto hang = []() -> std::string {
         for (;;) pause();
     };
-    EXPECT_TRUE(run_guarded(hang, {.time = {100ms}}).timed_out);
+    EXPECT_EQ(run_guarded(hang, {.time = {100ms}}).time_limit(), TimeLimit::kClock);
     const auto spin = []() -> std::string {
         for (volatile int turns = 0;;) turns = turns + 1;
     };
-    EXPECT_TRUE(run_guarded(spin, {.time = {100ms, 1000}}).processor_time_used_up);
+    EXPECT_EQ(run_guarded(spin, {.time = {100ms, 1000}}).time_limit(), TimeLimit::kProcessor);
 #ifndef __SANITIZE_ADDRESS__
     const auto gluttony = [] { return std::string(1u << 30, 'x'); };
     const ChildResult result = run_guarded(gluttony, {.memory_bytes = 100u << 20});

@@ -1,7 +1,10 @@
 #include "platform/files/temporary_file.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/file.h>
+#include <sys/inotify.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -9,6 +12,7 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "platform/atomic_file.h"
 #include "platform/files/replacement_file.h"
@@ -102,6 +106,79 @@ TEST(temporary_file, lies_in_the_named_folder_until_it_is_committed) {
     write_files_atomically({{folder.path() / "second", "whole"}}, folder.path() / "new");
     EXPECT_TRUE(names_in(folder.path() / "new").empty());
     EXPECT_EQ(names_in(folder.path()), (std::set<std::string>{"file", "new", "second"}));
+}
+
+// oracle: flock(2): a lock belongs to one open file
+TEST(temporary_file, the_lock_of_another_is_not_waited_for) {
+    const TemporaryFolder folder;
+    const fs::path file = folder.path() / "file";
+    const FileDescriptor made(::open(file.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644)),
+        other(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
+    ASSERT_EQ(::flock(other.get(), LOCK_SH), 0);
+    EXPECT_FALSE(lock_as_in_use(made.get(), file));
+    ASSERT_EQ(::flock(other.get(), LOCK_UN), 0);
+    EXPECT_TRUE(lock_as_in_use(made.get(), file));
+}
+
+/// Locks each new file in a folder as soon as it hears of it, if it can, and keeps the newest locked.
+[[noreturn]] void lock_new_files(const fs::path& folder, int news) {
+    FileDescriptor locked;
+    for (;;) {
+        alignas(inotify_event) char block[1 << 14];
+        const ssize_t bytes = ::read(news, block, sizeof block);
+        if (bytes <= 0) ::_exit(1);
+        for (ssize_t at = 0; at < bytes;) {
+            const auto* const event = reinterpret_cast<const inotify_event*>(block + at);
+            FileDescriptor opened(event->len == 0 ? -1 : ::open((folder / event->name).c_str(), O_RDONLY | O_CLOEXEC));
+            if (opened && ::flock(opened.get(), LOCK_EX | LOCK_NB) == 0) locked = std::move(opened);
+            at += static_cast<ssize_t>(sizeof *event + event->len);
+        }
+    }
+}
+
+// oracle: the files that are there and whose lock is not to be had, though some were locked before their maker could
+TEST(temporary_file, whoever_locks_new_files_first_holds_up_nothing) {
+    const TemporaryFolder folder;
+    const FileDescriptor news(::inotify_init1(IN_CLOEXEC));
+    ASSERT_GE(::inotify_add_watch(news.get(), folder.path().c_str(), IN_CREATE), 0);
+    const pid_t parent = ::getpid(), other = ::fork();
+    if (other == 0) {
+        ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+        if (::getppid() != parent) ::_exit(0);
+        lock_new_files(folder.path(), news.get());
+    }
+    for (int i = 0; i < 5000; ++i) {
+        const TemporaryFile made = make_temporary_file(folder.path(), "file", 0644);
+        const FileDescriptor again(::open(made.path.c_str(), O_RDONLY | O_CLOEXEC));
+        ASSERT_TRUE(made.file && again);
+        EXPECT_EQ(::flock(again.get(), LOCK_EX | LOCK_NB), -1);
+        fs::remove(made.path);
+    }
+    EXPECT_TRUE(names_in(folder.path()).empty());
+    ::kill(other, SIGKILL);
+    int status = 0;
+    ASSERT_EQ(::waitpid(other, &status, 0), other);
+    EXPECT_TRUE(WIFSIGNALED(status));  // it had not ended before
+}
+
+// oracle: names of 64 letters, as Linux gives at most, of two nodes of a cluster
+TEST(temporary_file, no_two_machines_have_the_same_name_in_names) {
+    const std::string common = "compute-node-of-the-department-of-automatic-control-rack-7-unit";
+    EXPECT_EQ(machine_in_names("desk-7"), "desk-7");
+    EXPECT_EQ(machine_in_names(std::string(24, 'a')), std::string(24, 'a'));
+    const std::vector<std::string> machines = {common + "1", common + "2", common, common.substr(0, 24),
+                                               "a.b",        "a-b",        "a_b",  std::string(25, 'a')};
+    std::set<std::string> names;
+    for (const std::string& machine : machines) {
+        const std::string name = machine_in_names(machine);
+        EXPECT_LE(name.size(), 24u);
+        EXPECT_EQ(name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_"),
+                  std::string::npos)
+            << name;
+        EXPECT_EQ(name, machine_in_names(machine));
+        names.insert(name);
+    }
+    EXPECT_EQ(names.size(), machines.size());
 }
 
 // oracle: a process that cleans up and one that makes a file, at the same time: whoever comes first, the file is

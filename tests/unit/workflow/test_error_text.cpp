@@ -100,6 +100,8 @@ TEST(error_text, names_a_required_file_with_its_folder_and_line) {
 TEST(error_text, shows_no_line_of_a_file_elsewhere) {
     const WorkFolder work;
     work.write("secret.lua", "secret words\n");
+    work.write("A/b.lua", "a line of a neighbor\n");
+    EXPECT_THAT(shown(work, "error('b.lua:1: x', 0)\n", "A/a.lua"), HasSubstr("\n    a line of a neighbor"));
     for (const char* place : {"../secret.lua:1: x", "/etc/passwd:1: x", "secret.txt:1: x"})
         EXPECT_THAT(shown(work, std::string("error('") + place + "', 0)\n", "A/a.lua"), Not(HasSubstr("\n    ")));
 }

@@ -28,7 +28,19 @@ TEST(given_script, that_is_missing_is_looked_for_under_nearly_its_name) {
                 HasSubstr("capital has no analysis.lua, but Analysis.lua: call it"));
     EXPECT_THAT(error_of([&] { report_of(work.path("text")); }),
                 HasSubstr("text has no report.md, but Report.md: call it report.md"));
-    EXPECT_THAT(error_of([&] { find_lesson(work.path("capital")); }), HasSubstr("capital"));
+}
+
+TEST(given_script, folders_that_are_no_lesson_tell_what_they_lack) {
+    const WorkFolder work;
+    work.write("capital/Analysis.lua", "print(1)\n");
+    work.write("own/analysis.lua", "print(1)\n");
+    const auto refusal = [&](const char* folder) { return error_of([&] { find_lesson(work.path(folder)); }); };
+    EXPECT_THAT(
+        refusal("capital"),
+        HasSubstr("capital' holds no lesson.lua and no analysis.lua, but Analysis.lua: call it analysis.lua; the "
+                  "lessons are "));
+    EXPECT_THAT(refusal(""), HasSubstr("' holds no lesson.lua and no analysis.lua; the lessons are "));
+    EXPECT_THAT(refusal("own"), HasSubstr("own' holds no lesson.lua; the lessons are "));
 }
 
 TEST(given_script, that_is_no_script_is_refused_with_the_command_to_type) {

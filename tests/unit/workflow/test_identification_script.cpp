@@ -10,12 +10,14 @@
 #include <sstream>
 
 #include "numerics/error.h"
+#include "workflow/make_report.h"
 #include "workflow_run.h"
 
 namespace dynlab::test {
 namespace test_identification_script {
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 /// Records of 2/(s^2 + 4s + 3) (x, with a delay of 0.33 s in late) and (s + 2)/(s^2 + 0.8s + 4) (theta), in files that
 /// state their sampling in different ways.
@@ -113,7 +115,19 @@ TEST_F(identification_script, takes_several_inputs) {
 TEST_F(identification_script, fills_missing_samples_and_reports_doubts_about_the_data) {
     EXPECT_THAT(printed(of("holes.csv")),
                 AllOf(HasSubstr("holes.csv: numbers are missing"), HasSubstr("fit to the estimation data: 9")));
-    EXPECT_THAT(printed(of("cut.csv")), HasSubstr("! "));  // as advice() marks a finding
+    EXPECT_THAT(printed(of("cut.csv")), HasSubstr("! The output x is cut off"));  // as advice() marks a warning
+}
+
+// oracle: the defect put in
+TEST_F(identification_script, doubts_about_the_data_are_printed_and_no_part_of_the_report) {
+    ReportRequest request =
+        report_of_script(parse_percent_script(dynlab::identification_script(of("cut.csv")), files_->path("cut.lua")),
+                         files_->path("cut.md"));
+    std::string printed;
+    request.print = [&printed](const std::string& text) { printed += text; };
+    make_report(request);
+    EXPECT_THAT(printed, HasSubstr("The output x is cut off"));
+    EXPECT_THAT(files_->read("cut.md"), AllOf(HasSubstr("From u to x"), Not(HasSubstr("is cut off"))));
 }
 
 TEST_F(identification_script, takes_uneven_instants_as_they_are) {
