@@ -1,11 +1,10 @@
 #include "scripting/conversions/option_words.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <utility>
+#include <variant>
 
 #include "platform/spelling.h"
 
@@ -53,6 +52,23 @@ constexpr std::array kOptionWords = {
 
 }  // namespace
 
+std::string option_name(std::string_view member) {
+    const auto word = std::ranges::find(kOptionWords, member, &OptionWord::first);
+    return word != kOptionWords.end() ? std::string(word->second) : "`" + std::string(member) + "`";
+}
+
+Message with_script_options(const Message& message) {
+    std::vector<MessageArgument> arguments = message.arguments();
+    for (MessageArgument& argument : arguments) {
+        if (const auto* const option = std::get_if<OptionName>(&argument)) {
+            argument = option_name(option->member);
+        } else if (auto* const list = std::get_if<MessageList>(&argument)) {
+            for (Message& item : list->items) item = with_script_options(item);
+        }
+    }
+    return Message::stored(message.id(), message.many(), std::move(arguments));
+}
+
 std::string in_lua_words(std::string_view message) {
     std::string text;
     while (!message.empty()) {
@@ -75,10 +91,16 @@ std::string with_other_case(std::string name) {
     return name;
 }
 
-std::string unknown_option_sentence(const std::string& name, const std::vector<std::string>& known) {
+Message unknown_option(const std::string& name, const std::vector<std::string>& known) {
     const auto near = nearest_word(name, known);
-    return near ? fmt::format("option '{}' is unknown; did you mean '{}'?", name, *near)
-                : fmt::format("option '{}' is unknown; the options are {}", name, fmt::join(known, ", "));
+    return near ? Message("option '{}' is unknown; did you mean '{}'?", name, *near)
+                : Message("option '{}' is unknown; the options are {}", name, listed(known));
+}
+
+MessageList listed_in_quotes(const std::vector<std::string>& texts) {
+    MessageList list;
+    for (const std::string& text : texts) list.items.push_back(Message::verbatim('"' + text + '"'));
+    return list;
 }
 
 std::vector<std::string> translated_options() {
