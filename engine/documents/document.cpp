@@ -234,7 +234,7 @@ PreparedText prepared_text(const DocumentSource& source) {
     }
     if (text.metadata.count("lang") && !text.metadata.at("lang").empty()) text.language = text.metadata.at("lang");
     if (source.record && source.record->error && !shows_cells(file))
-        begin_with_error(told_error(source.record->error->message, text.language), source.template_file, text.markdown);
+        begin_with_error(told_error(source.record->error->text(), text.language), source.template_file, text.markdown);
     return text;
 }
 

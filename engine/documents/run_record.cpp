@@ -1,5 +1,8 @@
 #include "documents/run_record.h"
 
+#include <fmt/format.h>
+
+#include "base/reader.h"
 #include "data_io/values/json_values.h"
 #include "documents/record_description.h"
 
@@ -31,6 +34,10 @@ RunRecord readable_record(const RunRecord& record) {
 }
 
 }  // namespace
+
+std::string RecordedError::text() const {
+    return line > 0 ? fmt::format("{}:{}: {}", file, line, message_text(message)) : message_text(message);
+}
 
 void write_whole_value(ValueWriter& writer, const RecordedAnswer& answer) {
     if (!writer.keeps_all()) return writer.json_text(answer.json);

@@ -60,7 +60,9 @@ class Weaver {
     Weaver(const PercentScript& script, const RunRecord& record) : script_(script), record_(record) {}
 
     MarkdownText weave() {
-        const Cell* const failed = record_.error ? script_.cell_at_line(std::max(record_.error->line, 1)) : nullptr;
+        const Cell* const failed =
+            record_.error ? script_.cell_at_line(std::max(record_.error->line_in(script_.file.filename().string()), 1))
+                          : nullptr;
         for (const Cell& cell : script_.cells) {
             if (cell.kind == Cell::Kind::kText) {
                 add_lines(cell);
@@ -105,7 +107,7 @@ class Weaver {
     }
 
     void add_error(const std::string& more, int number) {
-        add_block(told_error(record_.error->message, script_.header.language) + more, "error", number);
+        add_block(told_error(record_.error->text(), script_.header.language) + more, "error", number);
     }
 
     void add_outputs(const Cell& cell) {

@@ -81,7 +81,7 @@ class BranchingRun {
         try {
             record = received_record(own.read_end.get());
         } catch (const EnvironmentError&) {
-            record.error = RecordedError{"the script ended the process that ran it"};
+            record.error = RecordedError{Message("the script ended the process that ran it")};
         }
         copy.wait();
         return cbor_of(record);

@@ -61,7 +61,9 @@ Demonstration find_demonstration(const std::string& name) {
 }
 
 std::vector<std::string> pages_of(const PercentScript& script, const RunRecord& record) {
-    const Cell* const failed = record.error ? script.cell_at_line(std::max(record.error->line, 1)) : nullptr;
+    const Cell* const failed =
+        record.error ? script.cell_at_line(std::max(record.error->line_in(script.file.filename().string()), 1))
+                     : nullptr;
     std::vector<std::string> pages;
     std::string page;
     for (const Cell& cell : script.cells) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "base/reader.h"
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"
 #include "platform/files/inside_folder.h"
@@ -39,13 +40,12 @@ std::string source_line(const std::string& file, int line, const PercentScript& 
 }  // namespace
 
 std::string error_text(const RecordedError& error, const PercentScript& script) {
-    const LocatedMessage message = take_apart(error.message);
-    if (message.line == 0) return error.message;
-    std::string text = place_text(message.file, message.line, script) + message.text;
-    text += source_line(message.file, message.line, script);
+    if (error.line == 0) return error.text();
+    std::string text = place_text(error.file, error.line, script) + message_text(error.message);
+    text += source_line(error.file, error.line, script);
     for (const RecordedCall& call : error.calls)
-        text +=
-            "\n  " + place_text(call.file, call.line, script) + call.what + source_line(call.file, call.line, script);
+        text += "\n  " + place_text(call.file, call.line, script) + message_text(call.what) +
+                source_line(call.file, call.line, script);
     return text;
 }
 

@@ -72,7 +72,7 @@ std::vector<std::string> simulated_data_of(const Lesson& lesson) {
     const RunRecord record = run_of_solution(script);
     if (record.error)
         throw EnvironmentError("which data lesson {} loads is not known, for its worked solution stops: {}",
-                               lesson.slug, record.error->message);
+                               lesson.slug, record.error->text());
     const std::vector<std::string> names = simulated_data_of(record);
     cache.remember(name, fmt::format("{}\n", fmt::join(names, "\n")));
     return names;

@@ -49,7 +49,7 @@ std::string error_of(const std::string& code) {
                                      "0.05*randn(#u), u, 0.05)\n" +
                                          code,
                                      "t.lua");
-    return record.error ? record.error->message : "";
+    return record.error ? record.error->text() : "";
 }
 
 TEST(estimator_forms, every_function_that_makes_a_model_of_a_record_is_there) {

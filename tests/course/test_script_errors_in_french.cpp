@@ -304,7 +304,7 @@ TEST(script_errors_in_french, words_for_kinds_are_french_and_names_stay) {
 
 TEST(script_errors_in_french, stand_in_the_text_of_a_french_document) {
     RunRecord record;
-    record.error = RecordedError{"lesson.lua:5: there is no function or variable 'y'", 5};
+    record.error = RecordedError{Message("there is no function or variable '{}'", "y"), "lesson.lua", 5};
     const auto woven = [&](const std::string& language) {
         return weave_cells(parse_percent_script("-- ---\n-- language: " + language + "\n-- ---\n-- %% id=a\nprint(y)\n",
                                                 "lesson.lua"),

@@ -20,8 +20,8 @@ TEST(option_words, names_in_backticks_become_those_of_lua) {  // oracle: definit
 }
 
 TEST(option_words, options_in_messages_become_those_of_lua) {  // oracle: definition
-    EXPECT_EQ(lua_option_name("max_iterations"), "MaxIter");
-    EXPECT_EQ(lua_option_name("foreign"), "`foreign`");
+    EXPECT_EQ(option_name("max_iterations"), "MaxIter");
+    EXPECT_EQ(option_name("foreign"), "`foreign`");
     EXPECT_EQ(in_lua_words(Message("raise {} = {}, or {}", OptionName{"largest_delay"}, 2, OptionName{"foreign"})),
               "raise TdMax = 2, or `foreign`");
     EXPECT_EQ(in_lua_words(Message::verbatim("raise `largest_delay`")), "raise TdMax");

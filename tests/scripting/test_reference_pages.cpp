@@ -69,7 +69,7 @@ TEST_P(reference_pages, example_runs_and_shows_something) {
     GnuplotRenderer renderer;
     const RunRecord record = Runtime(options, renderer).run_code(example_of(GetParam().text), "example.lua");
     renderer.finish();
-    ASSERT_FALSE(record.error) << record.error->message;
+    ASSERT_FALSE(record.error) << record.error->text();
     const bool shows = !record.outputs.empty() || !record.figures.empty() || !record.values.empty() ||
                        !record.tables.empty() || !record.texts.empty() || !record.answers.empty() ||
                        !std::filesystem::is_empty(folder.path());

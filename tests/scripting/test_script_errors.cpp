@@ -232,7 +232,7 @@ TEST(script_errors, carry_the_line_of_the_script_record) {
     const auto record = run("local x = 1\n\nvector(3)\n");
     ASSERT_TRUE(record.error);
     EXPECT_EQ(record.error->line, 3);
-    EXPECT_EQ(record.error->message, "lesson.lua:3: vector: a vector is written with braces: vector{1, 2, 3}");
+    EXPECT_EQ(record.error->text(), "lesson.lua:3: vector: a vector is written with braces: vector{1, 2, 3}");
 }
 
 TEST(script_errors, name_argument_wanted_and_given) {

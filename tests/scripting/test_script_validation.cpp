@@ -122,7 +122,7 @@ TEST(script_validation, present_writes_no_digits_below_the_error) {
 TEST(script_validation, figures_carry_bands_unless_refused) {
     const auto bands = [](const std::string& drawing) {
         const RunRecord record = test::run(kRecord + "local G = procsrivc(white, 'P2')\n" + drawing);
-        EXPECT_FALSE(record.error) << record.error->message;
+        EXPECT_FALSE(record.error) << record.error->text();
         std::size_t count = 0;
         for (const auto& [name, figure] : record.figures)
             for (const Panel& panel : figure.figure->panels)

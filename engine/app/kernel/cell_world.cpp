@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/kernel/cell_messages.h"
+#include "base/reader.h"
 #include "data_io/values/cbor_values.h"
 #include "documents/script_header.h"
 #include "documents/text_lines.h"
@@ -154,7 +155,7 @@ class CellWorld {
         PercentScript cell;
         cell.file = name;
         cell.source = code;
-        tell({.kind = "failed", .text = take_apart(error.message).text, .lines = lines_of(error_text(error, cell))});
+        tell({.kind = "failed", .text = message_text(error.message), .lines = lines_of(error_text(error, cell))});
     }
 
     Channel line_;

@@ -57,7 +57,7 @@ struct World {
         if (!prelude.empty()) {
             runtime.add_functions(page_functions(), page);
             const RunRecord made = runtime.run_code(prelude, "workbench");
-            if (made.error) throw EnvironmentError(made.error->message);
+            if (made.error) throw EnvironmentError(made.error->text());
         }
         sliders.clamped = true;  // it was chosen before the script had this range
         runtime.services().sliders = &sliders;

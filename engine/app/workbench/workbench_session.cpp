@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/workbench/estimator_forms.h"
+#include "base/error.h"
 #include "data_io/values/json_values.h"
 #include "documents/error.h"
 #include "documents/text_lines.h"
@@ -268,9 +269,9 @@ void WorkbenchSession::run() {
         for (std::size_t i = first; i < runner_.parts().size(); ++i)
             for (const std::string& cell : runner_.parts()[i].cells) states_[cell] = {"waiting", 0, 0};
     } catch (const DocumentError& error) {
-        if (!lines_to_run_) error_ = RecordedError{error.what(), 0};  // else its beginning alone is no script
+        if (!lines_to_run_) error_ = RecordedError{message_of(error)};  // else its beginning alone is no script
     } catch (const EnvironmentError& error) {
-        error_ = RecordedError{error.what(), 0};
+        error_ = RecordedError{message_of(error)};
     }
 }
 
@@ -291,7 +292,7 @@ bool WorkbenchSession::ends_early(const std::string& text) const {
 
 std::optional<std::string> WorkbenchSession::mistake() const {
     const std::lock_guard lock(mutex_);
-    return error_ ? std::optional(error_->message) : std::nullopt;
+    return error_ ? std::optional(error_->text()) : std::nullopt;
 }
 
 std::string WorkbenchSession::told(const std::string& sentences) const {
@@ -375,7 +376,8 @@ std::string WorkbenchSession::json(bool all) const {
     if (!unread_.empty())
         page["error"] = {{"message", told_error(unread_, told_in)}, {"line", 0}};
     else if (error_)
-        page["error"] = {{"message", told_error(error_->message, told_in)}, {"line", error_->line}};
+        page["error"] = {{"message", told_error(error_->text(), told_in)},
+                         {"line", error_->line_in(text_.file().filename().string())}};
     if (all) page["file"] = fs::absolute(text_.file()).string();
     if (all || sent_language_ != told_in) {
         page["forms"] =

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "base/reader.h"
 #include "cli/commands.h"
 #include "cli/options/script_options.h"
 #include "documents/text_lines.h"
@@ -53,8 +54,8 @@ int lint(const LintArguments& words, const CheckNames& check_names) {
                            {"line", found.line},
                            {"column", found.column},
                            {"kind", found.kind},
-                           {"message", found.message}});
-            text += fmt::format("{}: {}\n", finding_place(found, file, source), found.message);
+                           {"message", message_text(found.message)}});
+            text += fmt::format("{}: {}\n", finding_place(found, file, source), message_text(found.message));
         }
     }
     if (words.json)

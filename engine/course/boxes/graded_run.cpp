@@ -56,7 +56,7 @@ GradedRun graded_run(RunRecord&& record, const PercentScript& script) {
     for (const auto& [name, figure] : record.figures) run.figures.push_back(name);
     for (const auto& [name, value] : record.values) run.values.push_back(name);
     run.answers = std::move(record.answers);
-    if (record.error) run.error = record.error->message;
+    if (record.error) run.error = record.error->text();
     return run;
 }
 

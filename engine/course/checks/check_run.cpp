@@ -47,7 +47,7 @@ std::vector<TriedCheck> verdicts(Runtime& runtime, CheckSession& session, std::o
             one.message = shortened_message(session.verdict->message);
             one.for_instructor = shortened_message(session.verdict->for_instructor);
         } else {
-            one.message = record.error ? shortened_message(record.error->message) : "it gave no verdict";
+            one.message = record.error ? shortened_message(record.error->text()) : "it gave no verdict";
         }
     }
     return all;
@@ -75,7 +75,7 @@ class ReadChecks {
             session_.visible_file = file.visible;
             const RunRecord record = runtime_.run_code(file.source, file.name);
             if (!record.error) continue;
-            error_ = record.error->message;
+            error_ = record.error->text();
             return;
         }
     }
@@ -93,7 +93,7 @@ class ReadChecks {
             const RunRecord record = runtime_.run_code(
                 fmt::format("_record(\"{}\", {}, {})", wanted.rig, wanted.specimen, wanted.seed), wanted.rig);
             if (record.error) {
-                results.error = record.error->message;
+                results.error = record.error->text();
                 return results;
             }
             results.records.push_back(std::move(session_.record));

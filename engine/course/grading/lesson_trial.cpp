@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "base/reader.h"
 #include "course/checks/check_functions.h"
 #include "course/findings/document_findings.h"
 #include "documents/document_rules.h"
@@ -217,7 +218,8 @@ LessonFaults faults_of_texts(const Lesson& lesson) {
             const std::string source = text_of_source(file);
             for (const LintFinding& found :
                  lint_script(source, file, checks ? names_of_check_functions() : std::vector<std::string>()))
-                if (file != lesson.script() || found.kind != "header") faults.add(file, found.line, found.message);
+                if (file != lesson.script() || found.kind != "header")
+                    faults.add(file, found.line, message_text(found.message));
         });
     }
     if (!fs::exists(lesson.folder / "checks.lua")) faults.add("checks.lua", 0, "there are no checks");

@@ -135,7 +135,7 @@ BoxedOutcome make_version(const VersionJob& job) {
         write_work_file(to / "record.json", to_json(record));
         make_document(request, record, to / "report.md", FigureFormat::kSvg);
         if (job.pdf) make_document(request, record, to / "report.pdf", FigureFormat::kPdf);
-        if (record.error) return {record.error->message};
+        if (record.error) return {record.error->text()};
         return {};
     } catch (const std::runtime_error& error) {
         return {error.what()};

@@ -27,7 +27,7 @@ using EstimationReaders = std::span<const NamedReader>;
 /// One entry of an order vector and what it means in messages.
 struct OrderEntry {
     const char* name;
-    const char* meaning;
+    Message (*meaning)();
 };
 
 /// The orders {2, 1, 1} of a model, or {2, {1, 2}, {1, 1}} with several inputs: a list for each entry. Throws
@@ -35,15 +35,15 @@ struct OrderEntry {
 /// one.
 std::vector<std::vector<int>> order_lists(const Call& call, int index, std::span<const OrderEntry> entries);
 
-/// Throws InvalidArgument: what the entries of the orders at argument `index` mean, and what is wrong with these.
-[[noreturn]] void refuse_orders(int index, std::span<const OrderEntry> entries, const std::string& wrong);
+/// What the entries mean: "{na, nb} (na: poles; nb: coefficients of B)".
+Message meaning_of(std::span<const OrderEntry> entries);
 
 // ---- Transfer functions in continuous time
 
-inline constexpr OrderEntry kNa{"na", "poles"};
-inline constexpr OrderEntry kNb{"nb", "coefficients of B"};
-inline constexpr OrderEntry kNf{"nf", "poles"};
-inline constexpr OrderEntry kNk{"nk", "samples of delay"};
+inline constexpr OrderEntry kNa{"na", [] { return Message("poles"); }};
+inline constexpr OrderEntry kNb{"nb", [] { return Message("coefficients of B"); }};
+inline constexpr OrderEntry kNf{"nf", [] { return Message("poles"); }};
+inline constexpr OrderEntry kNk{"nk", [] { return Message("samples of delay"); }};
 
 /// Makes the structure for any data, in any thread, from arguments that were read and checked. Their lists have one
 /// entry for all inputs or one for each, which hold for every output, or one for each channel. Throws InvalidArgument

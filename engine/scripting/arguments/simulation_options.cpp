@@ -20,7 +20,7 @@ Hold hold_option(const Options& options, Hold fallback) {
     return options.choice("hold", {"zoh", "foh"}, fallback == Hold::kZoh ? 0 : 1) == 0 ? Hold::kZoh : Hold::kFoh;
 }
 
-std::vector<TransferFunction> channels_argument(const Call& call, int index, const char* what) {
+std::vector<TransferFunction> channels_argument(const Call& call, int index, ArgumentName what) {
     if (index <= call.count())
         if (const Model* model = to_object<Model>(call.state(), index)) return channels_of(*model);
     return {model_argument(call, index, what).G};
@@ -43,7 +43,7 @@ Comparison comparison_argument(const Call& call, int index, const IdData& data, 
     return comparison;
 }
 
-NoisyModel noisy_model_argument(const Call& call, int index, const char* what) {
+NoisyModel noisy_model_argument(const Call& call, int index, ArgumentName what) {
     NoisyModel noisy;
     noisy.channels = channels_argument(call, index, what);
     const Model* model = to_object<Model>(call.state(), index);
@@ -104,9 +104,8 @@ std::optional<Index> steps_option(const Options& options, std::optional<Index> f
     if (!steps) return fallback;
     if (std::isinf(*steps) && *steps > 0) return std::nullopt;
     if (*steps >= 1 && *steps <= 1e9 && *steps == std::floor(*steps)) return static_cast<Index>(*steps);
-    throw InvalidArgument(fmt::format(
-        "option 'k' must be a whole number of steps ahead from 1 on, or math.huge for a simulation, but {} was given",
-        *steps));
+    refuse_option("k", Message("a whole number of steps ahead from 1 on, or math.huge for a simulation"),
+                  Message("{}", significant(*steps, 10)));
 }
 
 std::string steps_text(const std::optional<Index>& steps) {

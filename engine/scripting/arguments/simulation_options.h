@@ -16,14 +16,14 @@ CompareOptions compare_options(const Options& options, const char* initial_state
 Hold hold_option(const Options& options, Hold fallback);
 
 /// The transfer functions of a model argument, one a channel: all inputs of the first output, then of the second.
-std::vector<TransferFunction> channels_argument(const Call& call, int index, const char* what);
+std::vector<TransferFunction> channels_argument(const Call& call, int index, ArgumentName what);
 
 /// A model argument simulated on data, as the options InitialState and Offset say; of a free run that is lost it
 /// prints when.
 Comparison comparison_argument(const Call& call, int index, const IdData& data, const Options& options);
 
 /// A model argument with what it says of its noise.
-NoisyModel noisy_model_argument(const Call& call, int index, const char* what);
+NoisyModel noisy_model_argument(const Call& call, int index, ArgumentName what);
 
 /// What predict() gives of a model argument on the data.
 Predictions prediction_argument(const Call& call, int index, const IdData& data, const PredictionOptions& options);

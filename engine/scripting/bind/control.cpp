@@ -25,7 +25,7 @@ int lqr(Call& call) {
 ComplexVector listed_poles(const Call& call, int index) {
     lua_State* L = call.state();
     if (lua_type(L, index) != LUA_TTABLE)
-        wrong_argument(L, index, "poles", "list of numbers and pairs {re, im}, or complex vector");
+        wrong_argument(L, index, "poles", Message("a list of numbers and pairs {re, im}, or complex vector"));
     std::vector<Complex> poles;
     for (lua_Integer i = 1; lua_rawgeti(L, index, i) != LUA_TNIL; lua_pop(L, 1), ++i) {
         if (lua_type(L, -1) == LUA_TNUMBER) {
@@ -33,11 +33,11 @@ ComplexVector listed_poles(const Call& call, int index) {
             continue;
         }
         if (lua_type(L, -1) != LUA_TTABLE || lua_rawlen(L, -1) != 2)
-            throw InvalidArgument("place: poles are numbers, and pairs of complex ones {re, im}");
+            throw InvalidArgument("poles are numbers, and pairs of complex ones {re, im}");
         lua_rawgeti(L, -1, 1);
         lua_rawgeti(L, -2, 2);
         if (lua_type(L, -1) != LUA_TNUMBER || lua_type(L, -2) != LUA_TNUMBER)
-            throw InvalidArgument("place: the two parts of a complex pole {re, im} are numbers");
+            throw InvalidArgument("the two parts of a complex pole {re, im} are numbers");
         poles.emplace_back(lua_tonumber(L, -2), lua_tonumber(L, -1));
         lua_pop(L, 2);
         poles.push_back(std::conj(poles.back()));
@@ -57,7 +57,7 @@ int place(Call& call) {
 int drive_crane(Call& call) {
     call.at_most(2);
     lua_State* L = call.state();
-    if (call.type(1) != LUA_TFUNCTION) wrong_argument(L, 1, "controller", "function of t, x and theta");
+    if (call.type(1) != LUA_TFUNCTION) wrong_argument(L, 1, "controller", Message("a function of t, x and theta"));
     const Options options(call, 2, {"duration", "position", "angle", "seed"});
     CraneRun run;
     run.duration = options.number("duration", run.duration);
@@ -68,8 +68,8 @@ int drive_crane(Call& call) {
         for (const double value : {t, x, theta}) lua_pushnumber(L, value);
         lua_call(L, 3, 1);
         if (lua_type(L, -1) != LUA_TNUMBER)
-            throw InvalidArgument("the controller must return the voltage, a number, but returned " +
-                                  given_text(L, -1));
+            throw InvalidArgument("the controller must return the voltage, a number, but returned {}",
+                                  given_value(L, -1));
         const double voltage = lua_tonumber(L, -1);
         lua_pop(L, 1);
         return voltage;

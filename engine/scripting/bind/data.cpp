@@ -3,7 +3,6 @@
 #include <set>
 #include <utility>
 
-#include "base/number_text.h"
 #include "base/reader.h"
 #include "data_io/dataset_index.h"
 #include "figures/plots/id_plot.h"
@@ -57,9 +56,10 @@ void push_variable(const Call& call, const Variable& variable, const std::string
 void check_stays_inside(const std::filesystem::path& path) {
     const bool leads_out = std::find(path.begin(), path.end(), "..") != path.end();
     if (path.is_absolute() || leads_out)
-        throw InvalidArgument(fmt::format(
-            "\"{}\" {}; where scripts are graded, only the course's data and files of the folder itself can be loaded",
-            path.string(), kLeadsOutside));
+        throw InvalidArgument(
+            "\"{}\" leads outside the folder; where scripts are graded, only the course's data and files of the folder "
+            "itself can be loaded",
+            path.string());
 }
 
 std::map<std::string, std::string> units_by_name(const Options& options) {
@@ -85,8 +85,8 @@ ImportOptions import_options(const Options& options) {
     import.names = options.texts("names");
     const std::string delimiter = options.text("delimiter", "");
     if (delimiter.size() > 1)
-        throw InvalidArgument(fmt::format(
-            "option 'delimiter' must be one character (\" \" for blanks and tabs), but \"{}\" was given", delimiter));
+        throw InvalidArgument("{} must be {}, but \"{}\" was given", option_label("delimiter"),
+                              Message("one character (\" \" for blanks and tabs)"), delimiter);
     if (!delimiter.empty()) import.delimiter = delimiter.front();
     import.units = units_by_name(options);
     import.time = options.text("time", "");
@@ -118,7 +118,7 @@ void add_units_and_headers(const Call& call, const LoadedData& loaded) {
 int load(Call& call) {
     call.at_most(2);
     const Options options(call, 2, {"skip", "names", "delimiter", "units", "time", "sheet"});
-    const std::string name = call.text(1, "name or path");
+    const std::string name = call.text(1, Message("name or path"));
     const RunOptions& run = call.context().options;
     if (run.graded || run.stay_in_folder) check_stays_inside(name);
     const LoadedData loaded = load_data(name, run.script_folder, run.graded, import_options(options));
@@ -131,7 +131,7 @@ int load(Call& call) {
 }
 
 /// Samples by channels; nothing for data without inputs.
-Matrix signals(const Call& call, int index, const char* what, Index samples) {
+Matrix signals(const Call& call, int index, ArgumentName what, Index samples) {
     if (!call.given(index)) return Matrix(samples, 0);
     return call.matrix(index, what);
 }
@@ -141,8 +141,8 @@ void set_texts(const Options& options, const char* name, std::vector<std::string
     if (!options.has(name)) return;
     texts = options.texts(name);
     if (static_cast<Index>(texts.size()) != channels)
-        throw InvalidArgument(fmt::format("option '{}' has {} for {}", name, counted(texts.size(), "text"),
-                                          counted(channels, "channel")));
+        throw InvalidArgument("option '{}' has {} for {}", name, plural(texts.size(), "{} text", "{} texts"),
+                              plural(channels, "{} channel", "{} channels"));
 }
 
 /// The same for units; a column that load() gave brings its own.
@@ -159,8 +159,8 @@ void check_names(const IdData& data) {
     for (const auto* names : {&data.input_names, &data.output_names})
         for (const std::string& name : *names)
             if (!seen.insert(name).second)
-                throw InvalidArgument(
-                    fmt::format("the name '{}' names two channels: give each its own InputName or OutputName", name));
+                throw InvalidArgument("the name '{}' names two channels: give each its own InputName or OutputName",
+                                      name);
 }
 
 /// Once in a run: time constants come out in samples where seconds are meant.
@@ -193,8 +193,9 @@ int make_iddata(Call& call) {
                            "SamplingInstants", "Reference"});
     if (call.holds_vector(3))
         throw InvalidArgument(
-            "argument 3 (Ts) must be a number of seconds, but instants were given; where they lie at uneven distances "
-            "write iddata(y, u, nil, {SamplingInstants = t})");
+            "{} must be a number of seconds, but instants were given; where they lie at uneven distances write "
+            "iddata(y, u, nil, {SamplingInstants = t})",
+            argument_label(3, "Ts"));
     const bool inputs_only = !call.given(1) && call.given(2);
     const Matrix y = inputs_only ? Matrix(call.matrix(2, "u").rows(), 0) : Matrix(call.matrix(1, "y"));
     const Matrix u = signals(call, 2, "u", y.rows());
@@ -232,7 +233,7 @@ int idplot(Call& call) {
     int i = 1;
     for (; i <= call.count() && to_object<IdData>(call.state(), i) != nullptr; ++i)
         all.push_back(to_object<IdData>(call.state(), i));
-    if (all.empty()) wrong_argument(call.state(), 1, "data", "iddata");
+    if (all.empty()) wrong_argument(call.state(), 1, "data", with_article("iddata"));
     call.at_most(i);
     return give_figure(call, id_plot(all, Options(call, i, {"labels"}).texts("labels")));
 }

@@ -18,8 +18,8 @@ const IdData& data_self(Call& call) {
 
 const Experiment& only_experiment(const IdData& data) {
     if (data.experiments.size() != 1)
-        throw InvalidArgument(fmt::format("the data hold {} experiments; take one of them with data:experiment(k)",
-                                          data.experiments.size()));
+        throw InvalidArgument("the data hold {} experiments; take one of them with data:experiment(k)",
+                              data.experiments.size());
     return data.experiments.front();
 }
 
@@ -51,8 +51,7 @@ int part(Call& call) {
 
 Index whole_index(double number) {
     if (number != std::floor(number))
-        throw InvalidArgument(
-            fmt::format("samples and channels are counted in whole numbers, but {} was given", number_text(number)));
+        throw InvalidArgument("samples and channels are counted in whole numbers, but {} was given", number);
     return static_cast<Index>(number);
 }
 
@@ -62,8 +61,8 @@ int part_by_table(Call& call) {
         throw InvalidArgument("the samples i to j are data[{i, j}]; the signals are data.y, data.u and data.t");
     const VectorMap bounds = call.vector(2, "{first, last}");
     if (bounds.size() != 2)
-        throw InvalidArgument(
-            fmt::format("the samples i to j are data[{{i, j}}], not {}", counted(bounds.size(), "number")));
+        throw InvalidArgument("the samples i to j are data[{i, j}], not {}",
+                              plural(bounds.size(), "{} number", "{} numbers"));
     return give_data(call, data_self(call).range(whole_index(bounds[0]), whole_index(bounds[1])));
 }
 
@@ -72,8 +71,7 @@ int experiment(Call& call) {
     IdData data = data_self(call);
     const Index number = call.integer(2, "experiment");
     if (number < 1 || number > static_cast<Index>(data.experiments.size()))
-        throw InvalidArgument(
-            fmt::format("experiment {} does not exist: {}", number, numbered_from_one(data.experiments.size())));
+        throw InvalidArgument("experiment {} does not exist: {}", number, numbered_from_one(data.experiments.size()));
     data.experiments = {data.experiments[static_cast<std::size_t>(number - 1)]};
     return give_data(call, std::move(data));
 }
@@ -85,7 +83,7 @@ int split(Call& call) {
     return give_data(call, std::move(first)) + give_data(call, std::move(second));
 }
 
-std::vector<Index> channels(Call& call, int index, const char* what) {
+std::vector<Index> channels(Call& call, int index, ArgumentName what) {
     if (call.type(index) == LUA_TNUMBER) return {call.integer(index, what)};
     const VectorMap list = call.vector(index, what);
     std::vector<Index> indices;

@@ -16,11 +16,12 @@
 namespace dynlab::inline scripting {
 namespace {
 
-constexpr OrderEntry kDiscreteNb{"nb", "coefficients of B"};
-constexpr OrderEntry kDiscreteNk{"nk", "samples of delay, 1 for no direct term"};
-constexpr OrderEntry kDiscreteNa{"na", "poles"}, kDiscreteNf{"nf", "poles"};
-constexpr OrderEntry kDiscreteNc{"nc", "coefficients of C after the leading one"};
-constexpr OrderEntry kDiscreteNd{"nd", "coefficients of D after the leading one"};
+constexpr OrderEntry kDiscreteNb{"nb", [] { return Message("coefficients of B"); }};
+constexpr OrderEntry kDiscreteNk{"nk", [] { return Message("samples of delay, 1 for no direct term"); }};
+constexpr OrderEntry kDiscreteNa{"na", [] { return Message("poles"); }},
+    kDiscreteNf{"nf", [] { return Message("poles"); }};
+constexpr OrderEntry kDiscreteNc{"nc", [] { return Message("coefficients of C after the leading one"); }};
+constexpr OrderEntry kDiscreteNd{"nd", [] { return Message("coefficients of D after the leading one"); }};
 constexpr std::array kArxOrders = {kDiscreteNa, kDiscreteNb, kDiscreteNk};
 constexpr std::array kArmaxOrders = {kDiscreteNa, kDiscreteNb, kDiscreteNc, kDiscreteNk};
 constexpr std::array kDiscreteOutputErrorOrders = {kDiscreteNb, kDiscreteNf, kDiscreteNk};
@@ -29,8 +30,8 @@ constexpr std::array kBoxJenkinsOrders = {kDiscreteNb, kDiscreteNc, kDiscreteNd,
 /// The entry of an order vector that is one number for all inputs.
 int only_value(const std::vector<int>& entry, const OrderEntry& what) {
     if (entry.size() == 1) return entry.front();
-    throw InvalidArgument(
-        fmt::format("{} is one number of {} for all inputs, but {} were given", what.name, what.meaning, entry.size()));
+    throw InvalidArgument("{} is one number of {} for all inputs, but {} were given", what.name, what.meaning(),
+                          entry.size());
 }
 
 template <auto kMethod>

@@ -16,7 +16,7 @@ Figure& figure_self(Call& call) {
 
 Panel& panel_of(Figure& figure, Index number) {
     if (number < 1 || number > static_cast<Index>(figure.panels.size()))
-        throw InvalidArgument(fmt::format("panel {} does not exist: the figure has {}", number, figure.panels.size()));
+        throw InvalidArgument("panel {} does not exist: the figure has {}", number, figure.panels.size());
     return figure.panels[static_cast<std::size_t>(number - 1)];
 }
 
@@ -71,8 +71,8 @@ double place_at(const Call& call, double number, const char* coordinate) {
     lua_pushnumber(L, number);
     lua_call(L, 1, 1);
     if (lua_type(L, -1) != LUA_TNUMBER)
-        throw InvalidArgument(fmt::format("the function '{}' of the handle must give a number, but for {} it gave {}",
-                                          coordinate, number_text(number), given_text(L, lua_gettop(L))));
+        throw InvalidArgument("the function '{}' of the handle must give a number, but for {} it gave {}", coordinate,
+                              number, given_value(L, lua_gettop(L)));
     const double place = lua_tonumber(L, -1);
     lua_pop(L, 1);
     return place;
@@ -84,12 +84,10 @@ const RecordedSlider& slider_of_handle(const Options& options, const std::string
     const auto found = sliders.find(name);
     if (found != sliders.end()) return found->second;
     if (name.empty())
-        throw InvalidArgument(
-            fmt::format("'{}' is a function: {} = \"NAME\" must say of which slider", coordinate, key));
+        throw InvalidArgument("'{}' is a function: {} = \"NAME\" must say of which slider", coordinate, key);
     throw InvalidArgument(
-        fmt::format("the script has not asked for a slider \"{}\" yet: slider(\"{}\", ...) must "
-                    "stand before the handle",
-                    name, name));
+        "the script has not asked for a slider \"{}\" yet: slider(\"{}\", ...) must stand before the handle", name,
+        name);
 }
 
 /// A coordinate of a handle: a number, or a function of the slider that is named beside it.
@@ -103,8 +101,8 @@ double handle_coordinate(const Options& options, const char* coordinate, bool ho
         const auto number = options.optional_number(coordinate);
         if (!number || options.has(key.c_str()))
             throw InvalidArgument(
-                fmt::format("a handle needs {} = number, or {} = function(number of the slider) and {} = \"NAME\"",
-                            coordinate, coordinate, key));
+                "a handle needs {} = number, or {} = function(number of the slider) and {} = \"NAME\"", coordinate,
+                coordinate, key);
         return *number;
     }
     const RecordedSlider& slider = slider_of_handle(options, coordinate);
@@ -116,9 +114,8 @@ double handle_coordinate(const Options& options, const char* coordinate, bool ho
     const Vector steps = scale.places.tail(kScaleNumbers - 1) - scale.places.head(kScaleNumbers - 1);
     if (!scale.places.allFinite() || !((steps.array() > 0).all() || (steps.array() < 0).all()))
         throw InvalidArgument(
-            fmt::format("the function '{}' of the handle must rise or fall all the way as the slider "
-                        "\"{}\" goes from {} to {}",
-                        coordinate, scale.slider, number_text(slider.from), number_text(slider.to)));
+            "the function '{}' of the handle must rise or fall all the way as the slider \"{}\" goes from {} to {}",
+            coordinate, scale.slider, slider.from, slider.to);
     handle.scales.push_back(std::move(scale));
     return here;
 }

@@ -2,7 +2,6 @@
 #include <array>
 #include <cmath>
 
-#include "base/number_text.h"
 #include "figures/figure_text.h"
 #include "figures/gnuplot_renderer.h"
 #include "figures/gnuplot_script.h"
@@ -35,8 +34,7 @@ std::vector<double> numbers(const Options& options, const char* name) {
 /// The number as an index into a list of looks.
 int place_of_look(double number, const char* name) {
     if (number < 0 || number != std::floor(number) || number > 1000)
-        throw InvalidArgument(
-            fmt::format("option '{}' must be a whole number from 0 on, but {} was given", name, number_text(number)));
+        refuse_option(name, Message("a whole number from 0 on"), Message("{}", number));
     return static_cast<int>(number);
 }
 
@@ -46,8 +44,8 @@ const T* value_for(const std::vector<T>& values, std::size_t i, std::size_t coun
     if (values.empty()) return nullptr;
     if (values.size() == 1) return &values.front();
     if (values.size() != count)
-        throw InvalidArgument(
-            fmt::format("option '{}' has {} for {}", name, counted(values.size(), "value"), counted(count, "curve")));
+        throw InvalidArgument("option '{}' has {} for {}", name, plural(values.size(), "{} value", "{} values"),
+                              plural(count, "{} curve", "{} curves"));
     return &values[i];
 }
 
@@ -55,8 +53,8 @@ void read_curve_lists(const Options& options, std::vector<Curve>& curves) {
     const CurveLists lists{options.texts("label"), options.texts("style"), numbers(options, "dash"),
                            numbers(options, "marker"), colours_of(options)};
     if (lists.labels.size() > curves.size())
-        throw InvalidArgument(fmt::format("option 'label' has {} for {}", counted(lists.labels.size(), "text"),
-                                          counted(curves.size(), "curve")));
+        throw InvalidArgument("option 'label' has {} for {}", plural(lists.labels.size(), "{} text", "{} texts"),
+                              plural(curves.size(), "{} curve", "{} curves"));
     for (std::size_t i = 0; i < curves.size(); ++i) {
         Curve& curve = curves[i];
         if (i < lists.labels.size()) curve.label = with_marked_indices(lists.labels[i]);
@@ -79,17 +77,17 @@ bool is_line_specification(const std::string& text) {
 }
 
 std::string curve_name(const Call& call, int index) {
-    const std::string name = call.text(index, "name of the curve");
+    const std::string name = call.text(index, Message("name of the curve"));
     static constexpr std::array kProperties = {"LineWidth",  "LineStyle",   "Color",          "Marker",
                                                "MarkerSize", "DisplayName", "MarkerFaceColor"};
     if (std::find(kProperties.begin(), kProperties.end(), name) != kProperties.end())
         throw InvalidArgument(
-            fmt::format("\"{}\" is an option of MATLAB's plot; write the options as one table, "
-                        "plot(x, y, {{line_width = 2, colour = \"red\", style = \"points\"}})",
-                        name));
+            "\"{}\" is an option of MATLAB's plot; write the options as one table, plot(x, y, {line_width = 2, colour "
+            "= \"red\", style = \"points\"})",
+            name);
     if (is_line_specification(name))
-        throw InvalidArgument(fmt::format(
-            "a text names the curve; for the look \"{}\" write {{style = \"points\"}} or {{dash = 1}}", name));
+        throw InvalidArgument("a text names the curve; for the look \"{}\" write {style = \"points\"} or {dash = 1}",
+                              name);
     return name;
 }
 
@@ -207,8 +205,7 @@ int subplot(Call& call) {
     for (lua_Integer i = 1; lua_rawgeti(L, 3, i) != LUA_TNIL; lua_pop(L, 1), ++i) {
         const FigurePointer* part = to_object<FigurePointer>(L, -1);
         if (part == nullptr)
-            throw InvalidArgument(
-                fmt::format("entry {} of the list must be a figure, but it is {}", i, given_text(L, -1)));
+            throw InvalidArgument("entry {} of the list must be a figure, but it is {}", i, given_value(L, -1));
         (*part)->used = true;
         figure.panels.insert(figure.panels.end(), (*part)->figure.panels.begin(), (*part)->figure.panels.end());
     }
@@ -221,22 +218,22 @@ Matrix signals_of_parts(const Options& options, const char* name, const RigDrawi
     const Call& call = options.call();
     const int table = options.push(name);
     if (lua_type(call.state(), table) != LUA_TTABLE)
-        throw InvalidArgument(fmt::format("option '{}' must be a table such as {{{} = y}}, but it is {}", name,
-                                          rig.parts.front().signal, given_text(call.state(), table)));
+        throw InvalidArgument("option '{}' must be a table such as {{} = y}, but it is {}", name,
+                              rig.parts.front().signal, given_value(call.state(), table));
     Matrix signals(count, static_cast<Index>(rig.parts.size()));
     for (std::size_t k = 0; k < rig.parts.size(); ++k) {
         const RigPart& part = rig.parts[k];
         if (lua_getfield(call.state(), table, part.signal.c_str()) == LUA_TNIL)
-            throw InvalidArgument(
-                fmt::format("option '{}' lacks the {} ({}), which moves the rig", name, part.signal, part.unit));
+            throw InvalidArgument("option '{}' lacks the {} ({}), which moves the rig", name, part.signal, part.unit);
         const Call with_signal(call.state());  // it counts what stands on the stack now
         if (!with_signal.holds_vector(with_signal.count()))
-            throw InvalidArgument(fmt::format("the {} {} must be a vector, but it is {}", name, part.signal,
-                                              given_text(call.state(), with_signal.count())));
+            throw InvalidArgument("the {} {} must be a vector, but it is {}", name, part.signal,
+                                  given_value(call.state(), with_signal.count()));
         const VectorMap signal = with_signal.vector(with_signal.count(), part.signal.c_str());
         if (signal.size() != count)
-            throw InvalidArgument(fmt::format("the {} {} has {} for {}", name, part.signal,
-                                              counted(signal.size(), "value"), counted(count, "instant")));
+            throw InvalidArgument("the {} {} has {} for {}", name, part.signal,
+                                  plural(signal.size(), "{} value", "{} values"),
+                                  plural(count, "{} instant", "{} instants"));
         signals.col(static_cast<Index>(k)) = signal;
     }
     return signals;

@@ -24,7 +24,7 @@ int push_field(lua_State* L, int index, const char* name) {
 Vector coefficients_of_field(const Call& call, int index, const char* name) {
     lua_State* L = call.state();
     if (push_field(L, index, name) == LUA_TTABLE)
-        make_vector_of_table(L, lua_gettop(L), fmt::format("the field {} of a model's struct", name));
+        make_vector_of_table(L, lua_gettop(L), Message("the field {} of a model's struct", name));
     NumericBlock* block = to_vector(L, -1) != nullptr ? to_vector(L, -1) : to_matrix(L, -1);
     Vector values;
     if (lua_type(L, -1) == LUA_TNUMBER)
@@ -32,8 +32,8 @@ Vector coefficients_of_field(const Call& call, int index, const char* name) {
     else if (block != nullptr && std::min(block->rows, block->columns) == 1)
         values = Eigen::Map<const Vector>(block->data(), block->rows * block->columns);
     else
-        throw InvalidArgument(fmt::format("the field {} of a model's struct must be a vector, but it is {}", name,
-                                          given_text(L, lua_gettop(L))));
+        throw InvalidArgument("the field {} of a model's struct must be a vector, but it is {}", name,
+                              given_value(L, lua_gettop(L)));
     lua_pop(L, 1);
     return values;
 }
@@ -42,8 +42,8 @@ double number_of_field(const Call& call, int index, const char* name) {
     lua_State* L = call.state();
     const int type = push_field(L, index, name);
     if (type != LUA_TNIL && type != LUA_TNUMBER)
-        throw InvalidArgument(fmt::format("the field {} of a model's struct must be a number, but it is {}", name,
-                                          given_text(L, lua_gettop(L))));
+        throw InvalidArgument("the field {} of a model's struct must be a number, but it is {}", name,
+                              given_value(L, lua_gettop(L)));
     const double value = type == LUA_TNIL ? 0 : lua_tonumber(L, -1);
     lua_pop(L, 1);
     return value;
@@ -78,7 +78,7 @@ int make_tf(Call& call) {
     }
     const bool sampled = call.type(3) == LUA_TNUMBER;  // tf(num, den, Ts)
     const Options options(call, sampled ? 4 : 3, {"Ts", "IODelay"});
-    auto coefficients = [&](int index, const char* what) {
+    auto coefficients = [&](int index, ArgumentName what) {
         return call.type(index) == LUA_TNUMBER ? Vector(Vector::Constant(1, call.number(index, what)))
                                                : Vector(call.vector(index, what));
     };
@@ -100,8 +100,8 @@ int make_idproc(Call& call) {
     for (std::size_t i = 0; i < names.size(); ++i) {
         const auto value = options.optional_number(names[i].c_str());
         if (!value)
-            throw InvalidArgument(fmt::format("the structure {} needs the parameters {}; {} is missing",
-                                              structure.text(), fmt::join(names, ", "), names[i]));
+            throw InvalidArgument("the structure {} needs the parameters {}; {} is missing", structure.text(),
+                                  listed(names), names[i]);
         parameters[static_cast<Index>(i)] = *value;
     }
     const ProcessModel process(structure, parameters);
@@ -139,7 +139,7 @@ int connect_feedback(Call& call) {
     call.at_most(3);
     const Index sign = call.given(3) ? call.integer(3, "sign") : -1;
     if (sign != 1 && sign != -1) throw InvalidArgument("the sign is -1 (negative feedback) or 1 (positive feedback)");
-    const auto part = [&](int index, const char* what) {
+    const auto part = [&](int index, ArgumentName what) {
         return with_rational_delay("feedback", model_argument(call, index, what).G);
     };
     return give_model(call, feedback(part(1, "forward"), part(2, "backward"), static_cast<int>(sign)));
@@ -154,7 +154,7 @@ Discretisation method_argument(const Call& call, int index) {
     if (name == "zoh") return Discretisation::kZoh;
     if (name == "foh") return Discretisation::kFoh;
     if (name == "tustin") return Discretisation::kTustin;
-    throw InvalidArgument(fmt::format("the method is \"zoh\", \"foh\" or \"tustin\", but \"{}\" was given", name));
+    throw InvalidArgument("the method is \"zoh\", \"foh\" or \"tustin\", but \"{}\" was given", name);
 }
 
 int to_discrete(Call& call) {
@@ -220,7 +220,7 @@ int damp(Call& call) {
 }
 
 int present(Call& call) {
-    if (call.count() == 0) wrong_argument(call.state(), 1, "G", "model");
+    if (call.count() == 0) wrong_argument(call.state(), 1, "G", with_article("model"));
     for (int i = 1; i <= call.count(); ++i) {
         if (const GreyEstimate* grey = to_object<GreyEstimate>(call.state(), i)) {
             call.print(told(call, grey_presentation(**grey)));

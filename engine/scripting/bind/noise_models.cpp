@@ -11,14 +11,13 @@
 namespace dynlab::inline scripting {
 namespace {
 
-constexpr OrderEntry kNc{"nc", "coefficients of C after the leading one"};
-constexpr OrderEntry kNd{"nd", "coefficients of D after the leading one"};
+constexpr OrderEntry kNc{"nc", [] { return Message("coefficients of C after the leading one"); }};
+constexpr OrderEntry kNd{"nd", [] { return Message("coefficients of D after the leading one"); }};
 constexpr std::array kNoiseModelOrders = {kNb, kNc, kNd, kNf, kNk};
 
 int noise_order(const std::vector<int>& entry, const OrderEntry& what) {
     if (entry.size() == 1) return entry.front();
-    throw InvalidArgument(
-        fmt::format("{} is one number for the noise of the output, but {} were given", what.name, entry.size()));
+    throw InvalidArgument("{} is one number for the noise of the output, but {} were given", what.name, entry.size());
 }
 
 Estimation noisy_estimation(const StructureMaker& structure, const NoiseOrders& noise, const FitOptions& wanted) {

@@ -1,7 +1,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/number_text.h"
 #include "figures/confidence_band.h"
 #include "numerics/simulation/frequency_response.h"
 #include "numerics/simulation/lsim.h"
@@ -31,8 +30,8 @@ InputSignals input_argument(const Call& call) {
         call.at_most(3);
         const IdData& data = signals_of_argument(call, 2, "data");
         if (data.experiments.size() != 1)
-            throw InvalidArgument(fmt::format("the data hold {} experiments; take one of them with data:experiment(k)",
-                                              data.experiments.size()));
+            throw InvalidArgument("the data hold {} experiments; take one of them with data:experiment(k)",
+                                  data.experiments.size());
         return {data.experiments.front().u, data.time(), data.Ts, data.hold, 3};
     }
     call.at_most(4);
@@ -44,8 +43,9 @@ InputSignals input_argument(const Call& call) {
 Matrix simulated_outputs(const std::vector<TransferFunction>& channels, const InputSignals& input, Hold hold) {
     const auto inputs = static_cast<std::size_t>(input.u.cols());
     if (inputs == 0 || channels.size() % inputs != 0)
-        throw InvalidArgument(fmt::format("the model has {}, which cannot belong to {}",
-                                          counted(channels.size(), "channel"), counted(inputs, "input")));
+        throw InvalidArgument("the model has {}, which cannot belong to {}",
+                              plural(channels.size(), "{} channel", "{} channels"),
+                              plural(inputs, "{} input", "{} inputs"));
     Matrix y = Matrix::Zero(input.u.rows(), static_cast<Index>(channels.size() / inputs));
     for (std::size_t i = 0; i < channels.size(); ++i) {
         const auto u = input.u.col(static_cast<Index>(i % inputs));
@@ -62,13 +62,11 @@ double own_noise_std(const Model* model) {
             "this model was not estimated and knows nothing of its noise: give the option snr, in dB");
     if (model->estimate->carx)
         throw InvalidArgument(
-            fmt::format("{} knows the error of its equation, which is no noise of the output: give the option snr, in "
-                        "dB",
-                        model->estimate->method));
+            "{} knows the error of its equation, which is no noise of the output: give the option snr, in dB",
+            model->estimate->method);
     for (const auto& [name, value] : model->estimate->numbers)
         if (name == "noise_variance" && value >= 0) return std::sqrt(value);
-    throw InvalidArgument(
-        fmt::format("{} tells no variance of the noise: give the option snr, in dB", model->estimate->method));
+    throw InvalidArgument("{} tells no variance of the noise: give the option snr, in dB", model->estimate->method);
 }
 
 /// The script's own stream, or one of its own from the option seed.
@@ -78,7 +76,7 @@ class DrawnNumbers {
         if (!options.has("seed")) return;
         const Index seed = options.size("seed", 0);
         if (seed > 0xFFFFFFFF)
-            throw InvalidArgument(fmt::format("the seed must lie between 0 and 4294967295, but {} was given", seed));
+            throw InvalidArgument("the seed must lie between 0 and 4294967295, but {} was given", seed);
         own_ = RandomStream(static_cast<std::uint32_t>(seed));
         stream_ = &*own_;
     }
@@ -101,11 +99,10 @@ int simulate_with_noise(Call& call) {
     if (!options.flag("noise", snr.has_value()))
         return y.cols() == 1 ? call.give_vector(y.col(0)) : call.give_matrix(y);
     if (y.cols() != 1)
-        throw InvalidArgument(
-            fmt::format("noise is simulated for one output, and the model has {}: take its channels", y.cols()));
+        throw InvalidArgument("noise is simulated for one output, and the model has {}: take its channels", y.cols());
     if (model.noise_Ts > 0 && std::abs(model.noise_Ts - input.Ts) > 1e-9 * model.noise_Ts)
-        throw InvalidArgument(fmt::format("the noise model counts samples of {} s, and the input is sampled every {} s",
-                                          model.noise_Ts, input.Ts));
+        throw InvalidArgument("the noise model counts samples of {} s, and the input is sampled every {} s",
+                              significant(model.noise_Ts, 10), significant(input.Ts, 10));
     const ColouredNoise noise = noise_of(model);
     const double sigma =
         snr ? noise_std_of_snr(y.col(0), *snr) / noise.gain() : own_noise_std(to_object<Model>(call.state(), 1));
@@ -133,8 +130,8 @@ std::optional<TransferStructure> structure_of_estimate(const Model& model) {
 SimulationSpread spread_of(const Model& model, const InputSignals& input, Hold hold, Index runs, RandomStream& random) {
     if (input.Ts == 0) throw InvalidArgument("the input must be sampled regularly");
     if (static_cast<std::size_t>(input.u.cols()) != model.inputs())
-        throw InvalidArgument(
-            fmt::format("the model has {} input(s), and {} were given", model.inputs(), input.u.cols()));
+        throw InvalidArgument("the model has {}, and {} were given", plural(model.inputs(), "{} input", "{} inputs"),
+                              input.u.cols());
     if (const auto uncertain = uncertain_model(model))
         return simulation_spread(*uncertain, input.u.col(0), input.Ts, hold, runs, random);
     if (model.estimate && model.outputs == 1 && model.estimate->covariance.size() > 0) {
@@ -170,8 +167,7 @@ int simulate_spread(Call& call) {
     const Options options(call, input.options_index, {"runs", "seed", "hold", "confidence"});
     const double level = options.number("confidence", 0.99);
     if (!(level > 0 && level < 1))
-        throw InvalidArgument(
-            fmt::format("option 'confidence' must be a probability between 0 and 1, but {} was given", level));
+        refuse_option("confidence", Message("a probability between 0 and 1"), Message("{}", significant(level, 10)));
     const SimulationSpread spread = spread_of(model, input, hold_option(options, input.hold), options.size("runs", 200),
                                               DrawnNumbers(call, options).stream());
     give_figure(call, spread_figure(model.estimate->method, spread, input.t, level));

@@ -1,6 +1,5 @@
 #include <array>
 
-#include "base/number_text.h"
 #include "figures/plots/impulse_estimate_plot.h"
 #include "figures/plots/spectral_plot.h"
 #include "numerics/estimators/cra.h"
@@ -41,16 +40,16 @@ void name_models(const Options& options, std::vector<NamedModel>& models) {
     const std::vector<std::string> labels = options.texts("labels");
     if (labels.empty()) return;
     if (labels.size() != models.size())
-        throw InvalidArgument(fmt::format("option 'labels' has {} for {}", counted(labels.size(), "text"),
-                                          counted(models.size(), "model")));
+        throw InvalidArgument("option 'labels' has {} for {}", plural(labels.size(), "{} text", "{} texts"),
+                              plural(models.size(), "{} model", "{} models"));
     for (std::size_t i = 0; i < models.size(); ++i) models[i].name = labels[i];
 }
 
 double confidence_of(const Options& options) {
     const double level = options.number("confidence", 0.99);
     if (level > 0 && level < 1) return level;
-    throw InvalidArgument(fmt::format(
-        "option 'confidence' must be a probability between 0 and 1, such as 0.99, but {} was given", level));
+    refuse_option("confidence", Message("a probability between 0 and 1, such as 0.99"),
+                  Message("{}", significant(level, 10)));
 }
 
 void print_message(const Call& call, const Message& message, const std::vector<Message>& warnings) {

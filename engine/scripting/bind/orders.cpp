@@ -22,8 +22,7 @@
 namespace dynlab::inline scripting {
 namespace {
 
-constexpr std::array kStructureOrders = {OrderEntry{"nb", "coefficients of B"}, OrderEntry{"nf", "poles"},
-                                         OrderEntry{"nk", "samples of delay"}};
+constexpr std::array kStructureOrders = {kNb, kNf, kNk};
 
 /// {from, to} or a single number.
 std::pair<int, int> range_of(const Options& options, const char* name, std::pair<int, int> fallback) {
@@ -37,7 +36,7 @@ std::pair<int, int> range_of(const Options& options, const char* name, std::pair
     }
     const auto [from, to] = *options.range(name);
     if (from != std::floor(from) || to != std::floor(to))
-        throw InvalidArgument(fmt::format("option '{}' must hold whole numbers {{from, to}}", name));
+        throw InvalidArgument("option '{}' must hold whole numbers {from, to}", name);
     return {static_cast<int>(from), static_cast<int>(to)};
 }
 
@@ -136,9 +135,8 @@ OrderCriterion criterion_of(const Call& call) {
     for (const OrderMeasure& measure : order_measures())
         if (text == measure.word) return measure.criterion;
     throw InvalidArgument(
-        fmt::format("the criterion must be \"recommended\", \"RT2\", \"YIC\", \"AIC\", \"BIC\", \"FPE\", \"fit\" or "
-                    "\"validation\", but \"{}\" was given",
-                    text));
+        "{} must be {}, but \"{}\" was given", Message("the criterion"),
+        Message("\"recommended\", \"RT2\", \"YIC\", \"AIC\", \"BIC\", \"FPE\", \"fit\" or \"validation\""), text);
 }
 
 int select_structure(Call& call) {
@@ -172,13 +170,13 @@ ArxCriterion arx_criterion_of(const Call& call, const ArxSelection& table) {
     for (const auto& [name, criterion] : {std::pair("loss", ArxCriterion::kLoss), std::pair("AIC", ArxCriterion::kAic),
                                           std::pair("BIC", ArxCriterion::kBic), std::pair("MDL", ArxCriterion::kBic)})
         if (text == name) return criterion;
-    throw InvalidArgument(
-        fmt::format("the criterion must be \"loss\", \"AIC\", \"BIC\" or \"MDL\", but \"{}\" was given", text));
+    throw InvalidArgument("{} must be {}, but \"{}\" was given", Message("the criterion"),
+                          Message("\"loss\", \"AIC\", \"BIC\" or \"MDL\""), text);
 }
 
 int select_arx_structure(Call& call) {
     call.at_most(2);
-    const ArxSelection& table = object_argument<ArxSelection>(call, 1, "what arxstruc gave");
+    const ArxSelection& table = object_argument<ArxSelection>(call, 1, Message("what arxstruc gave"));
     const ArxCriterion criterion = arx_criterion_of(call, table);
     const OrderChoice choice = choose_arx(table, criterion);
     call.print(told(call, arx_table_text(table, choice)));

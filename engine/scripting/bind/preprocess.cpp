@@ -1,6 +1,5 @@
 #include <algorithm>
 
-#include "base/number_text.h"
 #include "numerics/signals/butterworth.h"
 #include "numerics/signals/preprocess.h"
 #include "numerics/signals/repair.h"
@@ -21,7 +20,7 @@ struct Signals {
 Signals signals_argument(const Call& call, double Ts) {
     if (call.holds_vector(1)) return {IdData(Matrix(call.vector(1, "x")), Matrix(), Ts), true};
     if (const IdData* data = to_object<IdData>(call.state(), 1)) return {*data, false};
-    wrong_argument(call.state(), 1, "data", "iddata or a vector");
+    wrong_argument(call.state(), 1, "data", Message("an iddata or a vector"));
 }
 
 int give_signals(const Call& call, const Signals& kind, IdData result) {
@@ -43,9 +42,8 @@ std::vector<Segment> segments_argument(const Call& call) {
 PassBand band_argument(const Call& call) {
     const VectorMap edges = call.vector(2, "{lower, upper}");
     if (edges.size() != 2)
-        throw InvalidArgument(
-            fmt::format("the band is {{lower, upper}} in rad/s ({{0, w}} is a low-pass filter), not {}",
-                        counted(edges.size(), "number")));
+        throw InvalidArgument("the band is {lower, upper} in rad/s ({0, w} is a low-pass filter), not {}",
+                              plural(edges.size(), "{} number", "{} numbers"));
     return {edges[0], edges[1]};
 }
 
@@ -56,8 +54,8 @@ std::string trend_kind(const Call& call) {
     const double degree = call.number(2, "kind");
     if (degree == 0) return "mean";
     if (degree == 1) return "linear";
-    throw InvalidArgument(
-        fmt::format("a trend has the degree 0 (\"mean\") or 1 (\"linear\"), but {} was given", degree));
+    throw InvalidArgument("a trend has the degree 0 (\"mean\") or 1 (\"linear\"), but {} was given",
+                          significant(degree, 10));
 }
 
 /// The signal, and the indices of what was replaced.
@@ -119,8 +117,8 @@ int detrend_signals(Call& call) {
     if (kind == "start")
         return give_signals(call, signals, remove_initial_level(signals.data, options.size("samples", 0)));
     if (kind != "linear" && kind != "mean")
-        throw InvalidArgument(
-            fmt::format("the kind of trend must be \"linear\", \"mean\" or \"start\", but \"{}\" was given", kind));
+        throw InvalidArgument("{} must be {}, but \"{}\" was given", Message("the kind of trend"),
+                              Message("\"linear\", \"mean\" or \"start\""), kind);
     if (options.has("samples"))
         throw InvalidArgument("option 'samples' belongs to the kind \"start\": how many samples come before the step");
     return give_signals(call, signals,

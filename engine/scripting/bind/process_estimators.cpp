@@ -37,8 +37,8 @@ int draw_construction(Call& call) {
     const Options options(call, 2, {"xlabel", "ylabel"});
     const Model model = model_argument(call, 1, "G");
     if (!model.estimate || !model.estimate->step_test)
-        throw InvalidArgument(
-            "argument 1 (G) must be a model that step_first_order, step_second_order or step_delayed gave");
+        throw InvalidArgument("{} must be a model that step_first_order, step_second_order or step_delayed gave",
+                              argument_label(1, "G"));
     const StepTestResult& test = *model.estimate->step_test;
     StepConstruction construction;
     construction.t = test.record.t;

@@ -138,7 +138,7 @@ int draw_regression(Call& call) {
     call.at_most(4);
     const Options options(call, 4, {"forecast", "text", "level", "xlabel", "ylabel"});
     const RegressionFit& fit = object_argument<RegressionFit>(call, 3, "fit");
-    if (!fit.polynomial) throw InvalidArgument("argument 3 (fit) must come from polyfit_report");
+    if (!fit.polynomial) throw InvalidArgument("{} must come from polyfit_report", argument_label(3, "fit"));
     RegressionPicture picture;
     picture.x = call.vector(1, "x");
     picture.y = call.vector(2, "y");

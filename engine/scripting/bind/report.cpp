@@ -18,10 +18,9 @@ std::string new_name(const Call& call, const Taken& taken) {
     const bool plain = !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
         return std::isalnum(c) || c == '_' || c == '-';
     });
-    if (!plain) throw InvalidArgument(fmt::format("the name \"{}\" must be made of letters, digits, _ and -", name));
+    if (!plain) throw InvalidArgument("the name \"{}\" must be made of letters, digits, _ and -", name);
     if (taken(name))
-        throw InvalidArgument(
-            fmt::format("the name \"{}\" is taken already; every entry needs a name of its own", name));
+        throw InvalidArgument("the name \"{}\" is taken already; every entry needs a name of its own", name);
     return name;
 }
 
@@ -64,7 +63,7 @@ int report_value(Call& call) {
     } else if (call.type(2) == LUA_TSTRING) {
         value.text = call.given(3) ? formatted(call, call.text(3, "format"), 2) : call.text(2, "value");
     } else {
-        wrong_argument(call.state(), 2, "value", "number or text");
+        wrong_argument(call.state(), 2, "value", Message("a number or text"));
     }
     values[name] = std::move(value);
     return 0;
@@ -73,8 +72,8 @@ int report_value(Call& call) {
 std::vector<std::string> read_cells(const Call& call, int row, lua_Integer number) {
     lua_State* L = call.state();
     if (lua_type(L, row) != LUA_TTABLE)
-        throw InvalidArgument(
-            fmt::format("row {} must be a table of cells, but {} was given", number, given_text(L, row)));
+        throw InvalidArgument("row {} must be {}, but {} was given", number, Message("a table of cells"),
+                              given_value(L, row));
     std::vector<std::string> cells;
     for (lua_Integer i = 1; lua_rawgeti(L, row, i) != LUA_TNIL; lua_pop(L, 1), ++i) cells.push_back(cell_text(L, -1));
     lua_pop(L, 1);
@@ -85,15 +84,16 @@ int report_table(Call& call) {
     call.at_most(2);
     auto& tables = call.context().recorder.record().tables;
     const std::string name = new_name(call, [&](const std::string& n) { return tables.count(n) != 0; });
-    if (call.type(2) != LUA_TTABLE) wrong_argument(call.state(), 2, "rows", "list of rows, the first one the header");
+    if (call.type(2) != LUA_TTABLE)
+        wrong_argument(call.state(), 2, "rows", Message("a list of rows, the first one the header"));
     RecordedTable table;
     lua_State* L = call.state();
     for (lua_Integer i = 1; lua_rawgeti(L, 2, i) != LUA_TNIL; lua_pop(L, 1), ++i) {
         std::vector<std::string> cells = read_cells(call, lua_gettop(L), i);
         if (i == 1) table.header = cells;
         if (cells.size() != table.header.size())
-            throw InvalidArgument(fmt::format("row {} has {}, but the header has {}", i, counted(cells.size(), "cell"),
-                                              table.header.size()));
+            throw InvalidArgument("row {} has {}, but the header has {}", i,
+                                  plural(cells.size(), "{} cell", "{} cells"), table.header.size());
         if (i > 1) table.rows.push_back(std::move(cells));
     }
     if (table.header.empty()) throw InvalidArgument("the table has no header; its first row holds the column titles");
@@ -125,18 +125,17 @@ int report_language(Call& call) {
 
 void check_range(const std::string& name, const RecordedSlider& slider) {
     if (!(slider.from < slider.to) || !std::isfinite(slider.from) || !std::isfinite(slider.to))
-        throw InvalidArgument(fmt::format("the slider \"{}\" must go from a number to a greater one, not from {} to {}",
-                                          name, number_text(slider.from), number_text(slider.to)));
+        throw InvalidArgument("the slider \"{}\" must go from a number to a greater one, not from {} to {}", name,
+                              slider.from, slider.to);
     if (slider.logarithmic && slider.from <= 0)
-        throw InvalidArgument(fmt::format("the slider \"{}\" has log = true and must begin above 0, not at {}", name,
-                                          number_text(slider.from)));
+        throw InvalidArgument("the slider \"{}\" has log = true and must begin above 0, not at {}", name, slider.from);
     if (slider.step && !(*slider.step > 0 && *slider.step <= slider.to - slider.from))
-        throw InvalidArgument(fmt::format("the step of the slider \"{}\" must be above 0 and at most {}, not {}", name,
-                                          number_text(slider.to - slider.from), number_text(*slider.step)));
+        throw InvalidArgument("the step of the slider \"{}\" must be above 0 and at most {}, not {}", name,
+                              slider.to - slider.from, *slider.step);
     for (const double value : {slider.initial, slider.value})
         if (!(value >= slider.from && value <= slider.to))
-            throw InvalidArgument(fmt::format("the slider \"{}\" goes from {} to {}; {} lies outside", name,
-                                              number_text(slider.from), number_text(slider.to), number_text(value)));
+            throw InvalidArgument("the slider \"{}\" goes from {} to {}; {} lies outside", name, slider.from, slider.to,
+                                  value);
 }
 
 int slider(Call& call) {
@@ -154,7 +153,7 @@ int slider(Call& call) {
     slider.unit = options.text("unit", "");
     slider.label = options.text("label", name);
     if (slider.step && slider.logarithmic)
-        throw InvalidArgument(fmt::format("the slider \"{}\" has log = true: it takes no step", name));
+        throw InvalidArgument("the slider \"{}\" has log = true: it takes no step", name);
     const SliderValues* const given = call.context().services.sliders;
     const SliderValues values = given != nullptr ? *given : SliderValues();
     const auto found = values.chosen.find(name);
@@ -200,12 +199,11 @@ int guess(Call& call) {
     const std::string unit = call.given(3) ? call.text(3, "unit") : "";
     push_guesses(L);
     if (lua_getfield(L, -1, name.c_str()) != LUA_TNIL)
-        throw InvalidArgument(
-            fmt::format("\"{}\" was guessed already; a guess is made once, before it is looked up", name));
+        throw InvalidArgument("\"{}\" was guessed already; a guess is made once, before it is looked up", name);
     lua_pop(L, 1);
     lua_createtable(L, 0, 2);
     if (call.given(2)) {
-        lua_pushnumber(L, call.number(2, "your guess"));
+        lua_pushnumber(L, call.number(2, Message("your guess")));
         lua_setfield(L, -2, "value");
     } else {
         call.print(fmt::format(
@@ -223,12 +221,11 @@ int outcome(Call& call) {
     call.at_most(2);
     lua_State* const L = call.state();
     const std::string name = call.text(1, "name");
-    const double found = call.number(2, "what was found");
+    const double found = call.number(2, Message("what was found"));
     const bool french = in_french(call);
     push_guesses(L);
     if (lua_getfield(L, -1, name.c_str()) != LUA_TTABLE)
-        throw InvalidArgument(
-            fmt::format("nothing called \"{}\" was guessed before; write guess(\"{}\", 1) above", name, name));
+        throw InvalidArgument("nothing called \"{}\" was guessed before; write guess(\"{}\", 1) above", name, name);
     lua_getfield(L, -1, "unit");
     const std::string unit = lua_tostring(L, -1), shown = with_unit(found, unit);
     if (lua_getfield(L, -2, "value") == LUA_TNIL) {

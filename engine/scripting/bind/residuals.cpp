@@ -105,10 +105,10 @@ std::vector<TransferFunction> call_fitter(lua_State* L, const IdData& training) 
     lua_call(L, 1, 1);
     const Model* model = to_object<Model>(L, -1);
     if (model == nullptr)
-        throw InvalidArgument(fmt::format(
+        throw InvalidArgument(
             "the function that fits must return a model, as in function(d) return procsrivc(d, \"P1\") end, but it "
             "returned {}",
-            given_text(L, -1)));
+            given_value(L, -1));
     std::vector<TransferFunction> channels = channels_of(*model);
     lua_pop(L, 1);
     return channels;
@@ -132,7 +132,7 @@ void push_cross_validation(const Call& call, const CrossValidation& result) {
 int validate_across(Call& call) {
     call.at_most(3);
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    if (call.type(2) != LUA_TFUNCTION) wrong_argument(call.state(), 2, "fit", "function of a data object");
+    if (call.type(2) != LUA_TFUNCTION) wrong_argument(call.state(), 2, "fit", Message("a function of a data object"));
     const Options options(call, 3, {"folds", "by_experiment", "InitialState", "Offset"});
     CrossValidationOptions wanted;
     wanted.folds = static_cast<int>(options.size("folds", wanted.folds));

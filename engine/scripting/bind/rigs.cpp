@@ -37,13 +37,12 @@ const Rig& rig_of(const Call& call) {
     if (const Rig* rig = find_rig(name)) return *rig;
     std::vector<std::string> names;
     for (const Rig& rig : rig_catalogue()) names.push_back(rig.name);
-    throw InvalidArgument(fmt::format("there is no rig '{}'; there are {}", name, fmt::join(names, ", ")));
+    throw InvalidArgument("there is no rig '{}'; there are {}", name, listed(names));
 }
 
 std::uint32_t seed_number(const Options& options, const char* name, Index fallback) {
     const Index number = options.size(name, fallback);
-    if (number > 0xFFFFFFFF)
-        throw InvalidArgument(fmt::format("option '{}' must be a whole number from 0 to 4294967295", name));
+    if (number > 0xFFFFFFFF) throw InvalidArgument("option '{}' must be a whole number from 0 to 4294967295", name);
     return static_cast<std::uint32_t>(number);
 }
 

@@ -15,15 +15,14 @@ namespace {
 std::filesystem::path file_to_write(const Call& call, const char* extension) {
     const std::filesystem::path file = output_path(call.context(), call.text(1, "path"));
     if (file.extension() != extension)
-        throw InvalidArgument(
-            fmt::format("the file name must end in {}, but '{}' does not", extension, file.filename().string()));
+        throw InvalidArgument("the file name must end in {}, but '{}' does not", extension, file.filename().string());
     return file;
 }
 
 int digits_of(const Options& options, int fallback) {
     const Index digits = options.size("digits", fallback);
     if (digits < 1 || digits > 17)
-        throw InvalidArgument(fmt::format("option 'digits' must be a whole number from 1 to 17, but it is {}", digits));
+        throw InvalidArgument("option 'digits' must be a whole number from 1 to 17, but it is {}", digits);
     return static_cast<int>(digits);
 }
 
@@ -56,7 +55,7 @@ std::vector<std::string> list_of_texts(lua_State* L, int index) {
     std::vector<std::string> texts;
     for (lua_Unsigned i = 1; i <= lua_rawlen(L, index); ++i) {
         if (lua_rawgeti(L, index, static_cast<lua_Integer>(i)) != LUA_TSTRING)
-            throw InvalidArgument(fmt::format("entry {} of a list of texts is {}", i, given_text(L, -1)));
+            throw InvalidArgument("entry {} of a list of texts is {}", i, given_value(L, -1));
         texts.emplace_back(lua_tostring(L, -1));
         lua_pop(L, 1);
     }
@@ -67,8 +66,7 @@ Vector list_of_numbers(lua_State* L, int index, const std::string& name) {
     Vector numbers(static_cast<Index>(lua_rawlen(L, index)));
     for (Index i = 0; i < numbers.size(); ++i) {
         if (lua_rawgeti(L, index, i + 1) != LUA_TNUMBER)
-            throw InvalidArgument(
-                fmt::format("'{}': entry {} of a list of numbers is {}", name, i + 1, given_text(L, -1)));
+            throw InvalidArgument("'{}': entry {} of a list of numbers is {}", name, i + 1, given_value(L, -1));
         numbers[i] = lua_tonumber(L, -1);
         lua_pop(L, 1);
     }
@@ -76,9 +74,8 @@ Vector list_of_numbers(lua_State* L, int index, const std::string& name) {
 }
 
 [[noreturn]] void refuse_entry(lua_State* L, const std::string& name) {
-    if (lua_isnil(L, -1)) throw InvalidArgument(fmt::format("the table has no entry '{}'", name));
-    throw InvalidArgument(
-        fmt::format("'{}' must be a vector or a list of texts, but it is {}", name, given_text(L, -1)));
+    if (lua_isnil(L, -1)) throw InvalidArgument("the table has no entry '{}'", name);
+    throw InvalidArgument("'{}' must be a vector or a list of texts, but it is {}", name, given_value(L, -1));
 }
 
 void add_channels(CsvTable& table, const Matrix& channels, const std::vector<std::string>& names,
@@ -135,12 +132,11 @@ std::map<std::string, std::string> texts_by_name(const Call& call, const Options
     if (!options.has(option)) return texts;
     lua_State* L = call.state();
     const int index = options.push(option);
-    if (lua_type(L, index) != LUA_TTABLE)
-        throw InvalidArgument(fmt::format("option '{}' must be a table like {{t = \"s\"}}", option));
+    if (lua_type(L, index) != LUA_TTABLE) throw InvalidArgument("option '{}' must be a table like {t = \"s\"}", option);
     lua_pushnil(L);
     while (lua_next(L, index)) {
         if (lua_type(L, -2) != LUA_TSTRING || lua_type(L, -1) != LUA_TSTRING)
-            throw InvalidArgument(fmt::format("option '{}' must give a text for each name", option));
+            throw InvalidArgument("option '{}' must give a text for each name", option);
         texts[lua_tostring(L, -2)] = lua_tostring(L, -1);
         lua_pop(L, 1);
     }
@@ -154,7 +150,7 @@ int save_csv(Call& call) {
     const Options options(call, 3, {"units", "title", "columns", "digits", "Ts"});
     const IdData* data = to_object<IdData>(call.state(), 2);
     if (data == nullptr && call.type(2) != LUA_TTABLE)
-        wrong_argument(call.state(), 2, "data", "iddata object or a table of vectors by name");
+        wrong_argument(call.state(), 2, "data", Message("an iddata object or a table of vectors by name"));
     CsvTable table = data != nullptr ? table_of_data(*data) : table_of_columns(call, 2, options);
     for (const auto& [name, unit] : texts_by_name(call, options, "units")) table.units[name] = unit;
     if (options.has("title")) table.remarks["title"] = options.text("title", "");
@@ -198,7 +194,7 @@ Variable variable_on_top(const Call& call, const std::string& name, int depth) {
 
 VariableTable variables_of(const Call& call, int index, int depth) {
     if (depth > kDeepestSavedTable)
-        throw InvalidArgument(fmt::format("tables within tables are written to {} levels only", kDeepestSavedTable));
+        throw InvalidArgument("tables within tables are written to {} levels only", kDeepestSavedTable);
     luaL_checkstack(call.state(), 8, "the tables are nested too deeply");
     VariableTable variables;
     for (const std::string& name : names_of_entries(call, index, Options(call, 0, {}))) {
@@ -213,7 +209,8 @@ int save_mat(Call& call) {
     call.at_most(3);
     const std::filesystem::path file = file_to_write(call, ".mat");
     const Options options(call, 3, {"digits"});
-    if (call.type(2) != LUA_TTABLE) wrong_argument(call.state(), 2, "variables", "a table of variables by name");
+    if (call.type(2) != LUA_TTABLE)
+        wrong_argument(call.state(), 2, "variables", Message("a table of variables by name"));
     write_mat_file(file, variables_of(call, 2, 1), digits_of(options, 17));
     return 0;
 }
@@ -221,7 +218,8 @@ int save_mat(Call& call) {
 int save_json(Call& call) {
     call.at_most(2);
     const std::filesystem::path file = file_to_write(call, ".json");
-    if (call.type(2) != LUA_TTABLE) wrong_argument(call.state(), 2, "variables", "a table of variables by name");
+    if (call.type(2) != LUA_TTABLE)
+        wrong_argument(call.state(), 2, "variables", Message("a table of variables by name"));
     write_json_file(file, variables_of(call, 2, 1));
     return 0;
 }

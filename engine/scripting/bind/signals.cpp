@@ -1,5 +1,4 @@
 
-#include "base/number_text.h"
 #include "numerics/signals/excitation.h"
 #include "numerics/signals/prbs.h"
 #include "numerics/signals/random_phase_multisine.h"
@@ -16,8 +15,8 @@ std::pair<double, double> levels(const Call& call, int index, double low, double
     if (!call.given(index)) return {low, high};
     const VectorMap values = call.vector(index, "{low, high}");
     if (values.size() != 2)
-        throw InvalidArgument(
-            fmt::format("the levels are written {{low, high}}, not {}", counted(values.size(), "number")));
+        throw InvalidArgument("the levels are written {low, high}, not {}",
+                              plural(values.size(), "{} number", "{} numbers"));
     return {values[0], values[1]};
 }
 
@@ -72,7 +71,7 @@ int make_random_phases(Call& call) {
     wanted.amplitude = options.number("amplitude", 1);
     wanted.low_crest = options.flag("low_crest", false);
     const Index period = call.size(1, "N"), periods = options.size("periods", 1);
-    if (periods < 1) throw InvalidArgument("option 'periods' must be at least 1, but 0 was given");
+    if (periods < 1) refuse_option("periods", Message("at least 1"), Message("{}", periods));
     need_room_for_signal(call.state(), static_cast<double>(period) * static_cast<double>(periods));
     RandomStream own(static_cast<std::uint32_t>(options.size("seed", 1)));
     const RandomPhaseMultisine signal =

@@ -1,5 +1,4 @@
 
-#include "base/number_text.h"
 #include "figures/histogram.h"
 #include "figures/plots/bode_plot.h"
 #include "figures/plots/nyquist_plot.h"
@@ -43,7 +42,7 @@ int simulate_grey_box(Call& call, const GreyFit& grey, const Options& options, c
     if (call.type(3) == LUA_TNUMBER)
         inputs.t = call.number(3, "Ts") * Vector::LinSpaced(N, 0, static_cast<double>(N - 1));
     else
-        inputs.t = call.vector(3, "t or Ts");
+        inputs.t = call.vector(3, Message("t or Ts"));
     return give_columns(call, grey_response(grey, inputs, x0));
 }
 
@@ -59,7 +58,7 @@ int simulate(Call& call) {
     const VectorMap u = call.vector(2, "u");
     const Hold hold = hold_option(options, Hold::kZoh);
     if (call.type(3) == LUA_TNUMBER) return call.give_vector(lsim(model.G, u, call.number(3, "Ts"), hold, x0));
-    return call.give_vector(lsim(model.G, u, call.vector(3, "t or Ts"), hold, x0));
+    return call.give_vector(lsim(model.G, u, call.vector(3, Message("t or Ts")), hold, x0));
 }
 
 int filter_states(Call& call) {
@@ -83,7 +82,7 @@ int frequency_response_of(Call& call) {
 std::vector<NamedModel> models_to_draw(const Call& call, int& next) {
     std::vector<NamedModel> models;
     for (next = 1; holds_model(call, next); ++next) models.push_back({"", model_argument(call, next, "G").G});
-    if (models.empty()) wrong_argument(call.state(), 1, "G", "model");
+    if (models.empty()) wrong_argument(call.state(), 1, "G", with_article("model"));
     return models;
 }
 
@@ -91,8 +90,8 @@ std::vector<NamedModel> models_to_draw(const Call& call, int& next) {
 std::vector<std::string> given_labels(const Options& options, std::size_t count) {
     std::vector<std::string> labels = options.texts("labels");
     if (!labels.empty() && labels.size() != count)
-        throw InvalidArgument(
-            fmt::format("option 'labels' has {} for {}", counted(labels.size(), "text"), counted(count, "model")));
+        throw InvalidArgument("option 'labels' has {} for {}", plural(labels.size(), "{} text", "{} texts"),
+                              plural(count, "{} model", "{} models"));
     return labels;
 }
 
@@ -120,8 +119,8 @@ std::optional<double> confidence_level(const Options& options) {
     if (flag) return wanted ? std::optional(kUsual) : std::nullopt;
     const double level = options.number("confidence", kUsual);
     if (level > 0 && level < 1) return level;
-    throw InvalidArgument(fmt::format(
-        "option 'confidence' must be a probability between 0 and 1, such as 0.99, or false, but {} was given", level));
+    refuse_option("confidence", Message("a probability between 0 and 1, such as 0.99, or false"),
+                  Message("{}", significant(level, 10)));
 }
 
 std::optional<ModelConfidence> confidence_of(const Call& call, int index, const std::optional<double>& level) {
@@ -149,7 +148,7 @@ template <Figure (*kPlot)(const std::vector<NamedModel>&, const Vector&), bool k
 int draw_models(Call& call) {
     int next = 0;
     std::vector<NamedModel> models = models_to_draw(call, next);
-    const Vector grid = call.holds_vector(next) ? Vector(call.vector(next++, "t or w")) : Vector();
+    const Vector grid = call.holds_vector(next) ? Vector(call.vector(next++, Message("t or w"))) : Vector();
     if (kBands) refuse_option_texts(call, next);
     call.at_most(next);
     const Options options = kBands ? Options(call, next, {"labels", "confidence"}) : Options(call, next, {"labels"});
@@ -162,7 +161,7 @@ int draw_models(Call& call) {
 int draw_bode(Call& call) {
     int count = 0;
     while (holds_model(call, count + 1) || holds_response(call, count + 1)) ++count;
-    if (count == 0) wrong_argument(call.state(), 1, "G", "model");
+    if (count == 0) wrong_argument(call.state(), 1, "G", with_article("model"));
     int next = count + 1;
     const Vector grid = call.holds_vector(next) ? Vector(call.vector(next++, "w")) : Vector();
     refuse_option_texts(call, next);

@@ -12,6 +12,7 @@
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/model.h"
 #include "scripting/objects/study_objects.h"
+#include "scripting/runtime/errors.h"
 #include "scripting/runtime/sandbox.h"
 
 namespace dynlab::inline scripting {
@@ -39,9 +40,9 @@ MonteCarloMethod method_of_table(const Call& call, const std::string& label, con
     lua_State* L = call.state();
     MethodArguments arguments{find_estimation_reader(name), {}};
     if (arguments.reader == nullptr)
-        throw InvalidArgument(fmt::format(
+        throw InvalidArgument(
             "estimator '{}' is none of {}; write any other as a function: {} = function(data) return ... end", name,
-            fmt::join(estimation_names(), ", "), label));
+            listed(estimation_names()), label);
     lua_pushlightuserdata(L, const_cast<char*>(name.c_str()));
     lua_pushlightuserdata(L, &arguments);
     lua_pushcclosure(L, guarded<read_arguments>, 2);
@@ -66,8 +67,8 @@ MonteCarloEstimate returned_estimate(lua_State* L, int first) {
     const Call call(L);
     if (const Model* model = to_object<Model>(L, first)) return estimate_of_model(*model);
     if (!call.holds_vector(first))
-        throw InvalidArgument(
-            fmt::format("it must return a model or a vector of parameters, but returned {}", given_text(L, first)));
+        throw InvalidArgument("it must return a model or a vector of parameters, but returned {}",
+                              given_value(L, first));
     MonteCarloEstimate estimate{call.vector(first, "theta")};
     if (call.holds_vector(first + 1)) estimate.std = call.vector(first + 1, "std");
     return estimate;
@@ -83,10 +84,9 @@ MonteCarloMethod method_of_function(const Call& call, const std::string& label, 
         push_object(L, data);
         if (lua_pcall(L, 1, 2, 0) != LUA_OK) {
             pass_stop_on(L);
-            const std::string message = given_text(L, -1),
-                              text = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : message;
+            const Message message = lua_type(L, -1) == LUA_TSTRING ? error_at(L, -1).with_place() : given_value(L, -1);
             lua_settop(L, top);
-            throw InvalidArgument(text);
+            throw InvalidArgument(message);
         }
         MonteCarloEstimate result = returned_estimate(L, top + 1);
         lua_settop(L, top);
@@ -109,18 +109,17 @@ MonteCarloMethod method_of_entry(const Call& call, const std::string& label) {
     const int value = lua_gettop(L);
     if (lua_isfunction(L, value)) return method_of_function(call, label, value);
     if (!lua_istable(L, value))
-        throw InvalidArgument(fmt::format(
-            "the estimator '{}' must be a table of arguments, such as lssvf = {{{{2, 1, 0}}, 3}}, or a function of the "
-            "data, but {} was given",
-            label, given_text(L, value)));
+        throw InvalidArgument(
+            "{} must be {}, but {} was given", Message("the estimator '{}'", label),
+            Message("a table of arguments, such as lssvf = {{2, 1, 0}, 3}, or a function of the data"),
+            given_value(L, value));
     const bool names_itself = lua_rawgeti(L, value, 1) == LUA_TSTRING;
     const std::string name = names_itself ? lua_tostring(L, -1) : label;
     const bool holds_function = names_itself && lua_rawgeti(L, value, 2) == LUA_TFUNCTION;
     if (lua_rawgeti(L, value, names_itself ? 2 : 1) == LUA_TNUMBER && takes_orders(call, name))
         throw InvalidArgument(
-            fmt::format("the arguments of the estimator '{0}' stand in a table, and its orders in one inside: {0} = "
-                        "{{{{1, 1, 0}}}}",
-                        name));
+            "the arguments of the estimator '{}' stand in a table, and its orders in one inside: {} = {{1, 1, 0}}",
+            name, name);
     lua_settop(L, value + (holds_function ? 2 : 0));
     if (holds_function) return method_of_function(call, label.empty() ? name : label, lua_gettop(L));
     lua_settop(L, value);
@@ -177,9 +176,10 @@ void read_excitation(const Options& options, MonteCarloStudy& study) {
     const bool loop = options.has("controller");
     const char *name = loop ? "reference" : "input", *other = loop ? "input" : "reference";
     if (options.has(other))
-        throw InvalidArgument(loop ? "in a closed loop the input follows from controller and reference: give no 'input'"
-                                   : "option 'reference' is that of a closed loop: give its 'controller', too");
-    if (!options.has(name)) throw InvalidArgument(fmt::format("option '{0}' is missing: the samples of the {0}", name));
+        throw InvalidArgument(
+            loop ? Message("in a closed loop the input follows from controller and reference: give no 'input'")
+                 : Message("option 'reference' is that of a closed loop: give its 'controller', too"));
+    if (!options.has(name)) throw InvalidArgument("option '{}' is missing: the samples of the {}", name, name);
     study.u = options.vector(name);
     if (!loop) return;
     study.controller = controller_at(options.call(), options.push("controller"));

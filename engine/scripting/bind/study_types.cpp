@@ -41,8 +41,8 @@ int study_named(Call& call) {
     const std::string label = call.text(2, "label");
     for (const MonteCarloResult& result : study.results)
         if (result.label == label) return push_result(call, result);
-    throw InvalidArgument(fmt::format("this study has no estimator or field '{}'; its estimators are {}", label,
-                                      fmt::join(labels_of(study), ", ")));
+    throw InvalidArgument("this study has no estimator or field '{}'; its estimators are {}", label,
+                          listed(labels_of(study)));
 }
 
 int draw_histograms(Call& call) {
@@ -53,8 +53,9 @@ int draw_histograms(Call& call) {
 int draw_scatter(Call& call) {
     call.at_most(4);
     const Options options(call, 4, {"level"});
-    return give_figure(call, monte_carlo_scatter(study_self(call), call.text(2, "parameter on x"),
-                                                 call.text(3, "parameter on y"), options.number("level", 0.95)));
+    return give_figure(call,
+                       monte_carlo_scatter(study_self(call), call.text(2, Message("parameter on x")),
+                                           call.text(3, Message("parameter on y")), options.number("level", 0.95)));
 }
 
 constexpr std::array kStudyFields = {

@@ -26,8 +26,7 @@ Estimation read_filtered(const Call& call) {
     call.at_most(4);
     const auto orders = order_lists(call, 2, kCarxOrders);
     if (orders[0].size() != 1)
-        throw InvalidArgument(
-            fmt::format("na is one number of poles for all inputs, but {} were given", orders[0].size()));
+        throw InvalidArgument("na is one number of poles for all inputs, but {} were given", orders[0].size());
     const Options options = kMomentFunctionals ? Options(call, 4, {"hold_y", "beta"}) : Options(call, 4, {"hold_y"});
     SvfOptions wanted;
     wanted.lambda = call.number(3, "lambda");

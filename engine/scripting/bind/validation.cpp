@@ -72,7 +72,7 @@ int draw_comparison(Call& call, const IdData& data, int first, int options_index
             steps ? model_outputs(name, prediction_argument(call, i, data, {steps, compare_options(options)}))
                   : model_outputs(name, comparison_argument(call, i, data, options)));
     }
-    if (models.empty()) wrong_argument(call.state(), first, "G", "model");
+    if (models.empty()) wrong_argument(call.state(), first, "G", with_article("model"));
     return give_figure(call, comparison_figure(data, models));
 }
 
@@ -112,7 +112,7 @@ struct MeasuredModel {
 
 void check_one_output(Index outputs) {
     if (outputs == 1) return;
-    throw InvalidArgument(fmt::format("fit_measures is of one output, and the model has {}", outputs));
+    throw InvalidArgument("fit_measures is of one output, and the model has {}", outputs);
 }
 
 MeasuredModel measured_model(const Call& call, int index) {

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "base/number_text.h"
 #include "numerics/linalg/polynomial.h"
 #include "numerics/signals/interpolation.h"
 #include "scripting/bind/bindings.h"
@@ -23,7 +22,7 @@ int make_matrix(Call& call) {
     if (call.count() != 1 || call.type(1) != LUA_TTABLE)
         throw InvalidArgument(
             "a matrix is written with braces: matrix{{1, 2}, {3, 4}} (rows) or matrix{v1, v2} (columns)");
-    make_matrix_of_table(call.state(), 1, "argument 1 (rows or columns)");
+    make_matrix_of_table(call.state(), 1, argument_label(1, Message("rows or columns")));
     return 1;
 }
 
@@ -90,13 +89,13 @@ int dot(Call& call) {
     call.at_most(2);
     const VectorMap a = call.vector(1, "a"), b = call.vector(2, "b");
     if (a.size() != b.size())
-        throw InvalidArgument(fmt::format("a has {}, but b has {}", counted(a.size(), "value"), b.size()));
+        throw InvalidArgument("a has {}, but b has {}", plural(a.size(), "{} value", "{} values"), b.size());
     return call.give(a.dot(b));
 }
 
-VectorMap not_empty(Call& call, int index, const char* what) {
+VectorMap not_empty(Call& call, int index, ArgumentName what) {
     const VectorMap v = call.vector(index, what);
-    if (v.size() == 0) throw InvalidArgument(fmt::format("argument {} ({}) has no elements", index, what));
+    if (v.size() == 0) throw InvalidArgument("{} has no elements", argument_label(index, what));
     return v;
 }
 

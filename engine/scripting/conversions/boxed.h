@@ -7,6 +7,7 @@
 #include "platform/hash.h"
 #include "scripting/conversions/arguments.h"
 #include "scripting/conversions/object_type.h"
+#include "scripting/runtime/kind_phrases.h"
 
 namespace dynlab::inline scripting {
 
@@ -86,9 +87,9 @@ Digest digest_of_object(lua_State* L, int index) {
 
 /// The object of argument `index`; throws InvalidArgument naming argument and wanted kind.
 template <class T>
-Access<T>& object_argument(const Call& call, int index, const char* what) {
+Access<T>& object_argument(const Call& call, int index, ArgumentName what) {
     Access<T>* object = index <= call.count() ? to_object<T>(call.state(), index) : nullptr;
-    if (object == nullptr) wrong_argument(call.state(), index, what, Boxed<T>::type.name);
+    if (object == nullptr) wrong_argument(call.state(), index, what, with_article(Boxed<T>::type.name));
     return *object;
 }
 
@@ -96,7 +97,7 @@ Access<T>& object_argument(const Call& call, int index, const char* what) {
 template <class T>
 const T& object_itself(const Call& call) {
     const T* object = to_object<T>(call.state(), 1);
-    if (object == nullptr) wrong_argument(call.state(), 1, Boxed<T>::type.name, Boxed<T>::type.name);
+    if (object == nullptr) wrong_argument(call.state(), 1, Boxed<T>::type.name, with_article(Boxed<T>::type.name));
     return *object;
 }
 

@@ -1,12 +1,11 @@
 #include "scripting/conversions/option_words.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <optional>
 #include <utility>
+#include <variant>
 
 #include "base/reader.h"
 #include "platform/spelling.h"
@@ -60,12 +59,24 @@ std::optional<std::string> word_of(std::string_view name) {
 
 }  // namespace
 
-std::string lua_option_name(std::string_view member) {
+std::string option_name(std::string_view member) {
     return word_of(member).value_or("`" + std::string(member) + "`");
 }
 
+Message with_script_options(const Message& message) {
+    std::vector<MessageArgument> arguments = message.arguments();
+    for (MessageArgument& argument : arguments) {
+        if (const auto* const option = std::get_if<OptionName>(&argument)) {
+            argument = option_name(option->member);
+        } else if (auto* const list = std::get_if<MessageList>(&argument)) {
+            for (Message& item : list->items) item = with_script_options(item);
+        }
+    }
+    return Message::stored(message.id(), message.many(), std::move(arguments));
+}
+
 std::string in_lua_words(const Message& message) {
-    return in_lua_words(message_text(message, {nullptr, &lua_option_name}));
+    return in_lua_words(message_text(message, {nullptr, &option_name}));
 }
 
 std::string in_lua_words(std::string_view message) {
@@ -88,10 +99,16 @@ std::string with_other_case(std::string name) {
     return name;
 }
 
-std::string unknown_option_sentence(const std::string& name, const std::vector<std::string>& known) {
+Message unknown_option(const std::string& name, const std::vector<std::string>& known) {
     const auto near = nearest_word(name, known);
-    return near ? fmt::format("option '{}' is unknown; did you mean '{}'?", name, *near)
-                : fmt::format("option '{}' is unknown; the options are {}", name, fmt::join(known, ", "));
+    return near ? Message("option '{}' is unknown; did you mean '{}'?", name, *near)
+                : Message("option '{}' is unknown; the options are {}", name, listed(known));
+}
+
+MessageList listed_in_quotes(const std::vector<std::string>& texts) {
+    MessageList list;
+    for (const std::string& text : texts) list.items.push_back(Message::verbatim('"' + text + '"'));
+    return list;
 }
 
 std::vector<std::string> translated_options() {

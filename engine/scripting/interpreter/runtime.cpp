@@ -1,7 +1,5 @@
 #include "scripting/interpreter/runtime.h"
 
-#include <fmt/format.h>
-
 #include <cstring>
 #include <utility>
 
@@ -33,14 +31,10 @@ int final_message(lua_State* L) {
     translate_error(L);
     context_of(L).calls = call_chain(L);
     if (lua_type(L, 1) == LUA_TSTRING) return 1;
-    if (lua_isnil(L, 1)) {
-        lua_pushliteral(L, "error() was called without a message");
-    } else {
-        const std::string text = value_text(L, 1);
-        lua_pushlstring(L, text.data(), text.size());
-    }
-    const std::string location = script_location(L);
-    if (!location.empty()) lua_pushfstring(L, "%s: %s", location.c_str(), lua_tostring(L, -1));
+    ScriptPlace place = script_place(L);
+    push_error(L,
+               {lua_isnil(L, 1) ? Message("error() was called without a message") : Message::verbatim(value_text(L, 1)),
+                std::move(place.file), place.line});
     return 1;
 }
 
@@ -133,7 +127,7 @@ void call_protected(lua_State* L, lua_CFunction function, const void* argument =
     if (lua_pcall(L, 1, 0, 0) == LUA_OK) return;
     const std::string message = lua_tostring(L, -1);
     lua_pop(L, 1);
-    throw InvalidArgument("the script engine could not be set up: " + message);
+    throw InvalidArgument("the script engine could not be set up: {}", message);
 }
 
 }  // namespace
@@ -243,8 +237,7 @@ void Runtime::run_source(const std::string& source, const PromptStatement* state
     if (shows) lua_pushcfunction(L, show_values);
     const std::string chunk_name = "@" + context.script_name;
     if (const std::optional<MisreadLine> misread = misread_line_of(source)) {
-        lua_pushstring(L, LocatedMessage{context.script_name, misread->line, misread->sentence}.joined().c_str());
-        return record_error(LUA_ERRRUN, {});
+        return record_error({misread->sentence, context.script_name, misread->line});
     }
     int status = luaL_loadbufferx(L, source.data(), source.size(), chunk_name.c_str(), "t");
     if (status == LUA_OK) {
@@ -257,21 +250,23 @@ void Runtime::run_source(const std::string& source, const PromptStatement* state
         status = lua_pcall(L, shows ? 1 : 0, 0, 1);
         context.running = false;
         lua_sethook(L, nullptr, 0, 0);
-        if (status != LUA_OK) record_error(status, {});
+        if (status != LUA_OK) record_error(error_of_run(status));
     } else {
-        record_error(status, statement != nullptr ? statement->source : context.source);
+        const std::string& text = statement != nullptr ? statement->source : context.source;
+        record_error(status == LUA_ERRMEM ? memory_error(context) : syntax_error(lua_tostring(L, -1), text));
     }
 }
 
-void Runtime::record_error(int status, const std::string& source) {
+PlacedMessage Runtime::error_of_run(int status) const {
+    if (status == LUA_ERRMEM) return memory_error(*context_);
+    lua_State* L = context_->main;
+    return lua_type(L, -1) == LUA_TSTRING ? error_at(L, -1) : PlacedMessage{Message("the script failed")};
+}
+
+void Runtime::record_error(PlacedMessage error) {
     RuntimeContext& context = *context_;
-    lua_State* L = context.main;
-    std::string message = lua_isstring(L, -1) ? lua_tostring(L, -1) : "the script failed";
-    if (status == LUA_ERRMEM) message = memory_message(context);
-    if (status == LUA_ERRSYNTAX) message = plain_syntax_message(message, source);
-    const LocatedMessage placed = take_apart(message);
-    const int line = placed.file == context.script_name ? placed.line : 0;
-    context.recorder.record().error = RecordedError{std::move(message), line, std::move(context.calls)};
+    context.recorder.record().error =
+        RecordedError{std::move(error.message), std::move(error.file), error.line, std::move(context.calls)};
 }
 
 std::size_t Runtime::peak_memory_bytes() const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "base/reader.h"
 #include "scripting/interpreter/catalogue.h"
 #include "scripting/lint/function_forms.h"
 #include "scripting/lint/lint.h"
@@ -136,7 +137,7 @@ json LanguageServer::diagnostics_of(const std::string& uri) const {
                        {"severity", found.kind == "unused-answer" ? kWarning : kError},
                        {"source", "dynlab"},
                        {"code", found.kind},
-                       {"message", found.message}});
+                       {"message", message_text(found.message)}});
     }
     return {{"jsonrpc", "2.0"},
             {"method", "textDocument/publishDiagnostics"},

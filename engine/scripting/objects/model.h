@@ -90,9 +90,9 @@ struct Boxed<ComplexVector> {
 
 bool holds_model(const Call& call, int index);
 /// A tf, idproc or estimated model or a state-space model, with one input and one output; a number as a gain.
-Model model_argument(const Call& call, int index, const char* what);
+Model model_argument(const Call& call, int index, ArgumentName what);
 /// "it has 2 inputs and 1 outputs: take one of its channels, ..." for messages.
-std::string channels_hint(const Model& model);
+Message channels_hint(const Model& model);
 int give_model(const Call& call, TransferFunction G);
 
 /// The transfer functions of all channels, output by output.

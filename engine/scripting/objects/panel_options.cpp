@@ -7,6 +7,7 @@
 
 #include "figures/figure_text.h"
 #include "figures/plots/monte_carlo_plot.h"
+#include "scripting/conversions/option_words.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -18,8 +19,7 @@ void for_each_entry(const Call& call, const Options& options, const char* name, 
     lua_State* L = call.state();
     const int list = options.push(name);
     if (!lua_isnil(L, list) && lua_type(L, list) != LUA_TTABLE)
-        throw InvalidArgument(
-            fmt::format("option '{}' must be a list of tables, but {} was given", name, given_text(L, list)));
+        refuse_option(name, Message("a list of tables"), given_value(L, list));
     if (!lua_isnil(L, list)) {
         for (lua_Integer i = 1; lua_rawgeti(L, list, i) != LUA_TNIL; ++i) {
             read(lua_gettop(L));
@@ -29,9 +29,9 @@ void for_each_entry(const Call& call, const Options& options, const char* name, 
     lua_settop(L, list - 1);
 }
 
-double needed_number(const Options& options, const char* name, const char* whose) {
+double needed_number(const Options& options, const char* name, const Message& whose) {
     const auto value = options.optional_number(name);
-    if (!value) throw InvalidArgument(fmt::format("{} needs {} = number", whose, name));
+    if (!value) throw InvalidArgument("{} needs {} = number", whose, name);
     return *value;
 }
 
@@ -49,16 +49,17 @@ ReferenceLine read_reference(const Call& call, int index) {
 
 Annotation read_annotation(const Call& call, int index) {
     const Options options(call, index, {"x", "y", "text", "marker"});
-    return {needed_number(options, "x", "an annotation"), needed_number(options, "y", "an annotation"),
-            options.text("text", ""), options.flag("marker", true)};
+    return {needed_number(options, "x", Message("an annotation")),
+            needed_number(options, "y", Message("an annotation")), options.text("text", ""),
+            options.flag("marker", true)};
 }
 
 Arrow read_arrow(const Call& call, int index) {
     const Options options(call, index, {"x0", "y0", "x1", "y1", "text", "both_heads"});
-    return {needed_number(options, "x0", "an arrow"),
-            needed_number(options, "y0", "an arrow"),
-            needed_number(options, "x1", "an arrow"),
-            needed_number(options, "y1", "an arrow"),
+    return {needed_number(options, "x0", Message("an arrow")),
+            needed_number(options, "y0", Message("an arrow")),
+            needed_number(options, "x1", Message("an arrow")),
+            needed_number(options, "y1", Message("an arrow")),
             options.text("text", ""),
             options.flag("both_heads", false)};
 }
@@ -79,16 +80,14 @@ int colour_at(const Call& call, int index) {
         const std::string name = lua_tostring(L, index);
         for (const ColourName& known : kColourNames)
             if (known.name == name) return known.place;
-        std::string all;
-        for (const ColourName& known : kColourNames)
-            all += (all.empty() ? "\"" : ", \"") + std::string(known.name) + '"';
-        throw InvalidArgument(
-            fmt::format("option 'colour' must be a number from 0 on, or one of {}, but \"{}\" was given", all, name));
+        std::vector<std::string> all;
+        for (const ColourName& known : kColourNames) all.emplace_back(known.name);
+        throw InvalidArgument("{} must be {}, but \"{}\" was given", option_label("colour"),
+                              Message("a number from 0 on, or one of {}", listed_in_quotes(all)), name);
     }
     const double number = lua_type(L, index) == LUA_TNUMBER ? lua_tonumber(L, index) : -1;
     if (number < 0 || number != std::floor(number) || number > 1000)
-        throw InvalidArgument("option 'colour' must be a whole number from 0 on, or a name such as \"red\", but " +
-                              given_text(L, index) + " was given");
+        refuse_option("colour", Message("a whole number from 0 on, or a name such as \"red\""), given_value(L, index));
     return static_cast<int>(number);
 }
 
@@ -118,8 +117,8 @@ Curve read_curve(const Call& call, int index) {
 CurveStyle parse_curve_style(const std::string& name) {
     const auto found = std::find(kStyleNames.begin(), kStyleNames.end(), name);
     if (found == kStyleNames.end())
-        throw InvalidArgument(fmt::format("option 'style' must be one of \"{}\", but \"{}\" was given",
-                                          fmt::join(kStyleNames, "\", \""), name));
+        throw InvalidArgument("{} must be one of {}, but \"{}\" was given", option_label("style"),
+                              listed_in_quotes({kStyleNames.begin(), kStyleNames.end()}), name);
     return static_cast<CurveStyle>(found - kStyleNames.begin());
 }
 

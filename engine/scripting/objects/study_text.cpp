@@ -52,7 +52,7 @@ std::string troubles_of(const MonteCarloResult& result, int runs) {
     std::string text;
     if (result.failed > 0)
         text += fmt::format("{}: {} of {} runs failed and are left out; the first one says: {}.\n", result.label,
-                            result.failed, runs, in_lua_words(message_text(result.first_failure)));
+                            result.failed, runs, in_lua_words(result.first_failure));
     if (result.not_converged > 0)
         text += fmt::format("{}: {} of {} runs did not converge; their last values are counted.\n", result.label,
                             result.not_converged, runs);
@@ -72,7 +72,7 @@ std::string candidate_row(const OrderCandidate& candidate, bool chosen, bool val
     std::string row = fmt::format("{} {:>5} {:>5}", chosen ? '*' : ' ', candidate.poles, candidate.zeros);
     if (delays) row += fmt::format(" {:>9}", number_text(candidate.delay, 4));
     if (!candidate.failure.empty())
-        return row + "  not estimated: " + in_lua_words(message_text(candidate.failure)) + "\n";
+        return row + "  not estimated: " + in_lua_words(candidate.failure) + "\n";
     row += fmt::format(" {:>9.5f} {:>8.3f} {:>9.4f} {:>9.4f} {:>10} {:>8.2f} {:>5} {:>7.2f}", candidate.r_squared,
                        candidate.yic, candidate.aic, candidate.bic, number_text(candidate.fpe, 4),
                        candidate.log_condition, candidate.iterations, candidate.fit_percent);
@@ -112,7 +112,7 @@ std::string order_table_text(const OrderSelection& selection, const OrderChoice&
     text += "\n";
     for (std::size_t i = 0; i < selection.candidates.size(); ++i)
         text += candidate_row(selection.candidates[i], i == choice.place, selection.validated, delays);
-    return text + in_lua_words(message_text(choice.explanation)) + "\n";
+    return text + in_lua_words(choice.explanation) + "\n";
 }
 
 std::string arx_table_text(const ArxSelection& selection, const OrderChoice& choice) {

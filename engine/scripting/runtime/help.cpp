@@ -8,6 +8,7 @@
 #include <iterator>
 #include <sstream>
 
+#include "base/reader.h"
 #include "documents/text_lines.h"
 #include "numerics/error.h"
 #include "platform/spelling.h"
@@ -95,7 +96,8 @@ std::string list_of(const std::vector<Found>& found, std::size_t width) {
 }
 
 /// What is written here for a function of MATLAB or another program, and the pages of what it calls.
-std::string matlab_answer(const std::string& name, const char* hint, const FunctionList& functions, std::size_t width) {
+std::string matlab_answer(const std::string& name, const std::string& hint, const FunctionList& functions,
+                          std::size_t width) {
     std::string text = filled(fmt::format("{} is a word of other programs; here: {}.", name, hint), width) + '\n';
     static const RE2 kCall("([a-z][a-z_0-9.]*)[({]", RE2::Latin1);
     std::string called;
@@ -162,8 +164,8 @@ std::optional<std::string> lua_answer(const std::string& word, std::size_t width
 
 [[noreturn]] void refuse_topic(const std::string& name, const FunctionList& functions) {
     const auto near = nearest_word(name, help_names(functions));
-    throw InvalidArgument(fmt::format("there is no help about '{}'{}", name,
-                                      near ? fmt::format("; did you mean '{}'?", *near) : "; help() lists everything"));
+    if (near) throw InvalidArgument("there is no help about '{}'; did you mean '{}'?", name, *near);
+    throw InvalidArgument("there is no help about '{}'; help() lists everything", name);
 }
 
 }  // namespace
@@ -207,7 +209,8 @@ std::string help_text(const std::string& name, const FunctionList& functions, st
     if (const FunctionEntry* entry = entry_of(name, functions))
         return fmt::format("{}\n  {}\n", entry->signature, entry->summary);
     if (const auto method = method_answer(name, width)) return *method;
-    if (const char* hint = matlab_name_hint(name)) return matlab_answer(name, hint, functions, width);
+    if (const Message* const hint = matlab_name_hint(name))
+        return matlab_answer(name, message_text(*hint), functions, width);
     if (const auto words = lua_answer(name, width)) return *words;
     if (const std::string small = in_small_letters(name); small != name && find_help_page(small))
         return help_text(small, functions, width);

@@ -32,7 +32,7 @@ RunRecord run_for_paper(const ReportRequest& request, const fs::path& folder, co
     run.out_folder = folder;
     run.call_cache = &calls;
     RunRecord record = run_script(run, renderer);
-    if (record.error) throw DocumentError(Message::verbatim(record.error->message));
+    if (record.error) throw DocumentError(Message::verbatim(record.error->text()));
     draw_figures(record, renderer, folder, FigureFormat::kPdf, request.script.header.language);
     renderer.finish();
     runs.remember(record);

@@ -146,8 +146,8 @@ json outputs_of(const RunRecord& record, const Cell& cell, bool stopped_here,
     if (stopped_here)
         outputs.push_back({{"output_type", "error"},
                            {"ename", "error"},
-                           {"evalue", record.error->message},
-                           {"traceback", json::array({record.error->message})}});
+                           {"evalue", record.error->text()},
+                           {"traceback", json::array({record.error->text()})}});
     return outputs;
 }
 
@@ -230,7 +230,9 @@ bool is_notebook(const std::filesystem::path& file) {
 std::string notebook_of(const PercentScript& script, const RunRecord* record,
                         const std::map<std::string, std::string>& figures) {
     const std::vector<Segment> segments = segments_of(script.source);
-    const Cell* const failed = record && record->error ? script.cell_at_line(record->error->line) : nullptr;
+    const Cell* const failed = record && record->error
+                                   ? script.cell_at_line(record->error->line_in(script.file.filename().string()))
+                                   : nullptr;
     NotebookIds ids;
     json cells = json::array();
     int runs = 0;

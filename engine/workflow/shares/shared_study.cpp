@@ -171,7 +171,7 @@ ShareWork study_share() {
         request.out_folder = files.path();
         GnuplotRenderer renderer;
         const RunRecord record = run_script(request, renderer);
-        shared.settle(record.error ? record.error->message : "");
+        shared.settle(record.error ? record.error->text() : "");
     };
 }
 

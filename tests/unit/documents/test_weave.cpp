@@ -114,7 +114,7 @@ TEST(weave, empty_lines_at_the_end_of_an_output_are_not_shown) {
 
 TEST(weave, a_recorded_error_stands_at_its_cell) {
     RunRecord record;
-    record.error = RecordedError{"lesson.lua:2: x is nil", 2};
+    record.error = RecordedError{Message("x is nil"), "lesson.lua", 2};
     const std::string text = weave("-- %%\nx()\n-- %% [markdown]\n-- after\n", record).text;
     EXPECT_LT(text.find("```{.error}\nlesson.lua:2: x is nil\nThe script stopped here; nothing below was run.\n```"),
               text.find("after"));

@@ -1,6 +1,5 @@
 #include <array>
 
-#include "base/number_text.h"
 #include "numerics/error.h"
 #include "numerics/estimators/closed_loop/clivsvf.h"
 #include "numerics/estimators/closed_loop/clsrivc.h"
@@ -29,8 +28,8 @@ int simulate_loop(Call& call) {
     controller.computing_delay = computing_delay_of(options);
     const VectorMap r = call.vector(3, "r");
     if (r.size() < 2)
-        throw InvalidArgument("simloop: r is the reference at every sample, such as prbs(7, 5) or ones(500), and has " +
-                              counted(r.size(), "value"));
+        throw InvalidArgument("r is the reference at every sample, such as prbs(7, 5) or ones(500), and has {}",
+                              plural(r.size(), "{} value", "{} values"));
     const Hold hold = hold_option(options, Hold::kZoh);
     const Vector noise = options.has("noise") ? Vector(options.vector("noise")) : Vector::Zero(r.size());
     if (!controller.sampled())

@@ -1,7 +1,6 @@
 #include <cmath>
 #include <optional>
 
-#include "base/number_text.h"
 #include "figures/plots/levels_plot.h"
 #include "numerics/estimators/frequency/bla.h"
 #include "numerics/simulation/sampled_response.h"
@@ -23,15 +22,15 @@ InterSample inter_sample_option(const Options& options, InterSample fallback) {
 }
 
 /// A complex vector; {re, im} of two vectors, {{re, im}, ...} of pairs, or a matrix of two columns.
-ComplexVector complex_argument(const Call& call, int index, const char* what) {
+ComplexVector complex_argument(const Call& call, int index, ArgumentName what) {
     if (const ComplexVector* values = to_object<ComplexVector>(call.state(), index)) return *values;
     if (call.type(index) != LUA_TTABLE && to_matrix(call.state(), index) == nullptr)
-        wrong_argument(call.state(), index, what, "complex vector, as freqresp gives it, or {re, im} of two vectors");
+        wrong_argument(call.state(), index, what,
+                       Message("a complex vector, as freqresp gives it, or {re, im} of two vectors"));
     const MatrixMap parts = call.matrix(index, what);
     if (parts.cols() != 2)
-        throw InvalidArgument(
-            fmt::format("argument {} ({}) needs a real and an imaginary part: {{re, im}} of two vectors, not {}", index,
-                        what, counted(parts.cols(), "column")));
+        throw InvalidArgument("{} needs a real and an imaginary part: {re, im} of two vectors, not {}",
+                              argument_label(index, what), plural(parts.cols(), "{} column", "{} columns"));
     ComplexVector values(parts.rows());
     values.real() = parts.col(0), values.imag() = parts.col(1);
     return values;
@@ -54,10 +53,10 @@ Sampling sampling_options(const Options& options, const std::optional<TransferFu
     const Sampling own{discrete ? G->Ts() : 0, discrete ? InterSample::kZoh : InterSample::kBandLimited};
     const Sampling wanted{options.number("Ts", own.Ts), inter_sample_option(options, own.inter_sample)};
     if (discrete && std::abs(wanted.Ts - own.Ts) > 1e-9 * own.Ts)
-        throw InvalidArgument(fmt::format(
-            "option 'Ts' is {} s, but the model is sampled every {} s: leave the option out, or convert the model "
-            "with d2c and c2d",
-            number_text(wanted.Ts), number_text(own.Ts)));
+        throw InvalidArgument(
+            "option 'Ts' is {} s, but the model is sampled every {} s: leave the option out, or convert the model with "
+            "d2c and c2d",
+            wanted.Ts, own.Ts);
     return wanted;
 }
 

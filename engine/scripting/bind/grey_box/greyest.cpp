@@ -67,9 +67,9 @@ int parameter_named(Call& call) {
     for (std::size_t i = 0; i < fit.names.size(); ++i)
         if (fit.names[i] == name) return call.give(fit.theta[static_cast<Index>(i)]);
     throw InvalidArgument(
-        fmt::format("this model has no parameter or field '{}'; its parameters are {}, its fields "
-                    "param, std, covariance, intervals, names, x0, noise_variance and report",
-                    name, fmt::join(fit.names, ", ")));
+        "this model has no parameter or field '{}'; its parameters are {}, its fields param, std, covariance, "
+        "intervals, names, x0, noise_variance and report",
+        name, listed(fit.names));
 }
 
 std::vector<std::string> bounded_names(const Fit& fit) {

@@ -21,18 +21,18 @@ namespace {
 const Model& output_error_argument(const Call& call, int index) {
     const Model* model = index <= call.count() ? to_object<Model>(call.state(), index) : nullptr;
     const char* const function = call.function_name();
-    if (model == nullptr) wrong_argument(call.state(), index, "G", "model");
-    const std::string instead = fmt::format(
+    if (model == nullptr) wrong_argument(call.state(), index, "G", with_article("model"));
+    const Message instead(
         "{} repeats fits of the smallest simulation error: estimate with procsrivc, tfsrivc, srivc or coe", function);
-    if (!model->estimate) throw InvalidArgument("this model was written down, not estimated; " + instead);
+    if (!model->estimate) throw InvalidArgument("this model was written down, not estimated; {}", instead);
     const Estimate& estimate = *model->estimate;
     if (!model->single_channel())
-        throw InvalidArgument(
-            fmt::format("{} takes a model with one input and one output, but {}", function, channels_hint(*model)));
+        throw InvalidArgument("{} takes a model with one input and one output, but {}", function,
+                              channels_hint(*model));
     const bool process = model->process.has_value();
     if (estimate.carx || model->polynomial || model->system || !model->G.continuous() ||
         (!process && !estimate.of_coefficients))
-        throw InvalidArgument(fmt::format("{} is no such method; {}", estimate.method, instead));
+        throw InvalidArgument("{} is no such method; {}", estimate.method, instead);
     return *model;
 }
 

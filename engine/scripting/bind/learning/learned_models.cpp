@@ -14,12 +14,14 @@
 namespace dynlab::inline scripting {
 namespace {
 
-constexpr std::array kNarxLags = {OrderEntry{"na", "past outputs"}, OrderEntry{"nb", "values of the input"},
-                                  OrderEntry{"nk", "samples of delay, 1 for no direct term"}};
+constexpr std::array kNarxLags = {OrderEntry{"na", [] { return Message("past outputs"); }},
+                                  OrderEntry{"nb", [] { return Message("values of the input"); }},
+                                  OrderEntry{"nk", [] { return Message("samples of delay, 1 for no direct term"); }}};
 
 NarxLags lags_argument(const Call& call, Index inputs) {
     const auto orders = order_lists(call, 2, kNarxLags);
-    if (orders[0].size() != 1) refuse_orders(2, kNarxLags, "na is one number");
+    if (orders[0].size() != 1)
+        throw InvalidArgument("argument {} (orders) must be {}, but na is one number", 2, meaning_of(kNarxLags));
     NarxLags lags{orders[0].front(), orders[1], orders[2]};
     for (std::vector<int>* of_inputs : {&lags.nb, &lags.nk})
         if (of_inputs->size() == 1) of_inputs->assign(static_cast<std::size_t>(inputs), of_inputs->front());
@@ -59,9 +61,8 @@ FunctionLibrary library_option(const Call& call, const Options& options, const I
         return polynomial_library(data.output_names, data.input_names, static_cast<int>(options.size("degree", 2)));
     const int index = options.push("library");
     if (lua_type(call.state(), index) != LUA_TFUNCTION)
-        throw InvalidArgument(
-            fmt::format("option 'library' must be a function(x, u) that returns a list of vectors, but {} was given",
-                        given_text(call.state(), index)));
+        refuse_option("library", Message("a function(x, u) that returns a list of vectors"),
+                      given_value(call.state(), index));
     FunctionLibrary library = lua_library(call, index, data, options.texts("names"));
     lua_pop(call.state(), 1);
     return library;

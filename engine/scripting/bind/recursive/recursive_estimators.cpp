@@ -88,8 +88,8 @@ std::map<std::string, Vector> truth_of(const Options& options) {
         else if (NumericBlock* values = to_vector(L, -1))
             truth[name] = values->vector();
         else
-            throw InvalidArgument(
-                fmt::format("option 'truth' must hold numbers or vectors, but {} is {}", name, given_text(L, -1)));
+            throw InvalidArgument("option 'truth' must hold numbers or vectors, but {} is {}", name,
+                                  given_value(L, -1));
     }
     return truth;
 }
@@ -103,8 +103,7 @@ int plot_parameters(Call& call) {
         throw InvalidArgument("this model has no history: rlssvf, rivsvf and rsrivc give one");
     const double level = options.number("confidence", 0.95);
     if (!(level > 0 && level < 1))
-        throw InvalidArgument(
-            fmt::format("option 'confidence' must be a probability between 0 and 1, but {} was given", level));
+        refuse_option("confidence", Message("a probability between 0 and 1"), Message("{}", significant(level, 10)));
     return give_figure(call, history_plot(*model.estimate->history, model.estimate->names, truth_of(options), level));
 }
 
