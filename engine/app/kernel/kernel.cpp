@@ -85,8 +85,8 @@ class Kernel {
             try {
                 socket->bind(connection.address(port));
             } catch (const zmq::error_t& error) {
-                throw EnvironmentError(
-                    fmt::format("the kernel cannot listen at {}: {}", connection.address(port), error.what()));
+                throw EnvironmentError("the kernel cannot listen at {}: {}", connection.address(port),
+                                       message_of(error));
             }
         }
     }

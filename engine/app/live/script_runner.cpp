@@ -36,7 +36,7 @@ bool is_same(const ScriptPart& a, const ScriptPart& b) {
 ScriptRunner::ScriptRunner(RunnerWorld world) : keeps_end_(world.keeps_end) {
     auto [here, there] = Channel::pair();
     const pid_t first = fork_bound_copy();
-    if (first < 0) throw EnvironmentError("cannot start a process for the script: " + system_reason(errno));
+    if (first < 0) throw EnvironmentError("cannot start a process for the script: {}", system_reason(errno));
     if (first == 0) {
         here.release();
         serve_runs(std::move(there), std::move(world));

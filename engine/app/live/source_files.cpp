@@ -54,9 +54,9 @@ SourceFiles::Outcome SourceFiles::save(const SourceText& saved) {
     if (there && there->digest != saved.digest) return {false, *std::move(there)};
     const fs::path& file = files_[saved.number];
     if (!there && fs::exists(file))
-        throw EnvironmentError(file.string() + ": not saved: it was changed elsewhere and cannot be read as UTF-8");
+        throw EnvironmentError("{}: not saved: it was changed elsewhere and cannot be read as UTF-8", file.string());
     if (in_utf8(saved.text) != saved.text)
-        throw EnvironmentError(fmt::format("{}: not saved: the text is not UTF-8", file.string()));
+        throw EnvironmentError("{}: not saved: the text is not UTF-8", file.string());
     write_file_atomically(file, saved.text);
     return {true, {saved.number, file.filename(), {}, digest_of(saved.text).hex()}};
 }

@@ -134,7 +134,7 @@ class WebServer::Work {
 
 const std::string& PageRequest::parameter(const std::string& name) const {
     const auto found = parameters.find(name);
-    if (found == parameters.end()) throw EnvironmentError("what was asked lacks the parameter \"" + name + "\"");
+    if (found == parameters.end()) throw EnvironmentError("what was asked lacks the parameter \"{}\"", name);
     return found->second;
 }
 

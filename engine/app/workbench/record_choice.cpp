@@ -200,7 +200,7 @@ RecordOrder suggested_order(const RecordChoice& choice) {
         if (column.role == "time") order.time = column.name;
     }
     if (order.inputs.empty() || order.outputs.empty())
-        throw EnvironmentError(choice.data + " has no two signals of the same length that change");
+        throw EnvironmentError("{} has no two signals of the same length that change", choice.data);
     return order;
 }
 
@@ -223,7 +223,7 @@ std::string with_record(const std::string& source, const RecordOrder& order, con
 
 void expect_plain_name(const std::string& name) {
     if (std::ranges::any_of(name, [](unsigned char c) { return std::iscntrl(c); }))
-        throw EnvironmentError("there are control characters in the name of the file " + in_one_line(name));
+        throw EnvironmentError("there are control characters in the name of the file {}", in_one_line(name));
 }
 
 std::string new_session(const std::string& title, const std::string& lines, const std::string& language) {

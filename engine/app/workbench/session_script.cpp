@@ -339,8 +339,8 @@ std::string with_edits(const std::string& source, std::vector<LineEdit> edits) {
     };
     for (const LineEdit& edit : edits) {
         if (edit.first < next || edit.first > count + 1 || edit.last > count || edit.last < edit.first - 1)
-            throw ValueError(fmt::format("lines {} to {} cannot be changed in a script of {}", edit.first, edit.last,
-                                         counted(count, "line")));
+            throw ValueError("lines {} to {} cannot be changed in a script of {}", edit.first, edit.last,
+                             plural(count, "{} line", "{} lines"));
         copy_until(edit.first);
         if (!edit.text.empty()) text += edit.text + "\n";
         next = edit.last + 1;

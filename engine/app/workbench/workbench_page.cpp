@@ -42,7 +42,7 @@ std::string record_of_lesson(const Lesson& lesson) {
     static const RE2 kLoad(R"(\bload\("([^"]+)\"\))", RE2::Latin1);
     std::string record;
     if (!RE2::PartialMatch(read_text(lesson.script()), kLoad, &record))
-        throw EnvironmentError(fmt::format("lesson {} loads no record; name a data file or a data set", lesson.slug));
+        throw EnvironmentError("lesson {} loads no record; name a data file or a data set", lesson.slug);
     return record;
 }
 
@@ -54,10 +54,10 @@ Subject subject_of(const std::string& words) {
     expect_plain_name(words);
     if (words.empty()) return {"session.lua", "", "Session"};
     if (words.ends_with(".lua")) {
-        if (!fs::exists(words)) throw EnvironmentError("there is no file " + words);
+        if (!fs::exists(words)) throw EnvironmentError("there is no file {}", words);
         return {words, "", ""};
     }
-    if (is_data_file(words) && !fs::exists(words)) throw EnvironmentError("there is no file " + words);
+    if (is_data_file(words) && !fs::exists(words)) throw EnvironmentError("there is no file {}", words);
     const std::vector<std::string> sets = dataset_names();
     const bool is_record = fs::exists(words) || std::find(sets.begin(), sets.end(), words) != sets.end();
     if (is_record) return {session_of(words), words, "Identification from " + fs::path(words).filename().string()};
@@ -122,7 +122,7 @@ void take_script_orders(WebServer& server, WorkbenchSession& bench) {
 bool is_created(const fs::path& file) {
     constexpr mode_t kForAll = 0666;
     const FileDescriptor made(::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kForAll));
-    if (!made && errno != EEXIST) throw EnvironmentError(file.string() + ": not written: " + system_reason(errno));
+    if (!made && errno != EEXIST) throw EnvironmentError("{}: not written: {}", file.string(), system_reason(errno));
     return static_cast<bool>(made);
 }
 
@@ -131,7 +131,7 @@ fs::path free_name(const std::string& wanted) {
     expect_plain_name(wanted);
     const fs::path name = fs::path(wanted).filename();
     if (!is_data_file(name))
-        throw EnvironmentError(name.string() + " is no data file: wanted .csv, .txt, .dat, .tsv, .xlsx or .mat");
+        throw EnvironmentError("{} is no data file: wanted .csv, .txt, .dat, .tsv, .xlsx or .mat", name.string());
     fs::path file = name;
     for (int k = 2; !is_created(file); ++k)
         file = fmt::format("{}-{}{}", name.stem().string(), k, name.extension().string());
@@ -145,7 +145,7 @@ const std::string& checked_record(const std::string& data, const std::string& su
     const fs::path within = fs::weakly_canonical(data).lexically_relative(fs::current_path());
     const bool leads_out = within.empty() || *within.begin() == "..";
     if (data == subject || std::find(sets.begin(), sets.end(), data) != sets.end() || !leads_out) return data;
-    throw EnvironmentError(data + " lies outside the session's folder; drop the file on the page to copy it there");
+    throw EnvironmentError("{} lies outside the session's folder; drop the file on the page to copy it there", data);
 }
 
 void serve_records(WebServer& server, WorkbenchSession& bench, const std::string& subject) {

@@ -152,7 +152,7 @@ void WorkbenchSession::work() {
 void WorkbenchSession::save_rest() {
     const std::lock_guard lock(mutex_);
     if (text_.save() && may_run_) tell_of_saving_(text_.text());
-    if (!text_.unsaved().empty()) throw EnvironmentError("the last changes are lost: " + text_.unsaved());
+    if (!text_.unsaved().empty()) throw EnvironmentError("the last changes are lost: {}", text_.unsaved());
 }
 
 void WorkbenchSession::take_file_changes() {

@@ -118,8 +118,8 @@ void apply(const AssignmentArguments& words, const CourseClock& clock, Assignmen
     if (!words.grace.empty()) {
         const auto grace = duration_of(words.grace);
         if (!grace)
-            throw InvalidArgument("--grace must be a duration such as 15min, 2h or 1d, but \"" + words.grace +
-                                  "\" was given");
+            throw InvalidArgument("--grace must be a duration such as 15min, 2h or 1d, but \"{}\" was given",
+                                  words.grace);
         a.grace = *grace;
     }
     if (!words.costs.empty()) a.costs = costs_of(words.costs == "none" ? "" : words.costs);

@@ -52,8 +52,7 @@ int grade(const GradeArguments& words) {
     if (!words.secret.empty()) {
         request.setup.secret = read_file(words.secret);
         if (request.setup.secret.empty())
-            throw EnvironmentError(
-                fmt::format("{} is empty: hidden records drawn from it would be no secret", words.secret));
+            throw EnvironmentError("{} is empty: hidden records drawn from it would be no secret", words.secret);
     }
     request.roster = given(words.roster);
     request.owners = given(words.owners);

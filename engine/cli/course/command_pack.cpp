@@ -91,12 +91,12 @@ int bundle_groups(const Lesson& lesson, const PackArguments& words) {
         if (!student.seed) continue;
         const auto [known, added] = seeds.try_emplace(owner, *student.seed);
         if (!added && known->second != *student.seed)
-            throw EnvironmentError(fmt::format("{}: the members of {} have different seeds", words.roster, owner));
+            throw EnvironmentError("{}: the members of {} have different seeds", words.roster, owner);
     }
-    if (seeds.empty()) throw EnvironmentError(words.roster + ": nobody has a seed; fill in the column seed");
+    if (seeds.empty()) throw EnvironmentError("{}: nobody has a seed; fill in the column seed", words.roster);
     fs::create_directories(folder);
     for (const auto& [owner, seed] : seeds) {
-        if (owner.find('/') != std::string::npos) throw EnvironmentError("there is a / in the name of " + owner);
+        if (owner.find('/') != std::string::npos) throw EnvironmentError("there is a / in the name of {}", owner);
         const fs::path file = folder / (lesson.slug + "-" + owner + ".zip");
         bundle_lesson(lesson, file, seed);
         std::cout << terminal_text(file.string()) << '\n';

@@ -63,7 +63,7 @@ Lesson lesson_to_help(HintArguments& words) {
         if (const auto found = metadata.find("lang"); found != metadata.end()) words.language = found->second;
     }
     const std::string name = read_percent_script(folder / "analysis.lua").header.lesson;
-    if (name.empty()) throw EnvironmentError((folder / "analysis.lua").string() + " does not name its lesson");
+    if (name.empty()) throw EnvironmentError("{} does not name its lesson", (folder / "analysis.lua").string());
     words.lesson = name;
     return find_lesson(name);
 }
@@ -72,7 +72,7 @@ Hints hints_of(const Lesson& lesson, const std::string& language) {
     for (const std::string& wanted : {language, std::string("en")})
         if (!wanted.empty() && std::filesystem::is_regular_file(lesson.hints(wanted)))
             return read_hints(lesson.hints(wanted));
-    throw EnvironmentError("lesson " + lesson.slug + " has no hints (" + lesson.hints("en").string() + ")");
+    throw EnvironmentError("lesson {} has no hints ({})", lesson.slug, lesson.hints("en").string());
 }
 
 int list_hints(const Lesson& lesson, const Hints& hints, const std::string& name, const HintWords& words) {
@@ -95,13 +95,13 @@ int give_hint(HintArguments words) {
     const std::string name = shell_word(words.lesson);
     const Lesson lesson = lesson_to_help(words);
     const Hints hints = hints_of(lesson, words.language);
-    if (hints.empty()) throw EnvironmentError("the hints of lesson " + lesson.slug + " are empty");
+    if (hints.empty()) throw EnvironmentError("the hints of lesson {} are empty", lesson.slug);
     const HintWords& sentences = hint_words(lesson, words.language);
     if (words.question == 0) return list_hints(lesson, hints, name, sentences);
     const auto found = hints.find(words.question);
     if (found == hints.end())
-        throw EnvironmentError(fmt::format("lesson {} has no hints for question {}; it has some for {} to {}",
-                                           lesson.slug, words.question, hints.begin()->first, hints.rbegin()->first));
+        throw EnvironmentError("lesson {} has no hints for question {}; it has some for {} to {}", lesson.slug,
+                               words.question, hints.begin()->first, hints.rbegin()->first);
     const std::vector<std::string>& stages = found->second;
     const HintsSeen seen(lesson.slug, words.question);
     if (words.next && !seen.lasting())

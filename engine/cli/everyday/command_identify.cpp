@@ -30,9 +30,9 @@ std::string script_of(const IdentifyRequest& request) {
     try {
         return identification_script(request);
     } catch (const UnknownSampling& error) {
-        throw EnvironmentError(std::string(error.what()) +
-                               "; give --Ts SECONDS or --time NAME, or write '# Ts: 0.01' into the first line of a "
-                               "CSV file");
+        throw EnvironmentError(
+            "{}; give --Ts SECONDS or --time NAME, or write '# Ts: 0.01' into the first line of a CSV file",
+            message_of(error));
     }
 }
 

@@ -18,7 +18,7 @@ struct NewArguments {
 };
 
 int make_editor_files(const std::string& folder) {
-    if (!std::filesystem::is_directory(folder)) throw EnvironmentError("there is no folder " + folder);
+    if (!std::filesystem::is_directory(folder)) throw EnvironmentError("there is no folder {}", folder);
     for (const std::string& kept : write_editor_files(folder))
         std::cout << kept << " is there already and stays as it is\n";
     std::cout << folder << ": editors complete and check the functions of dynlab in it\n";

@@ -22,7 +22,7 @@ int kept_option(const Options& options, const char* name, int type, const std::s
     lua_State* L = options.call().state();
     const int index = options.push(name);
     if (lua_isnil(L, index) && !needed) return 0;
-    if (lua_type(L, index) != type) throw InvalidArgument(fmt::format("\"{}\" of {} must be {}", name, owner, wanted));
+    if (lua_type(L, index) != type) throw InvalidArgument("\"{}\" of {} must be {}", name, owner, wanted);
     lua_pushvalue(L, index);
     return luaL_ref(L, LUA_REGISTRYINDEX);
 }
@@ -30,7 +30,7 @@ int kept_option(const Options& options, const char* name, int type, const std::s
 double points_option(const Options& options, const std::string& id, double fallback) {
     const double points = options.number("points", fallback);
     if (!(points > 0) || points > kMostPoints)
-        throw InvalidArgument(fmt::format("the points of \"{}\" must be a number above 0, at most 1000", id));
+        throw InvalidArgument("the points of \"{}\" must be a number above 0, at most 1000", id);
     return points;
 }
 
@@ -43,7 +43,7 @@ int check(Call& call) {
     check.id = options.text("id", "");
     if (!plain_id(check.id)) throw InvalidArgument("a check needs an id of letters, digits and _");
     for (const DeclaredCheck& other : session.checks)
-        if (other.id == check.id) throw InvalidArgument(fmt::format("there are two checks \"{}\"", check.id));
+        if (other.id == check.id) throw InvalidArgument("there are two checks \"{}\"", check.id);
     check.points = points_option(options, check.id, 1);
     check.about = options.text("about", check.id);
     check.hint = options.text("hint", "");
@@ -53,9 +53,9 @@ int check(Call& call) {
     check.rubric = options.text("rubric", "");
     check.visible = session.visible_file;
     if (check.by_hand && (options.has("test") || options.has("rerun") || options.has("mistakes")))
-        throw InvalidArgument(fmt::format("\"{}\" is marked by hand: it has no test, rerun or mistakes", check.id));
+        throw InvalidArgument("\"{}\" is marked by hand: it has no test, rerun or mistakes", check.id);
     if (!check.by_hand && options.has("rubric"))
-        throw InvalidArgument(fmt::format("\"{}\" has a rubric: it needs by_hand = true", check.id));
+        throw InvalidArgument("\"{}\" has a rubric: it needs by_hand = true", check.id);
     const std::string owner = fmt::format("the check \"{}\"", check.id);
     check.test = kept_option(options, "test", LUA_TFUNCTION, owner, "a function", !check.by_hand);
     check.mistakes =
@@ -100,7 +100,7 @@ int declare_rig(Call& call) {
     const Options options(call, 1, {"name", "record", "truth"});
     const std::string name = options.text("name", "");
     if (!plain_id(name)) throw InvalidArgument("a rig needs a name of letters, digits and _: that of its data set");
-    if (session.rigs.contains(name)) throw InvalidArgument(fmt::format("there are two rigs \"{}\"", name));
+    if (session.rigs.contains(name)) throw InvalidArgument("there are two rigs \"{}\"", name);
     const std::string owner = fmt::format("the rig \"{}\"", name);
     session.rigs[name] = {kept_option(options, "record", LUA_TFUNCTION, owner, "a function", true),
                           kept_option(options, "truth", LUA_TFUNCTION, owner, "a function", false)};

@@ -119,7 +119,7 @@ Verdict verdict_at(const Call& call, int index) {
         case LUA_TNUMBER: {
             const double share = lua_tonumber(L, index);
             if (share < 0 || share > 1)
-                throw InvalidArgument(fmt::format("a test returned {}; a share is from 0 to 1", number_text(share, 4)));
+                throw InvalidArgument("a test returned {}; a share is from 0 to 1", significant(share, 4));
             verdict.share = std::isfinite(share) ? share : 0;
             break;
         }
@@ -314,7 +314,7 @@ std::optional<std::string> mistake_made(const Call& call, const DeclaredCheck& c
         lua_getfield(L, -1, "say");
         lua_getfield(L, -2, "when");
         if (lua_type(L, -1) != LUA_TFUNCTION || lua_type(L, -2) != LUA_TSTRING)
-            throw InvalidArgument(fmt::format("entry {} of the mistakes must be {{when = function, say = text}}", i));
+            throw InvalidArgument("entry {} of the mistakes must be {when = function, say = text}", i);
         lua_pushvalue(L, answers);
         lua_pushvalue(L, answers + 1);
         // A mistake that cannot be looked for was not made.

@@ -143,7 +143,7 @@ DocumentStandard standard_of(const std::string& name) {
     const fs::path file = is_file ? fs::path(name) : shared_folder() / "report_templates" / (name + ".md");
     const std::vector<std::string> known = installed_templates();
     if (!is_file && std::ranges::find(known, name) == known.end())
-        throw EnvironmentError("there is no template '" + name + "'; the templates are " + listed(known));
+        throw EnvironmentError("there is no template '{}'; the templates are {}", name, listed(known));
     std::vector<std::string> guidance = guidance_of(read_text(file));
     const fs::path french = fs::path(file).replace_extension(".fr.md");
     if (!is_file && fs::is_regular_file(french)) {

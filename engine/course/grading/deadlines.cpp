@@ -58,8 +58,8 @@ class DeadlineTable {
   public:
     explicit DeadlineTable(const fs::path& file) : file_(file), table_(read_text_table(file)) {
         if (!table_.column("submission") || !table_.column("deadline"))
-            throw EnvironmentError(fmt::format("{}: the columns submission and deadline are needed; there are {}",
-                                               file.string(), fmt::join(table_.names, ", ")));
+            throw EnvironmentError("{}: the columns submission and deadline are needed; there are {}", file.string(),
+                                   listed(table_.names));
     }
 
     std::size_t rows() const { return table_.rows.size(); }
@@ -90,11 +90,11 @@ class DeadlineTable {
         return static_cast<long>(*value);
     }
     [[noreturn]] void fail(std::size_t row, const char* column, const char* wanted) const {
-        throw EnvironmentError(fmt::format("{}, line {}: {} must be {}, but \"{}\" was given", file_.string(),
-                                           table_.lines[row], column, wanted, cell(row, column)));
+        throw EnvironmentError("{}, line {}: {} must be {}, but \"{}\" was given", file_.string(), table_.lines[row],
+                               column, wanted, cell(row, column));
     }
     [[noreturn]] void fail(std::size_t row, const std::string& what) const {
-        throw EnvironmentError(fmt::format("{}, line {}: {}", file_.string(), table_.lines[row], what));
+        throw EnvironmentError("{}, line {}: {}", file_.string(), table_.lines[row], what);
     }
 
   private:

@@ -91,8 +91,8 @@ class ClassGrader {
         fs::create_directories(request.out);
         FileLock lock(request.out / ".lock");
         if (!lock.held())
-            throw EnvironmentError(
-                fmt::format("another dynlab grade is at work in {}; wait until it is done", request.out.string()));
+            throw EnvironmentError("another dynlab grade is at work in {}; wait until it is done",
+                                   request.out.string());
         return lock;
     }
 

@@ -157,8 +157,8 @@ void refuse_other_lessons(const GradingRequest& request) {
         const std::optional<Grade> grade = earlier_grade(entry.path());
         if (!grade) continue;
         if (grade->lesson == request.setup.lesson.slug) return;  // as are all others, which were put beside it
-        throw EnvironmentError(fmt::format("{} holds the results of lesson {}; name another folder with --out",
-                                           request.out.string(), grade->lesson));
+        throw EnvironmentError("{} holds the results of lesson {}; name another folder with --out",
+                               request.out.string(), grade->lesson);
     }
 }
 

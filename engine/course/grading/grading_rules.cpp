@@ -79,10 +79,9 @@ std::string hash_of_parts(const std::vector<std::string>& parts) {
     std::vector<std::string> names;
     for (const Rig& rig : rig_catalogue()) names.push_back(rig.name);
     throw EnvironmentError(
-        fmt::format("the check \"{}\" wants a rerun on \"{}\", but records are made of {}, by rigs that the checks "
-                    "declare, or taken from rerun/NAME.csv in the folder of the checks; the seed is changed with "
-                    "\"seed\"",
-                    check, rerun, fmt::join(names, ", ")));
+        "the check \"{}\" wants a rerun on \"{}\", but records are made of {}, by rigs that the checks declare, or "
+        "taken from rerun/NAME.csv in the folder of the checks; the seed is changed with \"seed\"",
+        check, rerun, listed(names));
 }
 
 /// Whether nothing stood in the way that may be gone another time, such as a busy machine.
@@ -108,35 +107,34 @@ GradingRules::GradingRules(GradingSetup setup)
 
 void GradingRules::read_checks() {
     const fs::path own = setup_.lesson.folder / "checks.lua";
-    if (!fs::is_regular_file(own))
-        throw EnvironmentError(fmt::format("lesson {} has no checks.lua", setup_.lesson.slug));
+    if (!fs::is_regular_file(own)) throw EnvironmentError("lesson {} has no checks.lua", setup_.lesson.slug);
     files_.push_back({"checks.lua", read_text(own), true});
     if (setup_.more_checks) {
         std::vector<fs::path> more;
         if (!fs::is_directory(*setup_.more_checks))
-            throw EnvironmentError(fmt::format("there is no folder '{}'", setup_.more_checks->string()));
+            throw EnvironmentError("there is no folder '{}'", setup_.more_checks->string());
         for (const auto& entry : fs::directory_iterator(*setup_.more_checks))
             if (entry.path().extension() == ".lua") more.push_back(entry.path());
         if (more.empty())
-            throw EnvironmentError(fmt::format("the folder '{}' holds no checks: there is no file *.lua in it",
-                                               setup_.more_checks->string()));
+            throw EnvironmentError("the folder '{}' holds no checks: there is no file *.lua in it",
+                                   setup_.more_checks->string());
         std::ranges::sort(more);
         for (const fs::path& file : more) files_.push_back({file.filename().string(), read_text(file), false});
     }
     const BoxedResult<CheckResults> read = listed();
-    if (!read.output) throw EnvironmentError("the checks cannot be read: " + read.reason);
+    if (!read.output) throw EnvironmentError("the checks cannot be read: {}", read.reason);
     if (read.output->error) throw EnvironmentError(*read.output->error);
     for (const TriedCheck& one : read.output->checks) checks_.push_back(one.check);
     declared_rigs_ = read.output->rigs;
-    if (checks_.empty()) throw EnvironmentError(fmt::format("lesson {} declares no check", setup_.lesson.slug));
+    if (checks_.empty()) throw EnvironmentError("lesson {} declares no check", setup_.lesson.slug);
     for (const CheckDescription& check : checks_) {
         const std::string& rerun = check.rerun;
         document_ = document_ || check.document;
         if (check.document && !fs::exists(setup_.lesson.report("en")))
-            throw EnvironmentError(fmt::format(
+            throw EnvironmentError(
                 "the check \"{}\" looks at the document, but lesson {} ends with none: document = true is for lessons "
                 "with a report.en.md beside lesson.lua",
-                check.id, setup_.lesson.slug));
+                check.id, setup_.lesson.slug);
         if (rerun.empty()) continue;
         const bool declared = std::ranges::find(declared_rigs_, rerun) != declared_rigs_.end();
         if (rerun != kOtherSeedRun && !find_rig(rerun) && !declared && !own_record("rerun", rerun))
@@ -259,10 +257,10 @@ std::vector<std::vector<TriedCheck>> GradingRules::tried(const std::vector<Check
     std::vector<Work> works;
     for (const CheckedSubmission& submission : submissions) works.push_back({"", submission, {}, ""});
     auto result = checked(works, kSingleTime);
-    if (!result.output) throw EnvironmentError("the checks come to no end: " + result.reason);
+    if (!result.output) throw EnvironmentError("the checks come to no end: {}", result.reason);
     std::vector<std::vector<TriedCheck>> all;
     for (JudgedSubmission& judged : result.output->judged) {
-        if (!judged.reason.empty()) throw EnvironmentError("the checks come to no end: " + judged.reason);
+        if (!judged.reason.empty()) throw EnvironmentError("the checks come to no end: {}", judged.reason);
         all.push_back(std::move(judged.checks));
     }
     return all;

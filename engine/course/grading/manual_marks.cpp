@@ -18,7 +18,7 @@ ManualMarks::ManualMarks(const std::filesystem::path& file) {
     const auto submission = table.column("submission"), check = table.column("check"), points = table.column("points"),
                reason = table.column("reason") ? table.column("reason") : table.column("comment");
     if (!submission || !check || !points)
-        throw EnvironmentError(fmt::format("{}: the columns submission, check and points are needed", file.string()));
+        throw EnvironmentError("{}: the columns submission, check and points are needed", file.string());
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
         const auto& row = table.rows[i];
         // A decimal comma, as a spreadsheet writes it in much of Europe.
@@ -26,9 +26,8 @@ ManualMarks::ManualMarks(const std::filesystem::path& file) {
         if (text.empty()) continue;  // not marked yet
         const auto given = read_number<double>(text);
         if (!given || !(*given >= 0 && *given <= 1000))
-            throw EnvironmentError(
-                fmt::format("{}, line {}: points must be a number from 0 to 1000, but \"{}\" was given", file.string(),
-                            table.lines[i], text));
+            throw EnvironmentError("{}, line {}: points must be a number from 0 to 1000, but \"{}\" was given",
+                                   file.string(), table.lines[i], text);
         marks_[{row[*submission], row[*check]}] = {*given, reason ? row[*reason] : ""};
     }
 }

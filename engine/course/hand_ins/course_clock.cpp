@@ -36,10 +36,10 @@ CourseClock::CourseClock(const std::string& zone) : zone_(zone) {
     const bool odd = zone.empty() || zone.front() == '/' || zone.find("..") != std::string::npos;
     std::error_code ignored;
     if (odd || (zone != "UTC" && !fs::is_regular_file(fs::path("/usr/share/zoneinfo") / zone, ignored)))
-        throw InvalidArgument(fmt::format(
+        throw InvalidArgument(
             "the time zone \"{}\" is not known here; give one such as Europe/Paris or UTC (list: timedatectl "
             "list-timezones; package tzdata)",
-            zone));
+            zone);
     ::setenv("TZ", zone.c_str(), 1);
     ::tzset();
 }
@@ -69,8 +69,8 @@ Instant CourseClock::parse(const std::string& text, const std::string& what) con
     const bool utc = text.ends_with('Z');
     const auto read = plain_clock_reading(utc ? text.substr(0, text.size() - 1) : text, utc);
     if (!read)
-        throw InvalidArgument(fmt::format("{} must be a time such as \"2026-03-01 18:00\" ({}), but \"{}\" was given",
-                                          what, zone_, text));
+        throw InvalidArgument("{} must be a time such as \"2026-03-01 18:00\" ({}), but \"{}\" was given", what, zone_,
+                              text);
     if (!read->exists)
         throw InvalidArgument(
             fmt::format("{} \"{}\" does not exist{}", what, text, utc ? "" : fmt::format(" in {}", zone_)));

@@ -51,12 +51,11 @@ std::string script_of_handed_in(const fs::path& notebook) {
             }
         },
         GuardLimits{});
-    if (read.exit_code != 0 || read.output.empty())
-        throw SubmissionError(fmt::format("The notebook {} cannot be read.", name));
+    if (read.exit_code != 0 || read.output.empty()) throw SubmissionError("The notebook {} cannot be read.", name);
     if (read.output.front() == '+') return read.output.substr(1);
     std::string what = read.output.substr(1);
     if (const std::string path = notebook.string() + ": "; what.starts_with(path)) what = what.substr(path.size());
-    throw SubmissionError(fmt::format("The notebook {} cannot be read: {}.", name, what));
+    throw SubmissionError("The notebook {} cannot be read: {}.", name, what);
 }
 
 std::vector<fs::path> take_notebooks(const fs::path& folder) {

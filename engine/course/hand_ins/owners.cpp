@@ -171,13 +171,12 @@ void Owners::read_list(const std::filesystem::path& file) {
     const TextTable table = read_text_table(file);
     const auto submission = table.column("submission"), group = table.column("group"), id = table.column("id");
     if (!submission || (!group && !id))
-        throw EnvironmentError(
-            fmt::format("{}: the columns submission and group, or submission and id, are needed; there are {}",
-                        file.string(), fmt::join(table.names, ", ")));
+        throw EnvironmentError("{}: the columns submission and group, or submission and id, are needed; there are {}",
+                               file.string(), listed(table.names));
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
         const auto& row = table.rows[i];
         const auto fail = [&](const std::string& what) {
-            throw EnvironmentError(fmt::format("{}, line {}: {}", file.string(), table.lines[i], what));
+            throw EnvironmentError("{}, line {}: {}", file.string(), table.lines[i], what);
         };
         const std::string named_group = group ? row[*group] : "", named_id = id ? row[*id] : "";
         std::optional<std::size_t> owner = named_group.empty() ? std::nullopt : group_called(named_group);

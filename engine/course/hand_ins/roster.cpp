@@ -84,15 +84,13 @@ Roster::Roster(const std::filesystem::path& file) {
     converted_ = table.converted;
     translate_columns(table);
     const auto id = table.column("id"), seed = table.column("seed");
-    if (!id)
-        throw EnvironmentError(
-            fmt::format("{}: the column id is missing; there are {}", file.string(), fmt::join(table.names, ", ")));
+    if (!id) throw EnvironmentError("{}: the column id is missing; there are {}", file.string(), listed(table.names));
     columns_ = table.names;
     std::set<std::string> seen;
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
         const auto& row = table.rows[i];
         const auto fail = [&](const std::string& what) {
-            throw EnvironmentError(fmt::format("{}, line {}: {}", file.string(), table.lines[i], what));
+            throw EnvironmentError("{}, line {}: {}", file.string(), table.lines[i], what);
         };
         const auto cell = [&](const char* column) {
             const auto index = table.column(column);

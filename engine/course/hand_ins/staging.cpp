@@ -130,10 +130,10 @@ class Stager {
         if (found.size() == 1) return staged(found.front(), "");
         const std::optional<FoundScript> newest = newest_of(found);
         if (!newest)
-            throw SubmissionError(fmt::format(
-                "There are several folders with an analysis.lua, and which is the newest cannot be told: {}. "
-                "Hand in one.",
-                listed_places(found)));
+            throw SubmissionError(
+                "There are several folders with an analysis.lua, and which is the newest cannot be told: {}. Hand in "
+                "one.",
+                listed_places(found));
         return staged(*newest,
                       fmt::format("of {}, \"{}\" was taken as the newest", listed_places(found), newest->shown));
     }
@@ -170,8 +170,8 @@ class Stager {
     }
 
     [[noreturn]] void too_large() const {
-        throw SubmissionError(fmt::format("It is too large: at most {} files and {} MB are looked at.", limits_.files,
-                                          limits_.bytes >> 20));
+        throw SubmissionError("It is too large: at most {} files and {} MB are looked at.", limits_.files,
+                              limits_.bytes >> 20);
     }
 
     void copy_loose(const LooseFile& file) const {

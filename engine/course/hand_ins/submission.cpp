@@ -230,7 +230,7 @@ std::optional<std::string> read_lms_name(Submission& submission) {
 
 std::vector<Submission> submissions_in(const fs::path& folder, std::vector<std::string>& left_out,
                                        const fs::path& results) {
-    if (!fs::is_directory(folder)) throw EnvironmentError(fmt::format("there is no folder '{}'", folder.string()));
+    if (!fs::is_directory(folder)) throw EnvironmentError("there is no folder '{}'", folder.string());
     const std::vector<fs::path> entries = entries_of(folder);
     const bool wrapped = entries.size() == 1 && is_folder(entries.front()) && !is_named_by_platform(entries.front());
     if (wrapped && is_export(entries.front())) return submissions_in(entries.front(), left_out, results);
@@ -238,8 +238,7 @@ std::vector<Submission> submissions_in(const fs::path& folder, std::vector<std::
     for (const fs::path& entry : entries) reader.take(entry);
     std::vector<Submission> all = reader.all();
     if (all.empty())
-        throw EnvironmentError(
-            fmt::format("'{}' holds no submissions: folders or archives (.zip, .tar.gz)", folder.string()));
+        throw EnvironmentError("'{}' holds no submissions: folders or archives (.zip, .tar.gz)", folder.string());
     return all;
 }
 
@@ -254,9 +253,8 @@ std::vector<std::string> unpack_submission(const fs::path& archive, const fs::pa
     job.files = limits.files;
     job.keep_times = limits.keep_times;
     const auto result = run_boxed(box, program, job, {std::chrono::seconds(60)});
-    if (!result.output) throw SubmissionError("The archive cannot be unpacked: " + result.reason + ".");
-    if (result.output->error)
-        throw SubmissionError(fmt::format("The file cannot be unpacked: {}.", *result.output->error));
+    if (!result.output) throw SubmissionError("The archive cannot be unpacked: {}.", result.reason);
+    if (result.output->error) throw SubmissionError("The file cannot be unpacked: {}.", *result.output->error);
     return result.output->left_out;
 }
 
@@ -266,7 +264,7 @@ std::vector<std::string> unpack_export(const fs::path& archive, const fs::path& 
     try {
         return unpack_submission(archive, to, level, program, kOfAClass);
     } catch (const SubmissionError& error) {
-        throw EnvironmentError(fmt::format("{}: {}", archive.string(), error.what()));
+        throw EnvironmentError("{}: {}", archive.string(), message_of(error));
     }
 }
 

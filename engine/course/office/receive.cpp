@@ -82,8 +82,8 @@ class HandInReceiver {
         outcome_.assignment = assignment_named(course, request.assignment);
         due_for(course, outcome_.assignment, 0, request.stage);  // a presentation has no reviews
         if (request.of.size() > 1 && request.of.size() != request.files.size())
-            throw InvalidArgument(fmt::format("{} and {} times --of: say --of once for each file, in their order",
-                                              counted(request.files.size(), "file"), request.of.size()));
+            throw InvalidArgument("{} and {} times --of: say --of once for each file, in their order",
+                                  plural(request.files.size(), "{} file", "{} files"), request.of.size());
         if (!request.from.empty()) from_ = group_named(course, request.from);
         if (request.stage != "final") pairs_ = review_pairs(course, outcome_.assignment);
     }
@@ -113,7 +113,7 @@ class HandInReceiver {
         try {
             work();
         } catch (const std::runtime_error& error) {
-            if (!incoming_.batch()) throw EnvironmentError(fmt::format("{}: {}", file.source, error.what()));
+            if (!incoming_.batch()) throw EnvironmentError("{}: {}", file.source, message_of(error));
             outcome_.refused.push_back(fmt::format("{}: {}", file.source, error.what()));
         }
     }
@@ -152,7 +152,7 @@ class HandInReceiver {
         candidate.bytes = static_cast<std::int64_t>(fs::file_size(file.file));
         if (candidate.bytes == 0) throw EnvironmentError("the file is empty");
         if (static_cast<std::uintmax_t>(candidate.bytes) > kMostBytes)
-            throw EnvironmentError(fmt::format("the file has more than {} MB", kMostBytes >> 20));
+            throw EnvironmentError("the file has more than {} MB", kMostBytes >> 20);
         const std::string kind = kind_of_file_at(file.name, file.file);
         if (!is_wanted(kind))
             throw EnvironmentError(

@@ -31,7 +31,7 @@ struct MarkedStudent : Recipient {
 
 std::size_t needed_column(const TextTable& table, const char* name, const fs::path& file) {
     if (const auto column = table.column(name)) return *column;
-    throw EnvironmentError(fmt::format("{} has no column {}; it is not what dynlab grade writes", file.string(), name));
+    throw EnvironmentError("{} has no column {}; it is not what dynlab grade writes", file.string(), name);
 }
 
 /// The participant's number and name in "Anna Müller_900000_assignsubmission_file_".
@@ -60,8 +60,8 @@ fs::path feedback_of(const fs::path& marks, const std::string& submission) {
 std::vector<MarkedStudent> marked_students(const HandBackRequest& request) {
     const fs::path file = request.marks / "gradebook.csv";
     if (!fs::exists(file))
-        throw EnvironmentError(fmt::format("{} holds no gradebook.csv; name the folder that dynlab grade --out wrote",
-                                           request.marks.string()));
+        throw EnvironmentError("{} holds no gradebook.csv; name the folder that dynlab grade --out wrote",
+                               request.marks.string());
     const TextTable table = read_text_table(file);
     const auto column = [&](const char* name) { return needed_column(table, name, file); };
     std::map<std::string, Student> known;
@@ -132,7 +132,7 @@ std::string comments_on(const fs::path& marks, const MarkedStudent& student) {
         }
         return text;
     } catch (const nlohmann::json::exception&) {
-        throw EnvironmentError(fmt::format("{} is not a result that dynlab grade wrote", file.string()));
+        throw EnvironmentError("{} is not a result that dynlab grade wrote", file.string());
     }
 }
 

@@ -167,11 +167,11 @@ void wish_pair(Course& course, const Assignment& assignment, const std::string& 
     refuse_without_reviews(assignment);
     Transaction transaction(course.database());
     const Group reads = group_named(course, reviewer), writes = group_named(course, author);
-    if (reads.id == writes.id) throw InvalidArgument(fmt::format("{} cannot review its own report", reads.name));
+    if (reads.id == writes.id) throw InvalidArgument("{} cannot review its own report", reads.name);
     if (wish == "set")
         for (const auto& [a, b] : kindred_groups(course))
             if ((a == reads.id && b == writes.id) || (a == writes.id && b == reads.id))
-                throw InvalidArgument(fmt::format("{} and {} share a member, or did", reads.name, writes.name));
+                throw InvalidArgument("{} and {} share a member, or did", reads.name, writes.name);
     const auto enter = [&](const Group& one, const Group& other, const std::string& what) {
         course.database().run(
             "INSERT INTO pair_wishes (assignment, reviewer, author, wish, reason, made_at) VALUES (?, ?, ?, ?, ?, ?)",
@@ -191,9 +191,8 @@ void wish_pair(Course& course, const Assignment& assignment, const std::string& 
 AssignOutcome assign_reviews(Course& course, const Assignment& assignment, Instant now, bool early) {
     refuse_without_reviews(assignment);
     if (!early && now <= assignment.first_due + assignment.grace)
-        throw InvalidArgument(fmt::format("the first versions of {} may still come until {}; wait, or say --early",
-                                          assignment.name,
-                                          course.clock().show(assignment.first_due + assignment.grace)));
+        throw InvalidArgument("the first versions of {} may still come until {}; wait, or say --early", assignment.name,
+                              course.clock().show(assignment.first_due + assignment.grace));
     Transaction transaction(course.database());
     AssignOutcome outcome = ReviewAssigner(course, assignment, now).run();
     transaction.commit();

@@ -67,8 +67,8 @@ class CopySender {
                                       to_reviewers() ? pair.author : pair.reviewer)
                                .next();
         if (named || sha256_of(copy) != hash)
-            throw EnvironmentError(fmt::format(
-                "the copy for {} is not as it was made; nothing more was sent: dynlab course verify", file.string()));
+            throw EnvironmentError("the copy for {} is not as it was made; nothing more was sent: dynlab course verify",
+                                   file.string());
         kept_.insert(file);
         fs::create_directories(file.parent_path());
         if (!fs::exists(file) || read_file(file) != copy) course_.write({{file, copy}});
@@ -172,9 +172,8 @@ SendOutcome send_copies(Course& course, const Assignment& assignment, Way way, I
                         const AnonymousCopier& copier, bool early) {
     refuse_without_reviews(assignment);
     if (way == Way::kToAuthors && !early && now <= assignment.review_due.value_or(0) + assignment.grace)
-        throw InvalidArgument(fmt::format("the reviews of {} may still come until {}; wait, or say --early",
-                                          assignment.name,
-                                          course.clock().show(assignment.review_due.value_or(0) + assignment.grace)));
+        throw InvalidArgument("the reviews of {} may still come until {}; wait, or say --early", assignment.name,
+                              course.clock().show(assignment.review_due.value_or(0) + assignment.grace));
     return CopySender(course, assignment, way, now, copier).run();
 }
 

@@ -55,7 +55,7 @@ std::optional<double> ScoreSheet::points(std::size_t row, std::size_t criterion)
 }
 
 void ScoreSheet::fail(int line, const std::string& what) const {
-    throw EnvironmentError(fmt::format("{}, line {}: {}", file_.string(), line, what));
+    throw EnvironmentError("{}, line {}: {}", file_.string(), line, what);
 }
 
 }  // namespace dynlab::inline course

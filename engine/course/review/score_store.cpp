@@ -181,8 +181,7 @@ void override_mark(Course& course, const Assignment& a, const std::string& group
     if (what == "reviews") refuse_without_reviews(a);
     if (reason.empty()) throw InvalidArgument("say why: --reason \"...\"; it stands in the export");
     if (!(percent >= 0 && percent <= kMostPercent))
-        throw InvalidArgument(
-            fmt::format("a mark is a number from 0 to {} percent, but {} was given", kMostPercent, percent));
+        throw InvalidArgument("a mark is a number from 0 to {} percent, but {} was given", kMostPercent, percent);
     Transaction transaction(course.database());
     const Group whose = group_named(course, group);
     course.database().run(
@@ -201,7 +200,7 @@ void take_back_override(Course& course, const Assignment& a, const std::string& 
         "SELECT percent FROM overrides WHERE assignment = ? AND group_id = ? AND what = ? ORDER BY id DESC LIMIT 1",
         a.id, whose.id, what);
     if (!newest.next() || newest.isColumnNull(0))
-        throw InvalidArgument(fmt::format("you have set no mark of {} for its {}", whose.name, what));
+        throw InvalidArgument("you have set no mark of {} for its {}", whose.name, what);
     course.database().run(
         "INSERT INTO overrides (assignment, group_id, what, percent, reason, made_at) VALUES (?, ?, ?, NULL, ?, ?)",
         a.id, whose.id, what, reason, now);

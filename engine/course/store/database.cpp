@@ -40,7 +40,7 @@ std::string reason_of(int code, const char* words) {
 }
 
 [[noreturn]] void fail(const std::string& file, int code, const char* words) {
-    throw EnvironmentError(fmt::format("{}: {}", file, reason_of(code, words)));
+    throw EnvironmentError("{}: {}", file, reason_of(code, words));
 }
 
 /// Does a piece of work with the open database.

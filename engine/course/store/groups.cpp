@@ -32,14 +32,14 @@ std::set<std::string> names_in(const std::string& cell) {
 void refuse_odd_group(const std::string& name) {
     constexpr std::size_t kMostBytes = 100;
     if (name.size() > kMostBytes)
-        throw EnvironmentError(fmt::format("the group's name \"{}...\" is too long: at most {} bytes, but it has {}",
-                                           terminal_text(name.substr(0, 40)), kMostBytes, name.size()));
+        throw EnvironmentError("the group's name \"{}...\" is too long: at most {} bytes, but it has {}",
+                               terminal_text(name.substr(0, 40)), kMostBytes, name.size());
     if (!name.starts_with('.') && name.find_first_of("/\\\n\r\t") == name.npos && terminal_text(name) == name) return;
-    throw EnvironmentError(fmt::format(
+    throw EnvironmentError(
         "the group's name \"{}\" cannot name a folder: it must not begin with a full stop, nor hold /, \\ or "
-        "characters "
-        "that cannot be seen. Correct the roster, where the id names the group of who has none; nothing was changed",
-        terminal_text(name)));
+        "characters that cannot be seen. Correct the roster, where the id names the group of who has none; nothing was "
+        "changed",
+        terminal_text(name));
 }
 
 class Import {
@@ -181,13 +181,12 @@ std::vector<Student> students_of(Course& course) {
 
 RosterChange import_roster(Course& course, const std::filesystem::path& file, bool no_groups) {
     const Roster roster(file);
-    if (roster.students().empty())
-        throw EnvironmentError(fmt::format("{}: there are no students below the header", file.string()));
+    if (roster.students().empty()) throw EnvironmentError("{}: there are no students below the header", file.string());
     if (!roster.has("group") && !no_groups)
-        throw EnvironmentError(fmt::format(
+        throw EnvironmentError(
             "{}: the column group is missing; there are {}, and known are id, name, group, email (or mail), moodle, "
             "canvas. Say --no-groups where each student works alone",
-            file.string(), fmt::join(roster.columns(), ", ")));
+            file.string(), listed(roster.columns()));
     RosterChange change = Import(course, roster).run();
     change.unknown_columns = roster.unknown_columns();
     change.unsought_ids = unsought_numbers_sentence(roster.students());

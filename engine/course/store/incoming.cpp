@@ -43,17 +43,16 @@ Submission sender_of(const std::string& name) {
 
 void IncomingFiles::add(const fs::path& given) {
     const std::string source = given.string();
-    if (!fs::exists(given)) throw EnvironmentError(fmt::format("there is no file or folder '{}'", source));
+    if (!fs::exists(given)) throw EnvironmentError("there is no file or folder '{}'", source);
     if (!files_.empty()) batch_ = true;
     ++given_;
     if (fs::is_directory(given)) {
         if (way_.one_sender)
-            throw EnvironmentError(
-                fmt::format("{} is a folder; with --from give the files themselves, or a pack", source));
+            throw EnvironmentError("{} is a folder; with --from give the files themselves, or a pack", source);
         add_batch(given, source);
         return;
     }
-    if (!fs::is_regular_file(given)) throw EnvironmentError(fmt::format("{} is not a regular file", source));
+    if (!fs::is_regular_file(given)) throw EnvironmentError("{} is not a regular file", source);
     const std::string name = given.filename();
     if (!archive_stem(name) || way_.one_sender || way_.knows(sender_of(name))) {
         add_file(given, source);
