@@ -72,16 +72,16 @@ TEST_F(live_page, tells_in_the_document_s_language_what_is_wrong_and_found) {
     const json findings = json::parse(R"({"checked": ["checks of lesson a: 0 of 3 points"], "findings": [{
         "id": "answer-missing", "severity": "rule", "place": null, "what": "The answer \"gain\" (number) is not given.",
         "remedy": "Give it: answer(\"gain\", ...)."}]})");
-    page.complain({wrong});
+    page.complain({Message::verbatim(wrong)});
     page.set_work(findings.dump(), false);
     EXPECT_EQ(whole()["language"], "en");
     EXPECT_EQ(whole()["complaints"], json({wrong}));
     EXPECT_EQ(whole()["findings"], findings);
-    EXPECT_EQ(page.told(wrong), wrong);
+    EXPECT_EQ(page.told(Message::verbatim(wrong)), wrong);
 
     page.changes();
     page.speak("fr", "");
-    page.complain({wrong});
+    page.complain({Message::verbatim(wrong)});
     const json changed = json::parse(page.changes().value());
     EXPECT_EQ(changed["language"], "fr");
     EXPECT_EQ(changed["complaints"], json({"analysis.lua:3: il n'y a ni fonction ni variable «\u00A0y\u00A0»"}));
@@ -89,7 +89,7 @@ TEST_F(live_page, tells_in_the_document_s_language_what_is_wrong_and_found) {
     const json finding = changed["findings"]["findings"][0];
     EXPECT_EQ(finding["what"], "La réponse «\u00A0gain\u00A0» (nombre) n'est pas donnée.");
     EXPECT_EQ(finding["remedy"], "Donnez-la\u00A0: answer(\"gain\", ...).");
-    EXPECT_EQ(page.told("dynlab: note: " + wrong + "\n/tmp/a.pdf (up to date)"),
+    EXPECT_EQ(page.told(Message::verbatim("dynlab: note: " + wrong + "\n/tmp/a.pdf (up to date)")),
               "dynlab: note: " + changed["complaints"][0].get<std::string>() + "\n/tmp/a.pdf (à jour)");
     page.set_work("no JSON", false);
     EXPECT_TRUE(whole()["findings"].is_null());
@@ -101,11 +101,11 @@ TEST_F(live_page, tells_again_in_a_new_language_what_was_wrong_before) {
     const json english = json::array({wrong}),
                french = json::array({"analysis.lua:3: il n'y a ni fonction ni variable «\u00A0y\u00A0»"});
     const auto changed = [&] { return json::parse(page.changes().value())["complaints"]; };
-    page.complain({wrong});
+    page.complain({Message::verbatim(wrong)});
     EXPECT_EQ(changed(), english);
     page.speak("fr", "");
     EXPECT_EQ(changed(), french);
-    page.complain({wrong});
+    page.complain({Message::verbatim(wrong)});
     EXPECT_FALSE(page.changes()) << "it is the same complaint";
     page.speak("en", "");
     EXPECT_EQ(changed(), english);
@@ -114,7 +114,8 @@ TEST_F(live_page, tells_again_in_a_new_language_what_was_wrong_before) {
     page.speak("fr", "");
     page.show(set, script, {});
     EXPECT_EQ(changed(), french);
-    EXPECT_EQ(page.content().complaints, std::vector{wrong}) << "remembered for a page in any language";
+    EXPECT_EQ(page.content().complaints, std::vector{Message::verbatim(wrong)})
+        << "remembered for a page in any language";
     page.speak("en", "");
     EXPECT_EQ(changed(), english);
 }
@@ -132,13 +133,13 @@ TEST_F(live_page, reads_the_french_of_a_lesson_once) {
     add_lesson("92_second", "il y en a deux");
     const test::EnvironmentVariable lessons("DYNLAB_LESSONS", folder.path() / "lessons");
     page.speak("fr", "91_first");
-    EXPECT_EQ(page.told("quuxes abound here"), "c'est deux");
+    EXPECT_EQ(page.told(Message("quuxes abound here")), "c'est deux");
     add_lesson("91_first", "changed");
-    EXPECT_EQ(page.told("quuxes abound here"), "c'est deux");
+    EXPECT_EQ(page.told(Message("quuxes abound here")), "c'est deux");
     page.speak("fr", "92_second");
-    EXPECT_EQ(page.told("quuxes abound here"), "il y en a deux");
+    EXPECT_EQ(page.told(Message("quuxes abound here")), "il y en a deux");
     page.speak("fr", "");
-    EXPECT_EQ(page.told("quuxes abound here"), "quuxes abound here");
+    EXPECT_EQ(page.told(Message("quuxes abound here")), "quuxes abound here");
 }
 
 }  // namespace test_live_page

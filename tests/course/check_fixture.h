@@ -90,8 +90,8 @@ class CheckTest : public DocumentTest {
         std::vector<std::string> found;
         expect_told_in_french(result.findings);
         for (const Finding& finding : result.findings) {
-            EXPECT_TRUE(finding.what.ends_with('.')) << finding.what;
-            EXPECT_TRUE(finding.remedy.ends_with('.')) << finding.remedy;
+            EXPECT_TRUE(message_text(finding.what).ends_with('.')) << message_text(finding.what);
+            EXPECT_TRUE(message_text(finding.remedy).ends_with('.')) << message_text(finding.remedy);
             found.push_back(finding.id);
         }
         return found;

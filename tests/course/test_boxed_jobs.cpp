@@ -22,7 +22,7 @@ GradedRun sample_run() {
     run.figures = {"raw", "fit"};
     run.values = {"fit"};
     run.printed = "93.2\n";
-    run.error = "analysis.lua:3: no";
+    run.error = Message("{}:{}: no", "analysis.lua", 3);
     run.seconds = 0.25;
     return run;
 }
@@ -66,9 +66,12 @@ TEST(boxed_jobs, come_back) {
     expect_to_come_back(Unpacked{{"\"../x\" leads outside of the archive"}, "the archive is damaged"});
     expect_to_come_back(VersionJob{"/box/submission", "/box/made", true});
     const CheckDescription check{"a", "about", "hint", 2, "seed", true, true, "rubric", false};
-    const TriedCheck tried{check, 0.5, "no", "why"};
-    expect_to_come_back(
-        CheckResults{{tried}, {{{tried}, "", 0.5}, {{}, "why", 60}}, {"rc"}, {{{"u", {1, 2}}}}, "error"});
+    const TriedCheck tried{check, 0.5, Message("no"), Message("why")};
+    expect_to_come_back(CheckResults{{tried},
+                                     {{{tried}, {}, 0.5}, {{}, Message("it crashed (signal {})", 11), 60}},
+                                     {"rc"},
+                                     {{{"u", {1, 2}}}},
+                                     Message("error")});
     const ChecksJob back = from_cbor<ChecksJob>(cbor_of(sample_checks()));
     EXPECT_EQ(back.hidden_folder, "/box/hidden");
     EXPECT_EQ(back.time_ms, 10000);
@@ -78,17 +81,17 @@ TEST(boxed_jobs, come_back) {
     EXPECT_TRUE(back.files.at(0).visible);
     EXPECT_EQ(back.submissions.at(0).specimens.at("hidden").at("crane"), 4'000'000'001u);
     EXPECT_EQ(back.submissions.at(0).work.findings.at(0).severity, Severity::kHint);
-    EXPECT_EQ(back.submissions.at(0).work.runs.at("main").error, "analysis.lua:3: no");
+    EXPECT_EQ(back.submissions.at(0).work.runs.at("main").error, Message("{}:{}: no", "analysis.lua", 3));
     EXPECT_THAT(back.submissions.at(0).work.runs.at("main").figures, ElementsAre("raw", "fit"));
 }
 
 TEST(boxed_jobs, texts_from_a_box_are_utf8) {
     GradedRun run = sample_run();
     run.printed = "a\xFF";
-    run.error = "\xC3";
+    run.error = Message::verbatim("\xC3");
     const GradedRun back = from_cbor<GradedRun>(cbor_of(run), boxed_limits());
     EXPECT_EQ(back.printed, "a\xEF\xBF\xBD");
-    EXPECT_EQ(back.error, "\xEF\xBF\xBD");
+    EXPECT_EQ(back.error, Message::verbatim("\xEF\xBF\xBD"));
 }
 
 TEST(boxed_jobs, any_bytes_from_a_box_are_a_result_or_refused) {

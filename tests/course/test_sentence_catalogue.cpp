@@ -12,6 +12,7 @@
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
+#include "support/message_texts.h"
 #include "support/program.h"
 #include "told_in_french.h"
 #include "workflow/lesson_catalogue.h"
@@ -163,12 +164,12 @@ std::set<std::string> ids_told(const Workbench& bench, const FolderLimits& limit
     wishes.lesson_checks = lesson_checks;
     const CheckResult result = check_folder(bench.path("mine"), DYNLAB_PROGRAM, wishes, limits);
     std::set<std::string> ids;
-    for (const std::string& part : result.checked)
+    for (const std::string& part : texts_of(result.checked))
         if (!part.ends_with(".pdf")) expect_told_in_french(part);
     for (const Finding& finding : result.findings) {
         ids.insert(finding.id);
-        expect_told_in_french(finding.what);
-        expect_told_in_french(finding.remedy);
+        expect_told_in_french(message_text(finding.what));
+        expect_told_in_french(message_text(finding.remedy));
     }
     return ids;
 }
@@ -239,8 +240,8 @@ TEST(sentence_catalogue, is_used_by_check_and_feedback_of_french_work) {
     grade.language = "fr";
     grade.checks.push_back({"free_swing", "The frequency of the load while the motor rests",
                             "Count the swings of free_swing and divide by the time they take; 2 pi in each.",
-                            "It is 3.25 away from what was expected; at most 0.1 was wanted. This is in Hz; rad/s are "
-                            "wanted.",
+                            Message("It is 3.25 away from what was expected; at most 0.1 was wanted. This is in Hz; "
+                                    "rad/s are wanted."),
                             2, 0});
     const std::string feedback = feedback_markdown(grade);
     EXPECT_THAT(feedback, AllOf(HasSubstr("La fréquence de la charge quand le moteur est au repos"),

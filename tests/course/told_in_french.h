@@ -4,6 +4,7 @@
 #include <regex>
 #include <string>
 
+#include "base/reader.h"
 #include "course/findings/document_findings.h"
 #include "course/findings/french_sentences.h"
 
@@ -37,8 +38,8 @@ inline void expect_told_in_french(const std::string& english) {
 
 inline void expect_told_in_french(const Findings& findings) {
     for (const Finding& finding : findings) {
-        expect_told_in_french(finding.what);
-        expect_told_in_french(finding.remedy);
+        expect_told_in_french(message_text(finding.what));
+        expect_told_in_french(message_text(finding.remedy));
     }
 }
 

@@ -15,6 +15,7 @@
 #include "app/kernel/connection.h"
 #include "app/kernel/input_history.h"
 #include "app/kernel/message.h"
+#include "base/error.h"
 #include "platform/interrupt.h"
 #include "platform/terminal/terminal_text.h"
 #include "platform/utf8.h"

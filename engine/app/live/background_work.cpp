@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "base/error.h"
 #include "platform/atomic_file.h"
 #include "platform/child_process.h"
 #include "platform/program_lookup.h"
@@ -61,7 +62,7 @@ BackgroundWork::Pdf BackgroundWork::pdf() {
     changed_.notify_all();
     changed_.wait(lock, [this] { return end_ || pdf_version_ == version_; });
     --waiting_for_pdf_;
-    return pdf_version_ == version_ ? pdf_ : Pdf{{}, "dynlab is ending"};
+    return pdf_version_ == version_ ? pdf_ : Pdf{{}, Message("dynlab is ending")};
 }
 
 bool BackgroundWork::hands_in() const {
@@ -89,10 +90,11 @@ BackgroundWork::Made BackgroundWork::make(std::vector<std::string> command) {
     Made made;
     try {
         const ChildResult result = run_child(child, "dynlab");
-        made = {result.exit_code == 0, result.output + result.error_output};
-        if (result.timed_out) made.words += "it took longer than ten minutes\n";
+        const std::string said = result.output + result.error_output;
+        made = {result.exit_code == 0, Message::verbatim(said)};
+        if (result.timed_out) made.words = Message("{}{}", said, Message("it took longer than ten minutes"));
     } catch (const std::exception& error) {
-        made.words = error.what();
+        made.words = message_of(error);
     }
     const std::lock_guard lock(mutex_);
     findings_version_ = 0;  // they speak of what lies in the folder
@@ -176,9 +178,11 @@ BackgroundWork::Pdf BackgroundWork::made_pdf(const std::map<std::string, double>
     try {
         const ChildResult made = run_child(child, "dynlab");
         if (fs::exists(file)) return {read_file(file), {}};
-        return {{}, made.timed_out ? "making the PDF took longer than ten minutes" : made.error_output};
+        return {{},
+                made.timed_out ? Message("making the PDF took longer than ten minutes")
+                               : Message::verbatim(made.error_output)};
     } catch (const std::exception& error) {
-        return {{}, error.what()};
+        return {{}, message_of(error)};
     }
 }
 

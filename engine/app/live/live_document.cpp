@@ -1,6 +1,5 @@
 #include "app/live/live_document.h"
 
-#include <fmt/format.h>
 #include <poll.h>
 #include <sys/eventfd.h>
 #include <unistd.h>
@@ -36,6 +35,14 @@ std::string digest_of_picture(const fs::path& file) {
     } catch (const EnvironmentError&) {
         return "";
     }
+}
+
+/// A complaint for each line of an error: the page has them in paragraphs.
+std::vector<Message> complaints_about(const DocumentError& error) {
+    std::vector<Message> complaints;
+    for (std::string& line : lines_of(error.what())) complaints.push_back(Message::verbatim(std::move(line)));
+    if (complaints.size() == 1) complaints = {error.message()};
+    return complaints;
 }
 
 /// Entries of the run before stay until this one gives its own.
@@ -166,10 +173,10 @@ void LiveDocument::or_complain(const std::function<void()>& act) {
     try {
         act();
     } catch (const DocumentError& error) {
-        page_.complain(lines_of(error.what()));
+        page_.complain(complaints_about(error));
         tell_();
     } catch (const EnvironmentError& error) {
-        page_.complain({error.what()});
+        page_.complain({error.message()});
         tell_();
     }
 }
@@ -320,7 +327,7 @@ void LiveDocument::set_page() {
             if (request_->slider_values.empty()) remember_ = Clock::now() + kKeepAfter;
         }
     } catch (const DocumentError& error) {
-        page_.complain(lines_of(error.what()));
+        page_.complain(complaints_about(error));
     }
     tell_();
 }

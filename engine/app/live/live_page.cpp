@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "base/reader.h"
 #include "course/findings/french_sentences.h"
 #include "data_io/values/json_values.h"
 #include "documents/html/web_page.h"
@@ -83,8 +84,7 @@ void LivePage::show(const SetDocument& document, const PercentScript& script, co
     content_.name = script.file.filename().string();
     content_.head = document.head;
     content_.notes = document.notes;
-    content_.complaints.clear();
-    for (const Message& complaint : document.complaints) content_.complaints.push_back(message_text(complaint));
+    content_.complaints = document.complaints;
     content_.sliders = record.sliders;
     content_.pieces.clear();
     fresh_.clear();
@@ -147,7 +147,7 @@ PageContent LivePage::content() const {
     return content;
 }
 
-void LivePage::complain(const std::vector<std::string>& sentences) {
+void LivePage::complain(const std::vector<Message>& sentences) {
     const std::lock_guard lock(mutex_);
     if (content_.complaints == sentences) return;
     content_.complaints = sentences;
@@ -172,9 +172,9 @@ std::string LivePage::in_language(const std::string& sentences) const {
     return language_ == "fr" ? french().translated_lines(sentences) : sentences;
 }
 
-std::string LivePage::told(const std::string& sentences) const {
+std::string LivePage::told(const Message& message) const {
     const std::lock_guard lock(mutex_);
-    return in_language(sentences);
+    return in_language(message_text(message));
 }
 
 void LivePage::set_states(std::map<std::string, CellState> states, bool running) {
@@ -236,7 +236,8 @@ std::string LivePage::json(bool all) const {
                              {"pdf_is_ready", pdf_is_ready_},
                              {"hands_in", hands_in_},
                              {"states", ::nlohmann::json::object()}};
-    for (const std::string& sentence : content_.complaints) page["complaints"].push_back(in_language(sentence));
+    for (const Message& complaint : content_.complaints)
+        page["complaints"].push_back(in_language(message_text(complaint)));
     for (const auto& [cell, state] : content_.states)
         page["states"][cell] = {{"state", state.state}, {"seconds", state.seconds}, {"progress", state.progress}};
     if (all || findings_changed_) {

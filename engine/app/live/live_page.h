@@ -25,8 +25,8 @@ class LivePage {
     /// In which the page speaks, and all that is told of the document, what is wrong with it by now, too; the sentences
     /// of its lesson's checks are told in it, as the lesson has them when they are first asked for.
     void speak(const std::string& language, const std::string& lesson);
-    /// Text above the page, in English: what is wrong. The document stays as it is.
-    void complain(const std::vector<std::string>& sentences);
+    /// Text above the page: what is wrong. The document stays as it is.
+    void complain(const std::vector<Message>& sentences);
     void set_states(std::map<std::string, CellState> states, bool running);
     void set_running(bool running);
     void ask_whether_to_run(bool asking);
@@ -36,7 +36,7 @@ class LivePage {
     void set_hands_in(bool hands_in);                              ///< whether report and zip can be asked for
     void set_work(std::string findings, bool pdf_is_ready);        ///< findings: JSON, in English, or empty
     /// What the program says, in the page's language as far as it is known there; line by line.
-    std::string told(const std::string& sentences) const;
+    std::string told(const Message& message) const;
 
     PageContent content() const;  ///< of the last version alone
     bool settled() const;  ///< the run came to its end, or to a mistake; not one that was stopped, nor one of before

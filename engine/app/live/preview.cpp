@@ -85,7 +85,8 @@ DYNLAB_DESCRIBE(MadeReply, done, words)
 
 PageReply not_allowed(const LivePage& page) {
     constexpr int kForbidden = 403;
-    return {page.told("This document has not been allowed to run: say so on the page."), kPlainText, kForbidden};
+    return {page.told(Message("This document has not been allowed to run: say so on the page.")), kPlainText,
+            kForbidden};
 }
 
 /// What was made in the background, and what is made now to hand in.
@@ -118,7 +119,7 @@ void serve_sources(WebServer& server, SourceFiles& sources, LivePage& page) {
             page.set_sources(sources.digests());
             return PageReply{json_of(outcome.now), kJson, outcome.written ? 200 : kConflict};
         } catch (const EnvironmentError& error) {
-            return PageReply{page.told(error.what()), kPlainText, kFailure};
+            return PageReply{page.told(error.message()), kPlainText, kFailure};
         }
     });
 }

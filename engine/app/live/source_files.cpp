@@ -1,6 +1,5 @@
 #include "app/live/source_files.h"
 
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include "data_io/values/json_values.h"

@@ -1,7 +1,6 @@
 #include "app/server/page_connections.h"
 
 #include <arpa/inet.h>
-#include <fmt/format.h>
 #include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/eventfd.h>

@@ -1,6 +1,5 @@
 #include "app/workbench/session_script.h"
 
-#include <fmt/format.h>
 #include <re2/re2.h>
 
 #include <algorithm>
@@ -8,7 +7,6 @@
 #include <set>
 #include <span>
 
-#include "base/number_text.h"
 #include "data_io/values/value_limits.h"
 #include "documents/text_lines.h"
 #include "scripting/source/lua_tokens.h"

@@ -73,14 +73,12 @@ struct Opening {
 };
 DYNLAB_DESCRIBE(Opening, data, words, fresh)
 
-const std::string kSamplingRemedy = "; choose the column of the time, or type the sampling time below";
-
 /// record_lines(), with what somebody at the page can do about a file without a sampling time.
 std::string lines_of_order(const RecordOrder& order) {
     try {
         return record_lines(order);
     } catch (const UnknownSampling& error) {
-        throw EnvironmentError(error.what() + kSamplingRemedy);
+        throw EnvironmentError("{}; choose the column of the time, or type the sampling time below", error.message());
     }
 }
 
@@ -193,10 +191,10 @@ void serve_documents(WebServer& server, WorkbenchSession& bench, BackgroundWork&
     server.on_get("/document.pdf", [&](const PageRequest&) {
         constexpr int kFailed = 500, kForbidden = 403, kConflict = 409;
         if (!permissions.granted())
-            return PageReply{bench.told("This script has not been allowed to run."), kPlainText, kForbidden};
+            return PageReply{bench.told(Message("This script has not been allowed to run.")), kPlainText, kForbidden};
         if (const auto mistake = bench.mistake())
-            return PageReply{bench.told("There is no report of a script with a mistake: " + *mistake), kPlainText,
-                             kConflict};
+            return PageReply{bench.told(Message("There is no report of a script with a mistake: {}", *mistake)),
+                             kPlainText, kConflict};
         background.document_changed({});
         const BackgroundWork::Pdf pdf = background.pdf();
         return pdf.bytes.empty() ? PageReply{bench.told(pdf.error), kPlainText, kFailed}

@@ -10,6 +10,7 @@
 
 #include "app/workbench/estimator_forms.h"
 #include "base/error.h"
+#include "course/boxes/told_reason.h"
 #include "data_io/values/json_values.h"
 #include "documents/error.h"
 #include "documents/text_lines.h"
@@ -160,11 +161,11 @@ void WorkbenchSession::take_file_changes() {
     for (const fs::path& file : watch_.changes()) {
         if (file.filename() == text_.file().filename()) {
             changed_ = true;
-            unread_.clear();
+            unread_ = Message();
             try {
                 text_.look_at_file();
             } catch (const std::exception& error) {
-                unread_ = error.what();
+                unread_ = message_of(error);
             }
         } else if (const fs::path place = place_of(file); data_.contains(place)) {
             changed_data_.insert(place);
@@ -290,14 +291,15 @@ bool WorkbenchSession::ends_early(const std::string& text) const {
     return !parts.empty() && read_script_part(parts.back().code, {}).kind == PromptStatement::Kind::kIncomplete;
 }
 
-std::optional<std::string> WorkbenchSession::mistake() const {
+std::optional<Message> WorkbenchSession::mistake() const {
     const std::lock_guard lock(mutex_);
-    return error_ ? std::optional(error_->text()) : std::nullopt;
+    return error_ ? std::optional(with_place(*error_)) : std::nullopt;
 }
 
-std::string WorkbenchSession::told(const std::string& sentences) const {
+std::string WorkbenchSession::told(const Message& message) const {
     const std::lock_guard lock(mutex_);
-    return language() == "fr" ? shared_french_sentences().translated_lines(sentences) : sentences;
+    const std::string text = message_text(message);
+    return language() == "fr" ? shared_french_sentences().translated_lines(text) : text;
 }
 
 /// From now on only what stands before this part is run and looked at, until the script changes.
@@ -369,12 +371,12 @@ std::string WorkbenchSession::json(bool all) const {
                              {"stopped", stopped_},
                              {"undo", text_.can_undo()},
                              {"redo", text_.can_redo()},
-                             {"unsaved", told_error(text_.unsaved(), told_in)},
+                             {"unsaved", told_error(message_text(text_.unsaved()), told_in)},
                              {"states", ::nlohmann::json::object()}};
     for (const auto& [cell, state] : states_)
         page["states"][cell] = {{"state", state.state}, {"seconds", state.seconds}, {"progress", state.progress}};
     if (!unread_.empty())
-        page["error"] = {{"message", told_error(unread_, told_in)}, {"line", 0}};
+        page["error"] = {{"message", told_error(message_text(unread_), told_in)}, {"line", 0}};
     else if (error_)
         page["error"] = {{"message", told_error(error_->text(), told_in)},
                          {"line", error_->line_in(text_.file().filename().string())}};

@@ -3,8 +3,10 @@
 #include <cstdlib>
 #include <iostream>
 
+#include "base/error.h"
 #include "cli/commands.h"
 #include "cli/options/script_options.h"
+#include "course/boxes/told_reason.h"
 #include "course/findings/findings_report.h"
 #include "course/findings/french_sentences.h"
 #include "course/grading/folder_check.h"
@@ -52,12 +54,16 @@ CheckResult check_script(const fs::path& script, const CheckOptions& wishes) {
     result.subject = script.string();
     const std::string name = script.filename().string(), pdf = fs::path(name).replace_extension(".pdf").string();
     const std::string source = is_notebook(script) ? read_file(folder.path() / "analysis.lua") : "";
-    for (Finding& finding : result.findings)
-        for (std::string* text : {&finding.place, &finding.what, &finding.remedy}) {
-            const std::string told = source.empty() ? replaced(*text, "analysis.lua", name)
-                                                    : with_places_in_notebook(*text, "analysis.lua", name, source);
-            *text = replaced(replaced(told, "report.pdf", pdf), "FOLDER", name);
-        }
+    const auto told = [&](const std::string& text) {
+        const std::string placed = source.empty() ? replaced(text, "analysis.lua", name)
+                                                  : with_places_in_notebook(text, "analysis.lua", name, source);
+        return replaced(replaced(placed, "report.pdf", pdf), "FOLDER", name);
+    };
+    for (Finding& finding : result.findings) {
+        finding.place = told(finding.place);
+        finding.what = with_changed_text(finding.what, told);
+        finding.remedy = with_changed_text(finding.remedy, told);
+    }
     return result;
 }
 
@@ -78,17 +84,17 @@ int check(const CheckArguments& words) {
     CheckResult result;
     if (words.pages > 0) wishes.pages = words.pages;
     wishes.lesson_checks = !words.document_only;
-    const auto misuse = [](const std::string& sentence) {
-        std::cerr << "dynlab: " << sentence << '\n';
+    const auto misuse = [](const Message& sentence) {
+        std::cerr << "dynlab: " << message_text(sentence) << '\n';
         return kUsage;
     };
     try {
         wishes.names = sought_by(words);
         if (!words.template_name.empty()) wishes.standard = standard_of(words.template_name);
     } catch (const std::runtime_error& error) {
-        return misuse(error.what());
+        return misuse(message_of(error));
     }
-    if (!fs::exists(words.subject)) return misuse("there is no file or folder '" + words.subject + "'");
+    if (!fs::exists(words.subject)) return misuse(Message("there is no file or folder '{}'", words.subject));
     if (fs::is_directory(words.subject))
         result = check_folder(words.subject, running_program(), wishes);
     else if (is_script(words.subject))

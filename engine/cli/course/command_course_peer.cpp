@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "base/number_text.h"
+#include "base/reader.h"
 #include "cli/course/course_commands.h"
 #include "course/names/anonymous_copy.h"
 #include "course/returns/returned_files.h"
@@ -50,7 +51,8 @@ int show_pairs(const CourseArguments& where, const PeerArguments& words) {
 }
 
 std::string in_words(const Finding& finding) {
-    return fmt::format("{}{}", finding.page > 0 ? fmt::format("page {}: ", finding.page) : "", finding.what);
+    return fmt::format("{}{}", finding.page > 0 ? fmt::format("page {}: ", finding.page) : "",
+                       message_text(finding.what));
 }
 
 /// Copies are searched for everybody in the course; a name that is certain stops one.

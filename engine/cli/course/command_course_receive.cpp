@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "base/number_text.h"
+#include "base/reader.h"
 #include "cli/course/course_commands.h"
 #include "course/corrections/arrival_times.h"
 #include "course/office/receive.h"
@@ -72,7 +73,8 @@ void show(const ReceiveOutcome& outcome, const std::string& stage) {
         std::cout << terminal_text(aligned_table(
                          {"group", stage == "review" ? "review of" : "part", "version", "when", "remark"}, rows))
                   << "Receipts: " << outcome.receipts.string() << '\n';
-    for (const std::string& refused : outcome.refused) std::cerr << "dynlab: " << terminal_text(refused) << '\n';
+    for (const Message& refused : outcome.refused)
+        std::cerr << "dynlab: " << terminal_text(message_text(refused)) << '\n';
 }
 
 int receive_files(const CourseArguments& where, const ReceiveArguments& words, const std::string& stage) {
@@ -153,8 +155,9 @@ int verify_course(const CourseArguments& where, const std::vector<std::string>& 
     }
     if (receipts.empty()) {
         const StoreCheck check = check_store(course);
-        for (const std::string& leftover : check.leftovers) std::cout << terminal_text(leftover) << '\n';
-        for (const std::string& trouble : check.troubles) std::cerr << "dynlab: " << terminal_text(trouble) << '\n';
+        for (const Message& leftover : check.leftovers) std::cout << terminal_text(message_text(leftover)) << '\n';
+        for (const Message& trouble : check.troubles)
+            std::cerr << "dynlab: " << terminal_text(message_text(trouble)) << '\n';
         std::cout << fmt::format("{}, {}: {}\n", counted(check.files, "file"), counted(check.versions, "version"),
                                  check.troubles.empty() ? "all there and unaltered" : "see above");
         well = check.troubles.empty();

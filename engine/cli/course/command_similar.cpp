@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "base/number_text.h"
+#include "base/reader.h"
 #include "cli/commands.h"
 #include "course/similarity/class_similarity.h"
 #include "platform/program_lookup.h"
@@ -28,7 +29,8 @@ int compare(const SimilarArguments& words) {
     request.isolation = strongest_isolation();
     request.program = running_program();
     const SimilarityOutcome outcome = compare_class(request);
-    for (const std::string& complaint : outcome.complaints) std::cerr << "dynlab: " << terminal_text(complaint) << '\n';
+    for (const Message& complaint : outcome.complaints)
+        std::cerr << "dynlab: " << terminal_text(message_text(complaint)) << '\n';
     std::cout << fmt::format("{} compared: {} above the line\n", counted(outcome.scripts, "script"),
                              counted(outcome.pairs, "pair"))
               << (request.out / "similarity.md").string() << '\n';

@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "base/number_text.h"
+#include "base/reader.h"
 #include "cli/commands.h"
 #include "cli/course/grading_options.h"
 #include "course/grading/lesson_trial.h"
@@ -24,7 +25,7 @@ int test_lesson(const TestLessonArguments& words) {
         for (const LessonFault& fault : found) {
             const std::string line = fault.line > 0 ? fmt::format(":{}", fault.line) : "";
             std::cout << terminal_text(
-                fmt::format("{}{}: {}\n", (lesson.folder / fault.file).string(), line, fault.what));
+                fmt::format("{}{}: {}\n", (lesson.folder / fault.file).string(), line, message_text(fault.what)));
         }
         if (found.empty()) std::cout << what << ": in order\n";
         faults += found.size();

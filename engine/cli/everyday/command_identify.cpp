@@ -1,5 +1,6 @@
 #include <cstdio>
 
+#include "base/error.h"
 #include "cli/commands.h"
 #include "cli/document_command.h"
 #include "numerics/error.h"

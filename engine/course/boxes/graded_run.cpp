@@ -56,7 +56,7 @@ GradedRun graded_run(RunRecord&& record, const PercentScript& script) {
     for (const auto& [name, figure] : record.figures) run.figures.push_back(name);
     for (const auto& [name, value] : record.values) run.values.push_back(name);
     run.answers = std::move(record.answers);
-    if (record.error) run.error = record.error->text();
+    if (record.error) run.error = with_place(*record.error);
     return run;
 }
 
@@ -88,7 +88,7 @@ GradedRun run_for_grading(const RunJob& job) {
     } catch (const DocumentError& error) {
         GradedRun unread;
         unread.began = false;
-        unread.error = told_outside(error.what(), job.script.parent_path());
+        unread.error = told_outside(error.message(), job.script.parent_path());
         return unread;
     }
 }

@@ -16,7 +16,7 @@ struct GradedRun {
     std::map<std::string, RecordedAnswer> answers;
     std::vector<std::string> figures, values;  ///< their names
     std::string printed;                       ///< the end of what it printed
-    std::optional<std::string> error;          ///< the message
+    std::optional<Message> error;              ///< with its place
     double seconds = 0;                        ///< of processor time that the script used
     std::string lesson = {};                   ///< as the script's header names it
     bool began = true;                         ///< false for a script that cannot be read

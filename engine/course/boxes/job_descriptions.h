@@ -2,6 +2,7 @@
 #include "course/boxes/boxed_document.h"
 #include "course/boxes/graded_run.h"
 #include "course/boxes/unpack.h"
+#include "data_io/values/message_values.h"
 #include "documents/record_description.h"
 
 namespace dynlab::inline course {

@@ -17,7 +17,7 @@ bool plain_id(const std::string& id) {
 }
 
 /// The option's place in Lua's registry; 0 where it is not given and need not be.
-int kept_option(const Options& options, const char* name, int type, const std::string& owner, const char* wanted,
+int kept_option(const Options& options, const char* name, int type, const Message& owner, const Message& wanted,
                 bool needed) {
     lua_State* L = options.call().state();
     const int index = options.push(name);
@@ -56,10 +56,10 @@ int check(Call& call) {
         throw InvalidArgument("\"{}\" is marked by hand: it has no test, rerun or mistakes", check.id);
     if (!check.by_hand && options.has("rubric"))
         throw InvalidArgument("\"{}\" has a rubric: it needs by_hand = true", check.id);
-    const std::string owner = fmt::format("the check \"{}\"", check.id);
-    check.test = kept_option(options, "test", LUA_TFUNCTION, owner, "a function", !check.by_hand);
+    const Message owner("the check \"{}\"", check.id);
+    check.test = kept_option(options, "test", LUA_TFUNCTION, owner, Message("a function"), !check.by_hand);
     check.mistakes =
-        kept_option(options, "mistakes", LUA_TTABLE, owner, "a list of {when = function, say = text}", false);
+        kept_option(options, "mistakes", LUA_TTABLE, owner, Message("a list of {when = function, say = text}"), false);
     session.checks.push_back(std::move(check));
     return 0;
 }
@@ -71,9 +71,8 @@ std::vector<DeclaredCheck>::iterator declared(CheckSession& session, const std::
     std::vector<std::string> ids;
     for (const DeclaredCheck& check : session.checks) ids.push_back(check.id);
     const auto near = nearest_word(id, ids);
-    throw InvalidArgument(fmt::format(
-        "there is no check \"{}\"; {}", id,
-        near ? fmt::format("did you mean \"{}\"?", *near) : fmt::format("there are {}", fmt::join(ids, ", "))));
+    if (near) throw InvalidArgument("there is no check \"{}\"; did you mean \"{}\"?", id, *near);
+    throw InvalidArgument("there is no check \"{}\"; there are {}", id, listed(ids));
 }
 
 int change_check(Call& call) {
@@ -101,9 +100,9 @@ int declare_rig(Call& call) {
     const std::string name = options.text("name", "");
     if (!plain_id(name)) throw InvalidArgument("a rig needs a name of letters, digits and _: that of its data set");
     if (session.rigs.contains(name)) throw InvalidArgument("there are two rigs \"{}\"", name);
-    const std::string owner = fmt::format("the rig \"{}\"", name);
-    session.rigs[name] = {kept_option(options, "record", LUA_TFUNCTION, owner, "a function", true),
-                          kept_option(options, "truth", LUA_TFUNCTION, owner, "a function", false)};
+    const Message owner("the rig \"{}\"", name);
+    session.rigs[name] = {kept_option(options, "record", LUA_TFUNCTION, owner, Message("a function"), true),
+                          kept_option(options, "truth", LUA_TFUNCTION, owner, Message("a function"), false)};
     return 0;
 }
 

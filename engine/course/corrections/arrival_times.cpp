@@ -1,9 +1,8 @@
 #include "course/corrections/arrival_times.h"
 
-#include <fmt/format.h>
-
 #include <chrono>
 
+#include "base/error.h"
 #include "data_io/text_table.h"
 #include "numerics/error.h"
 #include "platform/error.h"

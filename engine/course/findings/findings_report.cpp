@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/error.h"
+#include "course/boxes/told_reason.h"
 #include "course/findings/finding_description.h"
 #include "course/names/plain_words.h"
 #include "data_io/values/json_values.h"
@@ -42,14 +44,14 @@ class Writer {
   public:
     Writer(bool in_colour, const SentenceCatalogue& sentences) : in_colour_(in_colour), sentences_(sentences) {}
 
-    std::string told(const std::string& sentence) const { return sentences_.translated(sentence); }
+    std::string told(const Message& message) const { return sentences_.translated(message_text(message)); }
 
     std::string styled(const char* style, const std::string& text) const {
         return in_colour_ ? style + text + kPlain : text;
     }
 
     /// Findings of one severity, those of one kind together; a remedy they share stands once.
-    std::string group(const CheckResult& result, Severity severity, const char* style, const std::string& title) const {
+    std::string group(const CheckResult& result, Severity severity, const char* style, const Message& title) const {
         std::vector<std::pair<std::string, std::vector<const Finding*>>> kinds;
         std::size_t count = 0;
         for (const Finding& finding : result.findings) {
@@ -81,7 +83,7 @@ class Writer {
   private:
     std::string location_of(const Finding& finding) const {
         if (!finding.place.empty()) return finding.place;
-        return finding.page > 0 ? told(fmt::format("page {}", finding.page)) : "";
+        return finding.page > 0 ? told(Message("page {}", finding.page)) : "";
     }
 
     bool in_colour_;
@@ -93,8 +95,13 @@ CheckResult printable_result(CheckResult result) {
     constexpr std::size_t kLongest = 4000;
     for (std::string* text : {&result.subject, &result.template_name, &result.language})
         *text = printable(*text, kLongest);
-    for (Finding& finding : result.findings)
-        for (std::string* text : {&finding.place, &finding.what, &finding.remedy}) *text = printable(*text, kLongest);
+    const auto shown = [](const std::string& text) { return printable(text, kLongest); };
+    for (Message& part : result.checked) part = with_changed_text(part, shown);
+    for (Finding& finding : result.findings) {
+        finding.place = shown(finding.place);
+        finding.what = with_changed_text(finding.what, shown);
+        finding.remedy = with_changed_text(finding.remedy, shown);
+    }
     return result;
 }
 
@@ -102,21 +109,24 @@ CheckResult printable_result(CheckResult result) {
 
 std::string findings_in_words(const CheckResult& result, bool in_colour, const SentenceCatalogue& sentences) {
     const Writer writer(in_colour, sentences);
-    const std::string as = result.template_name.empty() ? "" : " as " + printable(result.template_name);
     std::vector<std::string> parts;
-    for (const std::string& part : result.checked) parts.push_back(writer.told(part));
-    const std::string checked =
-        fmt::format("{}{}{}", writer.told("checked" + as), parts.empty() ? "" : ": ", fmt::join(parts, ", "));
+    for (const Message& part : result.checked) parts.push_back(writer.told(part));
+    const std::string checked = fmt::format(
+        "{}{}{}",
+        writer.told(result.template_name.empty() ? Message("checked")
+                                                 : Message("checked as {}", printable(result.template_name))),
+        parts.empty() ? "" : ": ", fmt::join(parts, ", "));
     const std::string subject = printable(result.subject);
     if (result.findings.empty())
-        return fmt::format("{}: {}; {}.\n", subject, writer.styled(kGreen, writer.told("nothing to mend")), checked);
+        return fmt::format("{}: {}; {}.\n", subject, writer.styled(kGreen, writer.told(Message("nothing to mend"))),
+                           checked);
     const auto rules = std::count_if(result.findings.begin(), result.findings.end(),
                                      [](const Finding& finding) { return finding.severity == Severity::kRule; });
     std::string text =
         fmt::format("{}{}\n", writer.styled(kBold, subject), result.checked.empty() ? "" : ": " + checked);
-    text += writer.group(result, Severity::kRule, kRed, "Rules broken");
-    text += writer.group(result, Severity::kHint, kYellow, "Hints");
-    if (rules == 0) text += "\n" + writer.styled(kGreen, writer.told("No rule is broken.")) + "\n";
+    text += writer.group(result, Severity::kRule, kRed, Message("Rules broken"));
+    text += writer.group(result, Severity::kHint, kYellow, Message("Hints"));
+    if (rules == 0) text += "\n" + writer.styled(kGreen, writer.told(Message("No rule is broken."))) + "\n";
     return text;
 }
 
@@ -134,7 +144,7 @@ CheckResult findings_from_json(const std::string& json) {
     try {
         return from_json<CheckResult>(json);
     } catch (const ValueError& error) {
-        throw EnvironmentError(std::string("these are not findings that dynlab check wrote: ") + error.what());
+        throw EnvironmentError("these are not findings that dynlab check wrote: {}", message_of(error));
     }
 }
 

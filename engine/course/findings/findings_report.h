@@ -17,7 +17,9 @@ std::string findings_in_words(const CheckResult& result, bool in_colour, const S
 ///      "checked": ["7 pages of at most 6 + 1 of appendix", ...],
 ///      "findings": [{"id": "pages", "severity": "rule", "page": 7, "place": null, "what": "...", "remedy": "..."}]}
 ///
-/// severity is "rule" or "hint"; template, language, pages, page and place are null where nothing is known.
+/// severity is "rule" or "hint"; template, language, pages, page and place are null where nothing is known. The
+/// messages that the texts were made of stand beside them, as what_message, remedy_message and checked_messages
+/// (data_io/values/message_values.h).
 std::string findings_as_json(const CheckResult& result);
 
 /// The outcome that findings_as_json wrote. Throws EnvironmentError for any other text.

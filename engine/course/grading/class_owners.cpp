@@ -1,7 +1,5 @@
 #include "course/grading/class_owners.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "platform/error.h"

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <string_view>
 
+#include "base/reader.h"
 #include "course/findings/french_sentences.h"
 #include "documents/run_record.h"
 #include "documents/text_lines.h"
@@ -80,7 +81,7 @@ class FeedbackText {
         std::string item = fmt::format(
             "- **{}** – {}", told(check.about),
             check.graded ? filled(words_.of, points(check.earned), points(check.points)) : words_.not_graded);
-        if (check.visible && !check.message.empty()) item += "\\\n  " + told(check.message);
+        if (check.visible && !check.message.empty()) item += "\\\n  " + told(message_text(check.message));
         if (check.earned < check.points && check.graded && !check.hint.empty())
             item += "\\\n  *" + told(check.hint) + "*";
         return item + "\n";
@@ -91,7 +92,7 @@ class FeedbackText {
     /// French sets a space before a colon, which is none of "analysis.lua:3": there the place is code.
     std::string told_trouble() const {
         static const RE2 kPlace(R"(^([\w.-]+\.lua:\d+): )", RE2::Latin1);
-        const std::string text = sentences_.translated(grade_.trouble);
+        const std::string text = sentences_.translated(message_text(grade_.trouble));
         std::string place;
         if (grade_.language != "fr" || !RE2::PartialMatch(text, kPlace, &place)) return escaped(text);
         return "`" + place + "`" + escaped(text.substr(place.size()));

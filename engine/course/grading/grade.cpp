@@ -1,11 +1,10 @@
 #include "course/grading/grade.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/reader.h"
 #include "course/grading/grade_description.h"
 #include "data_io/values/json_values.h"
 #include "platform/error.h"
@@ -22,7 +21,7 @@ double rounded(double points) {
 
 json test_of(const CheckGrade& check, std::size_t number) {
     const std::string state = !check.graded ? "ungraded" : check.earned >= check.points ? "passed" : "failed";
-    std::string shown = check.visible ? check.message : "";
+    std::string shown = check.visible ? message_text(check.message) : "";
     if (state == "failed" && !check.hint.empty()) shown += (shown.empty() ? "" : "\n") + check.hint;
     json test = {{"number", std::to_string(number)},
                  {"name", check.about},
@@ -59,16 +58,19 @@ std::string to_results_json(const Grade& grade, const Grade& marked) {
     for (const CheckGrade& check : marked.checks) tests.push_back(test_of(check, tests.size() + 1));
     Grade kept = grade;  // the file may be handed on to students
     for (CheckGrade& check : kept.checks)
-        if (!check.visible) check.message.clear();
+        if (!check.visible) check.message = Message();
     JsonWriter writer;
     write_value(writer, kept);
     json own = writer.value();
     own["format"] = 1;
     own["whole"] = marked.whole();
     const bool costs = marked.penalty > 0;
-    const std::string late =
-        costs ? fmt::format("Late, which costs {:.2f} points: {}.", marked.penalty, grade.lateness) : "";
-    json j = {{"output", grade.trouble + (costs && !grade.trouble.empty() ? "\n" : "") + late},
+    MessageList output{{}, Join::kLines};
+    if (!grade.trouble.empty()) output.items.push_back(grade.trouble);
+    if (costs)
+        output.items.push_back(
+            Message("Late, which costs {} points: {}.", decimals(marked.penalty, 2), grade.lateness));
+    json j = {{"output", message_text(Message("{}", output))},
               {"stdout_visibility", "hidden"},
               {"tests", std::move(tests)},
               {"extra_data", {{"dynlab", std::move(own)}}}};

@@ -1,7 +1,5 @@
 #include "course/grading/hand_in.h"
 
-#include <fmt/format.h>
-
 #include <map>
 
 #include "course/boxes/zip_file.h"

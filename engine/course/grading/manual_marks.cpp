@@ -1,7 +1,5 @@
 #include "course/grading/manual_marks.h"
 
-#include <fmt/format.h>
-
 #include "course/grading/feedback.h"
 #include "data_io/text_table.h"
 #include "documents/text_lines.h"
@@ -38,25 +36,25 @@ Grade ManualMarks::applied(Grade grade) const {
         if (found == marks_.end()) continue;
         check.earned = found->second.points;
         check.graded = true;
-        check.message = found->second.reason.empty() ? "Marked by the instructor." : found->second.reason;
+        check.message = found->second.reason.empty() ? Message("Marked by the instructor.")
+                                                     : Message::verbatim(found->second.reason);
         check.visible = true;
     }
     return grade;
 }
 
-std::vector<std::string> ManualMarks::strays(const std::set<std::string>& submissions,
-                                             const std::map<std::string, double>& checks) const {
-    std::vector<std::string> sentences;
+std::vector<Message> ManualMarks::strays(const std::set<std::string>& submissions,
+                                         const std::map<std::string, double>& checks) const {
+    std::vector<Message> sentences;
     for (const auto& [key, mark] : marks_) {
         const auto& [submission, check] = key;
         if (!submissions.contains(submission))
-            sentences.push_back(fmt::format("manual.csv: there is no submission \"{}\"", submission));
+            sentences.push_back(Message("manual.csv: there is no submission \"{}\"", submission));
         else if (!checks.contains(check))
-            sentences.push_back(fmt::format("manual.csv: there is no check \"{}\" (for \"{}\")", check, submission));
+            sentences.push_back(Message("manual.csv: there is no check \"{}\" (for \"{}\")", check, submission));
         else if (mark.points > checks.at(check))
-            sentences.push_back(fmt::format("manual.csv: \"{}\" gets {} points for the check \"{}\", which has {}",
-                                            submission, points_text(mark.points), check,
-                                            points_text(checks.at(check))));
+            sentences.push_back(Message("manual.csv: \"{}\" gets {} points for the check \"{}\", which has {}",
+                                        submission, points_text(mark.points), check, points_text(checks.at(check))));
     }
     return sentences;
 }

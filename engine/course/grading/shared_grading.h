@@ -40,7 +40,8 @@ class SharedGrading {
     /// To be run and judged, together as far as nothing goes wrong.
     struct Given {
         std::size_t index = 0;
-        std::string fingerprint, of_runs, remark, language;  ///< for who gave it, when it comes back
+        std::string fingerprint, of_runs, language;  ///< for who gave it, when it comes back
+        Message remark;
         SentSubmission submission;
     };
     void give(std::vector<Given> batch);

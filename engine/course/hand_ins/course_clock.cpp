@@ -71,9 +71,8 @@ Instant CourseClock::parse(const std::string& text, const std::string& what) con
     if (!read)
         throw InvalidArgument("{} must be a time such as \"2026-03-01 18:00\" ({}), but \"{}\" was given", what, zone_,
                               text);
-    if (!read->exists)
-        throw InvalidArgument(
-            fmt::format("{} \"{}\" does not exist{}", what, text, utc ? "" : fmt::format(" in {}", zone_)));
+    if (!read->exists && utc) throw InvalidArgument("{} \"{}\" does not exist", what, text);
+    if (!read->exists) throw InvalidArgument("{} \"{}\" does not exist in {}", what, text, zone_);
     return read->instant;
 }
 

@@ -1,7 +1,5 @@
 #include "course/hand_ins/notebooks.h"
 
-#include <fmt/format.h>
-
 #include "documents/error.h"
 #include "platform/atomic_file.h"
 #include "platform/guarded_call.h"

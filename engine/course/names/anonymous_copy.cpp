@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <csignal>
 
+#include "base/reader.h"
 #include "course/boxes/boxed_work.h"
 #include "course/boxes/told_reason.h"
 #include "course/hand_ins/staging.h"
@@ -125,7 +126,7 @@ class CopyingAnonymously {
     }
 
     std::string reason_of(const ChildResult& child, const fs::path& folder) const {
-        if (child.timed_out) return reason_of_end(child, setup_.report_time);
+        if (child.timed_out) return message_text(reason_of_end(child, setup_.report_time));
         if (child.exit_code == 128 + SIGXFSZ)
             return fmt::format("it writes a file of more than {} MB", kLargestFile >> 20);
         return terminal_text(told_outside(child.error_output.substr(0, child.error_output.find('\n')), folder));

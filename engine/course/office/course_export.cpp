@@ -8,6 +8,7 @@
 #include <map>
 #include <variant>
 
+#include "base/error.h"
 #include "course/names/plain_words.h"
 #include "course/review/oral_marks.h"
 #include "course/review/review_marks.h"

@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "base/number_text.h"
+#include "base/error.h"
 #include "course/office/packed_document.h"
 #include "course/review/pack_scores.h"
 #include "course/review/review_marks.h"
@@ -114,7 +114,7 @@ class HandInReceiver {
             work();
         } catch (const std::runtime_error& error) {
             if (!incoming_.batch()) throw EnvironmentError("{}: {}", file.source, message_of(error));
-            outcome_.refused.push_back(fmt::format("{}: {}", file.source, error.what()));
+            outcome_.refused.push_back(Message("{}: {}", file.source, message_of(error)));
         }
     }
 
@@ -157,8 +157,8 @@ class HandInReceiver {
         if (!is_wanted(kind))
             throw EnvironmentError(
                 outcome_.assignment.is_report()
-                    ? "this is neither a PDF nor a pack (.zip, .tar.gz); ask for one"
-                    : "this is not a PDF, no script (.lua) and no pack (.zip, .tar.gz); ask for one");
+                    ? Message("this is neither a PDF nor a pack (.zip, .tar.gz); ask for one")
+                    : Message("this is not a PDF, no script (.lua) and no pack (.zip, .tar.gz); ask for one"));
         candidate.part = part_of(outcome_.assignment, request_.stage, kind);
         candidate.unreadable = kind == "text";
         if (request_.stage == "first" && !request_.take_as_first) refuse_after_reviews(candidate);
@@ -184,10 +184,15 @@ class HandInReceiver {
         const bool over = a.review_due && candidate.at > *a.review_due + a.grace;
         if (!released && !(sent && over)) return;
         if (is_known(candidate, sha256_of(read_file(candidate.file->file)))) return;
-        throw EnvironmentError(fmt::format(
-            "the reviews of {} are {}: did you mean dynlab course final receive? --first takes it as a first "
-            "version all the same",
-            candidate.group.name, released ? "released" : "due"));
+        throw released
+            ? EnvironmentError(
+                  "the reviews of {} are released: did you mean dynlab course final receive? --first takes it "
+                  "as a first version all the same",
+                  candidate.group.name)
+            : EnvironmentError(
+                  "the reviews of {} are due: did you mean dynlab course final receive? --first takes it as a "
+                  "first version all the same",
+                  candidate.group.name);
     }
 
     bool is_known(const Candidate& c, const std::string& hash) const {
@@ -225,8 +230,8 @@ class HandInReceiver {
                 continue;
             }
             outcome_.refused.push_back(
-                fmt::format("{}: {} gave several files that could be the {}; receive the one that holds alone",
-                            c.file->source, c.group.name, c.part));
+                Message("{}: {} gave several files that could be the {}; receive the one that holds alone",
+                        c.file->source, c.group.name, c.part));
         }
         candidates_ = std::move(single);
     }

@@ -47,8 +47,8 @@ struct Received {
 struct ReceiveOutcome {
     Assignment assignment;
     std::vector<Received> received;
-    std::vector<std::string> refused;  ///< sentences, one a file that was not taken
-    std::filesystem::path receipts;    ///< folder with a receipt for each
+    std::vector<Message> refused;    ///< sentences, one a file that was not taken
+    std::filesystem::path receipts;  ///< folder with a receipt for each
 };
 
 /// Takes hand-ins into the course: in one transaction all that can be taken. A group's wrong file never stops

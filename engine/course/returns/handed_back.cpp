@@ -151,8 +151,8 @@ class Outbox {
         const bool marked = std::any_of(students_.begin(), students_.end(),
                                         [](const MarkedStudent& student) { return !student.points.empty(); });
         if (result_.unwritten.size() == 2 && marked)
-            result_.complaints.emplace_back(
-                "no marks could be entered for Moodle or Canvas; mail.csv tells whom the feedback belongs to");
+            result_.complaints.push_back(
+                Message("no marks could be entered for Moodle or Canvas; mail.csv tells whom the feedback belongs to"));
         return std::move(result_);
     }
 
@@ -169,13 +169,6 @@ class Outbox {
         result_.files.push_back(folder_ / name);
     }
 
-    void not_written(const char* files, const char* column) {
-        result_.unwritten.push_back(
-            fmt::format("without {}: of nobody with marks is a number there known, neither from the name of a "
-                        "submission nor from the roster's column {}",
-                        files, column));
-    }
-
     void moodle() {
         TextTable table;
         table.names = {"Identifier",       "Full name", "Grade", "Maximum Grade", "Last modified (grade)",
@@ -190,7 +183,12 @@ class Outbox {
             if (const fs::path answers = model_answers(); !student.feedback.empty() && !answers.empty())
                 feedback.add(student, answers.filename().string(), read_file(answers));
         }
-        if (table.rows.empty()) return not_written("moodle-grades.csv and moodle-feedback.zip", "moodle");
+        if (table.rows.empty()) {
+            result_.unwritten.push_back(Message(
+                "without moodle-grades.csv and moodle-feedback.zip: of nobody with marks is a number there known, "
+                "neither from the name of a submission nor from the roster's column moodle"));
+            return;
+        }
         write("moodle-grades.csv", table);
         if (!feedback.empty()) {
             feedback.write(folder_ / "moodle-feedback.zip");
@@ -198,10 +196,10 @@ class Outbox {
         }
         for (const MarkedStudent& student : students_)
             if (student.moodle.empty() && !student.points.empty())
-                result_.complaints.push_back(
-                    fmt::format("{} is missing in moodle-grades.csv: the participant's number is not known; write it "
-                                "into the roster's column moodle",
-                                student.shown()));
+                result_.complaints.push_back(Message(
+                    "{} is missing in moodle-grades.csv: the participant's number is not known; write it into the "
+                    "roster's column moodle",
+                    student.shown()));
     }
 
     void canvas() {
@@ -213,7 +211,12 @@ class Outbox {
             table.rows.push_back({student.name, student.canvas, student.id, student.mail, "", student.points});
             possible = student.possible;
         }
-        if (table.rows.empty()) return not_written("canvas-grades.csv", "canvas");
+        if (table.rows.empty()) {
+            result_.unwritten.push_back(Message(
+                "without canvas-grades.csv: of nobody with marks is a number there known, neither from the name of "
+                "a submission nor from the roster's column canvas"));
+            return;
+        }
         table.rows.insert(table.rows.begin(), {"    Points Possible", "", "", "", "", possible});
         write("canvas-grades.csv", table);
     }

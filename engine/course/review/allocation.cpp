@@ -81,10 +81,16 @@ class Allocator {
     void refuse_impossible() const {
         const int others = static_cast<int>(order_.size()) - 1;
         if (problem_.fixed.empty() && problem_.loose.empty() && problem_.reviews > others)
-            throw InvalidArgument(
-                fmt::format("each group should write {} reviews, but there {} only {} with a report, so {} to review: "
-                            "wait for more first versions, or give an assignment with fewer --reviews",
-                            problem_.reviews, order_.size() == 1 ? "is" : "are", order_.size(), std::max(0, others)));
+            throw order_.size() == 1 ? InvalidArgument(
+                                           "each group should write {} reviews, but there is only {} with a report, so "
+                                           "{} to review: wait for "
+                                           "more first versions, or give an assignment with fewer --reviews",
+                                           problem_.reviews, order_.size(), std::max(0, others))
+                                     : InvalidArgument(
+                                           "each group should write {} reviews, but there are only {} with a report, "
+                                           "so {} to review: wait for "
+                                           "more first versions, or give an assignment with fewer --reviews",
+                                           problem_.reviews, order_.size(), std::max(0, others));
     }
 
     void start_with_circle() {

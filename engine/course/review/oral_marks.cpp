@@ -61,8 +61,8 @@ class RowOwners {
         if (named.size() == 1) return *named.front();
         if (!named.empty()) throw InvalidArgument("several students are called {}: give the id", words);
         const auto near = nearest_word(words, known);
-        throw InvalidArgument(
-            fmt::format("there is no student \"{}\"{}", words, near ? fmt::format("; did you mean {}?", *near) : ""));
+        throw near ? InvalidArgument("there is no student \"{}\"; did you mean {}?", words, *near)
+                   : InvalidArgument("there is no student \"{}\"", words);
     }
 
     Course& course_;

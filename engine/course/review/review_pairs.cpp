@@ -80,8 +80,8 @@ ReviewPair reviewed_pair(const std::vector<ReviewPair>& pairs, const Group& revi
         if (std::find(named.begin(), named.end(), pair->report_number) != named.end()) return *pair;
     if (given.size() == 1 && named.empty()) return *given.front();
     if (!named.empty())
-        throw EnvironmentError(fmt::format("it is of report-{:02}, which {} was not given; it was given {}",
-                                           named.front(), reviewer.name, fmt::join(reports, " and ")));
+        throw EnvironmentError("it is of {}, which {} was not given; it was given {}",
+                               fmt::format("report-{:02}", named.front()), reviewer.name, listed(reports, Join::kAnd));
     throw EnvironmentError(
         "it does not tell which report it reviews; {} was given {}: name the file review-{}.pdf or say --of {}",
         reviewer.name, listed(reports, Join::kAnd), reports.front(), reports.front());

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "base/error.h"
+#include "base/reader.h"
 #include "course/boxes/boxed_work.h"
 #include "course/boxes/told_reason.h"
 #include "course/hand_ins/staging.h"
@@ -138,7 +140,7 @@ BoxedOutcome make_version(const VersionJob& job) {
         if (record.error) return {record.error->text()};
         return {};
     } catch (const std::runtime_error& error) {
-        return {error.what()};
+        return {message_of(error)};
     }
 }
 
@@ -151,8 +153,9 @@ std::string make_version_in_box(const fs::path& folder, const fs::path& made, bo
     job.to = box.add_writable(made, "/box/made");
     job.pdf = pdf;
     const auto result = run_boxed(box, program, job, {kReadingTime});
-    std::string reason = result.reason;
-    if (result.output && result.output->error) reason = told_outside(first_line(*result.output->error), job.folder);
+    std::string reason = message_text(result.reason);
+    if (result.output && result.output->error)
+        reason = told_outside(first_line(message_text(*result.output->error)), job.folder);
     while (reason.ends_with('.')) reason.pop_back();
     return reason;
 }

@@ -213,9 +213,12 @@ Assignment assignment_named(Course& course, const std::string& name) {
     }
     if (name.empty()) throw InvalidArgument("say which assignment: {}", listed(names));
     const auto near = nearest_word(name, names);
-    throw InvalidArgument(fmt::format("there is no assignment \"{}\"; there {} {}{}", name,
-                                      names.size() == 1 ? "is" : "are", fmt::join(names, ", "),
-                                      near ? fmt::format("; did you mean {}?", *near) : ""));
+    const MessageList known = listed(names);
+    if (names.size() == 1)
+        throw near ? InvalidArgument("there is no assignment \"{}\"; there is {}; did you mean {}?", name, known, *near)
+                   : InvalidArgument("there is no assignment \"{}\"; there is {}", name, known);
+    throw near ? InvalidArgument("there is no assignment \"{}\"; there are {}; did you mean {}?", name, known, *near)
+               : InvalidArgument("there is no assignment \"{}\"; there are {}", name, known);
 }
 
 void refuse_without_reviews(const Assignment& assignment) {

@@ -1,7 +1,6 @@
 #include "course/store/database.h"
 
 #include <SQLiteCpp/Exception.h>
-#include <fmt/format.h>
 #include <sqlite3.h>
 
 #include <cerrno>

@@ -1,7 +1,6 @@
 #include "course/store/graded_work.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>

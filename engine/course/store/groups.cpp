@@ -152,9 +152,9 @@ Group group_named(Course& course, const std::string& name) {
         names.push_back(group.name);
     }
     const auto near = nearest_word(name, names);
-    throw InvalidArgument(fmt::format(
-        "there is no group \"{}\" in this course{}", name,
-        near ? fmt::format("; did you mean {}?", *near) : "; see dynlab course status for those there are"));
+    throw near ? InvalidArgument("there is no group \"{}\" in this course; did you mean {}?", name, *near)
+               : InvalidArgument(
+                     "there is no group \"{}\" in this course; see dynlab course status for those there are", name);
 }
 
 std::vector<Student> students_of(Course& course) {
@@ -198,8 +198,8 @@ void set_group_dropped_out(Course& course, const std::string& name, bool dropped
     Transaction transaction(course.database());
     const Group group = group_named(course, name);
     if (group.dropped_out == dropped_out)
-        throw InvalidArgument(
-            fmt::format("{} {} already", group.name, dropped_out ? "has dropped out" : "is in the course"));
+        throw dropped_out ? InvalidArgument("{} has dropped out already", group.name)
+                          : InvalidArgument("{} is in the course already", group.name);
     const Instant now = CourseClock::now();
     course.database().run("UPDATE groups SET left_at = ?, left_reason = ? WHERE id = ?",
                           dropped_out ? std::optional(now) : std::nullopt,

@@ -60,8 +60,8 @@ void IncomingFiles::add(const fs::path& given) {
     }
     const fs::path to = scratch_.path() / std::to_string(++unpacked_);
     fs::create_directories(to);
-    for (const std::string& clause : unpack_export(given, to, way_.level, way_.program))
-        left_out_.push_back(fmt::format("{}: {}; it was left out", source, clause));
+    for (const Message& clause : unpack_export(given, to, way_.level, way_.program))
+        left_out_.push_back(Message("{}: {}; it was left out", source, clause));
     add_batch(to, source);
 }
 
@@ -76,7 +76,7 @@ void IncomingFiles::add_file(const fs::path& file, const std::string& source) {
         write_file_atomically(script, script_of_handed_in(file));
         files_.push_back({script, fs::path(name).stem().string() + ".lua", source, sender_of(name), {}, given_ - 1});
     } catch (const SubmissionError& error) {
-        left_out_.push_back(fmt::format("{}: {} It was left out", source, error.what()));
+        left_out_.push_back(Message("{}: {} It was left out", source, error.message()));
     }
 }
 
@@ -86,8 +86,9 @@ void IncomingFiles::add_found(const fs::path& file, const std::string& source) {
     if (type == fs::file_type::regular)
         add_file(file, source);
     else
-        left_out_.push_back(fmt::format("{}: {}; it was left out", source,
-                                        type == fs::file_type::symlink ? "a link" : "not a regular file"));
+        left_out_.push_back(type == fs::file_type::symlink
+                                ? Message("{}: a link; it was left out", source)
+                                : Message("{}: not a regular file; it was left out", source));
 }
 
 void IncomingFiles::add_batch(const fs::path& folder, const std::string& source) {
