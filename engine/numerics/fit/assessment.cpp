@@ -152,8 +152,7 @@ Message verdict_of(const Assessment& assessment, const Fit& fit, const std::vect
     for (std::size_t i = 0; i < assessment.whiteness.size(); ++i) {
         const WhitenessTest& test = assessment.whiteness[i];
         if (test.verdict.empty()) continue;
-        all.push_back(assessment.whiteness.size() > 1 ? Message("{}: {}", names[i], test.verdict)
-                                                      : test.verdict);
+        all.push_back(assessment.whiteness.size() > 1 ? Message("{}: {}", names[i], test.verdict) : test.verdict);
     }
     const Message worthless = fit.polynomial ? Message() : worthlessness(fit);
     if (!worthless.empty())
