@@ -22,9 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Values that one byte of a file can stand for: deflate makes at most 1032 bytes from one.
-constexpr std::size_t kLargestDeflateRatio = 1032;
-
 /// Arrays of at least this many numbers are compressed quickly rather than well, see mat_compression.h.
 constexpr std::size_t kFastCompressionSize = std::size_t{1} << 19;
 
@@ -48,6 +45,10 @@ class MatioComplaints {
 
 [[noreturn]] void fail_damaged(const fs::path& file, const std::string& how) {
     throw EnvironmentError(fmt::format("{} is damaged: {}", file.string(), how));
+}
+
+[[noreturn]] void fail_too_large(const fs::path& file, std::size_t bytes) {
+    throw EnvironmentError(fmt::format("{}: {}", file.string(), memory_refusal(bytes)));
 }
 
 std::string without_line_end(std::string text) {
@@ -91,9 +92,7 @@ MatContent read_variables(const fs::path& file) {
     const MatFile mat(Mat_Open(file.c_str(), MAT_ACC_RDONLY));
     if (!mat) fail_damaged(file, "it cannot be opened as a MATLAB file");
     const bool is_hdf5 = layout.version == MatVersion::k73;
-    constexpr std::size_t kBytesOfValue = 3 * sizeof(double);  // as stored, converted, and on its way
-    const std::size_t bytes = fs::file_size(file), most_in_memory = memory_for_reading(bytes) / kBytesOfValue;
-    const std::size_t most_values = is_hdf5 ? most_in_memory : std::min(kLargestDeflateRatio * bytes, most_in_memory);
+    const std::size_t bytes = fs::file_size(file);
     if (is_hdf5 && is_guarded_copy()) confine_to_memory();
     MatContent content;
     std::size_t count = 0;
@@ -102,7 +101,7 @@ MatContent read_variables(const fs::path& file) {
         const std::string name = variable_name(*variable, ++count, last_name);
         if (name.empty()) continue;  // MATLAB keeps the private data of objects in a nameless variable
         try {
-            check_mat_header(*variable, name, most_values);
+            check_mat_header(*variable, name, bytes, is_hdf5);
             const bool whole = Mat_VarReadDataAll(mat.get(), variable.get()) == 0 && complaints.first().empty();
             if (!whole && !is_hdf5) break;  // what follows would be read from a wrong place
             if (!whole) throw EnvironmentError(fmt::format("variable {} cannot be read", name));
@@ -134,12 +133,12 @@ MatContent read_guarded(const fs::path& file) {
         try {
             return cbor_of(read_variables(file));
         } catch (const std::bad_alloc&) {
-            fail_damaged(file, memory_refusal(bytes));
+            fail_too_large(file, bytes);
         }
     };
     const ChildResult result = run_guarded(read, limits);
     if (result.timed_out) fail_damaged(file, "reading it " + limits.time.told(result.time_limit()));
-    if (result.output_exceeded) fail_damaged(file, memory_refusal(bytes));
+    if (result.output_exceeded) fail_too_large(file, bytes);
     if (result.exit_code == 1 && !result.error_output.empty()) throw EnvironmentError(result.error_output);
     if (result.exit_code != 0) fail_damaged(file, "reading it ends in a crash");
     try {
