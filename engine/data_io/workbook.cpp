@@ -93,8 +93,7 @@ std::string taken(WorkbookParts& parts, const std::string& path) {
     return std::move(part.mapped());
 }
 
-constexpr unsigned kParsing =
-    pugi::parse_cdata | pugi::parse_escapes | pugi::parse_eol | pugi::parse_ws_pcdata_single;
+constexpr unsigned kParsing = pugi::parse_cdata | pugi::parse_escapes | pugi::parse_eol | pugi::parse_ws_pcdata_single;
 
 /// pugixml knows XML's own five entities and character references; it reads no document type. `text` begins at byte
 /// `at` of the part.

@@ -88,9 +88,9 @@ TEST_F(json_file, refuses_what_is_none_with_its_place) {
 }
 
 TEST_F(json_file, lists_become_matrices_where_all_rows_are_equal) {
-    const VariableTable read = read_json_file(
-        file("{\"ragged\": [[1, 2], [3]], \"late\": [[1, 2], [3, 4], \"a\"], \"numbers\": [1, 2, \"a\"], \"cube\": [[[1, "
-             "2]], [[3, 4]]], \"row\": [[1, 2, 3]], \"mixed\": [1, [2]], \"hollow\": [[], []], \"on\": [true, false]}"));
+    const VariableTable read = read_json_file(file(
+        "{\"ragged\": [[1, 2], [3]], \"late\": [[1, 2], [3, 4], \"a\"], \"numbers\": [1, 2, \"a\"], \"cube\": [[[1, "
+        "2]], [[3, 4]]], \"row\": [[1, 2, 3]], \"mixed\": [1, [2]], \"hollow\": [[], []], \"on\": [true, false]}"));
     const auto list = [&read](const char* name) {
         return *std::get<std::shared_ptr<VariableList>>(read.at(name).value);
     };
