@@ -5,7 +5,6 @@
 
 #include "base/catalog.h"
 #include "base/reader.h"
-#include "numerics/error.h"
 #include "script_run.h"
 #include "scripting/conversions/option_words.h"
 #include "scripting/interpreter/catalogue.h"

@@ -1,7 +1,5 @@
 #include "app/workbench/session_text.h"
 
-#include <fmt/format.h>
-
 #include "documents/error.h"
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"

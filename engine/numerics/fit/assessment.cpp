@@ -4,7 +4,6 @@
 #include <span>
 #include <utility>
 
-#include "base/reader.h"
 #include "numerics/criteria/process_output.h"
 #include "numerics/error.h"
 #include "numerics/filters/transfer_sensitivity.h"
