@@ -460,7 +460,7 @@ end
 local function string(element)
   local class, attribute = element.text:match("%]{%.([%w_-]+)"), element.text:match("%]{(%a[%w_-]*)=")
   if class then report("span-class", "." .. class, class) end
-  if attribute then report("attribute", attribute, attribute, "a span") end
+  if attribute then report("attribute", attribute, attribute, "span") end
   if element.text:match("^{=%w+}") then report("raw-attribute", element.text, element.text) end
 end
 
