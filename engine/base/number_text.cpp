@@ -20,10 +20,4 @@ std::string counted(std::int64_t count, const std::string& one, const std::strin
     return std::to_string(count) + " " + (count == 1 ? one : many.empty() ? one + "s" : many);
 }
 
-std::string enumerated(const std::vector<std::string>& texts, const char* between) {
-    std::string all;
-    for (std::size_t i = 0; i < texts.size(); ++i) all += (i == 0 ? "" : between) + texts[i];
-    return all;
-}
-
 }  // namespace dynlab::inline base

@@ -1,7 +1,6 @@
 #pragma once
 #include <cstdint>
 #include <string>
-#include <vector>
 
 namespace dynlab::inline base {
 
@@ -11,8 +10,5 @@ std::string number_text(double value, int significant_digits = 5);
 
 /// "1 sample", "2 samples"; with `many` where that is not `one` and an s: "2 people".
 std::string counted(std::int64_t count, const std::string& one, const std::string& many = "");
-
-/// The texts in a row, "a1, b0".
-std::string enumerated(const std::vector<std::string>& texts, const char* between = ", ");
 
 }  // namespace dynlab::inline base

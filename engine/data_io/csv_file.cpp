@@ -6,6 +6,7 @@
 #include <limits>
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include "data_io/reading_memory.h"
 #include "data_io/tables/cell_scanner.h"
@@ -20,8 +21,14 @@
 namespace dynlab::inline data_io {
 namespace {
 
-/// Of a cell as it is read and as it is given back, one beside the other.
-constexpr std::size_t kBytesOfNumber = 2 * sizeof(double), kBytesOfText = sizeof(std::string) + sizeof(Variable);
+/// Numbers are read into the vector that is given back; a text is moved into its variable, one beside the other.
+constexpr std::size_t kBytesOfNumber = sizeof(double), kBytesOfText = sizeof(std::string) + sizeof(Variable);
+
+/// What a string takes besides itself.
+std::size_t bytes_besides(std::string_view text) {
+    constexpr std::size_t kShort = 15, kBlock = 16;
+    return text.size() > kShort ? text.size() + kBlock : 0;
+}
 
 constexpr std::size_t kMostTold = 8;
 
@@ -43,7 +50,8 @@ class CsvReader {
 
   private:
     struct Column {
-        std::vector<double> numbers;
+        Vector numbers;   ///< with room for more, which takes no memory before it is filled
+        Index count = 0;  ///< of the numbers that have been read
         std::vector<std::string> texts;
         std::size_t missing = 0, first_missing_line = 0;
     };
@@ -226,20 +234,20 @@ class CsvReader {
         const auto lines_left = static_cast<std::size_t>(std::count(begin, text_.end(), '\n') + 1);
         const std::size_t rows = std::min(lines_left, (text_.size() - layout_.rows_at) / columns.size() + 1);
         for (std::size_t j = 0; j < columns.size(); ++j)
-            layout_.is_text[j] ? columns[j].texts.reserve(rows) : columns[j].numbers.reserve(rows);
+            layout_.is_text[j] ? columns[j].texts.reserve(rows) : columns[j].numbers.resize(static_cast<Index>(rows));
         CellScanner scanner(file_, text_, layout_.separator, layout_.rows_at, layout_.rows_line);
         while (scanner.next_record()) read_row(scanner, columns);
         std::size_t rows_read = 0;
         for (std::size_t j = 0; j < columns.size(); ++j) {
-            rows_read = std::max(rows_read, columns[j].numbers.size());
-            std::vector<double>& numbers = columns[j].numbers;
+            rows_read = std::max(rows_read, static_cast<std::size_t>(columns[j].count));
+            Vector& numbers = columns[j].numbers;
+            numbers.conservativeResize(columns[j].count);  // reallocates, without a copy of large columns
             if (table_.names[j] == "Ts" && is_one_number(columns[j])) {
                 note(Message("the only number in column Ts, in its first row, is the sampling time"));
-                numbers.resize(1), columns[j].missing = 0;
+                numbers.conservativeResize(1), columns[j].missing = 0;
             }
-            table_.columns.push_back(Eigen::Map<const Vector>(numbers.data(), static_cast<Index>(numbers.size())));
+            table_.columns.push_back(std::move(numbers));
             if (layout_.is_text[j]) table_.texts[table_.names[j]] = std::move(columns[j].texts);
-            columns[j].numbers = {};
         }
         tell_missing(columns, rows_read);
         if (!first_comma_.empty()) note(Message("numbers are written with a decimal comma, such as {}", first_comma_));
@@ -247,8 +255,8 @@ class CsvReader {
 
     /// Benchmark records give the sampling time as a column of one number.
     static bool is_one_number(const Column& column) {
-        return column.numbers.size() > 1 && column.missing + 1 == column.numbers.size() &&
-               column.numbers.front() == column.numbers.front();
+        return column.count > 1 && column.missing + 1 == static_cast<std::size_t>(column.count) &&
+               column.numbers[0] == column.numbers[0];
     }
 
     void read_row(CellScanner& scanner, std::vector<Column>& columns) {
@@ -282,7 +290,7 @@ class CsvReader {
         if (layout_.is_text[index]) {
             if (column.texts.empty() && looks_grouped(cell))
                 refuse_cell({file_, scanner.line(), table_.names[index]}, cell, decimal_comma);
-            take_memory(kBytesOfText + cell.size(), scanner);
+            take_memory(kBytesOfText + bytes_besides(cell), scanner);
             column.texts.emplace_back(cell);
             return;
         }
@@ -297,7 +305,8 @@ class CsvReader {
         } else if (decimal_comma && first_comma_.empty() && cell.find(',') != std::string_view::npos) {
             first_comma_ = cell;
         }
-        column.numbers.push_back(number);
+        if (column.count == column.numbers.size()) column.numbers.conservativeResize(2 * column.count + 1);
+        column.numbers[column.count++] = number;
     }
 
     void tell_missing(const std::vector<Column>& columns, std::size_t rows) {
@@ -317,7 +326,7 @@ class CsvReader {
     TableLayout layout_;
     std::map<std::string, std::string> stated_units_;
     std::string first_comma_;
-    std::size_t memory_ = 2 * text_.size();  ///< of the text, and of what its rows have become so far
+    std::size_t memory_ = text_.size();  ///< of the text, and of what its rows have become so far
     CsvTable table_;
 };
 

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <nlohmann/json.hpp>
-#include <set>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "data_io/reading_memory.h"
@@ -18,54 +20,190 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr std::uintmax_t kMostJsonBytes = 64u << 20;
-constexpr int kDeepestJson = 100;
+constexpr std::size_t kDeepestJson = 100;
 
-bool is_number(const Json& value) {
-    return value.is_number() || value.is_null();
-}
-
-double number_of(const Json& value) {
-    return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
-}
-
-bool is_row(const Json& value, std::size_t length) {
-    return value.is_array() && value.size() == length && std::all_of(value.begin(), value.end(), is_number);
-}
-
-Variable from_json_value(const Json& value);
-
-VariableTable from_json_object(const Json& object) {
-    VariableTable table;
-    for (const auto& [name, value] : object.items()) table[name] = from_json_value(value);
-    return table;
-}
-
-Variable from_json_list(const Json& list) {
-    if (std::all_of(list.begin(), list.end(), is_number)) {
-        Vector numbers(static_cast<Index>(list.size()));
-        for (Index i = 0; i < numbers.size(); ++i) numbers[i] = number_of(list[static_cast<std::size_t>(i)]);
-        return {numbers};
+/// Counts the memory that reading takes, and refuses more than a file of that size may take.
+class ReadingMemory {
+  public:
+    ReadingMemory(const fs::path& file, std::size_t file_bytes)
+        : file_(file), file_bytes_(file_bytes), taken_(file_bytes) {}
+    void take(std::size_t bytes) {
+        if ((taken_ += bytes) > memory_for_reading(file_bytes_))
+            throw EnvironmentError(refusal_for_memory(file_, file_bytes_));
     }
-    const std::size_t columns = list.front().size();
-    if (columns > 0 && std::all_of(list.begin(), list.end(), [&](const Json& row) { return is_row(row, columns); })) {
-        Matrix matrix(static_cast<Index>(list.size()), static_cast<Index>(columns));
-        for (Index i = 0; i < matrix.rows(); ++i)
-            for (Index j = 0; j < matrix.cols(); ++j)
-                matrix(i, j) = number_of(list[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)]);
-        return {matrix};
-    }
-    auto entries = std::make_shared<VariableList>();
-    for (const Json& entry : list) entries->push_back(from_json_value(entry));
-    return {entries};
+    void give_back(std::size_t bytes) { taken_ -= bytes; }
+
+  private:
+    const fs::path& file_;
+    std::size_t file_bytes_, taken_;
+};
+
+constexpr std::size_t kNumberBytes = sizeof(double);
+constexpr std::size_t kEntryBytes = 2 * sizeof(Variable);  // a list grows by doubling
+constexpr std::size_t kMemberBytes = 128, kTableBytes = 96, kVectorBytes = 96;
+
+std::size_t bytes_of(const std::string& text) {
+    constexpr std::size_t kShort = 15;  // std::string keeps so many bytes in itself
+    return text.size() > kShort ? text.size() + 32 : 0;
 }
 
-Variable from_json_value(const Json& value) {
-    if (value.is_boolean()) return {value.get<bool>()};
-    if (value.is_string()) return {value.get<std::string>()};
-    if (value.is_object()) return {std::make_shared<VariableTable>(from_json_object(value))};
-    if (value.is_array()) return from_json_list(value);
-    return {number_of(value)};
+std::size_t bytes_of_vector(Index size) {
+    return kVectorBytes + kNumberBytes * static_cast<std::size_t>(size);
 }
+
+/// A list whose end has not been read. It holds plain numbers, or the rows of a matrix, and becomes a list of any
+/// variables with the first entry that is neither.
+class OpenList {
+  public:
+    void add(double number, ReadingMemory& memory) {
+        if (!is_mixed_ && columns_ == 0) return append(&number, 1, memory);
+        add(Variable{number}, memory);
+    }
+    void add(Variable&& entry, ReadingMemory& memory) {
+        const auto* row = std::get_if<Vector>(&entry.value);
+        if (row != nullptr && row->size() > 0 && !is_mixed_ && (count_ == 0 || columns_ == row->size())) {
+            columns_ = row->size();
+            append(row->data(), columns_, memory);
+            memory.give_back(bytes_of_vector(columns_));  // of the row itself
+            return;
+        }
+        if (!is_mixed_) become_mixed(memory);
+        add_entry(std::move(entry), memory);
+    }
+    Variable finished(ReadingMemory& memory) {
+        if (is_mixed_) return {std::make_shared<VariableList>(std::move(entries_))};
+        numbers_.conservativeResize(count_);
+        if (columns_ == 0) {
+            memory.take(count_ > 0 ? kVectorBytes : 0);
+            return {std::move(numbers_)};
+        }
+        using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+        memory.take(kNumberBytes * static_cast<std::size_t>(count_));
+        return {Matrix(Eigen::Map<const Rows>(numbers_.data(), count_ / columns_, columns_))};
+    }
+
+  private:
+    /// conservativeResize reallocates, which copies no large blocks.
+    void append(const double* numbers, Index size, ReadingMemory& memory) {
+        memory.take(kNumberBytes * static_cast<std::size_t>(size));
+        if (count_ + size > numbers_.size()) numbers_.conservativeResize(2 * numbers_.size() + size);
+        std::copy_n(numbers, size, numbers_.data() + count_);
+        count_ += size;
+    }
+    void add_entry(Variable&& entry, ReadingMemory& memory) {
+        memory.take(kEntryBytes);
+        entries_.push_back(std::move(entry));
+    }
+    void become_mixed(ReadingMemory& memory) {
+        is_mixed_ = true;
+        const Index rows = columns_ == 0 ? count_ : count_ / columns_;
+        for (Index i = 0; i < rows; ++i) {
+            if (columns_ == 0) {
+                add_entry({numbers_[i]}, memory);
+                continue;
+            }
+            memory.take(bytes_of_vector(columns_));
+            add_entry({Vector(numbers_.segment(i * columns_, columns_))}, memory);
+        }
+        numbers_.resize(0);
+    }
+
+    Vector numbers_;  ///< the first `count_` of them; of rows, one row after the other
+    Index count_ = 0, columns_ = 0;
+    bool is_mixed_ = false;
+    VariableList entries_;
+};
+
+/// nlohmann's "[json.exception.parse_error.101] parse error at line 2, column 3: ..." from the place on.
+std::string place_of(const std::string& message) {
+    const std::size_t at = message.find("line ");
+    return at == std::string::npos ? message : message.substr(at);
+}
+
+/// Makes variables while nlohmann's parser reads. A tree of nlohmann's in between would take several times the memory,
+/// and its parser with a callback takes a time that grows with the square of a list's length.
+class VariableBuilder final : public nlohmann::json_sax<Json> {
+  public:
+    VariableBuilder(const fs::path& file, std::size_t file_bytes) : file_(file), memory_(file, file_bytes) {}
+    VariableTable table() { return std::move(*outermost_); }
+
+    bool null() override { return add_number(std::numeric_limits<double>::quiet_NaN()); }
+    bool boolean(bool value) override { return add({value}); }
+    bool number_integer(number_integer_t value) override { return add_number(static_cast<double>(value)); }
+    bool number_unsigned(number_unsigned_t value) override { return add_number(static_cast<double>(value)); }
+    bool number_float(number_float_t value, const string_t&) override { return add_number(value); }
+    bool string(string_t& text) override {
+        memory_.take(bytes_of(text));
+        return add({std::move(text)});
+    }
+    bool binary(binary_t&) override { return false; }  // JSON has none
+
+    bool start_object(std::size_t) override {
+        memory_.take(kTableBytes);
+        begin().table = std::make_shared<VariableTable>();
+        return true;
+    }
+    bool key(string_t& name) override {
+        memory_.take(kMemberBytes + bytes_of(name));
+        const auto [member, is_new] = open_.back().table->try_emplace(name);
+        if (!is_new) throw EnvironmentError("{}: the name \"{}\" occurs twice", file_.string(), name);
+        open_.back().member = &member->second;
+        return true;
+    }
+    bool end_object() override {
+        const std::shared_ptr<VariableTable> table = std::move(open_.back().table);
+        open_.pop_back();
+        if (open_.empty()) outermost_ = table;
+        return open_.empty() || add({table});
+    }
+    bool start_array(std::size_t) override {
+        if (open_.empty()) refuse_outermost();
+        begin();
+        return true;
+    }
+    bool end_array() override {
+        Variable list = open_.back().list.finished(memory_);
+        open_.pop_back();
+        return add(std::move(list));
+    }
+    bool parse_error(std::size_t, const std::string&, const Json::exception& problem) override {
+        throw EnvironmentError("{} is no JSON: {}", file_.string(), place_of(problem.what()));
+    }
+
+  private:
+    struct Open {
+        std::shared_ptr<VariableTable> table;  ///< null of a list
+        Variable* member = nullptr;            ///< of the table: the one whose value comes next
+        OpenList list;
+    };
+
+    [[noreturn]] void refuse_outermost() const {
+        throw EnvironmentError("{}: the outermost value must be an object, {\"name\": value, ...}", file_.string());
+    }
+    Open& begin() {
+        if (open_.size() >= kDeepestJson)
+            throw EnvironmentError("{}: more than {} levels", file_.string(), kDeepestJson);
+        return open_.emplace_back();
+    }
+    bool add(Variable&& value) {
+        if (open_.empty()) refuse_outermost();
+        if (Open& top = open_.back(); top.table)
+            *top.member = std::move(value);
+        else
+            top.list.add(std::move(value), memory_);
+        return true;
+    }
+    bool add_number(double number) {
+        if (open_.empty() || open_.back().table) return add({number});
+        open_.back().list.add(number, memory_);
+        return true;
+    }
+
+    const fs::path& file_;
+    ReadingMemory memory_;
+    std::vector<Open> open_;
+    std::shared_ptr<VariableTable> outermost_;
+};
 
 Json number_json(double value) {
     return std::isfinite(value) ? Json(value) : Json();
@@ -92,7 +230,9 @@ struct VariableWriter {
     Json operator()(const Eigen::MatrixXcd& values) const { return parts(values.real().eval(), values.imag().eval()); }
     Json operator()(const std::shared_ptr<VariableTable>& table) const {
         Json object = Json::object();
-        for (const auto& [name, variable] : *table) object[name] = json_of_variable(variable);
+        auto& members = object.get_ref<Json::object_t&>();
+        members.reserve(table->size());  // the object's own insertion looks through all names for each
+        for (const auto& [name, variable] : *table) members.emplace_back(name, json_of_variable(variable));
         return object;
     }
     Json operator()(const std::shared_ptr<VariableList>& list) const {
@@ -112,28 +252,6 @@ Json json_of_variable(const Variable& variable) {
     return std::visit(VariableWriter{}, variable.value);
 }
 
-/// nlohmann's "[json.exception.parse_error.101] parse error at line 2, column 3: ..." from the place on.
-std::string place_of(const std::string& message) {
-    const std::size_t at = message.find("line ");
-    return at == std::string::npos ? message : message.substr(at);
-}
-
-/// Of memory, for one value with what is made of it; lists grow by doubling.
-std::size_t bytes_of(Json::parse_event_t event, const Json& parsed) {
-    constexpr std::size_t kName = 96, kList = 128, kValue = 40;
-    switch (event) {
-        case Json::parse_event_t::key:
-            return kName + 2 * parsed.get_ref<const std::string&>().size();
-        case Json::parse_event_t::value:
-            return kValue + (parsed.is_string() ? kName + 2 * parsed.get_ref<const std::string&>().size() : 0);
-        case Json::parse_event_t::object_start:
-        case Json::parse_event_t::array_start:
-            return kList;
-        default:
-            return 0;
-    }
-}
-
 }  // namespace
 
 VariableTable read_json_file(const fs::path& file) {
@@ -141,29 +259,9 @@ VariableTable read_json_file(const fs::path& file) {
     if (fs::file_size(file, error) > kMostJsonBytes && !error)
         throw EnvironmentError("{}: JSON files of more than 64 MB are not read", file.string());
     const std::string text = read_file(file);
-    std::vector<std::set<std::string>> names;
-    std::size_t memory = text.size();
-    const auto look = [&](int depth, Json::parse_event_t event, Json& parsed) {
-        if ((memory += bytes_of(event, parsed)) > memory_for_reading(text.size())) {
-            const ReadingMegabytes megabytes = megabytes_for_reading(text.size());
-            throw EnvironmentError("{}: reading it takes more than {} MB of memory, too much for a file of {} MB",
-                                   file.string(), megabytes.most, megabytes.of_file);
-        }
-        if (depth > kDeepestJson) throw EnvironmentError("{}: more than {} levels", file.string(), kDeepestJson);
-        if (event == Json::parse_event_t::object_start) names.emplace_back();
-        if (event == Json::parse_event_t::object_end) names.pop_back();
-        if (event == Json::parse_event_t::key && !names.back().insert(parsed.get<std::string>()).second)
-            throw EnvironmentError("{}: the name \"{}\" occurs twice", file.string(), parsed.get<std::string>());
-        return true;
-    };
-    try {
-        const Json read = Json::parse(text, look);
-        if (!read.is_object())
-            throw EnvironmentError("{}: the outermost value must be an object, {\"name\": value, ...}", file.string());
-        return from_json_object(read);
-    } catch (const Json::exception& problem) {
-        throw EnvironmentError("{} is no JSON: {}", file.string(), place_of(problem.what()));
-    }
+    VariableBuilder builder(file, text.size());
+    Json::sax_parse(text, &builder);
+    return builder.table();
 }
 
 void write_json_file(const fs::path& file, const VariableTable& variables) {

@@ -21,9 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Values that one byte of a file can stand for: deflate makes at most 1032 bytes from one.
-constexpr std::size_t kLargestDeflateRatio = 1032;
-
 /// Arrays of at least this many numbers are compressed quickly rather than well, see mat_compression.h.
 constexpr std::size_t kFastCompressionSize = std::size_t{1} << 19;
 
@@ -48,12 +45,6 @@ class MatioComplaints {
 /// By another's words.
 [[noreturn]] void fail_damaged(const fs::path& file, const Message& how) {
     throw EnvironmentError("{} is damaged: {}", file.string(), how);
-}
-
-Message refusal_for_memory(const fs::path& file, std::size_t bytes) {
-    const ReadingMegabytes megabytes = megabytes_for_reading(bytes);
-    return Message("{} is damaged: reading it takes more than {} MB of memory, too much for a file of {} MB",
-                   file.string(), megabytes.most, megabytes.of_file);
 }
 
 std::string without_line_end(std::string text) {
@@ -105,9 +96,7 @@ MatContent read_variables(const fs::path& file) {
     const MatFile mat(Mat_Open(file.c_str(), MAT_ACC_RDONLY));
     if (!mat) throw EnvironmentError("{} is damaged: it cannot be opened as a MATLAB file", file.string());
     const bool is_hdf5 = layout.version == MatVersion::k73;
-    constexpr std::size_t kBytesOfValue = 3 * sizeof(double);  // as stored, converted, and on its way
-    const std::size_t bytes = fs::file_size(file), most_in_memory = memory_for_reading(bytes) / kBytesOfValue;
-    const std::size_t most_values = is_hdf5 ? most_in_memory : std::min(kLargestDeflateRatio * bytes, most_in_memory);
+    const std::size_t bytes = fs::file_size(file);
     if (is_hdf5 && is_guarded_copy()) confine_to_memory();
     MatContent content;
     std::size_t count = 0;
@@ -122,7 +111,7 @@ MatContent read_variables(const fs::path& file) {
         const std::string name = variable->name ? variable->name : "";
         if (name.empty()) continue;  // MATLAB keeps the private data of objects in a nameless variable
         try {
-            check_mat_header(*variable, name, most_values);
+            check_mat_header(*variable, name, bytes, is_hdf5);
             const bool whole = Mat_VarReadDataAll(mat.get(), variable.get()) == 0 && complaints.first().empty();
             if (!whole && !is_hdf5) break;  // what follows would be read from a wrong place
             if (!whole) throw EnvironmentError("variable {} cannot be read", name);

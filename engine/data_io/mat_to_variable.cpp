@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "data_io/mat_variable.h"
+#include "data_io/reading_memory.h"
 #include "platform/error.h"
 #include "platform/utf8.h"
 
@@ -11,6 +12,11 @@ namespace dynlab::inline data_io {
 namespace {
 
 constexpr int kDeepest = 50;  // levels of structs and cells
+
+/// Values that one byte of a file can stand for: deflate makes at most 1032 bytes from one.
+constexpr double kLargestDeflateRatio = 1032;
+/// Of a value: as a number, and as the one that is made from it or goes to the process that asked.
+constexpr double kBytesOfValue = 2 * sizeof(double);
 
 void refuse_unsupported(const matvar_t& variable, const std::string& name, int depth) {
     if (depth > kDeepest)
@@ -92,7 +98,7 @@ std::vector<const matvar_t*> parts_of(const matvar_t& variable) {
     return {parts, parts + variable.nbytes / sizeof(matvar_t*)};
 }
 
-void check_header(const matvar_t& variable, const std::string& name, std::size_t most_values, int depth) {
+void check_header(const matvar_t& variable, const std::string& name, std::size_t file_bytes, bool links, int depth) {
     refuse_unsupported(variable, name, depth);
     bool is_empty = false;
     double values = 1;  // not an integer, as hostile sizes overflow
@@ -100,12 +106,17 @@ void check_header(const matvar_t& variable, const std::string& name, std::size_t
         is_empty = is_empty || variable.dims[i] == 0;
         values *= static_cast<double>(variable.dims[i]);
     }
-    if (most_values > 0 && !is_empty && values > static_cast<double>(most_values)) {
+    if (!is_empty && !links && values > kLargestDeflateRatio * static_cast<double>(file_bytes))
         throw EnvironmentError("variable {} is damaged: it claims {} values, more than a file of its size has", name,
                                significant(values, 6));
+    if (!is_empty && kBytesOfValue * values > static_cast<double>(memory_for_reading(file_bytes))) {
+        const ReadingMegabytes megabytes = megabytes_for_reading(file_bytes);
+        throw EnvironmentError(
+            "variable {} has {} values: reading it takes more than {} MB of memory, too much for a file of {} MB", name,
+            significant(values, 6), megabytes.most, megabytes.of_file);
     }
     for (const matvar_t* part : parts_of(variable)) {
-        if (part) check_header(*part, part->name ? name + "." + part->name : name + "{}", most_values, depth + 1);
+        if (part) check_header(*part, part->name ? name + "." + part->name : name + "{}", file_bytes, links, depth + 1);
     }
 }
 
@@ -187,17 +198,26 @@ class Converter {
 
     Matrix matrix_of(const void* data) const {
         Matrix matrix(static_cast<Index>(rows_), static_cast<Index>(columns_));
-        if (count() == 0) return matrix;
+        fill(matrix.data(), data);
+        return matrix;
+    }
+
+    void fill(double* numbers, const void* data) const {
+        if (count() == 0) return;
         if (variable_.nbytes / Mat_SizeOf(variable_.data_type) < count()) {
             throw EnvironmentError("variable {} is damaged: it has fewer values than its size says", name_);
         }
         with_numbers(data, [&](const auto* stored) {
-            for (std::size_t i = 0; i < count(); ++i) matrix.data()[i] = static_cast<double>(stored[i]);
+            for (std::size_t i = 0; i < count(); ++i) numbers[i] = static_cast<double>(stored[i]);
         });
-        return matrix;
     }
 
     Variable numbers() const {
+        if (is_vector() && count() > 1) {
+            Vector vector(static_cast<Index>(count()));
+            fill(vector.data(), variable_.data);
+            return {std::move(vector)};
+        }
         Matrix matrix = matrix_of(variable_.data);
         if (matrix.size() == 1 && variable_.isLogical) return {matrix(0) != 0};
         if (matrix.size() == 1) return {matrix(0)};
@@ -283,8 +303,8 @@ class Converter {
 
 }  // namespace
 
-void check_mat_header(const matvar_t& variable, const std::string& name, std::size_t most_values) {
-    check_header(variable, name, most_values, 0);
+void check_mat_header(const matvar_t& variable, const std::string& name, std::size_t file_bytes, bool links) {
+    check_header(variable, name, file_bytes, links, 0);
 }
 
 Variable from_mat(const matvar_t& variable, const std::string& name) {

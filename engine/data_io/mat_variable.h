@@ -23,9 +23,9 @@ using MatFile = std::unique_ptr<mat_t, MatFileDeleter>;
 void load_matio();
 
 /// Looks at a variable whose header has been read, before its data are: throws EnvironmentError when it or a part
-/// of it is of a class that cannot be represented, or claims more than `most_values` values (0: any number), which
-/// would make libmatio take memory for nothing.
-void check_mat_header(const matvar_t& variable, const std::string& name, std::size_t most_values);
+/// of it is of a class that cannot be represented, or claims more values than a file of `file_bytes` bytes can hold
+/// (unless it may `link` to other places, as HDF5 does) or than reading may turn into numbers in memory.
+void check_mat_header(const matvar_t& variable, const std::string& name, std::size_t file_bytes, bool links);
 
 /// libmatio's variable as ours. `name` is for messages: throws EnvironmentError "variable NAME is ..." when it
 /// cannot be represented or is inconsistent.

@@ -2,6 +2,8 @@
 #include <cstddef>
 #include <filesystem>
 
+#include "base/message.h"
+
 namespace dynlab::inline data_io {
 
 /// The bytes of memory that reading a file of so many may take: 512 MB, or eight times as much as a larger file. What
@@ -11,7 +13,7 @@ constexpr std::size_t memory_for_reading(std::size_t file_bytes) {
     return file_bytes > kSmallest / kTimes ? kTimes * file_bytes : kSmallest;
 }
 
-/// For messages: "reading it takes more than 512 MB of memory, too much for a file of 2 MB".
+/// For messages about it.
 struct ReadingMegabytes {
     std::size_t most, of_file;
 };
@@ -19,6 +21,9 @@ constexpr ReadingMegabytes megabytes_for_reading(std::size_t file_bytes) {
     constexpr std::size_t kMegabyte = std::size_t{1} << 20;
     return {memory_for_reading(file_bytes) / kMegabyte, (file_bytes + kMegabyte - 1) / kMegabyte};
 }
+
+/// "record.mat: reading it takes more than 512 MB of memory, too much for a file of 2 MB"
+Message refusal_for_memory(const std::filesystem::path& file, std::size_t file_bytes);
 
 /// 0 for one that is not there; who reads it says so.
 std::size_t bytes_of_file(const std::filesystem::path& file);

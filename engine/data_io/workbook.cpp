@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <new>
+#include <optional>
 #include <pugixml.hpp>
 #include <utility>
 
@@ -85,8 +86,7 @@ WorkbookParts unpacked(const std::string& file, const std::string& bytes) {
     return parts;
 }
 
-std::string_view local_name(const char* name) {
-    const std::string_view whole = name;
+std::string_view local_name(std::string_view whole) {
     return whole.substr(whole.find(':') == std::string_view::npos ? 0 : whole.find(':') + 1);
 }
 
@@ -99,20 +99,85 @@ std::string attribute_of(const pugi::xml_node& node, std::string_view name) {
     return node.find_attribute([name](const pugi::xml_attribute& a) { return local_name(a.name()) == name; }).value();
 }
 
-/// pugixml knows XML's own five entities and character references; it reads no document type.
-/// The part's text goes with it.
-pugi::xml_document parsed(WorkbookParts& parts, const std::string& path) {
+/// One of them, taken out.
+struct WorkbookPart {
+    std::string file, path;  ///< for messages
+    std::string text;
+};
+
+WorkbookPart taken(WorkbookParts& parts, const std::string& path) {
     const auto part = parts.by_path.extract(path);
     if (part.empty()) throw EnvironmentError("{} is no workbook, or damaged: it has no part {}", parts.file, path);
+    return {parts.file, path, std::move(part.mapped())};
+}
+
+constexpr unsigned kParsing = pugi::parse_cdata | pugi::parse_escapes | pugi::parse_eol | pugi::parse_ws_pcdata_single;
+
+/// pugixml knows XML's own five entities and character references; it reads no document type. `text` begins at byte
+/// `at` of the part.
+pugi::xml_document parsed(const WorkbookPart& part, std::string_view text, unsigned options = kParsing,
+                          std::size_t at = 0) {
     pugi::xml_document document;
-    constexpr unsigned kOptions =
-        pugi::parse_cdata | pugi::parse_escapes | pugi::parse_eol | pugi::parse_ws_pcdata_single;
-    const auto result = document.load_buffer(part.mapped().data(), part.mapped().size(), kOptions);
+    const auto result = document.load_buffer(text.data(), text.size(), options);
     if (result.status == pugi::status_out_of_memory) throw std::bad_alloc();
     if (!result)
-        throw EnvironmentError("{} is damaged: {} at byte {} of its part {}", parts.file, result.description(),
-                               result.offset, path);
+        throw EnvironmentError("{} is damaged: {} at byte {} of its part {}", part.file, result.description(),
+                               at + static_cast<std::size_t>(result.offset), part.path);
     return document;
+}
+
+pugi::xml_document part_document(WorkbookParts& parts, const std::string& path) {
+    const WorkbookPart part = taken(parts, path);
+    return parsed(part, part.text);
+}
+
+/// Behind the next end tag of that name, whatever its namespace's prefix; npos where there is none.
+std::size_t behind_end_tag(std::string_view text, std::string_view name, std::size_t from) {
+    const std::string end = std::string(name) + ">";
+    for (std::size_t at = text.find(end, from); at != text.npos; at = text.find(end, at + 1)) {
+        const std::size_t open = text.rfind('<', at);
+        if (open == text.npos || text.substr(open, 2) != "</") continue;
+        if (open + 2 == at || text[at - 1] == ':') return at + end.size();
+    }
+    return text.npos;
+}
+
+/// The bytes between an element's tags: where they begin and where they end, with the end tag for it.
+std::optional<std::pair<std::size_t, std::size_t>> content_of(std::string_view text, std::string_view name) {
+    for (std::size_t at = text.find(name); at != text.npos; at = text.find(name, at + 1)) {
+        const std::size_t open = text.rfind('<', at), close = text.find('>', at);
+        if (open == text.npos || close == text.npos) return {};
+        const std::string_view tag = text.substr(open + 1, close - open - 1);
+        if (local_name(tag.substr(0, tag.find_first_of(" \t\r\n/"))) != name) continue;
+        const std::size_t end = behind_end_tag(text, name, close);
+        if (tag.ends_with('/') || end == text.npos) return {};
+        return std::pair(close + 1, text.rfind('<', end - 1));
+    }
+    return {};
+}
+
+/// Calls `use` with each element `name` of the element `list`. It parses a piece at a time, as the tree of a whole
+/// sheet takes several times the memory of the sheet.
+template <class Use>
+void for_each_element(const WorkbookPart& part, std::string_view list, std::string_view name, Use use) {
+    const std::string_view text = part.text;
+    constexpr std::size_t kPiece = std::size_t{1} << 18;
+    const auto use_children = [&](const pugi::xml_node& parent) {
+        for (const pugi::xml_node& child : parent.children())
+            if (local_name(child.name()) == name) use(child);
+    };
+    const auto content = content_of(text, list);
+    if (!content) {  // it is empty, or written in another way than programs do
+        const pugi::xml_document document = parsed(part, text);
+        const pugi::xml_node root = document.document_element();
+        use_children(local_name(root.name()) == list ? root : child_of(root, list));
+        return;
+    }
+    const auto [begin, end] = *content;
+    for (std::size_t at = begin, next = 0; at < end; at = next) {
+        next = std::min(behind_end_tag(text, name, std::min(at + kPiece, end)), end);
+        use_children(parsed(part, text.substr(at, next - at), kParsing | pugi::parse_fragment, at));
+    }
 }
 
 /// Path of a part that another one names: from the root, or beside it.
@@ -134,10 +199,10 @@ std::string item_text(const pugi::xml_node& item) {
 
 std::vector<std::string> shared_texts(WorkbookParts& parts) {
     std::vector<std::string> texts;
-    if (!parts.by_path.contains("xl/sharedStrings.xml")) return texts;
-    const pugi::xml_document document = parsed(parts, "xl/sharedStrings.xml");
-    for (const pugi::xml_node& item : document.document_element().children())
-        if (local_name(item.name()) == "si") texts.push_back(item_text(item));
+    const std::string path = "xl/sharedStrings.xml";
+    if (!parts.by_path.contains(path)) return texts;
+    for_each_element(taken(parts, path), "sst", "si",
+                     [&](const pugi::xml_node& item) { texts.push_back(item_text(item)); });
     return texts;
 }
 
@@ -160,34 +225,6 @@ class SheetReader {
   public:
     SheetReader(const std::string& file, std::vector<std::string> texts, std::size_t most_bytes)
         : file_(file), texts_(std::move(texts)), most_bytes_(most_bytes) {}
-
-    std::string csv(const pugi::xml_node& sheet_data) {
-        for (const pugi::xml_node& row : sheet_data.children())
-            if (local_name(row.name()) == "row") add_row(row);
-        std::size_t width = 0;
-        for (const Row& row : rows_) width = std::max(width, row.width);
-        if (bytes_ + width * rows_.size() > most_bytes_) fail_large();
-        std::string text;
-        std::size_t line = 1;
-        for (Row& row : rows_) {
-            text.append(row.number - line, '\n');
-            line = row.number + 1;
-            text += std::exchange(row.text, {});
-            if (row.width > 0) text.append(width - row.width, ',');
-            text += '\n';
-        }
-        return text;
-    }
-
-  private:
-    struct Row {
-        std::size_t number, width;  ///< from 1; cells up to the last that is not empty
-        std::string text;
-    };
-
-    [[noreturn]] void fail_large() const {
-        throw EnvironmentError("{} has a sheet of more than {} MB", file_, most_bytes_ >> 20);
-    }
 
     void add_row(const pugi::xml_node& row) {
         const std::string stated = attribute_of(row, "r");
@@ -215,6 +252,33 @@ class SheetReader {
         }
         bytes_ += number - before + added.text.size();
         if (bytes_ > most_bytes_) fail_large();
+    }
+
+    /// Of all rows. Takes them out.
+    std::string csv() {
+        std::size_t width = 0;
+        for (const Row& row : rows_) width = std::max(width, row.width);
+        if (bytes_ + width * rows_.size() > most_bytes_) fail_large();
+        std::string text;
+        std::size_t line = 1;
+        for (Row& row : rows_) {
+            text.append(row.number - line, '\n');
+            line = row.number + 1;
+            text += std::exchange(row.text, {});
+            if (row.width > 0) text.append(width - row.width, ',');
+            text += '\n';
+        }
+        return text;
+    }
+
+  private:
+    struct Row {
+        std::size_t number, width;  ///< from 1; cells up to the last that is not empty
+        std::string text;
+    };
+
+    [[noreturn]] void fail_large() const {
+        throw EnvironmentError("{} has a sheet of more than {} MB", file_, most_bytes_ >> 20);
     }
 
     std::size_t whole_number(const std::string& text) const {
@@ -255,8 +319,8 @@ class SheetReader {
 
 SheetText sheet_of(const std::string& file, const std::string& bytes, const std::string& wanted) {
     WorkbookParts parts = unpacked(file, bytes);
-    const pugi::xml_document workbook = parsed(parts, "xl/workbook.xml");
-    const pugi::xml_document relations = parsed(parts, "xl/_rels/workbook.xml.rels");
+    const pugi::xml_document workbook = part_document(parts, "xl/workbook.xml");
+    const pugi::xml_document relations = part_document(parts, "xl/_rels/workbook.xml.rels");
     SheetText text;
     std::string relation;
     for (const pugi::xml_node& sheet : child_of(workbook.document_element(), "sheets").children()) {
@@ -268,10 +332,10 @@ SheetText sheet_of(const std::string& file, const std::string& bytes, const std:
     std::string path;
     for (const pugi::xml_node& entry : relations.document_element().children())
         if (attribute_of(entry, "Id") == relation) path = part_path(attribute_of(entry, "Target"));
-    std::vector<std::string> texts = shared_texts(parts);
-    const pugi::xml_document sheet = parsed(parts, path);
-    text.csv = SheetReader(file, std::move(texts), std::max(kSmallestSheet, bytes.size()))
-                   .csv(child_of(sheet.document_element(), "sheetData"));
+    SheetReader reader(file, shared_texts(parts), std::max(kSmallestSheet, bytes.size()));
+    for_each_element(taken(parts, path), "sheetData", "row", [&](const pugi::xml_node& row) { reader.add_row(row); });
+    parts.by_path.clear();
+    text.csv = reader.csv();
     return text;
 }
 
@@ -294,7 +358,7 @@ SheetText read_sheet(const std::filesystem::path& file, const std::string& sheet
             const ReadingMegabytes megabytes = megabytes_for_reading(bytes);
             return cbor_of(SheetOutcome{{},
                                         Message("{}: reading it takes more than {} MB of memory, too much for a file "
-                                                "of {} MB",
+                                                "of {} MB; save the sheet as CSV",
                                                 name, megabytes.most, megabytes.of_file)});
         }
     };

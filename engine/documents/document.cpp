@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "documents/bibliography.h"
-#include "documents/characters.h"
 #include "documents/complaints.h"
 #include "documents/error.h"
 #include "documents/html/web_page.h"
@@ -15,6 +14,7 @@
 #include "documents/pictures.h"
 #include "documents/template_file.h"
 #include "documents/text_lines.h"
+#include "documents/words/characters.h"
 #include "platform/atomic_file.h"
 #include "platform/program_lookup.h"
 #include "platform/stopwatch.h"

@@ -30,6 +30,14 @@ std::set<std::string> escaped_commands(const MarkdownText& markdown) {
     return words;
 }
 
+std::set<std::string> escaped_citations(const std::string& text) {
+    static const RE2 escaped(R"(\\(@[\pL\pN_]+(?:[:.#$%&\-+?<>~/][\pL\pN_]+)*))");
+    std::set<std::string> keys;
+    std::string key;
+    for (re2::StringPiece rest = text; RE2::FindAndConsume(&rest, escaped, &key);) keys.insert(key);
+    return keys;
+}
+
 void find_latex_brackets(const MarkdownText& markdown, Complaints& complaints) {
     // What looks like a formula: with its signs, or a symbol of few letters.
     static const RE2 round(R"(\\\(([^()]*[=^_\\{}<>][^()]*|\s*\w{1,3}\s*)\\\))", RE2::Latin1),

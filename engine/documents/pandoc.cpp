@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <set>
+#include <string_view>
+#include <utility>
+
 #include "documents/error.h"
 #include "documents/latex_remains.h"
 #include "documents/lua_text.h"
@@ -19,7 +23,9 @@ using namespace std::chrono_literals;
 /// comments are read as such; the filter drops these and refuses all other HTML.
 const char* const kReader =
     "markdown-raw_tex-raw_attribute-yaml_metadata_block-pandoc_title_block-latex_macros-native_divs-native_spans"
-    "-markdown_in_html_blocks";
+    // These make Pandoc read each "[" in several ways: its time doubles with each one that is not closed. The filter
+    // finds citations in the text; notes have a line of their own ([^1]: ...).
+    "-markdown_in_html_blocks-citations-inline_notes-bracketed_spans";
 constexpr std::chrono::seconds kMostTime = 60s;  // of the processor; the manual, the longest document, takes some 10 s
 const char* const kMarkdownWriter =
     "markdown-raw_html-raw_tex-raw_attribute-native_divs-native_spans-fenced_divs-bracketed_spans-header_attributes-"
@@ -78,6 +84,14 @@ std::string format_name(DocumentFormat format) {
     return format == DocumentFormat::kHtml ? "html" : "markdown";
 }
 
+/// What authors escaped to see it as it is: commands of LaTeX, and "@key".
+std::set<std::string> escaped_words(const PandocJob& job) {
+    std::set<std::string> words = escaped_commands(job.markdown);
+    words.merge(escaped_citations(job.markdown.text));
+    for (const auto& [name, text] : job.record->texts) words.merge(escaped_citations(text.markdown));
+    return words;
+}
+
 bool sets_slides(const PandocJob& job) {
     return job.rules.slides && job.format == DocumentFormat::kPdf;
 }
@@ -108,7 +122,7 @@ std::string slots_file(const PandocJob& job) {
            ",stopped=" + (record.error || job.unfinished ? "true" : "false") +
            ",draft=" + (job.draft ? "true" : "false") + ",\npicture_prefix=" + lua_text(job.picture_prefix) +
            ",figure_extension=" + lua_text(figure_extension(job.format)) +
-           ",bibliography=" + lua_text(job.bibliography) + ",escaped=" + lua_set(escaped_commands(job.markdown)) +
+           ",bibliography=" + lua_text(job.bibliography) + ",escaped=" + lua_set(escaped_words(job)) +
            ",slides=" + (sets_slides(job) ? "true" : "false") + ",\nvariables=" + variables +
            "},\nmetadata=" + lua_map(shown, as_string) + ",\nmeasures=" + lua_map(job.measures, as_string) +
            ",\nsection_titles=" + lua_map(section_titles(job), as_string) +
@@ -163,18 +177,24 @@ ChildResult finished_pandoc(const PandocJob& job) {
     return run_child(child, "pandoc");
 }
 
-/// Says where the job's texts hold what Pandoc would not be done with.
-Complaints costly_texts_of(const PandocJob& job) {
+/// The first place where the job's texts hold what Pandoc would not be done with. What was counted up to there does not
+/// speak against the texts behind it.
+Complaints costly_text_of(const PandocJob& job) {
     Complaints found;
     CostlyText costly;
-    if (const auto line = costly.line_of(job.markdown.text))
+    if (const auto line = costly.line_of(job.markdown.text)) {
         found.add(job.markdown.origin_of(*line), CostlyText::complaint());
-    const auto look = [&](const std::string& name, const std::string& text) {
-        if (costly.line_of(text)) found.add({job.template_file}, Message("{}: {}", name, CostlyText::complaint()));
-    };
-    for (const auto& [name, text] : job.record->texts) look(name, text.markdown);
-    for (const auto& [name, figure] : job.record->figures) look(name, figure.caption);
-    for (const auto& [key, text] : job.metadata) look(key, text);
+        return found;
+    }
+    std::vector<std::pair<std::string, std::string_view>> texts;
+    for (const auto& [name, text] : job.record->texts) texts.emplace_back(name, text.markdown);
+    for (const auto& [name, figure] : job.record->figures) texts.emplace_back(name, figure.caption);
+    for (const auto& [key, text] : job.metadata) texts.emplace_back(key, text);
+    for (const auto& [name, text] : texts)
+        if (costly.line_of(text)) {
+            found.add({job.template_file}, Message("{}: {}", name, CostlyText::complaint()));
+            break;
+        }
     return found;
 }
 
@@ -191,7 +211,7 @@ ChildProcess start_pandoc(const PandocJob& job) {
 }
 
 PandocResult run_pandoc(const PandocJob& job, Complaints& complaints) {
-    if (const Complaints costly = costly_texts_of(job); !costly.empty()) {
+    if (const Complaints costly = costly_text_of(job); !costly.empty()) {
         complaints.add_all(costly);
         return {};
     }

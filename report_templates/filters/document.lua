@@ -14,6 +14,7 @@ local diagram = dofile(folder .. "/diagram.lua")
 local drawing = dofile(folder .. "/drawing.lua")
 local choice = dofile(folder .. "/choice.lua")
 local lists = dofile(folder .. "/lists.lua")
+local citations = dofile(folder .. "/citations.lua")
 
 local failed = false
 local function clean(text) return (tostring(text):gsub("[%c]", " ")) end
@@ -72,7 +73,7 @@ local function picture_file(kind, name)
   return pictures[key]
 end
 
-local function read_blocks(markdown) return pandoc.read(markdown, slots.reader).blocks end
+local function read_blocks(markdown) return citations.read(pandoc.read(markdown, slots.reader).blocks, slots.escaped) end
 
 local checked_inlines  -- Markdown to inlines, safely; defined below, with the checks
 
@@ -455,7 +456,11 @@ local function paragraph(element)
   return layout:heading_line(element)
 end
 
+-- Raw output and attributes of spans, which the reader takes for text.
 local function string(element)
+  local class, attribute = element.text:match("%]{%.([%w_-]+)"), element.text:match("%]{(%a[%w_-]*)=")
+  if class then report("span-class", "." .. class, class) end
+  if attribute then report("attribute", attribute, attribute, "span") end
   if element.text:match("^{=%w+}") then report("raw-attribute", element.text, element.text) end
 end
 
@@ -687,6 +692,7 @@ local function finished(document)
 end
 
 function Pandoc(document)
+  document.blocks = citations.read(document.blocks, slots.escaped)
   check_citations(document)
   check_no_latex(document)
   for key, markdown in pairs(slots.metadata) do

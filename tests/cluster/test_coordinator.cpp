@@ -1,7 +1,6 @@
 // Coordinator and workers in processes of their own. Oracle: the jobs that were put, each of which must come back once.
 #include "workflow/shares/coordinator.h"
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/prctl.h>

@@ -49,12 +49,24 @@ TEST_F(hostile_documents, commands_that_reach_files_or_macros_are_refused_in_for
 
 // Oracle: Pandoc takes minutes for each of these, and is not asked.
 TEST_F(hostile_documents, text_that_keeps_pandoc_busy_is_refused_with_its_line) {
-    std::string notes, titles;
-    for (int i = 0; i < 20; ++i) notes += "a^[b", titles += "[a](b \"c) ";
-    for (const std::string& text : {notes, titles, std::string(20000, '`')})
+    std::string titles;
+    for (int i = 0; i < 20; ++i) titles += "[a](b \"c) ";
+    for (const std::string& text : {titles, "$a $ " + titles + "x$", std::string(20000, '`')})
         for (const char* output : {"out.pdf", "out.html"})
             EXPECT_THAT(refusal("A\n\n" + text + "\n", output),
                         HasSubstr("report.md:3: Pandoc would take minutes for this paragraph"));
+    const std::string message = refusal("---\ntitle: A\nlang: en\n---\nA\n\n" + titles + "\n");
+    EXPECT_EQ(message.find("Pandoc would"), message.rfind("Pandoc would")) << message;  // other texts are not to blame
+}
+
+// Oracle: with Pandoc's own citations and inline notes each of these takes minutes, or all memory.
+TEST_F(hostile_documents, brackets_that_are_never_closed_are_text) {
+    for (const char* part : {"a^[b", "[a", "[a][b ", "[0, 1[ ", "[@eq:x; ", "-@eq:x[b ", "^a [b", "[[a] "}) {
+        std::string text = "$$ x $$ {#eq:x}\n\n";
+        for (int i = 0; i < 60; ++i) text += part;
+        EXPECT_THAT(html("A\n\n" + text + "x\n"), HasSubstr("x</p>")) << part;
+    }
+    EXPECT_THAT(html("A\n\n" + std::string(60, '[') + "a" + std::string(60, ']') + "\n"), HasSubstr("[[[a]]]"));
 }
 
 // Oracle: TeX runs \NAME at \begin{NAME}; a category code makes ! begin commands that no list of words sees.

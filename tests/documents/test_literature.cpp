@@ -1,6 +1,8 @@
 // Oracle: what a reader sees, in the HTML that Pandoc writes and in the text poppler reads back; lines counted by hand.
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "document_fixture.h"
 #include "support/pdf_inspection.h"
 
@@ -28,6 +30,19 @@ TEST_F(literature, citations_name_authors_and_the_list_holds_what_is_cited) {
     EXPECT_THAT(page, Not(HasSubstr("Recursive Estimation")));
     EXPECT_LT(page.find("Last."), page.find("References"));
     EXPECT_LT(page.find("References"), page.find("Prentice Hall"));
+}
+
+// Oracle: what Pandoc's own reader of citations makes of the same text.
+TEST_F(literature, citations_have_the_forms_that_pandoc_knows) {
+    const auto content = inspect_pdf(
+        make(header_ + "As in [see @ljung1999 p. 3; also -@young2011], @ljung1999 [p. 4], *[@young2011]* and [not "
+                       "this; @young2011] in [0, 1[.[^1]\n\n-@ljung1999\n\n[^1]: A note, after [-@young2011].\n",
+             "out.pdf"));
+    std::string text = content.pages.at(0);
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    EXPECT_THAT(text, HasSubstr("(see Ljung 1999, 3; also 2011), Ljung (1999, 4), (Young 2011) and"));
+    EXPECT_THAT(text, HasSubstr("[not this; Young (2011)] in [0, 1["));
+    EXPECT_THAT(text, HasSubstr("after (2011)"));
 }
 
 TEST_F(literature, the_list_stands_where_the_author_puts_it) {

@@ -5,7 +5,6 @@
 
 #include "base/catalog.h"
 #include "base/reader.h"
-#include "numerics/error.h"
 #include "script_run.h"
 #include "scripting/conversions/option_words.h"
 #include "scripting/interpreter/catalogue.h"
@@ -56,15 +55,22 @@ msgstr "Plural-Forms: nplurals=2; plural=n > 1;\n"
 msgid "{} must be {}, but {} was given"
 msgstr "{} doit être {}, mais {} a été donné"
 
-msgid "argument {} ({})" msgstr "l'argument {} ({})"
+msgid "argument {} ({})"
+msgstr "l'argument {} ({})"
 
-                         msgid "a vector of {}" msgstr "un vecteur de {}"
+msgid "a vector of {}"
+msgstr "un vecteur de {}"
 
-                         msgid "{} value" msgid_plural "{} values" msgstr[0] "{} valeur" msgstr[1] "{} valeurs"
+msgid "{} value"
+msgid_plural "{} values"
+msgstr[0] "{} valeur"
+msgstr[1] "{} valeurs"
 
-                         msgid "a number" msgstr "un nombre") ");
-        EXPECT_EQ(message_text(error_in("zeros(vector{1, 2})").message, {&french}),
-                  "zeros: l'argument 1 (n) doit être un nombre, mais un vecteur de 2 valeurs a été donné");
+msgid "a number"
+msgstr "un nombre"
+)po");
+    EXPECT_EQ(message_text(error_in("zeros(vector{1, 2})").message, {&french}),
+              "zeros: l'argument 1 (n) doit être un nombre, mais un vecteur de 2 valeurs a été donné");
 }
 
 TEST(error_messages, survive_a_script_that_catches_and_raises_them_again) {

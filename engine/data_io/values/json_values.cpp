@@ -42,6 +42,48 @@ json list_of_numbers(const NumberArray& array) {
     return list;
 }
 
+/// Counts values and levels before the tree is made. A callback of json::parse could count them as well, but makes
+/// the time grow with the square of a list's length.
+class LimitCheck final : public nlohmann::json_sax<json> {
+  public:
+    explicit LimitCheck(const ValueLimits& limits) : limits_(limits), memory_left_(limits.memory) {}
+
+    bool null() override { return count(); }
+    bool boolean(bool) override { return count(); }
+    bool number_integer(number_integer_t) override { return count(); }
+    bool number_unsigned(number_unsigned_t) override { return count(); }
+    bool number_float(number_float_t, const string_t&) override { return count(); }
+    bool string(string_t&) override { return count(); }
+    bool binary(binary_t&) override { return false; }  // JSON has none
+    bool start_object(std::size_t) override { return begin(); }
+    bool key(string_t&) override { return count(); }
+    bool end_object() override { return end(); }
+    bool start_array(std::size_t) override { return begin(); }
+    bool end_array() override { return end(); }
+    bool parse_error(std::size_t, const std::string&, const json::exception&) override { return false; }
+
+  private:
+    bool count() {
+        if (depth_ > limits_.depth) throw ValueError("the JSON text is nested too deep");
+        constexpr std::size_t kNodeBytes = 64;  // of one value, with its place in a list or map
+        if (memory_left_ < kNodeBytes) throw ValueError("the JSON text holds too many values");
+        memory_left_ -= kNodeBytes;
+        return true;
+    }
+    bool begin() {
+        count();
+        ++depth_;
+        return true;
+    }
+    bool end() {
+        --depth_;
+        return count();
+    }
+
+    const ValueLimits& limits_;
+    std::size_t memory_left_, depth_ = 0;
+};
+
 }  // namespace
 
 JsonWriter::JsonWriter() : root_(std::make_unique<json>()) {}
@@ -109,17 +151,9 @@ std::string in_utf8(std::string_view text) {
 
 json parsed_json(std::string_view text, const ValueLimits& limits) {
     if (text.size() > limits.bytes) throw ValueError("the JSON text is longer than is read");
-    std::size_t memory_left = limits.memory;
-    const auto within_limits = [&](int depth, json::parse_event_t, json&) {
-        constexpr std::size_t kNodeBytes = 64;  // of one value, with its place in a list or map
-        if (static_cast<std::size_t>(depth) > limits.depth) throw ValueError("the JSON text is nested too deep");
-        if (memory_left < kNodeBytes) throw ValueError("the JSON text holds too many values");
-        memory_left -= kNodeBytes;
-        return true;
-    };
-    json value = json::parse(text, within_limits, false);
-    if (value.is_discarded()) throw ValueError("the text is no JSON");
-    return value;
+    LimitCheck check(limits);
+    if (!json::sax_parse(text, &check)) throw ValueError("the text is no JSON");
+    return json::parse(text);
 }
 
 struct JsonReader::Entries {

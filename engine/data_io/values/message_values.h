@@ -11,8 +11,8 @@
 namespace dynlab::inline data_io {
 
 /// Messages as described.h stores them: the id, the plural's id, and each argument under the name of its kind, such as
-/// {"number": {"value": 0.05, "digits": 3, "meaning": "significant"}} or {"text": "y1"}. A message that is read again is
-/// the same value: its language is chosen then.
+/// {"number": {"value": 0.05, "digits": 3, "meaning": "significant"}} or {"text": "y1"}. A message that is read again
+/// is the same value: its language is chosen then.
 
 constexpr std::array<const char*, 2> names_of(Number::Digits) {
     return {"significant", "decimals"};

@@ -7,11 +7,11 @@
 #include <optional>
 #include <set>
 
-#include "documents/characters.h"
 #include "documents/error.h"
 #include "documents/pandoc.h"
 #include "documents/pictures.h"
 #include "documents/text_lines.h"
+#include "documents/words/characters.h"
 #include "platform/hash.h"
 #include "platform/program_lookup.h"
 #include "platform/temporary_folder.h"

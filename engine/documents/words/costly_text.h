@@ -6,8 +6,10 @@
 
 namespace dynlab::inline documents {
 
-/// Pandoc tries every way to read what opens and is never closed: each further `[` of a paragraph may double its time,
-/// and thousands of `<` take minutes. This counts beforehand how long that gets, over all the texts of one document.
+/// Pandoc tries every way to read a sign that opens something and is never closed. Its time grows with the square of
+/// their number in a paragraph; with quotes in a link's title, and with single quotes in double ones in single ones, it
+/// doubles with each. This class looks for such paragraphs before Pandoc runs, over all the texts of one document. It
+/// does not know code and formulas, so its limits leave room for what they hold.
 class CostlyText {
   public:
     /// The line (1-based) on which the paragraph begins with which the document would take minutes, if there is one.
@@ -16,7 +18,7 @@ class CostlyText {
     static Message complaint();  ///< about that paragraph
 
   private:
-    double left_ = 250;  ///< of some 0.03 s of Pandoc each
+    double left_ = 1500.0 * 1500.0;  ///< of the squares; 1500 signs in one paragraph take Pandoc some 10 s
 };
 
 }  // namespace dynlab::inline documents

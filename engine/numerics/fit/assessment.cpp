@@ -4,7 +4,6 @@
 #include <span>
 #include <utility>
 
-#include "base/reader.h"
 #include "numerics/criteria/process_output.h"
 #include "numerics/error.h"
 #include "numerics/filters/transfer_sensitivity.h"
@@ -152,8 +151,7 @@ Message verdict_of(const Assessment& assessment, const Fit& fit, const std::vect
     for (std::size_t i = 0; i < assessment.whiteness.size(); ++i) {
         const WhitenessTest& test = assessment.whiteness[i];
         if (test.verdict.empty()) continue;
-        all.push_back(assessment.whiteness.size() > 1 ? Message("{}: {}", names[i], test.verdict)
-                                                      : test.verdict);
+        all.push_back(assessment.whiteness.size() > 1 ? Message("{}: {}", names[i], test.verdict) : test.verdict);
     }
     const Message worthless = fit.polynomial ? Message() : worthlessness(fit);
     if (!worthless.empty())

@@ -311,8 +311,7 @@ Comparison compare_all(const IdData& data, const FreeRunModel& model) {
             result.output = run.output.col(i);
             result.fit_percent = fit_percent_of_sums(errors, own);
             result.message = Message("Simulated freely {}: fit {} %.", run.start, significant(result.fit_percent, 4));
-            if (run.lost_at)
-                result.message = sentences({result.message, divergence_text(data, k, *run.lost_at)});
+            if (run.lost_at) result.message = sentences({result.message, divergence_text(data, k, *run.lost_at)});
         }
     }
     all.fit_percent = squares.binaryExpr(variation, &fit_percent_of_sums);

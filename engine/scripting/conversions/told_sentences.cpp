@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "base/reader.h"
 #include "documents/words/sentence_catalogue.h"
 #include "scripting/conversions/option_words.h"
 

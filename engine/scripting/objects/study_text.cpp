@@ -71,8 +71,7 @@ std::string notes_on(const OrderCandidate& candidate) {
 std::string candidate_row(const OrderCandidate& candidate, bool chosen, bool validated, bool delays) {
     std::string row = fmt::format("{} {:>5} {:>5}", chosen ? '*' : ' ', candidate.poles, candidate.zeros);
     if (delays) row += fmt::format(" {:>9}", number_text(candidate.delay, 4));
-    if (!candidate.failure.empty())
-        return row + "  not estimated: " + in_lua_words(candidate.failure) + "\n";
+    if (!candidate.failure.empty()) return row + "  not estimated: " + in_lua_words(candidate.failure) + "\n";
     row += fmt::format(" {:>9.5f} {:>8.3f} {:>9.4f} {:>9.4f} {:>10} {:>8.2f} {:>5} {:>7.2f}", candidate.r_squared,
                        candidate.yic, candidate.aic, candidate.bic, number_text(candidate.fpe, 4),
                        candidate.log_condition, candidate.iterations, candidate.fit_percent);

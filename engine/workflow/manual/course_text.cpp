@@ -1,6 +1,5 @@
 #include "workflow/manual/course_text.h"
 
-#include <fmt/format.h>
 #include <re2/re2.h>
 
 #include <set>

@@ -1,7 +1,5 @@
 #include "workflow/manual/help_examples.h"
 
-#include <fmt/format.h>
-
 #include "documents/error.h"
 #include "documents/text_lines.h"
 #include "figures/gnuplot_renderer.h"

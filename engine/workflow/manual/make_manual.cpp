@@ -1,7 +1,5 @@
 #include "workflow/manual/make_manual.h"
 
-#include <fmt/format.h>
-
 #include <chrono>
 
 #include "documents/error.h"

@@ -1,7 +1,5 @@
 #include "workflow/manual/manual_folder.h"
 
-#include <fmt/format.h>
-
 #include <set>
 
 #include "documents/text_lines.h"

@@ -372,6 +372,24 @@ TEST_F(csv_file, many_cells_take_a_memory_with_a_limit) {
     EXPECT_LT(peak_of(words, "the table has too many cells: reading it takes more than 512 MB") - before, kMost);
 }
 
+// Oracle: eight bytes for a number, and the text.
+TEST_F(csv_file, numbers_of_one_digit_take_the_memory_of_numbers) {
+    constexpr Index kRows = 13'000'000;
+    std::string text = "u,y\n";
+    text.reserve(4 * kRows + 4);
+    for (Index i = 0; i < kRows; ++i) text += i % 2 == 0 ? "1,1\n" : "1,0\n";
+    write_file_atomically(file_, text);
+    text = {};
+    const double before = test::peak_memory([] {});
+    const double taken = test::peak_memory([&] {
+        const CsvTable table = read_csv_file(file_);
+        ASSERT_EQ(table.columns[1].size(), kRows);
+        EXPECT_EQ(table.columns[0].sum(), kRows);
+        EXPECT_EQ(table.columns[1].sum(), kRows / 2);
+    });
+    EXPECT_LT(taken - before, 400);
+}
+
 TEST_F(csv_file, headers_of_one_name_are_numbered_at_once) {
     constexpr std::size_t kColumns = 50000;  // in quadratic time that takes minutes
     const CsvTable table = read(row_of(kColumns, "y") + row_of(kColumns, "1") + row_of(kColumns, "2"));

@@ -1,6 +1,7 @@
 // Variables in JSON files. Oracles: the text of the files, written by hand; what was written, read again.
 #include "data_io/json_file.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -84,6 +85,60 @@ TEST_F(json_file, refuses_what_is_none_with_its_place) {
                 HasSubstr("more than 100 levels"));
     EXPECT_THAT(told("{\"x\": \"\xff\"}"), HasSubstr("is no JSON"));
     EXPECT_THAT(refusal_of([&] { read_json_file(folder_.path() / "none.json"); }), HasSubstr("none.json"));
+}
+
+TEST_F(json_file, lists_become_matrices_where_all_rows_are_equal) {
+    const VariableTable read = read_json_file(file(
+        "{\"ragged\": [[1, 2], [3]], \"late\": [[1, 2], [3, 4], \"a\"], \"numbers\": [1, 2, \"a\"], \"cube\": [[[1, "
+        "2]], [[3, 4]]], \"row\": [[1, 2, 3]], \"mixed\": [1, [2]], \"hollow\": [[], []], \"on\": [true, false]}"));
+    const auto list = [&read](const char* name) {
+        return *std::get<std::shared_ptr<VariableList>>(read.at(name).value);
+    };
+    EXPECT_EQ(std::get<Vector>(list("ragged").at(0).value), (Vector{{1, 2}}));
+    EXPECT_EQ(std::get<Vector>(list("ragged").at(1).value), (Vector{{3}}));
+    ASSERT_EQ(list("late").size(), 3u);
+    EXPECT_EQ(std::get<Vector>(list("late")[1].value), (Vector{{3, 4}}));
+    EXPECT_EQ(std::get<std::string>(list("late")[2].value), "a");
+    ASSERT_EQ(list("numbers").size(), 3u);
+    EXPECT_EQ(std::get<double>(list("numbers")[1].value), 2);
+    EXPECT_EQ(std::get<Matrix>(list("cube").at(1).value), (Matrix{{3, 4}}));
+    EXPECT_EQ(std::get<Matrix>(read.at("row").value), (Matrix{{1, 2, 3}}));
+    EXPECT_EQ(std::get<Vector>(list("mixed").at(1).value), (Vector{{2}}));
+    EXPECT_EQ(list("hollow").size(), 2u);
+    EXPECT_FALSE(std::get<bool>(list("on").at(1).value));
+}
+
+// Oracle: the numbers that the text is made of. In quadratic time these files take hours.
+TEST_F(json_file, long_lists_and_tables_are_read_and_written) {
+    constexpr int kCount = 500'000;
+    std::string text = "{\"a\": [";
+    for (int i = 0; i < kCount; ++i) text += fmt::format("{{\"x\": {}}},", i);
+    text += "{}]";
+    for (int i = 0; i < kCount; ++i) text += fmt::format(",\"{}\": {}", i, 2 * i);
+    const VariableTable read = read_json_file(file(text + "}"));
+    ASSERT_EQ(read.size(), kCount + 1u);
+    EXPECT_EQ(std::get<double>(read.at("499999").value), 999998);
+    const VariableList& list = *std::get<std::shared_ptr<VariableList>>(read.at("a").value);
+    ASSERT_EQ(list.size(), kCount + 1u);
+    const VariableTable& entry = *std::get<std::shared_ptr<VariableTable>>(list[1234].value);
+    EXPECT_EQ(std::get<double>(entry.at("x").value), 1234);
+    write_json_file(folder_.path() / "b.json", read);
+    EXPECT_EQ(read_json_file(folder_.path() / "b.json").size(), read.size());
+}
+
+// Oracle: eight bytes for a number, and the text.
+TEST_F(json_file, numbers_take_the_memory_of_numbers) {
+    constexpr int kCount = 20'000'000;
+    std::string text = "{\"x\": [";
+    for (int i = 0; i < kCount; ++i) text += "7,";
+    const std::filesystem::path numbers = file(text + "8]}");
+    text = {};
+    const double before = peak_memory([] {});
+    const double taken = peak_memory([&] {
+        const VariableTable read = read_json_file(numbers);
+        EXPECT_EQ(std::get<Vector>(read.at("x").value).sum(), 7.0 * kCount + 8);
+    });
+    EXPECT_LT(taken - before, 300);
 }
 
 // Oracle: the limit that the header of reading_memory states, as the kernel counts it.

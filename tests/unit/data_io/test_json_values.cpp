@@ -46,6 +46,19 @@ TEST(json_values, come_back_but_for_what_programs_keep) {
     EXPECT_TRUE(std::isnan(value_of_json<double>(parsed_json("\"NaN\""))));
 }
 
+// Oracle: what the text is made of. In quadratic time this takes hours.
+TEST(json_values, long_lists_and_objects_are_read) {
+    constexpr std::size_t kCount = 500'000;
+    std::string text = "[";
+    for (std::size_t i = 0; i < kCount; ++i) text += "{},";
+    text += "{";
+    for (std::size_t i = 0; i < kCount; ++i) text += "\"" + std::to_string(i) + "\": 1,";
+    const json value = parsed_json(text + "\"last\": 2}]");
+    ASSERT_EQ(value.size(), kCount + 1);
+    EXPECT_EQ(value.back().size(), kCount + 1);
+    EXPECT_EQ(value.back().at("last"), 2);
+}
+
 TEST(json_values, errors_tell_the_place) {
     EXPECT_EQ(refusal<std::vector<Part>>(R"([{"name": "a", "count": 1}, {"name": 3, "count": 1}])"),
               "[2].name: a text was wanted, JSON of the type number was given");

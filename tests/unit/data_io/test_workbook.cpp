@@ -154,6 +154,33 @@ TEST_F(workbook, says_what_is_wrong) {
     }
 }
 
+TEST_F(workbook, large_sheets_are_read) {
+    constexpr int kRowCount = 200'000;
+    std::string rows, csv;
+    for (int i = 1; i <= kRowCount; ++i) {
+        rows += fmt::format("<row r=\"{}\">", i);
+        for (int j = 0; j < 8; ++j) {
+            rows += fmt::format("<c r=\"{}{}\"><v>{}.{}</v></c>", static_cast<char>('A' + j), i, i % 977, j + 1);
+            csv += fmt::format("{}.{}{}", i % 977, j + 1, j < 7 ? ',' : '\n');
+        }
+        rows += "</row>";
+    }
+    write(parts_of(rows));
+    EXPECT_TRUE(read_sheet(file_, "").csv == csv);
+}
+
+TEST_F(workbook, prefixes_and_empty_sheets_are_read) {
+    Parts parts = parts_of("");
+    parts["xl/worksheets/sheet1.xml"] =
+        "<x:worksheet xmlns:x=\"http://schemas.openxmlformats.org/spreadsheetml/2006/main\"><!-- sheetData -->"
+        "<x:sheetData><x:row r=\"1\"><x:c r=\"A1\"><x:v>1</x:v></x:c></x:row><x:row r=\"2\"/>"
+        "<x:row r=\"3\"><x:c r=\"B3\"><x:v>2</x:v></x:c></x:row></x:sheetData></x:worksheet>";
+    parts["xl/worksheets/sheet2.xml"] = "<worksheet><sheetData/></worksheet>";
+    write(parts);
+    EXPECT_EQ(read_sheet(file_, "").csv, "1,\n\n,2\n");
+    EXPECT_EQ(read_sheet(file_, "Run 2").csv, "");
+}
+
 // oracle: the limits that the header states
 TEST_F(workbook, bombs_do_not_go_off) {
     Parts parts = parts_of(kRows);
@@ -171,11 +198,15 @@ TEST_F(workbook, bombs_do_not_go_off) {
     for (int i = 1; i <= 60000; ++i) rows += fmt::format("<row r=\"{0}\"><c r=\"XFD{0}\"><v>1</v></c></row>", i);
     write(parts_of(rows));
     EXPECT_THAT(complaint(), HasSubstr("has a sheet of more than 64 MB"));
-    std::string cells;  // many of them: what is made of a part takes more than the part
-    for (int i = 1; i <= 2'500'000; ++i) cells += "<row><c><v>1</v></c></row>";
-    write(parts_of(cells));
+    Parts texts = parts_of(kRows);  // many of them: what is made of a part takes more than the part
+    std::string& items = texts["xl/sharedStrings.xml"] = "<sst>";
+    for (int i = 1; i <= 20'000'000; ++i) items += "<si/>";
+    items += "</sst>";
+    write(texts);
     EXPECT_LT(std::filesystem::file_size(file_), 2u << 20);
-    EXPECT_THAT(complaint(), HasSubstr("reading it takes more than 512 MB of memory, too much for a file of "));
+    const std::string refusal = complaint();
+    EXPECT_THAT(refusal, HasSubstr("reading it takes more than 512 MB of memory, too much for a file of "));
+    EXPECT_THAT(refusal, HasSubstr("save the sheet as CSV"));
     std::string nested;
     for (int i = 0; i < 100000; ++i) nested += "<row>";
     write(parts_of(nested));

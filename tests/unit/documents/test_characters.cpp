@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "base/reader.h"
-#include "documents/characters.h"
+#include "documents/words/characters.h"
 
 namespace dynlab {
 namespace test_characters {

@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "base/reader.h"
-#include "numerics/error.h"
 #include "numerics/signals/random.h"
 #include "support/thrown_message.h"
 

@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "base/reader.h"
-#include "numerics/error.h"
 #include "numerics/signals/random.h"
 #include "support/difference_equation.h"
 #include "support/thrown_message.h"

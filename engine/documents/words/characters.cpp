@@ -1,4 +1,4 @@
-#include "documents/characters.h"
+#include "documents/words/characters.h"
 
 #include <fmt/format.h>
 
