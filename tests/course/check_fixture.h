@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/reader.h"
 #include "course/findings/document_findings.h"
 #include "documents/document_fixture.h"
 #include "platform/child_process.h"

@@ -1,6 +1,7 @@
 #pragma once
 #include <functional>
 
+#include "base/reader.h"
 #include "check_fixture.h"
 #include "course/names/sought_names.h"
 

@@ -6,8 +6,10 @@
 #include <random>
 
 #include "course/boxes/boxed_work.h"
+#include "course/boxes/told_reason.h"
 #include "course/checks/check_descriptions.h"
 #include "course/review/version_description.h"
+#include "documents/text_lines.h"
 #include "platform/program_lookup.h"
 #include "support/program.h"
 
@@ -83,6 +85,17 @@ TEST(boxed_jobs, come_back) {
     EXPECT_EQ(back.submissions.at(0).work.findings.at(0).severity, Severity::kHint);
     EXPECT_EQ(back.submissions.at(0).work.runs.at("main").error, Message("{}:{}: no", "analysis.lua", 3));
     EXPECT_THAT(back.submissions.at(0).work.runs.at("main").figures, ElementsAre("raw", "fit"));
+}
+
+// oracle: written by hand
+TEST(boxed_jobs, message_from_a_box_names_files_of_the_work_and_keeps_its_id) {
+    const Message said("{}: there is no file {}", "/box/submission/analysis.lua:3", "/box/submission/data/x.csv");
+    EXPECT_EQ(told_outside(said, "/box/submission"),
+              Message("{}: there is no file {}", "analysis.lua:3", "data/x.csv"));
+    EXPECT_EQ(shortened_trouble(said), said);
+    const auto as_capitals = [](const std::string& text) { return text == "b" ? "B" : replaced(text, "a b", "A B"); };
+    EXPECT_EQ(with_changed_text(Message("a {}", "b"), as_capitals), Message::verbatim("A B"))
+        << "its format changes too";
 }
 
 TEST(boxed_jobs, texts_from_a_box_are_utf8) {

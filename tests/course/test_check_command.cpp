@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/reader.h"
 #include "course/grading/folder_check.h"
 #include "support/program.h"
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <regex>
 
+#include "base/reader.h"
 #include "course/grading/grading_rules.h"
 #include "course/grading_bench.h"
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "base/reader.h"
 #include "course/course_bench.h"
 #include "course/grading_bench.h"
 #include "course/hand_ins/owners.h"

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/reader.h"
 #include "check_fixture.h"
 #include "course/findings/findings_report.h"
 #include "documents/pdf/guarded_pdf.h"

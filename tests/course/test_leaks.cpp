@@ -2,6 +2,7 @@
 // each was made.
 #include <gmock/gmock.h>
 
+#include "base/reader.h"
 #include "course/names/anonymous_copy.h"
 #include "leak_corpus.h"
 

@@ -4,6 +4,7 @@
 #include <numeric>
 #include <regex>
 
+#include "base/reader.h"
 #include "course/grading/grading_rules.h"
 #include "course/grading_bench.h"
 

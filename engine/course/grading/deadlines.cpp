@@ -71,15 +71,15 @@ class DeadlineTable {
         const std::string text = cell(row, column);
         if (text.empty()) return fallback;
         const std::optional<double> value = number_in_cell(text);
-        if (!value || !(*value >= 0 && *value <= 100)) fail(row, column, "a number from 0 to 100");
+        if (!value || !(*value >= 0 && *value <= 100)) fail(row, column, Message("a number from 0 to 100"));
         return *value;
     }
     std::optional<long> time(std::size_t row, const char* column) const {
         const std::string text = cell(row, column);
         if (text.empty()) return {};
         const std::optional<ClockReading> value = plain_clock_reading(text);
-        if (!value) fail(row, column, "a time such as 2026-03-01 18:00");
-        if (!value->exists) fail(row, column, "a time that there is");
+        if (!value) fail(row, column, Message("a time such as 2026-03-01 18:00"));
+        if (!value->exists) fail(row, column, Message("a time that there is"));
         return static_cast<long>(value->instant);
     }
     std::optional<long> duration(std::size_t row, const char* column) const {
