@@ -172,7 +172,7 @@ void Owners::read_list(const std::filesystem::path& file) {
     const auto submission = table.column("submission"), group = table.column("group"), id = table.column("id");
     if (!submission || (!group && !id))
         throw EnvironmentError("{}: the columns submission and group, or submission and id, are needed; there are {}",
-                               file.string(), listed(table.names));
+                               file.string(), base::listed(table.names));
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
         const auto& row = table.rows[i];
         const auto fail = [&](const Message& what) {
@@ -275,7 +275,7 @@ Owners::Found Owners::found(const std::vector<std::size_t>& owners, bool by_begi
     if (owners.size() > 1) {
         std::vector<std::string> names;
         for (const std::size_t owner : owners) names.push_back(owners_[owner].name);
-        result.trouble = Message("it fits several: {}", listed(names));
+        result.trouble = Message("it fits several: {}", base::listed(names));
         result.doubtful = true;
         return result;
     }

@@ -137,7 +137,7 @@ BoxedOutcome make_version(const VersionJob& job) {
         write_work_file(to / "record.json", to_json(record));
         make_document(request, record, to / "report.md", FigureFormat::kSvg);
         if (job.pdf) make_document(request, record, to / "report.pdf", FigureFormat::kPdf);
-        if (record.error) return {record.error->text()};
+        if (record.error) return {with_place(*record.error)};
         return {};
     } catch (const std::runtime_error& error) {
         return {message_of(error)};

@@ -32,10 +32,6 @@ namespace fs = std::filesystem;
 
 constexpr char kDatabase[] = "course.db", kKey[] = "course.key";
 
-[[noreturn]] void fail_on(const fs::path& file, const char* verb) {
-    throw EnvironmentError("cannot {} {}: {}", verb, file.string(), system_reason(errno));
-}
-
 /// 32 random bytes in hexadecimal digits, readable by their owner only.
 void make_key(const fs::path& file) {
     if (!fs::exists(file)) write_plain_file(file, secure_hex(32));
@@ -43,7 +39,8 @@ void make_key(const fs::path& file) {
 
 void sync_folder(const fs::path& folder) {
     const FileDescriptor fd(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-    if (!fd || ::fsync(fd.get()) != 0) fail_on(folder, "write into");
+    if (!fd || ::fsync(fd.get()) != 0)
+        throw EnvironmentError("cannot write into {}: {}", folder.string(), system_reason(errno));
 }
 
 /// A new one is its owner's alone: names, addresses and who reviews whom are below.
