@@ -38,7 +38,7 @@ ChecksJob sample_checks() {
     job.clock_multiple = 5;
     job.only = 1;
     const CheckedSubmission work{{{"main", sample_run()}},
-                                 {{"pages", Severity::kHint, 7, "", "Too many pages.", "Cut."}},
+                                 {{"pages", Severity::kHint, 7, "", Message("Too many pages."), Message("Cut.")}},
                                  "answer('G', 1)",
                                  AnswerChange{"G", 1.5}};
     job.submissions = {{work, "/box/home-1", {{"hidden", {{"crane", 4'000'000'001u}}}}}, {}};
@@ -65,7 +65,8 @@ TEST(boxed_jobs, come_back) {
                                5,
                                1ull << 30});
     expect_to_come_back(UnpackJob{"/box/archive", "/box/to", 200ull << 20, 2000, true});
-    expect_to_come_back(Unpacked{{"\"../x\" leads outside of the archive"}, "the archive is damaged"});
+    expect_to_come_back(
+        Unpacked{{Message("\"{}\" leads outside of the archive", "../x")}, Message("the archive is damaged")});
     expect_to_come_back(VersionJob{"/box/submission", "/box/made", true});
     const CheckDescription check{"a", "about", "hint", 2, "seed", true, true, "rubric", false};
     const TriedCheck tried{check, 0.5, Message("no"), Message("why")};

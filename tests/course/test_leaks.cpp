@@ -316,7 +316,7 @@ TEST_F(leaks, copies_are_made_again_from_the_source) {
     write("work/group.toml", "members = [\"Zoé Brandtner\"]\n");
     write("work/report.pdf", read(prose_with("by Brandtner")));
     const AnonymousCopy copy = anonymous_copy(file("work"), file("copy.pdf"), setup);
-    ASSERT_TRUE(copy.made) << copy.trouble << (copy.findings.empty() ? "" : copy.findings.front().what);
+    ASSERT_TRUE(copy.made) << copy.trouble << (copy.findings.empty() ? "" : message_text(copy.findings.front().what));
     EXPECT_TRUE(copy.rebuilt);
     EXPECT_THAT(text_of("copy.pdf"), HasSubstr("The gain is 2.5."));
     EXPECT_EQ(anonymous_copy(file("work"), file("again.pdf"), setup).hash, copy.hash);
