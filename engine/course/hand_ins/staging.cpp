@@ -98,9 +98,9 @@ void make_utf8(const fs::path& script) {
     const std::string bytes = read_file(script), mark = bytes.substr(0, 2);
     if (mark != "\xFF\xFE" && mark != "\xFE\xFF") return;
     const fs::file_time_type written = fs::last_write_time(script);
-    std::vector<std::string> notes;
+    std::vector<Message> notes;
     try {
-        write_file_atomically(script, decoded_text(bytes, notes));
+        write_file_atomically(script, decoded_text(script, bytes, notes));
     } catch (const EnvironmentError&) {
         throw SubmissionError("Its analysis.lua is no text: save it in UTF-8 and hand it in again.");
     }

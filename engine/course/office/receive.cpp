@@ -157,8 +157,8 @@ class HandInReceiver {
         if (!is_wanted(kind))
             throw EnvironmentError(
                 outcome_.assignment.is_report()
-                    ? "this is neither a PDF nor a pack (.zip, .tar.gz); ask for one"
-                    : "this is not a PDF, no script (.lua) and no pack (.zip, .tar.gz); ask for one");
+                    ? Message("this is neither a PDF nor a pack (.zip, .tar.gz); ask for one")
+                    : Message("this is not a PDF, no script (.lua) and no pack (.zip, .tar.gz); ask for one"));
         candidate.part = part_of(outcome_.assignment, request_.stage, kind);
         candidate.unreadable = kind == "text";
         if (request_.stage == "first" && !request_.take_as_first) refuse_after_reviews(candidate);
