@@ -72,7 +72,7 @@ class OpenList {
     }
     Variable finished(ReadingMemory& memory) {
         if (is_mixed_) return {std::make_shared<VariableList>(std::move(entries_))};
-        numbers_.conservativeResize(count_);
+        if (count_ > 0) numbers_.conservativeResize(count_);  // it would take memory for no number, too
         if (columns_ == 0) {
             memory.take(count_ > 0 ? kVectorBytes : 0);
             return {std::move(numbers_)};

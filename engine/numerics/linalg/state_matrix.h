@@ -4,9 +4,9 @@
 
 namespace dynlab::inline numerics {
 
-// Vectors and square matrices of up to `room` states (2, 4 or 8), whose number n is known at run time only. What is beyond
-// n is zero, so that loops over rows have a length that the compiler knows: machine vectors, without a template for
-// every n.
+// Vectors and square matrices of up to `room` states (2, 4 or 8), whose number n is known at run time only. What is
+// beyond n is zero, so that loops over rows have a length that the compiler knows: machine vectors, without a template
+// for every n.
 
 template <int room>
 struct StateVector {

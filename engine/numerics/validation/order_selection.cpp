@@ -25,7 +25,9 @@ namespace dynlab::inline numerics {
 namespace {
 
 constexpr int kMostCandidates = 2000;
-constexpr double kRoundingShare = 1e-20;  // of the output's mean square: smaller errors are rounding
+// Of the output's mean square: smaller errors are those of an iteration that has settled, of some 1e-9 in the
+// parameters.
+constexpr double kRoundingShare = 1e-18;
 
 Comparison comparison_of(const IdData& data, const Fit& estimate, Offset asked) {
     const Offset chosen = estimate.start.offset ? Offset::kEstimate : Offset::kNone;
