@@ -42,6 +42,7 @@ bool notebook_holds(const fs::path& notebook, const fs::path& script, const std:
 
 std::string script_of_handed_in(const fs::path& notebook) {
     const std::string name = notebook.filename().string();
+    const GuardLimits limits;
     const ChildResult read = run_guarded(
         [&] {
             try {
@@ -50,9 +51,11 @@ std::string script_of_handed_in(const fs::path& notebook) {
                 return "-" + std::string(error.what());
             }
         },
-        GuardLimits{});
+        limits);
     if (read.exit_code != 0 || read.output.empty())
-        throw SubmissionError(fmt::format("The notebook {} cannot be read.", name));
+        throw SubmissionError(fmt::format(
+            "The notebook {} cannot be read: reading it {}.", name,
+            read.timed_out ? limits.time.told(read.time_limit()) : fmt::format("crashed (code {})", read.exit_code)));
     if (read.output.front() == '+') return read.output.substr(1);
     std::string what = read.output.substr(1);
     if (const std::string path = notebook.string() + ": "; what.starts_with(path)) what = what.substr(path.size());
