@@ -40,6 +40,7 @@ bool notebook_holds(const fs::path& notebook, const fs::path& script, const std:
 
 std::string script_of_handed_in(const fs::path& notebook) {
     const std::string name = notebook.filename().string();
+    const GuardLimits limits;
     const ChildResult read = run_guarded(
         [&] {
             try {
@@ -48,8 +49,12 @@ std::string script_of_handed_in(const fs::path& notebook) {
                 return "-" + std::string(error.what());
             }
         },
-        GuardLimits{});
-    if (read.exit_code != 0 || read.output.empty()) throw SubmissionError("The notebook {} cannot be read.", name);
+        limits);
+    if (read.timed_out)
+        throw SubmissionError("The notebook {} cannot be read: reading it takes more than {} s.", name,
+                              limits.time.seconds(read.time_limit()));
+    if (read.exit_code != 0 || read.output.empty())
+        throw SubmissionError("The notebook {} cannot be read: reading it crashed (code {}).", name, read.exit_code);
     if (read.output.front() == '+') return read.output.substr(1);
     std::string what = read.output.substr(1);
     if (const std::string path = notebook.string() + ": "; what.starts_with(path)) what = what.substr(path.size());
