@@ -1,10 +1,7 @@
 #include "figures/figure_file.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <fstream>
 #include <string>
@@ -98,16 +95,13 @@ void blank_creation_date(const std::filesystem::path& pdf) {
         throw EnvironmentError("cannot write \"{}\": {}", pdf.string(), system_reason(errno));
 }
 
-std::filesystem::path make_temporary_beside(const std::filesystem::path& target) {
-    static std::atomic<unsigned> number = 0;
-    const std::filesystem::path file =
-        target.parent_path() / fmt::format(".figure-{}-{}{}", getpid(), number++, target.extension().string());
-    const int descriptor = open(file.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
-    if (descriptor < 0)
+TemporaryFile make_temporary_beside(const std::filesystem::path& target) {
+    const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
+    TemporaryFile made = make_temporary_file(folder, target.filename().string(), 0666);
+    if (!made.file)
         throw EnvironmentError("cannot write the figure \"{}\" into the folder \"{}\": {}", target.filename().string(),
                                target.parent_path().string(), system_reason(errno));
-    close(descriptor);
-    return file;
+    return made;
 }
 
 }  // namespace dynlab::inline figures

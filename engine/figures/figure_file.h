@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "figures/gnuplot_renderer.h"
+#include "platform/files/temporary_file.h"
 
 namespace dynlab::inline figures {
 
@@ -15,7 +16,8 @@ void finish_svg(const std::filesystem::path& svg);
 /// Overwrites the date that cairo stamps on PDF files with blanks, so that equal figures are equal files.
 void blank_creation_date(const std::filesystem::path& pdf);
 
-/// An empty file beside `target`, to be filled and renamed. Throws EnvironmentError that says why none can be made.
-std::filesystem::path make_temporary_beside(const std::filesystem::path& target);
+/// An empty file beside `target`, to be filled and renamed while it is open. Throws EnvironmentError that says why none
+/// can be made.
+TemporaryFile make_temporary_beside(const std::filesystem::path& target);
 
 }  // namespace dynlab::inline figures

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <optional>
 
+#include "figures/figure.h"
 #include "figures/figure_file.h"
 #include "figures/figure_text.h"
 #include "figures/gnuplot_process.h"
@@ -87,7 +88,8 @@ class GnuplotRenderer::Work {
 
     void draw(const Figure& figure, const fs::path& target, FigureFormat format, bool decimal_comma) {
         const std::string script = gnuplot_script(figure, format, decimal_comma);
-        Pending next{0, format, make_temporary_beside(target), target, {}, {}};
+        TemporaryFile made = make_temporary_beside(target);
+        Pending next{0, format, std::move(made.path), target, std::move(made.file), {}, {}};
         next.ends = EndsWithProgram(next.temporary);
         if (cache_) next.name = name_of_drawing(format, script);
         pending_.push_back(std::move(next));
@@ -120,8 +122,9 @@ class GnuplotRenderer::Work {
         unsigned number;  ///< of gnuplot's report; 0 for a figure that is not drawn but recalled
         FigureFormat format;
         fs::path temporary, target;
-        std::string name;      ///< in the cache
-        EndsWithProgram ends;  ///< the temporary file
+        FileDescriptor in_use;  ///< the lock of the temporary file
+        std::string name;       ///< in the cache
+        EndsWithProgram ends;   ///< the temporary file
     };
     struct Running {
         GnuplotProcess child;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "base/reader.h"
 #include "documents/error.h"
 #include "platform/atomic_file.h"
 #include "platform/guarded_call.h"
@@ -42,6 +43,7 @@ bool notebook_holds(const fs::path& notebook, const fs::path& script, const std:
 
 std::string script_of_handed_in(const fs::path& notebook) {
     const std::string name = notebook.filename().string();
+    const GuardLimits limits;
     const ChildResult read = run_guarded(
         [&] {
             try {
@@ -50,9 +52,18 @@ std::string script_of_handed_in(const fs::path& notebook) {
                 return "-" + std::string(error.what());
             }
         },
-        GuardLimits{});
+        limits);
+    if (read.time_limit() == TimeLimit::kProcessor)
+        throw SubmissionError(
+            message_text(Message("The notebook {} cannot be read: reading it used more than {} s of processor time.",
+                                 name, limits.time.seconds(TimeLimit::kProcessor))));
+    if (read.timed_out)
+        throw SubmissionError(
+            message_text(Message("The notebook {} cannot be read: reading it had not ended after {} s.", name,
+                                 limits.time.seconds(TimeLimit::kClock))));
     if (read.exit_code != 0 || read.output.empty())
-        throw SubmissionError(fmt::format("The notebook {} cannot be read.", name));
+        throw SubmissionError(message_text(
+            Message("The notebook {} cannot be read: reading it crashed (code {}).", name, read.exit_code)));
     if (read.output.front() == '+') return read.output.substr(1);
     std::string what = read.output.substr(1);
     if (const std::string path = notebook.string() + ": "; what.starts_with(path)) what = what.substr(path.size());

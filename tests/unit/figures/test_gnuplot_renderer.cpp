@@ -11,6 +11,7 @@
 #include <random>
 
 #include "figures/figure.h"
+#include "figures/figure_file.h"
 #include "numerics/error.h"
 #include "platform/atomic_file.h"
 #include "platform/cache.h"
@@ -168,6 +169,23 @@ TEST(gnuplot_renderer, bad_targets_are_reported_and_leave_nothing) {
     EXPECT_THROW(figure_format("a.jpeg"), InvalidArgument);
     draw_one(renderer, sine(), folder.path() / "a.pdf");  // the renderer still works
     EXPECT_EQ(file_count(folder.path()), 1u);
+}
+
+TEST(gnuplot_renderer, files_of_a_killed_process_are_removed_by_the_next_figure) {
+    const TemporaryFolder folder;
+    const pid_t killed = ::fork();
+    if (killed == 0) {
+        const TemporaryFile begun =
+            make_temporary_beside(folder.path() / "a.pdf");  // gnuplot could draw on for a while
+        ::raise(SIGKILL);
+    }
+    ::waitpid(killed, nullptr, 0);
+    EXPECT_EQ(file_count(folder.path()), 1u);
+    GnuplotRenderer renderer;
+    renderer.draw(sine(), folder.path() / "b.pdf", FigureFormat::kPdf);
+    renderer.finish();
+    EXPECT_EQ(file_count(folder.path()), 1u);
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "b.pdf"));
 }
 
 TEST(gnuplot_renderer, figures_not_finished_leave_nothing) {
