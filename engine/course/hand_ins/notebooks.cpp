@@ -50,9 +50,12 @@ std::string script_of_handed_in(const fs::path& notebook) {
             }
         },
         limits);
+    if (read.time_limit() == TimeLimit::kProcessor)
+        throw SubmissionError("The notebook {} cannot be read: reading it used more than {} s of processor time.", name,
+                              limits.time.seconds(TimeLimit::kProcessor));
     if (read.timed_out)
-        throw SubmissionError("The notebook {} cannot be read: reading it takes more than {} s.", name,
-                              limits.time.seconds(read.time_limit()));
+        throw SubmissionError("The notebook {} cannot be read: reading it had not ended after {} s.", name,
+                              limits.time.seconds(TimeLimit::kClock));
     if (read.exit_code != 0 || read.output.empty())
         throw SubmissionError("The notebook {} cannot be read: reading it crashed (code {}).", name, read.exit_code);
     if (read.output.front() == '+') return read.output.substr(1);
