@@ -7,6 +7,7 @@
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
+#include "platform/files/whole_folder.h"
 #include "platform/program_lookup.h"
 #include "workflow/lesson_data.h"
 #include "workflow/specimen_record.h"
@@ -79,29 +80,6 @@ void fill_review(const fs::path& folder, const std::string& language) {
     write_file_atomically(folder / "group.toml", group_file(1, language));
 }
 
-/// Built under another name beside it, then renamed: an interrupted copy leaves no half folder that looks finished.
-template <class Fill>
-void make_folder(const fs::path& folder, const Fill& fill) {
-    if (fs::exists(folder) && !(fs::is_directory(folder) && fs::is_empty(folder))) {
-        throw EnvironmentError("{} exists already; choose another name, nothing was changed", folder.string());
-    }
-    const fs::path target = fs::absolute(folder).lexically_normal();
-    const fs::path clean = target.has_filename() ? target : target.parent_path();
-    const fs::path growing = clean.parent_path() / ("." + clean.filename().string() + ".new");
-    std::error_code error;
-    fs::remove_all(growing, error);
-    if (!fs::create_directories(growing, error)) {
-        throw EnvironmentError("cannot make the folder {}: {}", folder.string(), error.message());
-    }
-    try {
-        fill(growing);
-        fs::rename(growing, clean);
-    } catch (...) {
-        fs::remove_all(growing, error);
-        throw;
-    }
-}
-
 std::vector<const Cell*> text_cells(const PercentScript& script) {
     std::vector<const Cell*> texts;
     for (const Cell& cell : script.cells)
@@ -149,12 +127,15 @@ PercentScript lesson_script(const Lesson& lesson, const std::string& language) {
 }
 
 void make_student_copy(const Lesson& lesson, const fs::path& folder, std::optional<std::uint32_t> group_seed,
-                       const std::string& language) {
-    make_folder(folder, [&](const fs::path& growing) { fill_lesson(growing, lesson, group_seed, language); });
+                       const std::string& language, const std::function<void(const fs::path&)>& further) {
+    make_whole_folder(folder, [&](const fs::path& growing) {
+        fill_lesson(growing, lesson, group_seed, language);
+        if (further) further(growing);
+    });
 }
 
 void make_review_folder(const fs::path& folder, const std::string& language) {
-    make_folder(folder, [&](const fs::path& growing) { fill_review(growing, language); });
+    make_whole_folder(folder, [&](const fs::path& growing) { fill_review(growing, language); });
 }
 
 }  // namespace dynlab::inline workflow

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -12,10 +13,11 @@ namespace dynlab::inline workflow {
 /// link to the data; with a group's seed a folder `data` with records of the group's own (specimen_record.h) of what
 /// the lesson loads (lesson_data.h: it may be run for this), and with those that the lesson brings along. Report and
 /// tasks are in `language` ("en", "fr"), the lesson's when empty; tasks as far as the lesson has tasks.LANGUAGE.lua.
-/// The folder appears whole or not at all. Throws EnvironmentError when `folder` exists and is not empty, or cannot be
-/// made.
+/// The folder appears whole or not at all, with what `further` puts into it. Throws EnvironmentError when `folder`
+/// exists and is not empty, or cannot be made.
 void make_student_copy(const Lesson& lesson, const std::filesystem::path& folder,
-                       std::optional<std::uint32_t> group_seed = {}, const std::string& language = {});
+                       std::optional<std::uint32_t> group_seed = {}, const std::string& language = {},
+                       const std::function<void(const std::filesystem::path& growing)>& further = {});
 
 /// The lesson's script with the header's title, subtitle and language and the text cells of tasks.LANGUAGE.lua, where
 /// the lesson has it: cell by cell in their order. Throws DocumentError when their numbers differ.

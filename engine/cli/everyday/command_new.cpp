@@ -47,8 +47,7 @@ int make_new(const NewArguments& words) {
     {
         ActivityLine activity;
         if (words.group_seed) activity.begin_step("finding out which data the lesson loads");
-        make_student_copy(lesson, words.folder, words.group_seed, words.language);
-        write_editor_files(words.folder);
+        make_student_copy(lesson, words.folder, words.group_seed, words.language, write_editor_files);
     }
     std::cout << words.folder << ": analysis.lua is yours to edit, report.md is your report's text.\n"
               << "Try:  dynlab run " << shell_word(words.folder) << "    then    dynlab report "

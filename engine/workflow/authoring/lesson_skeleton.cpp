@@ -8,6 +8,7 @@
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
+#include "platform/files/whole_folder.h"
 
 namespace dynlab::inline workflow {
 namespace {
@@ -186,8 +187,6 @@ std::vector<std::string> make_lesson_skeleton(const fs::path& folder) {
     if (!is_name("_" + slug))
         throw EnvironmentError("'{}' is no name for a lesson: letters, digits, _ and - make one, as in 08_springs",
                                slug);
-    if (fs::exists(folder) && !(fs::is_directory(folder) && fs::is_empty(folder)))
-        throw EnvironmentError("{} exists already; choose another name, nothing was changed", folder.string());
     const std::map<std::string, std::string> files = {{"lesson.lua", replaced(kLesson, "SLUG", slug)},
                                                       {"record.csv", record()},
                                                       {"checks.lua", kChecks},
@@ -197,12 +196,13 @@ std::vector<std::string> make_lesson_skeleton(const fs::path& folder) {
                                                       {"tasks.fr.lua", kFrenchTasks},
                                                       {"hints.fr.md", kFrenchHints},
                                                       {"checks.fr.txt", kFrenchChecks}};
-    fs::create_directories(folder);
     std::vector<std::string> names;
-    for (const auto& [name, text] : files) {
-        write_file_atomically(folder / name, text);
-        names.push_back(name);
-    }
+    make_whole_folder(folder, [&](const fs::path& growing) {
+        for (const auto& [name, text] : files) {
+            write_file_atomically(growing / name, text);
+            names.push_back(name);
+        }
+    });
     return names;
 }
 
