@@ -206,7 +206,7 @@ TEST_F(identification_script, a_request_that_a_file_cannot_serve_names_the_colum
     request.delay = 1e6;
     const auto stopped = files_->run(dynlab::identification_script(request)).record.error;
     ASSERT_TRUE(stopped);
-    EXPECT_THAT(stopped->message, HasSubstr("delay"));
+    EXPECT_THAT(stopped->text(), HasSubstr("delay"));
 }
 
 TEST(identify_request, of_orders_delay_or_names_that_make_no_sense_is_refused) {
