@@ -1,9 +1,11 @@
 #include "base/reader.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 #include "base/catalog.h"
 #include "base/number_text.h"
@@ -53,21 +55,48 @@ std::string argument_text(const MessageArgument& argument, const Reader& reader)
     return joined(std::get<MessageList>(argument), reader);
 }
 
-std::size_t slots_in(std::string_view format) {
-    std::size_t slots = 0;
-    for (std::size_t at = format.find("{}"); at != format.npos; at = format.find("{}", at + 2)) ++slots;
+/// Where a format takes which argument, in the order of the text.
+struct Slot {
+    std::size_t begin, size, argument;
+};
+
+std::vector<Slot> slots_in(std::string_view format) {
+    std::vector<Slot> slots;
+    for (std::size_t at = format.find("{}"); at != format.npos; at = format.find("{}", at + 2))
+        slots.push_back({at, 2, slots.size()});
     return slots;
 }
 
-/// The format in the reader's language, and in its plural form.
-std::string_view format_of(const Message& message, const Reader& reader) {
+/// A translation may take the arguments in another order than English, all by their numbers: "{2} de {1}".
+std::vector<Slot> slots_in_translation(std::string_view format, std::size_t arguments) {
+    std::vector<Slot> slots = slots_in(format);
+    for (std::size_t i = 0; i < arguments && slots.size() <= i; ++i) {
+        const std::string slot = "{" + std::to_string(i + 1) + "}";
+        const std::size_t at = format.find(slot);
+        if (at == format.npos) break;
+        slots.push_back({at, slot.size(), i});
+    }
+    std::sort(slots.begin(), slots.end(), [](const Slot& a, const Slot& b) { return a.begin < b.begin; });
+    return slots;
+}
+
+struct Format {
+    std::string_view text;
+    std::vector<Slot> slots;
+};
+
+/// In the reader's language, and in its plural form.
+Format format_of(const Message& message, const Reader& reader) {
     const bool counted = !message.many().empty();
     const std::int64_t count = counted ? std::get<std::int64_t>(message.arguments().front()) : 1;
     const std::string_view english = counted && count != 1 ? message.many() : message.id();
-    if (reader.catalog == nullptr) return english;
-    const std::string_view other =
-        counted ? reader.catalog->plural(message.id(), count) : reader.catalog->translation(message.id());
-    return other.empty() || slots_in(other) != message.arguments().size() ? english : other;
+    if (reader.catalog != nullptr) {
+        const std::string_view other =
+            counted ? reader.catalog->plural(message.id(), count) : reader.catalog->translation(message.id());
+        const std::vector<Slot> slots = slots_in_translation(other, message.arguments().size());
+        if (!other.empty() && slots.size() == message.arguments().size()) return {other, slots};
+    }
+    return {english, slots_in(english)};
 }
 
 }  // namespace
@@ -79,15 +108,15 @@ std::string number_text(const Number& number, const Reader& reader) {
 }
 
 std::string message_text(const Message& message, const Reader& reader) {
-    const std::string_view format = format_of(message, reader);
+    const Format format = format_of(message, reader);
     std::string result;
     std::size_t begin = 0;
-    for (const MessageArgument& argument : message.arguments()) {
-        const std::size_t slot = format.find("{}", begin);
-        result.append(format, begin, slot - begin).append(argument_text(argument, reader));
-        begin = slot + 2;
+    for (const Slot& slot : format.slots) {
+        result.append(format.text, begin, slot.begin - begin);
+        result.append(argument_text(message.arguments()[slot.argument], reader));
+        begin = slot.begin + slot.size;
     }
-    return result.append(format, begin);
+    return result.append(format.text, begin);
 }
 
 }  // namespace dynlab::inline base

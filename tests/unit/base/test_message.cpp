@@ -40,6 +40,9 @@ msgstr "donnez {}"
 
 msgid "two {} and {}"
 msgstr "deux {}"
+
+msgid "{} of {}"
+msgstr "{2} : {1}"
 )");
     return catalog;
 }
@@ -85,6 +88,10 @@ TEST(message, option_has_the_name_that_its_reader_knows) {
     const Reader script{
         nullptr, [](std::string_view member) { return std::string(member == "max_iterations" ? "MaxIter" : "?"); }};
     EXPECT_EQ(message_text(message, script), "set MaxIter");
+}
+
+TEST(message, translation_may_take_the_arguments_in_another_order) {
+    EXPECT_EQ(message_text(Message("{} of {}", "y{1}", "{1}"), {&french()}), "{1} : y{1}");
 }
 
 TEST(message, translation_with_missing_arguments_falls_back_to_english) {
