@@ -13,6 +13,7 @@
 
 #include "app/live/page_values.h"
 #include "app/live/runner_messages.h"
+#include "base/languages.h"
 #include "data_io/values/cbor_values.h"
 #include "documents/html/plot_data.h"
 #include "documents/weave.h"
@@ -25,6 +26,7 @@
 #include "platform/process_group.h"
 #include "platform/stopwatch.h"
 #include "platform/terminal/progress.h"
+#include "scripting/conversions/option_words.h"
 #include "scripting/interpreter/runtime.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/runtime/services.h"
@@ -54,6 +56,7 @@ struct World {
         : language{report_language}, runtime(with_memory(std::move(options), &calls), renderer) {
         runtime.services().language = &language;
         page.decimal_comma = report_language == "fr";
+        page.reader = {catalog_of(report_language), &option_name};
         if (!prelude.empty()) {
             runtime.add_functions(page_functions(), page);
             const RunRecord made = runtime.run_code(prelude, "workbench");

@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "documents/words/sentence_catalogue.h"
+#include "base/languages.h"
 #include "numerics/estimators/catalogue.h"
 #include "scripting/lint/function_forms.h"
 
@@ -132,13 +132,17 @@ const std::vector<EstimatorForm>& estimator_forms() {
     return kForms;
 }
 
-std::vector<EstimatorForm> estimator_forms_in_french() {
+std::vector<EstimatorForm> estimator_forms_in(const std::string& language) {
     std::vector<EstimatorForm> forms = estimator_forms();
+    const Catalog* const catalog = catalog_of(language);
+    if (catalog == nullptr) return forms;
+    const auto translate = [catalog](std::string& text) {
+        if (const std::string_view other = catalog->translation(text); !text.empty() && !other.empty()) text = other;
+    };
     for (EstimatorForm& form : forms) {
-        for (std::string* const text : {&form.summary, &form.structure, &form.noise})
-            *text = french_engine_sentences().translated(*text);
+        for (std::string* const text : {&form.summary, &form.structure, &form.noise}) translate(*text);
         for (std::vector<FormField>* const fields : {&form.arguments, &form.options})
-            for (FormField& field : *fields) field.words = french_option_words().translated(field.words);
+            for (FormField& field : *fields) translate(field.words);
     }
     return forms;
 }

@@ -29,7 +29,7 @@ DYNLAB_DESCRIBE(EstimatorForm, name, summary, structure, noise, domain, argument
 /// All methods of the catalogue that make a model of a record, in its order. They follow from the catalogue, from the
 /// functions' signatures and from the part "Arguments" of their help pages: a new method is among them by itself.
 const std::vector<EstimatorForm>& estimator_forms();
-/// With summary, structure, noise and the words of arguments and options in French.
-std::vector<EstimatorForm> estimator_forms_in_french();
+/// With summary, structure, noise and the words of arguments and options in a language, as far as its catalog has them.
+std::vector<EstimatorForm> estimator_forms_in(const std::string& language);
 
 }  // namespace dynlab::inline app

@@ -148,8 +148,8 @@ TextTable open_marks(const ClassResults& results) {
         if (!entry.grade || entry.grade->without_marks()) continue;
         for (const CheckGrade& check : entry.grade->checks)
             if (check.by_hand && !check.graded)
-                table.rows.push_back(
-                    {entry.submission.name, check.id, "", "", points_text(check.points), check.about, check.rubric});
+                table.rows.push_back({entry.submission.name, check.id, "", "", points_text(check.points),
+                                      message_text(check.about), check.rubric});
     }
     return table;
 }

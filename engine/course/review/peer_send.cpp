@@ -133,12 +133,12 @@ class CopySender {
         if (!copy.made) {
             stopped_.insert(version->id);
             ++outcome_.stopped;
-            outcome_.hits.push_back(fmt::format("{} of {} was not sent: {}", part, author, fmt::join(copy.hits, " ")));
+            outcome_.hits.push_back(Message("{} of {} was not sent: {}", part, author, sentences(copy.hits)));
             return;
         }
         if (!copy.hints.empty() && doubted_.insert(version->id).second)
             outcome_.hints.push_back(
-                fmt::format("{} of {} was sent, but look at it: {}", part, author, fmt::join(copy.hints, " ")));
+                Message("{} of {} was sent, but look at it: {}", part, author, sentences(copy.hints)));
         record(pair, *version, read_file(request.copy));
     }
 

@@ -72,7 +72,7 @@ class ManualMaker {
     std::string body_of(ReportRequest request) {
         request.output = work_.path() / "page.html";
         const ReportResult made = make_report(request);
-        if (made.error) throw DocumentError(Message::verbatim(*made.error));
+        if (made.error) throw DocumentError(*made.error);
         return between(read_file(request.output), "<header>", "<script>");
     }
 
