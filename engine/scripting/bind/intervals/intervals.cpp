@@ -7,8 +7,8 @@
 #include "platform/terminal/progress.h"
 #include "scripting/arguments/simulation_options.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/conversions/localized.h"
 #include "scripting/conversions/table_fields.h"
-#include "scripting/conversions/told_sentences.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/figure_object.h"
@@ -92,11 +92,11 @@ int repeat_experiment(Call& call) {
     wanted.progress = [&bar](std::size_t done) { bar.advance(done); };
     const RefittedOutput model(data, fitted_argument(call, 1, data, compare_options(options)));
     const Bootstrap found = bootstrap(model, wanted);
-    call.print(told(call, found.message) + "\n");
+    call.print(localized(call, found.message) + "\n");
     give_figure(call, monte_carlo_histograms(as_study(found, wanted.runs)));
     give_table(call, "names", found.names, "estimate", found.estimate, "values", found.values, "mean", found.mean,
                "std", found.std, "low", found.low, "high", found.high, "failed", found.failed, "message",
-               told(call, found.message), "warnings", told(call, found.warnings));
+               localized(call, found.message), "warnings", localized(call, found.warnings));
     return 2;
 }
 
@@ -117,11 +117,11 @@ int follow_parameter(Call& call) {
     wanted.cancel = call.cancel();
     const RefittedOutput model(data, fitted_argument(call, 1, data, compare_options(options)));
     const Profile found = profile_likelihood(model, name, wanted);
-    call.print(told(call, found.message) + "\n");
+    call.print(localized(call, found.message) + "\n");
     give_figure(call, profile_plot(found, unit_of(data, name)));
     give_table(call, "estimate", found.estimate, "std", found.std, "low", found.low, "high", found.high, "level",
-               found.level, "grid", found.grid, "rise", found.rise, "message", told(call, found.message), "warnings",
-               told(call, found.warnings));
+               found.level, "grid", found.grid, "rise", found.rise, "message", localized(call, found.message),
+               "warnings", localized(call, found.warnings));
     return 2;
 }
 
