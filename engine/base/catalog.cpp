@@ -245,7 +245,7 @@ std::string_view Catalog::plural(std::string_view id, std::int64_t count) const 
 }
 
 std::string Catalog::decimal_sign() const {
-    const std::string_view sign = translation(".", "decimal sign");
+    const std::string_view sign = translation(marked("decimal sign", "."), "decimal sign");
     return std::string(sign.empty() ? "." : sign);
 }
 

@@ -47,9 +47,9 @@ const Message& message_of(const RegressionFit& fit) {
 Message regression_text(const RegressionFit& given) {
     const LinearRegression& fit = given.regression;
     MessageList lines{{}, Join::kLines};
-    lines.items.emplace_back("theta = {}", vector_text(fit.theta));
-    lines.items.emplace_back("standard errors = {}", vector_text(fit.std));
-    lines.items.emplace_back("RMSE = {}, condition number = {}", fit.rmse, fit.condition_number);
+    lines.items.push_back(Message("theta = {}", vector_text(fit.theta)));
+    lines.items.push_back(Message("standard errors = {}", vector_text(fit.std)));
+    lines.items.push_back(Message("RMSE = {}, condition number = {}", fit.rmse, fit.condition_number));
     lines.items.push_back(fit.message);
     return Message("{}", lines);
 }

@@ -37,7 +37,7 @@ std::string initial_lines(const GreyFit& grey, const Reader& reader) {
 
 MessageList numbers_of(const Vector& values) {
     MessageList list{{}, Join::kAnd};
-    for (const double value : values) list.items.emplace_back("{}", significant(value, 4));
+    for (const double value : values) list.items.push_back(Message("{}", significant(value, 4)));
     return list;
 }
 

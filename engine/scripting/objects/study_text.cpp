@@ -87,9 +87,10 @@ std::string StudyText::troubles_of(const MonteCarloResult& result, int runs) con
 
 Message notes_on(const OrderCandidate& candidate) {
     MessageList notes{{}, Join::kSemicolon};
-    if (candidate.cancellation) notes.items.emplace_back("a zero cancels a pole");
-    if (!candidate.undetermined.empty()) notes.items.emplace_back("{} undetermined", listed(candidate.undetermined));
-    if (!candidate.converged) notes.items.emplace_back("not converged");
+    if (candidate.cancellation) notes.items.push_back(Message("a zero cancels a pole"));
+    if (!candidate.undetermined.empty())
+        notes.items.push_back(Message("{} undetermined", listed(candidate.undetermined)));
+    if (!candidate.converged) notes.items.push_back(Message("not converged"));
     return notes.items.empty() ? Message() : Message("{}", notes);
 }
 

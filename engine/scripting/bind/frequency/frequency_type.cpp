@@ -61,8 +61,8 @@ Message response_text(const FrequencyData& data) {
     MessageList properties;
     properties.items.push_back(plural(data.w.size(), "{} frequency from {} to {} rad/s",
                                       "{} frequencies from {} to {} rad/s", data.w[0], data.w[data.w.size() - 1]));
-    if (data.Ts > 0) properties.items.emplace_back("Ts = {} s", data.Ts);
-    if (!data.method.empty()) properties.items.emplace_back("by {}", data.method);
+    if (data.Ts > 0) properties.items.push_back(Message("Ts = {} s", data.Ts));
+    if (!data.method.empty()) properties.items.push_back(Message("by {}", data.method));
     properties.items.push_back(data.variance.size() > 0 ? Message("with variances") : Message("variances unknown"));
     return Message("idfrd: {}", properties);
 }

@@ -225,7 +225,7 @@ std::string model_text(const GreyModel& model, const Reader& reader) {
     properties.items.push_back(model.outputs_are_states
                                    ? Message("the first states as outputs")
                                    : plural(model.equations->output_count(), "{} output", "{} outputs"));
-    if (model.equations->is_linear()) properties.items.emplace_back("linear");
+    if (model.equations->is_linear()) properties.items.push_back(Message("linear"));
     std::string text = message_text(Message("{}", properties), reader) + "\n";
     for (const GreyParameter& p : model.parameters) {
         text += fmt::format("  {:<8} {:>12}", p.name, number_text(significant(p.start, 6), reader));
