@@ -8,6 +8,7 @@
 
 #include "base/languages.h"
 #include "base/reader.h"
+#include "documents/text_lines.h"
 #include "numerics/validation/advice.h"
 #include "scripting/conversions/option_words.h"
 #include "scripting/script_run.h"
