@@ -20,7 +20,8 @@ struct Sign {
     Message remedy;
 };
 const std::vector<Sign>& signs() {
-    static const Message fill("Report the value, table or figure in analysis.lua and make the PDF with dynlab report.");
+    static const Message fill =
+        Message("Report the value, table or figure in analysis.lua and make the PDF with dynlab report.");
     using Line = const std::string&;
     static const std::vector<Sign> all = {
         {"{.value}", "slot-unfilled",

@@ -340,8 +340,8 @@ class FolderCheck {
                                           points_text(grade.earned()), points_text(grade.possible())));
         for (const CheckGrade& check : grade.checks) {
             if (check.by_hand || check.earned >= check.points) continue;
-            const Message score("{} of {} points for \"{}\".", points_text(check.earned), points_text(check.points),
-                                check.about);
+            const Message score = Message("{} of {} points for \"{}\".", points_text(check.earned),
+                                          points_text(check.points), check.about);
             add("check-failed", Severity::kHint, "",
                 message_text(check.message).empty() ? score : sentences({score, check.message}),
                 check.hint.empty() ? Message("See checks.lua of the lesson.") : Message::verbatim(check.hint));

@@ -22,7 +22,7 @@ const Model& output_error_argument(const Call& call, int index) {
     const Model* model = index <= call.count() ? to_object<Model>(call.state(), index) : nullptr;
     const char* const function = call.function_name();
     if (model == nullptr) wrong_argument(call.state(), index, "G", with_article("model"));
-    const Message instead(
+    const Message instead = Message(
         "{} repeats fits of the smallest simulation error: estimate with procsrivc, tfsrivc, srivc or coe", function);
     if (!model->estimate) throw InvalidArgument("this model was written down, not estimated; {}", instead);
     const Estimate& estimate = *model->estimate;
