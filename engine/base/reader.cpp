@@ -31,7 +31,8 @@ std::string fixed(double value, int digits) {
 }
 
 std::string joined(const MessageList& list, const Reader& reader) {
-    static constexpr std::array<const char*, 6> kBetween = {", ", " and ", " or ", "; ", " ", "\n"};
+    static constexpr std::array<const char*, 6> kBetween = {
+        marked("list", ", "), marked("list", " and "), marked("list", " or "), marked("list", "; "), " ", "\n"};
     const auto between = [&reader](Join join) {
         const std::string english = kBetween[static_cast<std::size_t>(join)];
         return reader.catalog == nullptr ? english : reader.catalog->list_separator(english);

@@ -72,7 +72,7 @@ MatVariable next_variable(mat_t* mat, bool is_hdf5, MatioComplaints& complaints,
     for (int lost = 0; lost < kMostLost; ++lost) {
         MatVariable variable(Mat_VarReadNextInfo(mat));
         if (variable || !is_hdf5 || complaints.first().empty()) return variable;
-        const Message how("what lies in other files or is damaged cannot be read");
+        const Message how = Message("what lies in other files or is damaged cannot be read");
         if (left_out.empty() || left_out.back() != how) left_out.push_back(how);
         complaints.forget();
     }

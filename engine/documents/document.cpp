@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/languages.h"
 #include "documents/bibliography.h"
 #include "documents/complaints.h"
 #include "documents/error.h"
@@ -234,7 +235,7 @@ PreparedText prepared_text(const DocumentSource& source) {
     }
     if (text.metadata.count("lang") && !text.metadata.at("lang").empty()) text.language = text.metadata.at("lang");
     if (source.record && source.record->error && !shows_cells(file))
-        begin_with_error(told_error(source.record->error->text(), text.language), source.template_file, text.markdown);
+        begin_with_error(source.record->error->text({catalog_of(text.language)}), source.template_file, text.markdown);
     return text;
 }
 

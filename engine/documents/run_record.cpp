@@ -35,8 +35,9 @@ RunRecord readable_record(const RunRecord& record) {
 
 }  // namespace
 
-std::string RecordedError::text() const {
-    return line > 0 ? fmt::format("{}:{}: {}", file, line, message_text(message)) : message_text(message);
+std::string RecordedError::text(const Reader& reader) const {
+    const std::string what = message_text(message, reader);
+    return line > 0 ? fmt::format("{}:{}: {}", file, line, what) : what;
 }
 
 void write_whole_value(ValueWriter& writer, const RecordedAnswer& answer) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/message.h"
+#include "base/reader.h"
 
 namespace dynlab::inline figures {
 struct Figure;
@@ -76,8 +77,8 @@ struct RecordedError {
     int line = 0;                          ///< of that file
     std::vector<RecordedCall> calls = {};  ///< of the script's own functions, the innermost first
 
-    /// In English, as Lua has it: "lesson.lua:3: there is no function or variable 'y'".
-    std::string text() const;
+    /// As Lua has it: "lesson.lua:3: there is no function or variable 'y'".
+    std::string text(const Reader& reader = {}) const;
     /// The line, where it is one of that script; else 0.
     int line_in(const std::string& script) const { return file == script ? line : 0; }
 };

@@ -6,9 +6,9 @@
 #include <cctype>
 #include <string_view>
 
+#include "base/languages.h"
 #include "documents/solutions.h"
 #include "documents/text_lines.h"
-#include "documents/words/sentence_catalogue.h"
 #include "figures/figure.h"
 #include "figures/french_texts.h"
 
@@ -33,11 +33,6 @@ bool option_is_off(const Cell& cell, const std::string& key) {
 std::string fenced(const std::string& text, const std::string& block_class) {
     const std::string fence = fence_around(text);
     return fence + "{." + block_class + "}\n" + text + (text.ends_with('\n') ? "" : "\n") + fence + "\n\n";
-}
-
-std::string stopped_here(const std::string& language) {
-    return language == "fr" ? "\nLe script s'est arrêté ici ; rien de ce qui suit n'a été exécuté."
-                            : "\nThe script stopped here; nothing below was run.";
 }
 
 /// Text as Markdown that prints it: every mark escaped that could mean something. Brackets get their numbers, since
@@ -71,9 +66,10 @@ class Weaver {
                 if (!option_is_off(cell, "echo")) add_code(cell);
                 if (!option_is_off(cell, "output")) add_outputs(cell);
             }
-            if (&cell == failed) add_error(stopped_here(script_.header.language), cell.last_line());
+            if (&cell == failed)
+                add_error(Message("The script stopped here; nothing below was run."), cell.last_line());
         }
-        if (record_.error && !failed) add_error("", 1);
+        if (record_.error && !failed) add_error({}, 1);
         return std::move(text_);
     }
 
@@ -106,8 +102,11 @@ class Weaver {
         for (const std::string& line : lines_of(fenced(text, block_class))) add(line, number);
     }
 
-    void add_error(const std::string& more, int number) {
-        add_block(told_error(record_.error->text(), script_.header.language) + more, "error", number);
+    void add_error(const Message& more, int number) {
+        const Reader reader{catalog_of(script_.header.language)};
+        std::string text = record_.error->text(reader);
+        if (!more.empty()) text += "\n" + message_text(more, reader);
+        add_block(text, "error", number);
     }
 
     void add_outputs(const Cell& cell) {
@@ -181,10 +180,6 @@ Place MarkdownText::origin_of(int line) const {
 
 std::string error_block(const std::string& message) {
     return fenced(message, "error");
-}
-
-std::string told_error(const std::string& message, const std::string& language) {
-    return language == "fr" ? shared_french_sentences().translated(message) : message;
 }
 
 MarkdownText weave_cells(const PercentScript& script, const RunRecord& record) {

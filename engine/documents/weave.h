@@ -27,7 +27,4 @@ std::string words_of_axes(const Figure& figure, bool french);
 /// A block that shows an error's message.
 std::string error_block(const std::string& message);
 
-/// The message of a script in the language of its document, "en" or "fr".
-std::string told_error(const std::string& message, const std::string& language);
-
 }  // namespace dynlab::inline documents

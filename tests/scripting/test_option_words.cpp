@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/reader.h"
 #include "script_run.h"
 #include "scripting/conversions/option_words.h"
 
@@ -11,20 +12,11 @@ namespace test_option_words {
 using namespace dynlab;
 using testing::HasSubstr;
 
-TEST(option_words, names_in_backticks_become_those_of_lua) {  // oracle: definition
-    EXPECT_EQ(in_lua_words("raise `largest_delay` = 2, or `tolerance`"), "raise TdMax = 2, or Tol");
-    EXPECT_EQ(in_lua_words("`max_iterations`"), "MaxIter");
-    EXPECT_EQ(in_lua_words("a `foreign` word and `offset`"), "a `foreign` word and Offset");
-    EXPECT_EQ(in_lua_words("one ` alone, max_iterations"), "one ` alone, max_iterations");
-    EXPECT_EQ(in_lua_words(""), "");
-}
-
 TEST(option_words, options_in_messages_become_those_of_lua) {  // oracle: definition
     EXPECT_EQ(option_name("max_iterations"), "MaxIter");
     EXPECT_EQ(option_name("foreign"), "`foreign`");
-    EXPECT_EQ(in_lua_words(Message("raise {} = {}, or {}", OptionName{"largest_delay"}, 2, OptionName{"foreign"})),
-              "raise TdMax = 2, or `foreign`");
-    EXPECT_EQ(in_lua_words(Message::verbatim("raise `largest_delay`")), "raise TdMax");
+    const Message message("raise {} = {}, or {}", OptionName{"largest_delay"}, 2, OptionName{"foreign"});
+    EXPECT_EQ(message_text(message, {nullptr, option_name}), "raise TdMax = 2, or `foreign`");
 }
 
 const std::string kRecord =

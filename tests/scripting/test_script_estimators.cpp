@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/reader.h"
 #include "numerics/estimators/srivc.h"
 #include "numerics/fit/assessment.h"
 #include "numerics/signals/prbs.h"
@@ -141,7 +142,7 @@ TEST(script_estimators, srivc_reports_the_doubts_of_the_cpp_function) {
                       "local G = srivc(iddata(y, u, 0.05), {1, 2, 0})\n"
                       "print(G.report.warnings[#G.report.warnings])\nprint(G.report.white)\n"
                       "for i = 1, #G.param do print(string.format('%.6g %.6g', G.param[i], G.robust_std[i])) end"),
-              fmt::format("{}\n{}\n{:.6g} {:.6g}\n{:.6g} {:.6g}\n{:.6g} {:.6g}\n", in_lua_words(fit.warnings.back()),
+              fmt::format("{}\n{}\n{:.6g} {:.6g}\n{:.6g} {:.6g}\n{:.6g} {:.6g}\n", message_text(fit.warnings.back(), {nullptr, option_name}),
                           fit.doubts.assessment->white, fit.theta[0], fit.doubts.assessment->std[0], fit.theta[1],
                           fit.doubts.assessment->std[1], fit.theta[2], fit.doubts.assessment->std[2]));
 }

@@ -210,7 +210,7 @@ std::string with_record(const std::string& source, const RecordOrder& order, con
     const PercentScript script = parse_percent_script(source, "session.lua");
     if (std::ranges::none_of(script.cells, [](const Cell& cell) { return cell.kind == Cell::Kind::kCode; })) {
         const std::string& language = script.header.language;
-        const Message title("Identification from {}", fs::path(order.data).stem().string());
+        const Message title = Message("Identification from {}", fs::path(order.data).stem().string());
         return new_session(message_text(title, {catalog_of(language)}), lines, language);
     }
     const std::string own_cell = fmt::format("\n-- %% id={}\n{}", order.name, trimmed(lines));

@@ -4,7 +4,6 @@
 #include <iostream>
 
 #include "base/languages.h"
-#include "base/reader.h"
 #include "cli/commands.h"
 #include "documents/template_file.h"
 #include "platform/error.h"
@@ -24,17 +23,14 @@ struct HintArguments {
     bool next = false, all = false;
 };
 
-/// What is said around the hints, in their language.
-class HintWords {
-  public:
-    HintWords(const Lesson& lesson, const std::string& language)
-        : reader_{std::filesystem::is_regular_file(lesson.hints(language)) ? catalog_of(language) : nullptr} {}
+/// English, where the lesson has no hints in that language.
+Reader reader_of_hints(const Lesson& lesson, const std::string& language) {
+    return {std::filesystem::is_regular_file(lesson.hints(language)) ? catalog_of(language) : nullptr};
+}
 
-    void say(const Message& words) const { std::cout << message_text(words, reader_) << '\n'; }
-
-  private:
-    Reader reader_;
-};
+void say(const Message& message, const Reader& reader) {
+    std::cout << message_text(message, reader) << "\n";
+}
 
 /// The lesson that is named, or that the copy in this folder is of, whose report also tells the language.
 Lesson lesson_to_help(HintArguments& words) {
@@ -57,22 +53,20 @@ Hints hints_of(const Lesson& lesson, const std::string& language) {
     throw EnvironmentError("lesson {} has no hints ({})", lesson.slug, lesson.hints("en").string());
 }
 
-int list_hints(const Lesson& lesson, const Hints& hints, const std::string& name, const HintWords& words) {
-    words.say(Message("Lesson {}", lesson.slug));
-    std::cout << '\n';
+int list_hints(const Lesson& lesson, const Hints& hints, const std::string& name, const Reader& reader) {
+    say(Message("Lesson {}\n", lesson.slug), reader);
     for (const auto& [question, stages] : hints)
-        words.say(Message("question {}   {} hints, {} seen", fmt::format("{:>2}", question), stages.size(),
-                          std::min(HintsSeen(lesson.slug, question).count(), stages.size())));
-    std::cout << '\n';
-    words.say(Message("The first one of a question:  dynlab hint {} {}", name, hints.begin()->first));
+        say(Message("question {}   {} hints, {} seen", fmt::format("{:>2}", question), stages.size(),
+                    std::min(HintsSeen(lesson.slug, question).count(), stages.size())),
+            reader);
+    say(Message("\nThe first one of a question:  dynlab hint {} {}", name, hints.begin()->first), reader);
     return kDone;
 }
 
-void show_stages(const std::vector<std::string>& stages, std::size_t shown, const HintWords& words) {
+void show_stages(const std::vector<std::string>& stages, std::size_t shown, const Reader& reader) {
     const std::size_t width = columns_of_text(kHelpWidth);
     for (std::size_t i = 0; i < shown; ++i) {
-        std::cout << '\n';
-        words.say(Message("Hint {} of {}", i + 1, stages.size()));
+        say(Message("\nHint {} of {}", i + 1, stages.size()), reader);
         std::cout << laid_out(stages[i], width);
     }
 }
@@ -82,8 +76,8 @@ int give_hint(HintArguments words) {
     const Lesson lesson = lesson_to_help(words);
     const Hints hints = hints_of(lesson, words.language);
     if (hints.empty()) throw EnvironmentError("the hints of lesson {} are empty", lesson.slug);
-    const HintWords sentences(lesson, words.language);
-    if (words.question == 0) return list_hints(lesson, hints, name, sentences);
+    const Reader reader = reader_of_hints(lesson, words.language);
+    if (words.question == 0) return list_hints(lesson, hints, name, reader);
     const auto found = hints.find(words.question);
     if (found == hints.end())
         throw EnvironmentError("lesson {} has no hints for question {}; it has some for {} to {}", lesson.slug,
@@ -96,14 +90,17 @@ int give_hint(HintArguments words) {
     const std::size_t shown = words.all    ? stages.size()
                               : words.next ? std::min(before + 1, stages.size())
                                            : std::max<std::size_t>(before, 1);
-    sentences.say(Message("Lesson {}, question {}", lesson.slug, words.question));
-    show_stages(stages, shown, sentences);
+    say(Message("Lesson {}, question {}", lesson.slug, words.question), reader);
+    show_stages(stages, shown, reader);
     seen.remember(std::max(shown, before));
-    std::cout << '\n';
     if (const std::size_t left = stages.size() - shown; left > 0)
-        sentences.say(Message("{} more:  dynlab hint {} {} --next", left, name, words.question));
+        say(Message("\n{} more:  dynlab hint {} {} --next", left, name, words.question), reader);
     else
-        sentences.say(Message("This is the last one. The worked solution:  dynlab report {}", lesson.slug));
+        say(words.language.empty() || words.language == "en"
+                ? Message("\nThis is the last one. The worked solution:  dynlab report {}", lesson.slug)
+                : Message("\nThis is the last one. The worked solution:  dynlab report {} --lang {}", lesson.slug,
+                          words.language),
+            reader);
     return kDone;
 }
 

@@ -30,7 +30,7 @@ constexpr int kDeepestArchive = 20;
 std::optional<Message> objection_to(const fs::path& path) {
     constexpr std::size_t kLongestName = 255;  // of a file system
     const std::string& text = path.native();
-    const Message outside("\"{}\" leads outside of the archive", text);
+    const Message outside = Message("\"{}\" leads outside of the archive", text);
     const bool on_a_drive = text.size() > 1 && std::isalpha(static_cast<unsigned char>(text[0])) && text[1] == ':';
     if (path.is_absolute() || on_a_drive) return outside;
     int depth = 0;

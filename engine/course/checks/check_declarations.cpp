@@ -56,7 +56,7 @@ int check(Call& call) {
         throw InvalidArgument("\"{}\" is marked by hand: it has no test, rerun or mistakes", check.id);
     if (!check.by_hand && options.has("rubric"))
         throw InvalidArgument("\"{}\" has a rubric: it needs by_hand = true", check.id);
-    const Message owner("the check \"{}\"", check.id);
+    const Message owner = Message("the check \"{}\"", check.id);
     check.test = kept_option(options, "test", LUA_TFUNCTION, owner, Message("a function"), !check.by_hand);
     check.mistakes =
         kept_option(options, "mistakes", LUA_TTABLE, owner, Message("a list of {when = function, say = text}"), false);
@@ -100,7 +100,7 @@ int declare_rig(Call& call) {
     const std::string name = options.text("name", "");
     if (!plain_id(name)) throw InvalidArgument("a rig needs a name of letters, digits and _: that of its data set");
     if (session.rigs.contains(name)) throw InvalidArgument("there are two rigs \"{}\"", name);
-    const Message owner("the rig \"{}\"", name);
+    const Message owner = Message("the rig \"{}\"", name);
     session.rigs[name] = {kept_option(options, "record", LUA_TFUNCTION, owner, Message("a function"), true),
                           kept_option(options, "truth", LUA_TFUNCTION, owner, Message("a function"), false)};
     return 0;

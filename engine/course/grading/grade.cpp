@@ -25,7 +25,7 @@ json test_of(const CheckGrade& check, std::size_t number) {
     MessageList shown{{}, Join::kLines};
     if (check.visible && !check.message.empty()) shown.items.push_back(check.message);
     if (state == "failed" && !check.hint.empty()) shown.items.push_back(check.hint);
-    const Message output("{}", shown);
+    const Message output = Message("{}", shown);
     JsonWriter stored;
     write_value(stored, output);
     json test = {{"number", std::to_string(number)}, {"name", message_text(check.about)},

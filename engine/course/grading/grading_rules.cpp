@@ -246,7 +246,7 @@ std::vector<std::vector<TriedCheck>> GradingRules::tried(const std::vector<Check
 
 /// Each check in a box of its own; only those stay without a verdict that come to no end there.
 std::vector<GradingRules::Tried> GradingRules::verdicts_one_by_one(const Work& work) const {
-    const Message unreadable_result("its result cannot be read");
+    const Message unreadable_result = Message("its result cannot be read");
     std::vector<Tried> all;
     for (std::size_t k = 0; k < checks_.size(); ++k) {
         const auto alone = checked({work}, kSingleTime / static_cast<int>(checks_.size()), k);

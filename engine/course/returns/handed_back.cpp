@@ -114,7 +114,7 @@ std::string comments_on(const fs::path& marks, const MarkedStudent& student) {
                       Join::kLines};
     for (const ShownResult& one : shown) {
         if (one.earned >= one.points) continue;
-        const Message line("{}: {} of {}.", one.about, points_number(one.earned), points_number(one.points));
+        const Message line = Message("{}: {} of {}.", one.about, points_number(one.earned), points_number(one.points));
         lines.items.push_back(message_text(one.output).empty() ? line : sentences({line, one.output}));
     }
     return LessonReader(grade.language, grade.lesson).text(Message("{}", lines));

@@ -27,7 +27,7 @@ ScoreSheet::ScoreSheet(const Assignment& assignment, const std::filesystem::path
     }
     for (const std::string& name : table_.names)
         if (!others.contains(name)) unknown.push_back(name);
-    const Message known("the criteria of {} are {}", assignment.name, listed(criteria));
+    const Message known = Message("the criteria of {} are {}", assignment.name, listed(criteria));
     if (!unknown.empty()) fail(1, Message("unknown columns: {}; {}", listed(unknown), known));
     if (!any) fail(1, Message("there is no column of a criterion; {}", known));
 }

@@ -48,7 +48,7 @@ Curve curve_of(const std::map<double, double>& values, int zeros, int index) {
     for (const auto& [x, y] : values) curve.x[i] = x, curve.y[i++] = y;
     curve.style = CurveStyle::kLinePoints;
     curve.colour = index;
-    curve.label = zeros == 0 ? "no zero" : counted(zeros, "zero");
+    curve.label = zeros == 0 ? "no zero" : message_text(plural(zeros, "{} zero", "{} zeros"));
     return curve;
 }
 

@@ -95,7 +95,7 @@ StepTestResult step_first_order(const IdData& data) {
     result.parameters << K, T;
     result.points = {settling};
     result.model = TransferFunction(Vector::Constant(1, K), Vector{{T, 1.0}});
-    const Message reading(
+    const Message reading = Message(
         "The smoothed response stays within 5 % of its final value from {} s after the step on, three time constants.",
         significant(settling_time, kDigits));
     result.message = highest_rise(record) > 1.05
@@ -136,8 +136,9 @@ StepTestResult step_delayed(const IdData& data) {
     result.parameters << K, T, D;
     result.points = {{"28.3 %", t1, output_at(record, rise1)}, {"63.2 %", t2, output_at(record, rise2)}};
     result.model = TransferFunction(Vector::Constant(1, K), Vector{{T, 1.0}}, 0, D);
-    const Message reading("The smoothed response reaches 28.3 % and 63.2 % of its change {} s and {} s after the step.",
-                          significant(t1 - record.step_time, kDigits), significant(t2 - record.step_time, kDigits));
+    const Message reading =
+        Message("The smoothed response reaches 28.3 % and 63.2 % of its change {} s and {} s after the step.",
+                significant(t1 - record.step_time, kDigits), significant(t2 - record.step_time, kDigits));
     result.message =
         D == 0 ? sentences({reading, Message("The points leave no room for a delay: step_first_order suits this "
                                              "response.")})

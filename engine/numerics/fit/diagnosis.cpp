@@ -340,7 +340,7 @@ Message iteration_count(const Fit& fit) {
 }
 
 Message fits_text(const Fit& fit) {
-    Message fits("{}", significant(fit.fit_percent[0], 4));
+    Message fits = Message("{}", significant(fit.fit_percent[0], 4));
     for (Index output = 1; output < fit.fit_percent.size(); ++output)
         fits = Message("{} % and {}", fits, significant(fit.fit_percent[output], 4));
     return fits;

@@ -148,7 +148,7 @@ void find_offset(const FittedRecord& fit, RecordFindings& findings) {
                   fit.output(), level, fit.input(), fit.input(), rounded(fit.u().minCoeff(), 3),
                   rounded(fit.u().maxCoeff(), 3))
             : Message("{} stands at about {} when {} is zero.", fit.output(), level, fit.input());
-    const Message remedy(
+    const Message remedy = Message(
         "A linear model goes through the origin: take the offset off with data:remove_mean() or "
         "data:detrend(\"start\"), or use {} = \"estimate\".",
         OptionName{"offset"});

@@ -144,7 +144,7 @@ void find_feedback(const FittedRecord& fit, RecordFindings& findings) {
     Index lag = 0;
     const double largest = products.tail(kFeedbackLags + 1).cwiseAbs().maxCoeff(&lag);
     const Message when = lag == 0 ? Message("at the same sample") : plural(lag, "{} sample later", "{} samples later");
-    const Message seen(
+    const Message seen = Message(
         "{} follows disturbances of {} (correlation {}, {}): a controller was running. Noise then enters "
         "the input, which biases lssvf, arx, ivsvf and srivc.",
         fit.input(), fit.output(), rounded(largest, 2), when);

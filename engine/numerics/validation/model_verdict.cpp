@@ -27,12 +27,13 @@ Message missing_part(const ModelStanding& model) {
 Message model_verdict(const ModelStanding& model) {
     const Number fit = significant(model.fit_percent, 3);
     if (model.unstable) {
-        const Message verdict("The model is unstable and not to be used, whatever the tests of its errors say.");
+        const Message verdict =
+            Message("The model is unstable and not to be used, whatever the tests of its errors say.");
         return model.doubts.remedy.empty() ? verdict : sentences({verdict, model.doubts.remedy});
     }
     if (model.tested && explains_little(model.fit_percent)) {
-        const Message verdict(
-            "The model explains little of the output (fit {} %), whatever the tests of its errors say.", fit);
+        const Message verdict =
+            Message("The model explains little of the output (fit {} %), whatever the tests of its errors say.", fit);
         const bool missing = !model.independent || !model.doubts.remedy.empty();
         return sentences({verdict, missing
                                        ? missing_part(model)

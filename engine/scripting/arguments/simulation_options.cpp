@@ -4,8 +4,8 @@
 
 #include "numerics/signals/interpolation.h"
 #include "numerics/validation/grey_box/grey_comparison.h"
+#include "scripting/conversions/localized.h"
 #include "scripting/conversions/table_fields.h"
-#include "scripting/conversions/told_sentences.h"
 #include "scripting/objects/grey_object.h"
 #include "scripting/objects/simulated_model.h"
 
@@ -39,7 +39,7 @@ Comparison comparison_argument(const Call& call, int index, const IdData& data, 
     }
     Comparison comparison = compare_all(data, *simulated->run);
     for (const auto& outputs : comparison.results)
-        if (!outputs.front().output.allFinite()) call.print(told(call, outputs.front().message) + "\n");
+        if (!outputs.front().output.allFinite()) call.print(localized(call, outputs.front().message) + "\n");
     return comparison;
 }
 

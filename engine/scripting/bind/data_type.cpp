@@ -5,8 +5,8 @@
 #include "numerics/signals/preprocess.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/bind/preprocess_bindings.h"
+#include "scripting/conversions/localized.h"
 #include "scripting/conversions/table_fields.h"
-#include "scripting/conversions/told_sentences.h"
 #include "scripting/objects/data_object.h"
 
 namespace dynlab::inline scripting {
@@ -111,14 +111,19 @@ int remove_mean_of(Call& call) {
     return give_data(call, remove_mean(data_self(call)));
 }
 
-std::string data_text(const IdData& data) {
-    const std::string sampling =
-        data.regular() ? "Ts = " + number_text(data.Ts) + " " + data.time_unit : "sampled irregularly";
+Message data_text(const IdData& data) {
     const std::size_t experiments = data.experiments.size();
-    return fmt::format("iddata: {}, {}, {}, {}{}{}", counted(data.sample_count(), "sample"),
-                       counted(data.output_count(), "output"), counted(data.input_count(), "input"), sampling,
-                       data.reference_count() > 0 ? ", " + counted(data.reference_count(), "reference") : "",
-                       experiments > 1 ? fmt::format(", {} experiments", experiments) : "");
+    MessageList properties;
+    properties.items.push_back(plural(data.sample_count(), "{} sample", "{} samples"));
+    properties.items.push_back(plural(data.output_count(), "{} output", "{} outputs"));
+    properties.items.push_back(plural(data.input_count(), "{} input", "{} inputs"));
+    properties.items.push_back(data.regular() ? Message("Ts = {} {}", data.Ts, data.time_unit)
+                                              : Message("sampled irregularly"));
+    if (data.reference_count() > 0)
+        properties.items.push_back(plural(data.reference_count(), "{} reference", "{} references"));
+    if (experiments > 1)
+        properties.items.push_back(plural(static_cast<std::int64_t>(experiments), "{} experiment", "{} experiments"));
+    return Message("iddata: {}", properties);
 }
 
 constexpr std::array kDataTypeFields = {
@@ -151,7 +156,7 @@ constexpr std::array kDataTypeMethods = {
     Member{"keep", guarded<keep_parts>},
     Member{"discard", guarded<discard_parts>},
 };
-constexpr std::array kDataTypeOperators = {Member{"__tostring", told_field<IdData, data_text>}};
+constexpr std::array kDataTypeOperators = {Member{"__tostring", localized_field<IdData, data_text>}};
 
 constexpr std::array kDataTypes = {
     TypeEntry{&Boxed<IdData>::type, kDataTypeFields, kDataTypeMethods, kDataTypeOperators, guarded<part_by_table>}};

@@ -3,6 +3,7 @@
 
 #include "base/number_text.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/conversions/localized.h"
 #include "scripting/conversions/table_fields.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/panel_options.h"
@@ -175,7 +176,10 @@ int figure_to_text(Call& call) {
     const Figure& figure = figure_self(call);
     std::size_t curves = 0;
     for (const Panel& panel : figure.panels) curves += panel.curves.size();
-    return call.give(fmt::format("figure: {}, {}", counted(figure.panels.size(), "panel"), counted(curves, "curve")));
+    return call.give(localized(
+        call,
+        Message("figure: {}, {}", plural(static_cast<std::int64_t>(figure.panels.size()), "{} panel", "{} panels"),
+                plural(static_cast<std::int64_t>(curves), "{} curve", "{} curves"))));
 }
 
 int panel_count(Call& call) {

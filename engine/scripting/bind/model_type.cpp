@@ -5,8 +5,8 @@
 #include <span>
 
 #include "scripting/bind/bindings.h"
+#include "scripting/conversions/localized.h"
 #include "scripting/conversions/table_fields.h"
-#include "scripting/conversions/told_sentences.h"
 #include "scripting/objects/fit_model.h"
 #include "scripting/objects/present.h"
 #include "scripting/objects/process_structure.h"
@@ -201,10 +201,13 @@ constexpr std::array kModelTypeFields = {
     Member{"channels", guarded<field_channels>},
 };
 constexpr std::array kModelTypeOperators = {
-    Member{"__add", guarded<combine<plus>>},           Member{"__sub", guarded<combine<minus>>},
-    Member{"__mul", guarded<combine<times>>},          Member{"__div", guarded<combine<over>>},
-    Member{"__pow", guarded<raise_to_power>},          Member{"__unm", guarded<negate>},
-    Member{"__tostring", field<Model, channels_text>},
+    Member{"__add", guarded<combine<plus>>},
+    Member{"__sub", guarded<combine<minus>>},
+    Member{"__mul", guarded<combine<times>>},
+    Member{"__div", guarded<combine<over>>},
+    Member{"__pow", guarded<raise_to_power>},
+    Member{"__unm", guarded<negate>},
+    Member{"__tostring", localized_field<Model, channels_text>},
 };
 
 std::string system_text(const StateSpace& s) {

@@ -3,8 +3,8 @@
 #include "numerics/models/convert.h"
 #include "numerics/simulation/stability_margins.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/conversions/localized.h"
 #include "scripting/conversions/numeric.h"
-#include "scripting/conversions/told_sentences.h"
 #include "scripting/objects/grey_object.h"
 #include "scripting/objects/model.h"
 #include "scripting/objects/present.h"
@@ -223,15 +223,15 @@ int present(Call& call) {
     if (call.count() == 0) wrong_argument(call.state(), 1, "G", with_article("model"));
     for (int i = 1; i <= call.count(); ++i) {
         if (const GreyEstimate* grey = to_object<GreyEstimate>(call.state(), i)) {
-            call.print(told(call, grey_presentation(**grey)));
+            call.print(grey_presentation(**grey, reader_of(call)));
             continue;
         }
         if (const SimulatedModel* simulated = simulated_model(call, i)) {
-            call.print(told(call, presentation(*simulated)));
+            call.print(presentation(*simulated, reader_of(call)));
             continue;
         }
         const Model* model = to_object<Model>(call.state(), i);
-        call.print(told(call, presentation(model != nullptr ? *model : model_argument(call, i, "G"))));
+        call.print(presentation(model != nullptr ? *model : model_argument(call, i, "G"), reader_of(call)));
     }
     return 0;
 }

@@ -7,8 +7,8 @@
 #include "numerics/estimators/frequency/spa.h"
 #include "numerics/estimators/impulseest.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/conversions/localized.h"
 #include "scripting/conversions/table_fields.h"
-#include "scripting/conversions/told_sentences.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/frequency_object.h"
@@ -55,7 +55,7 @@ double confidence_of(const Options& options) {
 void print_message(const Call& call, const Message& message, const std::vector<Message>& warnings) {
     std::vector<Message> all = {message};
     all.insert(all.end(), warnings.begin(), warnings.end());
-    call.print(told(call, sentences(std::move(all))) + "\n");
+    call.print(localized(call, sentences(std::move(all))) + "\n");
 }
 
 int give_spectral(const Call& call, const Options& options, SpectralModels& read, const SpectralEstimate& estimate,
@@ -81,7 +81,7 @@ int give_impulse(const Call& call, const Options& options, SpectralModels& read,
     if (estimate.first)
         set_field(call, "first", *estimate.first, "dead_time",
                   static_cast<double>(std::max<Index>(*estimate.first - 1, 0)) * read.data.Ts);
-    set_field(call, "message", told(call, estimate.message), "warnings", told(call, estimate.warnings));
+    set_field(call, "message", localized(call, estimate.message), "warnings", localized(call, estimate.warnings));
     return 2;
 }
 

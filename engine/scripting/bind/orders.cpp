@@ -9,8 +9,8 @@
 #include "platform/terminal/progress.h"
 #include "scripting/arguments/estimator_arguments.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/conversions/localized.h"
 #include "scripting/conversions/table_fields.h"
-#include "scripting/conversions/told_sentences.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/memoized_calls/shared_pieces.h"
 #include "scripting/objects/data_object.h"
@@ -144,7 +144,7 @@ int select_structure(Call& call) {
     const OrderTable& table = object_argument<OrderTable>(call, 1, "table");
     const OrderCriterion criterion = criterion_of(call);
     const OrderChoice choice = choose_order(table.selection, criterion);
-    call.print(told(call, order_table_text(table.selection, choice)));
+    call.print(order_table_text(table.selection, choice, reader_of(call)));
     const OrderCandidate& candidate = table.selection.candidates[choice.place];
     give_fit(call, "srivc", candidate.estimate);
     give_figure(call, order_plot(table.selection, criterion, choice));
@@ -179,7 +179,7 @@ int select_arx_structure(Call& call) {
     const ArxSelection& table = object_argument<ArxSelection>(call, 1, Message("what arxstruc gave"));
     const ArxCriterion criterion = arx_criterion_of(call, table);
     const OrderChoice choice = choose_arx(table, criterion);
-    call.print(told(call, arx_table_text(table, choice)));
+    call.print(arx_table_text(table, choice, reader_of(call)));
     const ArxCandidate& chosen = table.candidates[choice.place];
     give_value(call, std::array{chosen.na, chosen.nb, chosen.nk});
     give_figure(call, arx_order_plot(table, criterion, choice));
@@ -192,7 +192,7 @@ void push_search(const Call& call, const IdData& data, const DelaySearch& search
     give_table(call, "delay", search.delay, "std", search.std);
     if (data.regular()) set_field(call, "samples", search.delay / data.Ts);
     set_field(call, "rival", search.rival, "delays", search.grid(), "losses", search.losses(), "poles",
-              search.candidate.poles, "zeros", search.candidate.zeros, "message", told(call, search.explanation));
+              search.candidate.poles, "zeros", search.candidate.zeros, "message", localized(call, search.explanation));
     give_fit(call, "srivc", search.candidate.estimate);
     lua_setfield(L, -2, "model");
 }
@@ -213,7 +213,7 @@ int estimate_delay(Call& call) {
     wanted.progress = [&bar](std::size_t done) { bar.advance(done); };
     const DelaySearch search = search_delay(data, wanted);
     poll_stop(call.state());
-    call.print(told(call, search.explanation) + "\n");
+    call.print(localized(call, search.explanation) + "\n");
     call.give(search.delay);
     give_figure(call, delay_plot(search));
     push_search(call, data, search);

@@ -2,8 +2,8 @@
 #include "numerics/validation/prediction.h"
 #include "scripting/arguments/simulation_options.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/conversions/localized.h"
 #include "scripting/conversions/table_fields.h"
-#include "scripting/conversions/told_sentences.h"
 #include "scripting/objects/data_object.h"
 
 namespace dynlab::inline scripting {
@@ -32,7 +32,7 @@ void push_report(const Call& call, const Predictions& all) {
     lua_createtable(L, 0, 4);
     set_per_output(call, "fit_percent", all.fit_percent);
     set_per_output(call, "loss", all.loss);
-    set_field(call, "first", all.results.front().front().first + 1, "message", told(call, all.message));
+    set_field(call, "first", all.results.front().front().first + 1, "message", localized(call, all.message));
 }
 
 /// predict(data, G, {k =, ...}) or predict(data, G, k); with kErrors what they leave of the output.

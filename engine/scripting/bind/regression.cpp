@@ -6,8 +6,8 @@
 #include "numerics/estimators/linear_regression.h"
 #include "numerics/statistics/distributions.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/conversions/localized.h"
 #include "scripting/conversions/table_fields.h"
-#include "scripting/conversions/told_sentences.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/runtime/text_form.h"
 
@@ -44,11 +44,14 @@ const Message& message_of(const RegressionFit& fit) {
     return fit.regression.message;
 }
 
-std::string regression_text(const RegressionFit& given) {
+Message regression_text(const RegressionFit& given) {
     const LinearRegression& fit = given.regression;
-    return fmt::format("theta = {}\nstandard errors = {}\nRMSE = {}, condition number = {}\n{}", vector_text(fit.theta),
-                       vector_text(fit.std), number_text(fit.rmse), number_text(fit.condition_number),
-                       message_text(fit.message));
+    MessageList lines{{}, Join::kLines};
+    lines.items.push_back(Message("theta = {}", vector_text(fit.theta)));
+    lines.items.push_back(Message("standard errors = {}", vector_text(fit.std)));
+    lines.items.push_back(Message("RMSE = {}, condition number = {}", fit.rmse, fit.condition_number));
+    lines.items.push_back(fit.message);
+    return Message("{}", lines);
 }
 
 constexpr std::array kRegressionFields = {
@@ -61,11 +64,11 @@ constexpr std::array kRegressionFields = {
     Member{"condition_number", regression_field<&LinearRegression::condition_number>},
     Member{"covariance", regression_field<&LinearRegression::covariance>},
     Member{"rank", regression_field<&LinearRegression::rank>},
-    Member{"message", told_field<RegressionFit, message_of>},
+    Member{"message", localized_field<RegressionFit, message_of>},
     Member{"coefficients", field<RegressionFit, coefficients_of>},
     Member{"centre", field<RegressionFit, centre_of>},
 };
-constexpr std::array kRegressionOperators = {Member{"__tostring", told_field<RegressionFit, regression_text>}};
+constexpr std::array kRegressionOperators = {Member{"__tostring", localized_field<RegressionFit, regression_text>}};
 
 int least_squares(Call& call) {
     call.at_most(3);
@@ -173,7 +176,7 @@ int descend(Call& call) {
     return give_table(call, "theta", result.theta, "loss", result.loss, "step", result.step_size, "largest_step",
                       result.largest_step, "condition_number", result.condition_number, "iterations", result.iterations,
                       "converged", result.termination == Termination::kConverged, "message",
-                      told(call, result.message));
+                      localized(call, result.message));
 }
 
 constexpr FunctionEntry kRegressionFunctions[] = {

@@ -1,9 +1,9 @@
 #include <cctype>
 #include <cmath>
 
-#include "base/number_text.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/conversions/arguments.h"
+#include "scripting/conversions/localized.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/runtime/sandbox.h"
 #include "scripting/runtime/text_form.h"
@@ -173,23 +173,18 @@ void push_guesses(lua_State* L) {
     luaL_getsubtable(L, LUA_REGISTRYINDEX, kGuesses);
 }
 
-bool in_french(const Call& call) {
-    return call.context().services.language_code() == "fr";
+Message with_unit(double value, const std::string& unit) {
+    const Number number = significant(value, 4);
+    return unit.empty() ? Message("{}", number) : Message("{} {}", number, unit);
 }
 
-std::string with_unit(double value, const std::string& unit) {
-    const std::string number = fmt::format("{:.4g}", value);
-    return unit.empty() ? number : number + " " + unit;
-}
-
-/// How far a guess lies from what was found, in its percents.
-std::string distance(double guessed, double found, bool french) {
-    if (found == 0 || !std::isfinite(found) || !std::isfinite(guessed)) return "";
+/// How far a guess lies from what was found, in its percents; empty where that has no meaning.
+Message distance(double guessed, double found) {
+    if (found == 0 || !std::isfinite(found) || !std::isfinite(guessed)) return {};
     const double percent = 100 * std::abs(guessed / found - 1);
-    const std::string shown = percent >= 9.5                    ? fmt::format("{:.0f}", percent)
-                              : percent >= 0.01 || percent == 0 ? fmt::format("{:.1g}", percent)
-                                                                : (french ? "moins de 0.01" : "less than 0.01");
-    return fmt::format(fmt::runtime(french ? " (écart de {} %)" : " (off by {} %)"), shown);
+    if (percent >= 9.5) return Message("off by {} %", decimals(percent, 0));
+    if (percent >= 0.01 || percent == 0) return Message("off by {} %", significant(percent, 1));
+    return Message("off by less than {} %", significant(0.01, 1));
 }
 
 int guess(Call& call) {
@@ -206,10 +201,7 @@ int guess(Call& call) {
         lua_pushnumber(L, call.number(2, Message("your guess")));
         lua_setfield(L, -2, "value");
     } else {
-        call.print(fmt::format(
-            fmt::runtime(in_french(call) ? "{} : pas encore deviné ; écrivez votre nombre à la place de nil\n"
-                                         : "{}: not guessed yet; type your number in the place of nil\n"),
-            name));
+        call.print(localized(call, Message("{}: not guessed yet; type your number in the place of nil", name)) + "\n");
     }
     lua_pushstring(L, unit.c_str());
     lua_setfield(L, -2, "unit");
@@ -222,20 +214,21 @@ int outcome(Call& call) {
     lua_State* const L = call.state();
     const std::string name = call.text(1, "name");
     const double found = call.number(2, Message("what was found"));
-    const bool french = in_french(call);
     push_guesses(L);
     if (lua_getfield(L, -1, name.c_str()) != LUA_TTABLE)
         throw InvalidArgument("nothing called \"{}\" was guessed before; write guess(\"{}\", 1) above", name, name);
     lua_getfield(L, -1, "unit");
-    const std::string unit = lua_tostring(L, -1), shown = with_unit(found, unit);
+    const std::string unit = lua_tostring(L, -1);
+    const Message shown = with_unit(found, unit);
     if (lua_getfield(L, -2, "value") == LUA_TNIL) {
-        call.print(fmt::format(fmt::runtime(french ? "{} : trouvé {}, non deviné\n" : "{}: found {}, not guessed\n"),
-                               name, shown));
+        call.print(localized(call, Message("{}: found {}, not guessed", name, shown)) + "\n");
         return 0;
     }
     const double guessed = lua_tonumber(L, -1);
-    call.print(fmt::format(fmt::runtime(french ? "{} : deviné {}, trouvé {}{}\n" : "{}: guessed {}, found {}{}\n"),
-                           name, with_unit(guessed, unit), shown, distance(guessed, found, french)));
+    const Message off = distance(guessed, found), own = with_unit(guessed, unit);
+    call.print(localized(call, off.empty() ? Message("{}: guessed {}, found {}", name, own, shown)
+                                           : Message("{}: guessed {}, found {} ({})", name, own, shown, off)) +
+               "\n");
     return 0;
 }
 

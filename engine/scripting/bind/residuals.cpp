@@ -7,8 +7,8 @@
 #include "numerics/validation/residual_tests.h"
 #include "scripting/arguments/simulation_options.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/conversions/localized.h"
 #include "scripting/conversions/table_fields.h"
-#include "scripting/conversions/told_sentences.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/simulated_model.h"
@@ -19,13 +19,13 @@ namespace {
 void push_independence(const Call& call, const IndependenceTest& test) {
     give_table(call, "correlation", test.correlation, "bound", test.bound, "outside", static_cast<double>(test.outside),
                "p_value", test.p_value, "p_value_future", test.p_value_future, "independent", test.independent,
-               "without_feedback", test.without_feedback, "verdict", told(call, test.verdict));
+               "without_feedback", test.without_feedback, "verdict", localized(call, test.verdict));
 }
 
 void push_output(const Call& call, const OutputResiduals& output) {
     lua_State* L = call.state();
     give_table(call, "mean", output.mean, "variance", output.variance, "exact", output.exact, "verdict",
-               told(call, output.verdict));
+               localized(call, output.verdict));
     if (output.exact) return;
     set_field(call, "correlation", output.whiteness.correlation, "bound", output.whiteness.bound, "outside",
               static_cast<double>(output.whiteness.outside), "p_value", output.whiteness.p_value, "white",
@@ -47,7 +47,7 @@ void push_tests(const Call& call, const ResidualTests& tests) {
     lua_setfield(L, -2, "outputs");
     give_list(call, tests.residuals, [&](const Matrix& residuals) { give_columns(call, residuals); });
     lua_setfield(L, -2, "residuals");
-    set_field(call, "verdict", told(call, tests.verdict), "white", white, "independent", independent);
+    set_field(call, "verdict", localized(call, tests.verdict), "white", white, "independent", independent);
 }
 
 /// Nothing for models that were not estimated.
@@ -87,7 +87,7 @@ int test_residuals(Call& call) {
     wanted.lags = options.size("lags", wanted.lags);
     wanted.confidence = options.number("confidence", wanted.confidence);
     const ResidualTests tests = tests_of_model(call, data, options, wanted);
-    if (!quiet) call.print(told(call, tests.verdict) + "\n");
+    if (!quiet) call.print(localized(call, tests.verdict) + "\n");
     bool drawable = false;
     for (const OutputResiduals& output : tests.outputs) drawable = drawable || !output.exact;
     if (drawable && !quiet)
@@ -119,7 +119,7 @@ void push_cross_validation(const Call& call, const CrossValidation& result) {
     lua_createtable(L, 0, 5);
     give_columns(call, result.fit_percent);
     lua_setfield(L, -2, "fit_percent");
-    set_field(call, "mean", result.mean, "std", result.spread, "message", told(call, result.message));
+    set_field(call, "mean", result.mean, "std", result.spread, "message", localized(call, result.message));
     give_list(call, result.folds, [&](const CrossValidationFold& fold) {
         give_table(call, "experiment", static_cast<double>(fold.experiment + 1), "first",
                    static_cast<double>(fold.first), "last", static_cast<double>(fold.last));
@@ -142,7 +142,7 @@ int validate_across(Call& call) {
     lua_State* L = call.state();
     const CrossValidation result = cross_validate(
         data, [L](const IdData& training) { return call_fitter(L, training); }, wanted);
-    call.print(told(call, result.message) + "\n");
+    call.print(localized(call, result.message) + "\n");
     give_figure(call, cross_validation_plot(result, data.output_names));
     push_cross_validation(call, result);
     return 2;

@@ -2,8 +2,8 @@
 
 #include "figures/plots/monte_carlo_plot.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/conversions/localized.h"
 #include "scripting/conversions/table_fields.h"
-#include "scripting/conversions/told_sentences.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/fit_model.h"
 #include "scripting/objects/study_objects.h"
@@ -25,7 +25,7 @@ int push_result(const Call& call, const MonteCarloResult& result) {
     if (result.truth.size() > 0) set_field(call, "truth", result.truth, "bias", result.bias);
     if (result.bound.size() > 0) set_field(call, "cramer_rao_std", result.least_spread(), "cramer_rao", result.bound);
     set_field(call, "estimated", result.estimated, "failed", result.failed, "not_converged", result.not_converged,
-              "first_failure", told(call, result.first_failure));
+              "first_failure", localized(call, result.first_failure));
     return 1;
 }
 
@@ -63,7 +63,7 @@ constexpr std::array kStudyFields = {
     Member{"sigma", field<MonteCarlo, &MonteCarlo::sigma>}, Member{"snr", field<MonteCarlo, &MonteCarlo::snr>}};
 constexpr std::array kStudyMethods = {Member{"histograms", guarded<draw_histograms>},
                                       Member{"scatter", guarded<draw_scatter>}};
-constexpr std::array kStudyOperators = {Member{"__tostring", told_field<MonteCarlo, monte_carlo_text>},
+constexpr std::array kStudyOperators = {Member{"__tostring", localized_field<MonteCarlo, monte_carlo_text>},
                                         Member{"__named", guarded<study_named>}};
 
 // ---- order table
@@ -72,7 +72,7 @@ int push_candidate(const Call& call, const OrderCandidate& candidate) {
     lua_State* L = call.state();
     give_table(call, "poles", candidate.poles, "zeros", candidate.zeros, "delay", candidate.delay);
     if (!candidate.failure.empty()) {
-        set_field(call, "failure", told(call, candidate.failure));
+        set_field(call, "failure", localized(call, candidate.failure));
         return 1;
     }
     set_field(call, "r_squared", candidate.r_squared, "yic", candidate.yic, "aic", candidate.aic, "bic", candidate.bic,
@@ -95,13 +95,13 @@ int table_best(Call& call) {
 Message recommendation(const OrderTable& table) {
     return table.choice.explanation;
 }
-std::string table_text(const OrderTable& table) {
-    return order_table_text(table.selection, table.choice);
+std::string table_text(const OrderTable& table, const Reader& reader) {
+    return order_table_text(table.selection, table.choice, reader);
 }
 
 constexpr std::array kTableFields = {Member{"rows", guarded<table_rows>}, Member{"best", guarded<table_best>},
-                                     Member{"recommendation", told_field<OrderTable, recommendation>}};
-constexpr std::array kTableOperators = {Member{"__tostring", told_field<OrderTable, table_text>}};
+                                     Member{"recommendation", localized_field<OrderTable, recommendation>}};
+constexpr std::array kTableOperators = {Member{"__tostring", localized_field<OrderTable, table_text>}};
 
 // ---- table of ARX orders
 
@@ -125,13 +125,13 @@ int arx_best(Call& call) {
 Message arx_recommendation(const ArxSelection& table) {
     return usual_arx_choice(table).explanation;
 }
-std::string arx_text(const ArxSelection& table) {
-    return arx_table_text(table, usual_arx_choice(table));
+std::string arx_text(const ArxSelection& table, const Reader& reader) {
+    return arx_table_text(table, usual_arx_choice(table), reader);
 }
 
 constexpr std::array kArxTableFields = {Member{"rows", guarded<arx_rows>}, Member{"best", guarded<arx_best>},
-                                        Member{"recommendation", told_field<ArxSelection, arx_recommendation>}};
-constexpr std::array kArxTableOperators = {Member{"__tostring", told_field<ArxSelection, arx_text>}};
+                                        Member{"recommendation", localized_field<ArxSelection, arx_recommendation>}};
+constexpr std::array kArxTableOperators = {Member{"__tostring", localized_field<ArxSelection, arx_text>}};
 
 constexpr std::array kStudyTypes = {TypeEntry{&Boxed<ArxSelection>::type, kArxTableFields, {}, kArxTableOperators},
                                     TypeEntry{&Boxed<MonteCarlo>::type, kStudyFields, kStudyMethods, kStudyOperators},

@@ -5,8 +5,8 @@
 #include "numerics/validation/fit_measures.h"
 #include "scripting/arguments/simulation_options.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/conversions/localized.h"
 #include "scripting/conversions/table_fields.h"
-#include "scripting/conversions/told_sentences.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/grey_object.h"
@@ -150,7 +150,7 @@ int measure_fit(Call& call) {
     if (model.covariance.size() > 0 && !lost)
         set_field(call, "yic", yic(y, pair.swing, model.theta, model.covariance).value);
     set_field(call, "output", comparison.results.front().front().output, "message",
-              told(call, comparison.results.front().front().message));
+              localized(call, comparison.results.front().front().message));
     return 1;
 }
 

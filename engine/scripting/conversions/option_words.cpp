@@ -75,23 +75,6 @@ Message with_script_options(const Message& message) {
     return Message::stored(message.id(), message.many(), std::move(arguments));
 }
 
-std::string in_lua_words(const Message& message) {
-    return in_lua_words(message_text(message, {nullptr, &option_name}));
-}
-
-std::string in_lua_words(std::string_view message) {
-    std::string text;
-    while (!message.empty()) {
-        const std::size_t begin = message.find('`'), end = message.find('`', begin + 1);
-        if (begin == std::string_view::npos || end == std::string_view::npos) break;
-        const std::optional<std::string> word = word_of(message.substr(begin + 1, end - begin - 1));
-        text += message.substr(0, word ? begin : end);  // a closing backtick may open the next name
-        text += word.value_or("");
-        message.remove_prefix(word ? end + 1 : end);
-    }
-    return text += message;
-}
-
 std::string with_other_case(std::string name) {
     if (name.empty()) return name;
     const auto first = static_cast<unsigned char>(name[0]);

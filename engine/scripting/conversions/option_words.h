@@ -13,12 +13,6 @@ std::string option_name(std::string_view member);
 /// The message with these names in the place of its OptionName arguments, so that every reader sees them.
 Message with_script_options(const Message& message);
 
-/// Numerics names its options in backticks, `max_iterations`, and knows no word of Lua: here they become the names that
-/// scripts use, MaxIter. Other text in backticks stays as it is.
-std::string in_lua_words(std::string_view message);
-/// In English.
-std::string in_lua_words(const Message& message);
-
 /// The names of numerics' options that have one in scripts.
 std::vector<std::string> translated_options();
 

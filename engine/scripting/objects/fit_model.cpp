@@ -1,7 +1,7 @@
 #include "scripting/objects/fit_model.h"
 
+#include "scripting/conversions/localized.h"
 #include "scripting/conversions/table_fields.h"
-#include "scripting/conversions/told_sentences.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -83,14 +83,14 @@ Estimate basic_estimate(const char* method, const Fit& fit) {
 }
 
 void push_report(const Call& call, const Estimate& estimate) {
-    give_table(call, "method", estimate.method, "message", told(call, estimate.message), "converged",
+    give_table(call, "method", estimate.method, "message", localized(call, estimate.message), "converged",
                estimate.converged);
     for (const auto& [name, value] : estimate.numbers) set_field(call, name.c_str(), value);
     for (const auto& [name, values] : estimate.vectors) set_field(call, name.c_str(), values);
     for (const auto& [name, values] : estimate.matrices) set_field(call, name.c_str(), values);
     if (const auto& assessment = estimate.doubts.assessment)
-        set_field(call, "white", assessment->white, "residual_verdict", told(call, assessment->verdict));
-    set_field(call, "warnings", told(call, estimate.warnings));
+        set_field(call, "white", assessment->white, "residual_verdict", localized(call, assessment->verdict));
+    set_field(call, "warnings", localized(call, estimate.warnings));
 }
 
 Estimate estimate_of(const char* method, const Fit& fit, FitForm form) {

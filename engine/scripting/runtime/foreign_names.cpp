@@ -281,8 +281,8 @@ struct MemberHint {
 
 /// Fields and methods that the same things have elsewhere.
 const auto& member_hints() {
-    static const Message kCounting("#v counts the elements of a vector; a matrix has rows and columns"),
-        kAppending("vector{v, x} is v with x behind it");
+    static const Message kCounting = Message("#v counts the elements of a vector; a matrix has rows and columns"),
+                         kAppending("vector{v, x} is v with x behind it");
     static const std::array hints = {
         MemberHint{"iddata", "Fs", Message("data.Ts is the sampling time in seconds")},
         MemberHint{"iddata", "InputData", Message("the input is data.u")},

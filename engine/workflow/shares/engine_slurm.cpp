@@ -165,7 +165,7 @@ class SlurmTasks : public WorkerEngine {
 
     [[noreturn]] void refuse(const ChildResult& told) const {
         const std::string said = told.error_output;
-        Message remedy("sbatch takes the options that stand behind slurm: in --on");
+        Message remedy = Message("sbatch takes the options that stand behind slurm: in --on");
         if (said.find("partition") != std::string::npos) {
             const ChildResult known = ask({"sinfo", "--noheader", "--format=%R"});
             remedy = Message("the partitions here are {}", listed(words_between_spaces(known.output)));

@@ -251,7 +251,7 @@ TEST(coe, refuses_bad_input_in_words) {  // oracle: the sentence names what is w
     EXPECT_THAT(refusal(still, kCourse), HasSubstr("never changes"));
     EXPECT_THAT(refusal(data, TransferStructure::single(2, 0, 20)), HasSubstr("not shorter than the record"));
     EXPECT_THAT(refusal(data, TransferStructure::grid(1, 2, Denominators::kCommon, {2}, {0}, {0.0})),
-                HasSubstr("2 input(s)"));
+                HasSubstr("2 inputs"));
     FitOptions options;
     options.tolerance = 0;
     EXPECT_THAT(refusal(data, kCourse, options), HasSubstr("`tolerance`"));

@@ -240,7 +240,7 @@ TEST(transfer_refinement, refuses_what_cannot_be_estimated) {
                 HasSubstr("more samples than the 12 values"));
     EXPECT_THAT(
         refine(data, TransferStructure::grid(1, 2, Denominators::kCommon, {2}, {0}, {0.0}), kRest, Vector::Ones(4)),
-        HasSubstr("2 input(s)"));
+        HasSubstr("2 inputs"));
     EXPECT_THAT(refine(data, TransferStructure::single(2, 0, 100), kRest, theta),
                 HasSubstr("not shorter than the record"));
     EXPECT_THAT(refine(IdData(data.experiments[0].y, Matrix::Zero(100, 1), kTs), structure, kRest, theta),

@@ -276,7 +276,7 @@ TEST(prediction, refuses_what_it_cannot_predict) {  // oracle: definitions
     EXPECT_THAT(refusal(IdData(Matrix(s.y), Matrix(s.u), 0.25), noisy(s.model)),
                 HasSubstr("Ts = 0.5 s, and the data are sampled every 0.25 s"));
     EXPECT_THAT(refusal(IdData(Matrix(s.y), Matrix::Ones(60, 2), 0.5), noisy(s.model)),
-                HasSubstr("The model has 1 input(s), and the data have 2"));
+                HasSubstr("The model has 1 input, and the data have 2"));
     EXPECT_THAT(refusal(s.data().range(1, 2), noisy(s.model)), HasSubstr("too few samples to predict"));
     Vector theta = kArmaxTheta;
     theta.tail(2) << -2.5, 1;

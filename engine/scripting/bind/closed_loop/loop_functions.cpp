@@ -8,7 +8,7 @@
 #include "scripting/arguments/simulation_options.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/bind/estimation_readers.h"
-#include "scripting/conversions/told_sentences.h"
+#include "scripting/conversions/localized.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/fit_model.h"
@@ -34,10 +34,10 @@ int simulate_loop(Call& call) {
     const Vector noise = options.has("noise") ? Vector(options.vector("noise")) : Vector::Zero(r.size());
     if (!controller.sampled())
         call.print(
-            told(call,
-                 "simloop: with a controller in continuous time u moves between the samples, and the record knows "
-                 "it at the samples only: models found from it are off by what that costs. A controller with the "
-                 "sampling time Ts holds u, which is exact.") +
+            localized(call,
+                      Message("simloop: with a controller in continuous time u moves between the samples, and the "
+                              "record knows it at the samples only: models found from it are off by what that "
+                              "costs. A controller with the sampling time Ts holds u, which is exact.")) +
             "\n");
     IdData data = ClosedLoop(plant, controller, call.number(4, "Ts"), hold).record(r, noise);
     const Vector x = data.experiments.front().y.col(0) - noise;

@@ -5,8 +5,8 @@
 #include "numerics/estimators/frequency/bla.h"
 #include "numerics/simulation/sampled_response.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/conversions/localized.h"
 #include "scripting/conversions/table_fields.h"
-#include "scripting/conversions/told_sentences.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/figure_object.h"
@@ -97,7 +97,7 @@ int approximate(Call& call) {
     const FrequencyData response = bla(data, wanted);
     std::vector<Message> all = {response.message};
     all.insert(all.end(), response.warnings.begin(), response.warnings.end());
-    call.print(told(call, sentences(std::move(all))) + "\n");
+    call.print(localized(call, sentences(std::move(all))) + "\n");
     push_object(call.state(), response);
     return 1 + give_figure(call, levels_plot(response));
 }

@@ -3,9 +3,9 @@
 #include <array>
 
 #include "scripting/bind/bindings.h"
+#include "scripting/conversions/localized.h"
 #include "scripting/conversions/numeric.h"
 #include "scripting/conversions/table_fields.h"
-#include "scripting/conversions/told_sentences.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/fit_model.h"
 #include "scripting/objects/grey_object.h"
@@ -120,7 +120,9 @@ constexpr std::array kEstimateFields = {
     Member{"noise_variance", guarded<give_noise_variance>},
     Member{"report", guarded<give_report>}};
 constexpr std::array kEstimateOperators = {
-    Member{"__tostring", told_field<GreyEstimate, [](const GreyEstimate& e) { return grey_presentation(*e); }>},
+    Member{"__tostring",
+           localized_field<GreyEstimate,
+                           [](const GreyEstimate& e, const Reader& reader) { return grey_presentation(*e, reader); }>},
     Member{"__named", guarded<parameter_named>}};
 
 constexpr FunctionEntry kGreyestFunctions[] = {

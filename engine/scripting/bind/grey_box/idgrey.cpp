@@ -6,8 +6,8 @@
 #include "base/reader.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/bind/grey_box/script_equations.h"
+#include "scripting/conversions/localized.h"
 #include "scripting/conversions/table_fields.h"
-#include "scripting/conversions/told_sentences.h"
 #include "scripting/objects/grey_object.h"
 
 namespace dynlab::inline scripting {
@@ -208,26 +208,30 @@ int make_grey_model(Call& call) {
     }
     model.inputs = traced ? traced->inputs : called.inputs;
     if (!traced)
-        call.print_lines(told(call,
-                              "idgrey calls the function for each evaluation, which takes some hundred times as long "
-                              "as one that can be followed once.") +
-                         "\n(" + message_text(reason) + ")\n");
+        call.print_lines(
+            localized(call, Message("idgrey calls the function for each evaluation, which takes some hundred "
+                                    "times as long as one that can be followed once.")) +
+            "\n(" + localized(call, reason) + ")\n");
     model.equations = traced ? traced_equations(std::move(*traced)) : called_equations(std::move(called));
     push_object(call.state(), std::move(model));
     return 1;
 }
 
-std::string model_text(const GreyModel& model) {
-    std::string text = fmt::format("grey-box model with {} ({}), {}, {}{}\n", counted(model.order(), "state"),
-                                   fmt::join(model.state_names, ", "), counted(model.inputs, "input"),
-                                   model.outputs_are_states ? std::string("the first states as outputs")
-                                                            : counted(model.equations->output_count(), "output"),
-                                   model.equations->is_linear() ? ", linear" : "");
+std::string model_text(const GreyModel& model, const Reader& reader) {
+    MessageList properties;
+    properties.items.push_back(plural(model.order(), "grey-box model with {} state ({})",
+                                      "grey-box model with {} states ({})", listed(model.state_names)));
+    properties.items.push_back(plural(model.inputs, "{} input", "{} inputs"));
+    properties.items.push_back(model.outputs_are_states
+                                   ? Message("the first states as outputs")
+                                   : plural(model.equations->output_count(), "{} output", "{} outputs"));
+    if (model.equations->is_linear()) properties.items.push_back(Message("linear"));
+    std::string text = message_text(Message("{}", properties), reader) + "\n";
     for (const GreyParameter& p : model.parameters) {
-        text += fmt::format("  {:<8} {:>12}", p.name, number_text(p.start, 6));
-        if (p.fixed) text += "  fixed";
-        if (std::isfinite(p.lower)) text += "  from " + number_text(p.lower);
-        if (std::isfinite(p.upper)) text += "  to " + number_text(p.upper);
+        text += fmt::format("  {:<8} {:>12}", p.name, number_text(significant(p.start, 6), reader));
+        if (p.fixed) text += "  " + message_text(Message("fixed"), reader);
+        if (std::isfinite(p.lower)) text += "  " + message_text(Message("from {}", p.lower), reader);
+        if (std::isfinite(p.upper)) text += "  " + message_text(Message("to {}", p.upper), reader);
         text += "\n";
     }
     return text;
@@ -242,7 +246,7 @@ std::vector<std::string> parameter_names(const GreyModel& model) {
 constexpr std::array kGreyModelFields = {Member{"names", field<GreyModel, parameter_names>},
                                          Member{"states", field<GreyModel, &GreyModel::state_names>},
                                          Member{"start", field<GreyModel, &GreyModel::start>}};
-constexpr std::array kGreyModelOperators = {Member{"__tostring", field<GreyModel, model_text>}};
+constexpr std::array kGreyModelOperators = {Member{"__tostring", localized_field<GreyModel, model_text>}};
 
 constexpr FunctionEntry kIdgreyFunctions[] = {
     {"idgrey", "grey box",

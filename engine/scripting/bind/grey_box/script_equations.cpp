@@ -305,7 +305,8 @@ CalledFunctions call_signals(const std::shared_ptr<ScriptEquations>& own, const 
     }
     const Vector x = initial_values(*own, p), u = Vector::Zero(functions.inputs);
     functions.outputs_count = called_with(*own, *own->outputs, {"h", nullptr, -1}, 0, x, u, p).size();
-    const Message as_at_first("{}, as it did at first", plural(functions.outputs_count, "{} output", "{} outputs"));
+    const Message as_at_first =
+        Message("{}, as it did at first", plural(functions.outputs_count, "{} output", "{} outputs"));
     functions.outputs = [own, what = as_at_first, count = functions.outputs_count](
                             double t, const Vector& at_x, const Vector& at_u, const Vector& at_p) {
         return called_with(*own, *own->outputs, {"h", &what, count}, t, at_x, at_u, at_p);

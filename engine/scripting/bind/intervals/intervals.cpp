@@ -7,8 +7,8 @@
 #include "platform/terminal/progress.h"
 #include "scripting/arguments/simulation_options.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/conversions/localized.h"
 #include "scripting/conversions/table_fields.h"
-#include "scripting/conversions/told_sentences.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/figure_object.h"
@@ -22,7 +22,7 @@ const Model& output_error_argument(const Call& call, int index) {
     const Model* model = index <= call.count() ? to_object<Model>(call.state(), index) : nullptr;
     const char* const function = call.function_name();
     if (model == nullptr) wrong_argument(call.state(), index, "G", with_article("model"));
-    const Message instead(
+    const Message instead = Message(
         "{} repeats fits of the smallest simulation error: estimate with procsrivc, tfsrivc, srivc or coe", function);
     if (!model->estimate) throw InvalidArgument("this model was written down, not estimated; {}", instead);
     const Estimate& estimate = *model->estimate;
@@ -92,11 +92,11 @@ int repeat_experiment(Call& call) {
     wanted.progress = [&bar](std::size_t done) { bar.advance(done); };
     const RefittedOutput model(data, fitted_argument(call, 1, data, compare_options(options)));
     const Bootstrap found = bootstrap(model, wanted);
-    call.print(told(call, found.message) + "\n");
+    call.print(localized(call, found.message) + "\n");
     give_figure(call, monte_carlo_histograms(as_study(found, wanted.runs)));
     give_table(call, "names", found.names, "estimate", found.estimate, "values", found.values, "mean", found.mean,
                "std", found.std, "low", found.low, "high", found.high, "failed", found.failed, "message",
-               told(call, found.message), "warnings", told(call, found.warnings));
+               localized(call, found.message), "warnings", localized(call, found.warnings));
     return 2;
 }
 
@@ -117,11 +117,11 @@ int follow_parameter(Call& call) {
     wanted.cancel = call.cancel();
     const RefittedOutput model(data, fitted_argument(call, 1, data, compare_options(options)));
     const Profile found = profile_likelihood(model, name, wanted);
-    call.print(told(call, found.message) + "\n");
+    call.print(localized(call, found.message) + "\n");
     give_figure(call, profile_plot(found, unit_of(data, name)));
     give_table(call, "estimate", found.estimate, "std", found.std, "low", found.low, "high", found.high, "level",
-               found.level, "grid", found.grid, "rise", found.rise, "message", told(call, found.message), "warnings",
-               told(call, found.warnings));
+               found.level, "grid", found.grid, "rise", found.rise, "message", localized(call, found.message),
+               "warnings", localized(call, found.warnings));
     return 2;
 }
 
