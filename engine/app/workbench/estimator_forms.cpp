@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "base/languages.h"
+#include "base/catalog.h"
 #include "numerics/estimators/catalogue.h"
 #include "scripting/lint/function_forms.h"
 
@@ -125,24 +125,24 @@ std::vector<EstimatorForm> make_forms() {
     return forms;
 }
 
-}  // namespace
-
-const std::vector<EstimatorForm>& estimator_forms() {
+const std::vector<EstimatorForm>& english_forms() {
     static const std::vector<EstimatorForm> kForms = make_forms();
     return kForms;
 }
 
-std::vector<EstimatorForm> estimator_forms_in(const std::string& language) {
-    std::vector<EstimatorForm> forms = estimator_forms();
-    const Catalog* const catalog = catalog_of(language);
-    if (catalog == nullptr) return forms;
-    const auto translate = [catalog](std::string& text) {
-        if (const std::string_view other = catalog->translation(text); !text.empty() && !other.empty()) text = other;
+}  // namespace
+
+std::vector<EstimatorForm> estimator_forms(const Reader& reader) {
+    std::vector<EstimatorForm> forms = english_forms();
+    if (reader.catalog == nullptr) return forms;
+    const auto translate = [&reader](std::string& text, const char* context) {
+        const std::string_view other = reader.catalog->translation(text, context);
+        if (!text.empty() && !other.empty()) text = other;
     };
     for (EstimatorForm& form : forms) {
-        for (std::string* const text : {&form.summary, &form.structure, &form.noise}) translate(*text);
+        for (std::string* const text : {&form.summary, &form.structure, &form.noise}) translate(*text, "estimator");
         for (std::vector<FormField>* const fields : {&form.arguments, &form.options})
-            for (FormField& field : *fields) translate(field.words);
+            for (FormField& field : *fields) translate(field.words, "");
     }
     return forms;
 }

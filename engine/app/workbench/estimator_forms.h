@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "base/reader.h"
 #include "data_io/values/described.h"
 
 namespace dynlab::inline app {
@@ -26,10 +27,9 @@ struct EstimatorForm {
 };
 DYNLAB_DESCRIBE(EstimatorForm, name, summary, structure, noise, domain, arguments, options)
 
-/// All methods of the catalogue that make a model of a record, in its order. They follow from the catalogue, from the
-/// functions' signatures and from the part "Arguments" of their help pages: a new method is among them by itself.
-const std::vector<EstimatorForm>& estimator_forms();
-/// With summary, structure, noise and the words of arguments and options in a language, as far as its catalog has them.
-std::vector<EstimatorForm> estimator_forms_in(const std::string& language);
+/// All methods of the catalogue that make a model of a record, in its order, with their texts for the reader. They
+/// follow from the catalogue, from the functions' signatures and from the part "Arguments" of their help pages: a new
+/// method is among them by itself.
+std::vector<EstimatorForm> estimator_forms(const Reader& reader = {});
 
 }  // namespace dynlab::inline app

@@ -386,7 +386,7 @@ std::string WorkbenchSession::json(bool all) const {
         page["error"] = {{"message", message_text(with_place(*error_), reader)},
                          {"line", error_->line_in(text_.file().filename().string())}};
     if (all) page["file"] = fs::absolute(text_.file()).string();
-    if (all || sent_language_ != told_in) page["forms"] = ::nlohmann::json::parse(json_of(estimator_forms_in(told_in)));
+    if (all || sent_language_ != told_in) page["forms"] = ::nlohmann::json::parse(json_of(estimator_forms(reader)));
     if (all || sent_revision_ != text_.revision()) {
         page["source"] = text_.text();
         page["steps"] = ::nlohmann::json::parse(json_of(session_steps(text_.text())));

@@ -56,6 +56,19 @@ Message sentence_about(const UnplacedEntries& entries) {
                : Message("In {} the figures {} are reported, but have no place in the text.", kOwnScript, names);
 }
 
+Message sentence_about_missing(const ExpectedAnswer& answer) {
+    const std::string &name = answer.name, &kind = answer.kind;
+    if (kind == "number") return Message("The answer \"{}\" (number) is not given.", name);
+    if (kind == "text") return Message("The answer \"{}\" (text) is not given.", name);
+    if (kind == "truth") return Message("The answer \"{}\" (truth) is not given.", name);
+    if (kind == "vector") return Message("The answer \"{}\" (vector) is not given.", name);
+    if (kind == "matrix") return Message("The answer \"{}\" (matrix) is not given.", name);
+    if (kind == "data") return Message("The answer \"{}\" (data) is not given.", name);
+    if (kind == "model") return Message("The answer \"{}\" (model) is not given.", name);
+    if (kind == "response") return Message("The answer \"{}\" (response) is not given.", name);
+    return Message("The answer \"{}\" (table) is not given.", name);
+}
+
 Message remedy_for(const UnplacedEntries& entries) {
     const std::string& name = entries.names.front();
     if (entries.kind == UnplacedEntries::Kind::kTable)
@@ -251,8 +264,7 @@ class FolderCheck {
     void check_answers(const PercentScript& script, const RunRecord& run) {
         for (const ExpectedAnswer& answer : script.header.answers) {
             if (run.answers.contains(answer.name)) continue;
-            add("answer-missing", Severity::kRule, "analysis.lua",
-                Message("The answer \"{}\" ({}) is not given.", answer.name, answer.kind),
+            add("answer-missing", Severity::kRule, "analysis.lua", sentence_about_missing(answer),
                 Message("Give it: answer(\"{}\", ...).", answer.name));
         }
     }
@@ -293,12 +305,13 @@ class FolderCheck {
         setup.jobs = static_cast<int>(std::thread::hardware_concurrency());
         const GradingRules::GroupSeed own = group_seed_of(copy() / "data");
         const Grade grade = GradingRules(setup).grade(folder_.filename().string(), copy(), own);
-        result_.checked.push_back(Message("checks of lesson {}: {} of {} points", lesson->slug,
-                                          points_number(grade.earned()), points_number(grade.possible())));
+        const Message name = slug.empty() ? Message("of the folder") : Message::verbatim(lesson->slug);
+        result_.checked.push_back(Message("checks of lesson {}: {} of {} points", name, points_number(grade.earned()),
+                                          points_number(grade.possible())));
         for (const CheckGrade& check : grade.checks) {
             if (check.by_hand || check.earned >= check.points) continue;
-            const Message score = Message("{} of {} points for \"{}\".", points_number(check.earned), points_number(check.points),
-                                check.about);
+            const Message score = Message("{} of {} points for \"{}\".", points_number(check.earned),
+                                          points_number(check.points), check.about);
             add("check-failed", Severity::kHint, "",
                 message_text(check.message).empty() ? score : sentences({score, check.message}),
                 check.hint.empty() ? Message("See checks.lua of the lesson.") : check.hint);

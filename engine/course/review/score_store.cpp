@@ -114,7 +114,9 @@ class CostTaker {
             if (found == parts.end() || !found->second.is_late()) continue;
             const std::int64_t days = (found->second.late + kDay - 1) / kDay;
             take(mark, mark.work, a_.costs.late_day * static_cast<double>(days),
-                 Message("a {} version late by {}", stage, duration_message(found->second.late)));
+                 std::string_view(stage) == "first"
+                     ? Message("a first version late by {}", duration_message(found->second.late))
+                     : Message("a final version late by {}", duration_message(found->second.late)));
         }
         if (a_.is_report() && versions_[mark.group]["final"].empty() && over(mark, "final"))
             take(mark, mark.work, a_.costs.missing_final, Message("a missing final version"));
