@@ -18,7 +18,7 @@ using test::Browser;
 Figure figure_titled(const std::string& title) {
     Figure figure;
     figure.panels.resize(1);
-    figure.panels[0].title = title;
+    figure.panels[0].title = Message::verbatim(title);
     Curve curve;
     curve.x = curve.y = Vector::LinSpaced(5, 0, 1);
     figure.panels[0].curves.push_back(curve);

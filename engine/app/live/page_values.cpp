@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "documents/html/plot_data.h"
-#include "figures/french_texts.h"
+#include "figures/figure.h"
 #include "scripting/conversions/arguments.h"
 #include "scripting/conversions/numeric.h"
 #include "scripting/objects/figure_object.h"
@@ -39,9 +39,9 @@ json vector_json(NumericBlock& block) {
     return list;
 }
 
-json figure_json(ScriptFigure& shown, bool comma) {
+json figure_json(ScriptFigure& shown, const Reader& reader) {
     shown.used = true;
-    return json::parse(plot_data(comma ? in_french(shown.figure) : shown.figure, comma));
+    return json::parse(plot_data(shown.figure, reader));
 }
 
 json value_json(lua_State* L, int index, int depth, const PageValues& page);
@@ -82,8 +82,7 @@ json value_json(lua_State* L, int index, int depth, const PageValues& page) {
     }
     if (NumericBlock* const block = to_vector(L, index)) return vector_json(*block);
     if (NumericBlock* const block = to_matrix(L, index)) return matrix_json(*block);
-    if (FigurePointer* const figure = to_object<FigurePointer>(L, index))
-        return figure_json(**figure, page.decimal_comma);
+    if (FigurePointer* const figure = to_object<FigurePointer>(L, index)) return figure_json(**figure, page.reader);
     return nullptr;
 }
 
@@ -92,6 +91,24 @@ int show(Call& call) {
     const json value = value_json(call.state(), 2, 0, page);
     page.show(call.text(1, "name"), value.dump(-1, ' ', false, json::error_handler_t::replace));
     return 0;
+}
+
+/// What stands at the figures that the page's views draw themselves.
+Message label_called(const std::string& name) {
+    if (name == "time") return axis_label(Message("time"), "s");
+    if (name == "delay") return axis_label(Message("delay"), "s");
+    if (name == "frequency") return axis_label(Message("frequency"), "rad/s");
+    if (name == "power") return Message("power of the output");
+    if (name == "mean_square_error") return Message("mean square error");
+    if (name == "measured") return Message("measured");
+    if (name == "by_hand") return Message("by hand");
+    if (name == "final_level") return Message("final level");
+    if (name == "first_peak") return Message("first peak");
+    throw InvalidArgument("there is no label \"{}\"", name);
+}
+
+int give_label(Call& call) {
+    return call.give(message_text(label_called(call.text(1, "name")), call.owner<PageValues>().reader));
 }
 
 /// What a reading of a step response says, by its kind, and how well it fits.
@@ -125,6 +142,8 @@ int reading_words(Call& call) {
 constexpr std::array kPageFunctions = {
     FunctionEntry{"workbench.show", "workbench", "workbench.show(name, value)", "gives the page a value",
                   guarded<show>},
+    FunctionEntry{"workbench.label", "workbench", "workbench.label(name) -> text", "a text for a figure of the page",
+                  guarded<give_label>},
     FunctionEntry{"workbench.reading_words", "workbench", "workbench.reading_words(kind, numbers, fit)",
                   "says what was read off a step response", guarded<reading_words>},
 };

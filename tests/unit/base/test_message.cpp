@@ -74,6 +74,12 @@ TEST(message, arguments_with_braces_percent_signs_and_quotes_appear_unchanged) {
     }
 }
 
+TEST(message, verbatim_text_is_empty_where_it_says_nothing) {
+    EXPECT_TRUE(Message::verbatim("").empty());
+    EXPECT_EQ(Message::verbatim(""), Message());
+    EXPECT_FALSE(Message::verbatim(" ").empty());
+}
+
 TEST(message, lists_are_joined_in_the_language_of_the_reader) {
     const Message message("set {}", listed({"a", "b", "c"}, Join::kAnd));
     EXPECT_EQ(message_text(message), "set a, b and c");
