@@ -1,6 +1,7 @@
 #pragma once
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <regex>
 #include <string>
 
@@ -32,7 +33,10 @@ inline void expect_told_in_french(const Message& message) {
         "Write|Make|Take|Put|Give)($|[^A-Za-z'-])");
     const std::string english = message_text(message), french = in_french(message);
     EXPECT_NE(french, english);
-    EXPECT_FALSE(std::regex_search(without_quotations(french), kEnglish)) << english << "\nis told as\n" << french;
+    std::string words = without_quotations(french);
+    std::ranges::replace_if(
+        words, [](unsigned char c) { return c >= 0x80; }, 'x');  // é is a letter
+    EXPECT_FALSE(std::regex_search(words, kEnglish)) << english << "\nis told as\n" << french;
 }
 
 inline void expect_told_in_french(const Findings& findings) {

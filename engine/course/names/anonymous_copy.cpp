@@ -118,7 +118,7 @@ class CopyingAnonymously {
             box.run({program.string(), "report", inside.string(), "-o", (out / "report.pdf").string()}, {}, "", limits);
         const bool made = child.exit_code == 0 && fs::is_regular_file(report());
         if (made && bytes_below(report().parent_path()) <= kMostMade) return true;
-        result_.trouble = Message("The report cannot be made again: {}.",
+        result_.trouble = Message("The report cannot be made again: {}",
                                   made ? Message("it is too large") : reason_of(child, inside));
         return false;
     }
