@@ -6,6 +6,7 @@
 #include "numerics/estimators/srivc.h"
 #include "numerics/fit/simulation_error.h"
 #include "scripting/arguments/estimator_arguments.h"
+#include "scripting/arguments/estimator_options.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/bind/estimation_readers.h"
 #include "scripting/bind/frequency/frequency_bindings.h"
@@ -20,6 +21,39 @@ namespace {
 constexpr std::array kCarxOrders = {kNa, kNb, kNk};
 constexpr std::array kOutputErrorOrders = {kNb, kNf, kNk};
 
+constexpr std::array kFilterOptions = {kHoldOfOutput};
+constexpr std::array kMomentOptions = {
+    OptionEntry{"beta", ValueKind::kNumber, about("gain of the filters; lambda unless given"), {.unit = "rad/s"}},
+    kHoldOfOutput};
+constexpr OptionTable kFiltered[] = {kFilterOptions}, kMoments[] = {kMomentOptions};
+constexpr OptionTable kRefined[] = {kFirstFilterOptions, kStartOptions,   kIterationOptions,
+                                    kIntegrationOptions, kSharingOptions, kSearchOptions};
+constexpr OptionTable kTransferFunction[] = {kFirstFilterOptions, kStartOptions,      kIterationOptions,
+                                             kDelayOptions,       kKnownDelayOptions, kIntegrationOptions,
+                                             kSharingOptions,     kSearchOptions};
+
+constexpr std::array kFilteredArguments = {
+    kDataArgument,
+    ArgumentEntry{
+        "orders", ValueKind::kOrders,
+        about("na poles, nb coefficients of B (at most na + 1), nk samples of delay; with several inputs nb and nk "
+              "are tables with an entry for each input, with several outputs also for each channel")},
+    ArgumentEntry{"lambda", ValueKind::kNumber,
+                  about("cut-off frequency of the filter in rad/s, usually a bit above the bandwidth of the system")}};
+constexpr std::array kRefinedArguments = {
+    kDataArgument,
+    ArgumentEntry{
+        "orders", ValueKind::kOrders,
+        about("nb coefficients of B (at most nf + 1), nf poles, nk samples of delay; with several inputs, each "
+              "with poles of its own, they are tables with an entry for each input, with several outputs also "
+              "for each channel, those of output 1 first")}};
+constexpr std::array kTransferArguments = {
+    kDataArgument,
+    ArgumentEntry{
+        "np", ValueKind::kCount,
+        about("number of poles; with several inputs or outputs a number for all or a table with one for each")},
+    ArgumentEntry{"nz", ValueKind::kCount, about("number of zeros, in the same way")}};
+
 /// lssvf and ivsvf; lsgpmf and ivgpmf, whose filter has a gain beta. Their standard errors know the filters' colour.
 template <auto kMethod, bool kInstruments, bool kMomentFunctionals>
 Estimation read_filtered(const Call& call) {
@@ -27,7 +61,7 @@ Estimation read_filtered(const Call& call) {
     const auto orders = order_lists(call, 2, kCarxOrders);
     if (orders[0].size() != 1)
         throw InvalidArgument("na is one number of poles for all inputs, but {} were given", orders[0].size());
-    const Options options = kMomentFunctionals ? Options(call, 4, {"hold_y", "beta"}) : Options(call, 4, {"hold_y"});
+    const Options options(call, 4, kMomentFunctionals ? OptionTables(kMoments) : OptionTables(kFiltered));
     SvfOptions wanted;
     wanted.lambda = call.number(3, "lambda");
     wanted.hold_y = hold_y_of(options);
@@ -63,9 +97,7 @@ template <auto kMethod>
 Estimation read_refined(const Call& call, Purpose purpose) {
     call.at_most(3);
     const auto orders = order_lists(call, 2, kOutputErrorOrders);
-    const Options options(call, 3,
-                          {"lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol", "CommonDenominator",
-                           "Integration", "Stable", "Fixed", "OutputWeights"});
+    const Options options(call, 3, kRefined);
     return refined_estimation<kMethod>({structure_of_orders(kOutputErrorOrders, orders, sharing_of(options)), {}},
                                        fit_options(options, purpose));
 }
@@ -75,10 +107,7 @@ template <auto kMethod>
 Estimation read_transfer_function(const Call& call, Purpose purpose) {
     const int last = holds_model(call, 2) ? 3 : 4;
     call.at_most(last);
-    const Options options(
-        call, last,
-        {"lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol", "CommonDenominator", "Integration", "TdMin",
-         "TdMax", "NumTd", "IODelay", "Td0", "Stable", "Fixed", "OutputWeights"});
+    const Options options(call, last, kTransferFunction);
     const FitOptions wanted = fit_options(options, purpose);
     return refined_estimation<kMethod>(started_structure(call, options, wanted), wanted);
 }
@@ -105,24 +134,30 @@ constexpr NamedReader kTransferEstimatorsReaders[] = {{"lssvf", read_filtered<ls
                                                       {"tfcoe", read_for_study<read_transfer_function<coe>>}};
 
 constexpr FunctionEntry kTransferEstimatorsFunctions[] = {
-    {"lssvf", "continuous time", "lssvf(data, {na, nb, nk}, lambda, {hold_y =}) -> G",
-     "A y = B u + e by least squares on state-variable filtered signals", guarded<estimate_by_least_squares>},
-    {"ivsvf", "continuous time", "ivsvf(data, {na, nb, nk}, lambda, {hold_y =}) -> G",
-     "the same by instrumental variables, without lssvf's bias", guarded<estimate_filtered<ivsvf, true, false>>},
-    {"lsgpmf", "continuous time", "lsgpmf(data, {na, nb, nk}, lambda, {beta =, hold_y =}) -> G",
-     "least squares on Poisson moment functionals", guarded<estimate_filtered<lssvf, false, true>>},
-    {"ivgpmf", "continuous time", "ivgpmf(data, {na, nb, nk}, lambda, {beta =, hold_y =}) -> G",
-     "instrumental variables on Poisson moment functionals", guarded<estimate_filtered<ivsvf, true, true>>},
-    {"srivc", "continuous time", "srivc(data, {nb, nf, nk}, {lambda =, MaxIter =, Tol =, ...}) -> G",
-     "y = B/F u + e by refined instrumental variables", guarded<memoized_call<estimate_refined<read_refined<srivc>>>>},
-    {"coe", "continuous time", "coe(data, {nb, nf, nk}, {lambda =, MaxIter =, Tol =, ...}) -> G",
-     "y = B/F u + e with the smallest simulation error", guarded<memoized_call<estimate_refined<read_refined<coe>>>>},
-    {"tfsrivc", "continuous time", "tfsrivc(data, np, nz, {TdMin =, TdMax =, IODelay =, Stable =, ...}) -> G",
+    {"lssvf", "continuous time", "lssvf(data, {na, nb, nk}, lambda, {options}) -> G",
+     "A y = B u + e by least squares on state-variable filtered signals", guarded<estimate_by_least_squares>, kFiltered,
+     kFilteredArguments},
+    {"ivsvf", "continuous time", "ivsvf(data, {na, nb, nk}, lambda, {options}) -> G",
+     "the same by instrumental variables, without lssvf's bias", guarded<estimate_filtered<ivsvf, true, false>>,
+     kFiltered, kFilteredArguments},
+    {"lsgpmf", "continuous time", "lsgpmf(data, {na, nb, nk}, lambda, {options}) -> G",
+     "least squares on Poisson moment functionals", guarded<estimate_filtered<lssvf, false, true>>, kMoments,
+     kFilteredArguments},
+    {"ivgpmf", "continuous time", "ivgpmf(data, {na, nb, nk}, lambda, {options}) -> G",
+     "instrumental variables on Poisson moment functionals", guarded<estimate_filtered<ivsvf, true, true>>, kMoments,
+     kFilteredArguments},
+    {"srivc", "continuous time", "srivc(data, {nb, nf, nk}, {options}) -> G",
+     "y = B/F u + e by refined instrumental variables", guarded<memoized_call<estimate_refined<read_refined<srivc>>>>,
+     kRefined, kRefinedArguments},
+    {"coe", "continuous time", "coe(data, {nb, nf, nk}, {options}) -> G",
+     "y = B/F u + e with the smallest simulation error", guarded<memoized_call<estimate_refined<read_refined<coe>>>>,
+     kRefined, kRefinedArguments},
+    {"tfsrivc", "continuous time", "tfsrivc(data, np, nz, {options}) -> G",
      "srivc by numbers of poles and zeros, the delay estimated",
-     guarded<memoized_call<estimate_refined<read_transfer_function<srivc>>>>},
-    {"tfcoe", "continuous time", "tfcoe(data, np, nz, {TdMin =, TdMax =, IODelay =, Stable =, ...}) -> G",
+     guarded<memoized_call<estimate_refined<read_transfer_function<srivc>>>>, kTransferFunction, kTransferArguments},
+    {"tfcoe", "continuous time", "tfcoe(data, np, nz, {options}) -> G",
      "coe by numbers of poles and zeros, the delay estimated",
-     guarded<memoized_call<estimate_refined<read_transfer_function<coe>>>>},
+     guarded<memoized_call<estimate_refined<read_transfer_function<coe>>>>, kTransferFunction, kTransferArguments},
 };
 
 }  // namespace
