@@ -9,7 +9,7 @@ namespace dynlab::inline scripting {
 /// The options and arguments that families of estimators share. What is a member of FitOptions is read by
 /// read_fit_options() (estimator_arguments.h).
 
-inline constexpr std::array kHolds = {"foh", "zoh"};
+inline constexpr std::array kHolds = {"zoh", "foh"};  // in the order of Hold
 inline constexpr std::array kInitialStates = {"zero", "steady", "estimate", "auto"};
 inline constexpr std::array kOffsets = {"none", "remove", "estimate", "auto"};
 
