@@ -43,7 +43,6 @@ constexpr std::array kOptionWords = {
     OptionWord{"rank", "rank"},
     OptionWord{"delays", "delays"},
     OptionWord{"runs", "runs"},
-    OptionWord{"kind", "kind"},
     OptionWord{"confidence", "confidence"},
     OptionWord{"points", "points"},
     OptionWord{"range", "range"},
