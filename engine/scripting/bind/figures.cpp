@@ -8,6 +8,7 @@
 #include "figures/plots/motion_plot.h"
 #include "platform/atomic_file.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/conversions/localized.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/panel_options.h"
 #include "scripting/objects/rig_drawing.h"
@@ -57,7 +58,7 @@ void read_curve_lists(const Options& options, std::vector<Curve>& curves) {
                               plural(curves.size(), "{} curve", "{} curves"));
     for (std::size_t i = 0; i < curves.size(); ++i) {
         Curve& curve = curves[i];
-        if (i < lists.labels.size()) curve.label = with_marked_indices(lists.labels[i]);
+        if (i < lists.labels.size()) curve.label = Message::verbatim(with_marked_indices(lists.labels[i]));
         if (auto style = value_for(lists.styles, i, curves.size(), "style")) curve.style = parse_curve_style(*style);
         if (auto dash = value_for(lists.dashes, i, curves.size(), "dash")) curve.dash = place_of_look(*dash, "dash");
         if (auto marker = value_for(lists.markers, i, curves.size(), "marker"))
@@ -101,7 +102,7 @@ std::vector<Curve> read_curves(const Call& call, int last) {
         curve.y = alone ? first : call.vector(i + 1, "y");
         curve.x = alone ? Vector(Vector::LinSpaced(first.size(), 1, static_cast<double>(first.size()))) : Vector(first);
         i += alone ? 1 : 2;
-        if (i <= last && call.type(i) == LUA_TSTRING) curve.label = curve_name(call, i++);
+        if (i <= last && call.type(i) == LUA_TSTRING) curve.label = Message::verbatim(curve_name(call, i++));
         curves.push_back(std::move(curve));
     }
     if (curves.empty())
@@ -188,7 +189,7 @@ int figure(Call& call) {
     const auto columns = static_cast<std::size_t>(std::max(figure.columns, 1));
     figure.rows =
         count_in_grid(options.size("rows", static_cast<Index>((figure.panels.size() + columns - 1) / columns)));
-    if (options.has("panels")) figure.title = options.text("title", "");
+    if (options.has("panels")) figure.title = Message::verbatim(options.text("title", ""));
     figure.width_cm = options.number("width", figure.width_cm);
     figure.height_cm = options.number("height", figure.height_cm);
     return give_figure(call, std::move(figure));
@@ -251,7 +252,7 @@ int motion(Call& call) {
     record.simulated = signals_of_parts(options, "simulated", rig, record.t.size());
     MotionLook look;
     if (options.has("instants")) look.instants = options.vector("instants");
-    look.title = options.text("title", "");
+    look.title = Message::verbatim(options.text("title", ""));
     look.width_cm = options.number("width", look.width_cm), look.height_cm = options.number("height", look.height_cm);
     return give_figure(call, motion_plot(rig, record, look));
 }
@@ -264,12 +265,13 @@ int save(Call& call) {
     ScriptFigure& figure = used_figure(call, 1, "figure");
     const std::filesystem::path file = output_path(call.context(), call.text(2, "path"));
     if (call.context().options.graded) return 0;
+    const Reader reader = reader_of(call);
     if (file.extension() == ".gp") {
         const std::string drawn = std::filesystem::path(file).replace_extension(".pdf").filename().string();
-        write_file_atomically(file, gnuplot_file(figure.figure, FigureFormat::kPdf, drawn));
+        write_file_atomically(file, gnuplot_file(figure.figure, FigureFormat::kPdf, drawn, reader));
         return 0;
     }
-    call.context().renderer.draw(figure.figure, file, figure_format(file));
+    call.context().renderer.draw(figure.figure, file, figure_format(file), reader);
     return 0;
 }
 

@@ -81,7 +81,7 @@ int frequency_response_of(Call& call) {
 /// G1, G2, ... up to the vector of instants or frequencies, or the options, that end the arguments.
 std::vector<NamedModel> models_to_draw(const Call& call, int& next) {
     std::vector<NamedModel> models;
-    for (next = 1; holds_model(call, next); ++next) models.push_back({"", model_argument(call, next, "G").G});
+    for (next = 1; holds_model(call, next); ++next) models.push_back({{}, model_argument(call, next, "G").G});
     if (models.empty()) wrong_argument(call.state(), 1, "G", with_article("model"));
     return models;
 }
@@ -95,16 +95,16 @@ std::vector<std::string> given_labels(const Options& options, std::size_t count)
     return labels;
 }
 
-std::string usual_name(const Call& call, int index) {
+Message usual_name(const Call& call, int index) {
     const std::string method = method_of_model(call, index);
-    return method.empty() ? fmt::format("model {}", index) : method;
+    return method.empty() ? Message("model {}", index) : Message::verbatim(method);
 }
 
 void name_models(const Call& call, const Options& options, std::vector<NamedModel>& models) {
     const std::vector<std::string> labels = given_labels(options, models.size());
     for (std::size_t i = 0; i < models.size(); ++i) {
         if (!labels.empty())
-            models[i].name = labels[i];
+            models[i].name = Message::verbatim(labels[i]);
         else if (models.size() > 1)
             models[i].name = usual_name(call, static_cast<int>(i + 1));
     }
@@ -172,10 +172,10 @@ int draw_bode(Call& call) {
     std::vector<NamedModel> models;
     std::vector<NamedResponse> responses;
     for (int i = 1; i <= count; ++i) {
-        std::string name = labels.empty() ? "" : labels[static_cast<std::size_t>(i - 1)];
+        Message name = labels.empty() ? Message() : Message::verbatim(labels[static_cast<std::size_t>(i - 1)]);
         if (holds_response(call, i)) {
             FrequencyData data = object_argument<FrequencyData>(call, i, "F");
-            if (labels.empty()) name = data.method.empty() ? "measured" : data.method;
+            if (labels.empty()) name = data.method.empty() ? Message("measured") : Message::verbatim(data.method);
             if (!level) data.variance.resize(0);
             responses.push_back({name, std::move(data), level.value_or(0.99)});
         } else {
@@ -215,9 +215,9 @@ int draw_histogram(Call& call) {
     HistogramOptions wanted;
     wanted.bins = options.size("bins", 0);
     wanted.truth = options.optional_number("truth");
-    wanted.label = options.text("label", "");
-    wanted.x_label = options.text("xlabel", "");
-    wanted.truth_label = options.text("truth_label", wanted.truth_label);
+    wanted.label = Message::verbatim(options.text("label", ""));
+    wanted.x_label = Message::verbatim(options.text("xlabel", ""));
+    if (options.has("truth_label")) wanted.truth_label = Message::verbatim(options.text("truth_label", ""));
     return give_figure(call, histogram(call.vector(1, "values"), wanted));
 }
 

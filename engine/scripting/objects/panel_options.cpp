@@ -42,7 +42,7 @@ ReferenceLine read_reference(const Call& call, int index) {
     ReferenceLine line;
     line.horizontal = options.has("y");
     line.at = line.horizontal ? options.number("y", 0) : options.number("x", 0);
-    line.label = with_marked_indices(options.text("label", ""));
+    line.label = label_option(options, "label");
     line.dash = static_cast<int>(options.size("dash", line.dash));
     return line;
 }
@@ -50,18 +50,15 @@ ReferenceLine read_reference(const Call& call, int index) {
 Annotation read_annotation(const Call& call, int index) {
     const Options options(call, index, {"x", "y", "text", "marker"});
     return {needed_number(options, "x", Message("an annotation")),
-            needed_number(options, "y", Message("an annotation")), options.text("text", ""),
+            needed_number(options, "y", Message("an annotation")), Message::verbatim(options.text("text", "")),
             options.flag("marker", true)};
 }
 
 Arrow read_arrow(const Call& call, int index) {
     const Options options(call, index, {"x0", "y0", "x1", "y1", "text", "both_heads"});
-    return {needed_number(options, "x0", Message("an arrow")),
-            needed_number(options, "y0", Message("an arrow")),
-            needed_number(options, "x1", Message("an arrow")),
-            needed_number(options, "y1", Message("an arrow")),
-            options.text("text", ""),
-            options.flag("both_heads", false)};
+    return {needed_number(options, "x0", Message("an arrow")), needed_number(options, "y0", Message("an arrow")),
+            needed_number(options, "x1", Message("an arrow")), needed_number(options, "y1", Message("an arrow")),
+            Message::verbatim(options.text("text", "")),       options.flag("both_heads", false)};
 }
 
 struct ColourName {
@@ -107,12 +104,16 @@ Curve read_curve(const Call& call, int index) {
         curve.y_upper = options.vector("y_upper");
         curve.style = CurveStyle::kBand;
     }
-    curve.label = with_marked_indices(options.text("label", ""));
+    curve.label = label_option(options, "label");
     read_curve_look(options, curve);
     return curve;
 }
 
 }  // namespace
+
+Message label_option(const Options& options, const char* name) {
+    return Message::verbatim(with_marked_indices(options.text(name, "")));
+}
 
 CurveStyle parse_curve_style(const std::string& name) {
     const auto found = std::find(kStyleNames.begin(), kStyleNames.end(), name);
@@ -153,9 +154,9 @@ void read_curve_look(const Options& options, Curve& curve) {
 
 void read_panel_options(const Call& call, const Options& options, Panel& panel) {
     const bool counted = !panel.title.empty() && panel.title == outside_text(panel);
-    panel.title = with_marked_indices(options.text("title", panel.title));
-    panel.x_label = with_marked_indices(options.text("xlabel", panel.x_label));
-    panel.y_label = with_marked_indices(options.text("ylabel", panel.y_label));
+    if (options.has("title")) panel.title = label_option(options, "title");
+    if (options.has("xlabel")) panel.x_label = label_option(options, "xlabel");
+    if (options.has("ylabel")) panel.y_label = label_option(options, "ylabel");
     if (options.has("x_range")) panel.x_range = options.range("x_range");
     if (options.has("y_range")) panel.y_range = options.range("y_range");
     if (counted && !options.has("title")) panel.title = outside_text(panel);

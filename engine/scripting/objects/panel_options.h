@@ -19,6 +19,8 @@ void read_panel_options(const Call& call, const Options& options, Panel& panel);
 std::vector<int> colours_of(const Options& options);
 /// Sets style, colour, dash, width and marker of `curve`.
 void read_curve_look(const Options& options, Curve& curve);
+/// What an author wrote, with its indices marked; empty where the option is not given.
+Message label_option(const Options& options, const char* name);
 CurveStyle parse_curve_style(const std::string& name);
 /// A panel from its table.
 Panel read_panel(const Call& call, int index);
