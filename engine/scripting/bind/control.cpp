@@ -2,9 +2,9 @@
 
 #include "numerics/control/state_feedback.h"
 #include "numerics/rigs/crane_control.h"
+#include "scripting/arguments/simulation_options.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/conversions/boxed.h"
-#include "scripting/conversions/option_member.h"
 #include "scripting/conversions/table_fields.h"
 #include "scripting/objects/model.h"
 
@@ -16,17 +16,17 @@ constexpr OptionEntry kCraneOptions[] = {
     option<&CraneRun::position>("position", about("position where the trolley starts, from -0.5 to 0.5"),
                                 {.unit = "m"}),
     option<&CraneRun::angle>("angle", about("angle at which the load starts"), {.unit = "rad"}),
-    {"seed", ValueKind::kCount, about("seed of the sensors' noise"), {.initial = "1"}}};
-constexpr OptionTable kCrane[] = {kCraneOptions};
+    {"seed", ValueKind::kCount, about("seed of the sensors' noise"), {.initial = "1", .most = kLargestSeed}}};
+constexpr OptionTable kCraneTables[] = {kCraneOptions};
 
-constexpr ArgumentEntry kA = {"A", ValueKind::kAny, about("n x n matrix")};
+constexpr ArgumentEntry kStateMatrix = {"A", ValueKind::kAny, about("n x n matrix")};
 constexpr ArgumentEntry kRegulatorArguments[] = {
-    kA,
+    kStateMatrix,
     {"B", ValueKind::kAny, about("n x inputs matrix")},
     {"Q", ValueKind::kAny, about("weights of the states: n x n, symmetric, not negative")},
     {"R", ValueKind::kAny, about("weights of the inputs: inputs x inputs, symmetric, positive")}};
 constexpr ArgumentEntry kPlacementArguments[] = {
-    kA,
+    kStateMatrix,
     {"B", ValueKind::kAny, about("n x 1 matrix, one input")},
     {"poles", ValueKind::kAny,
      about("list of n poles, or a complex vector; in a list a complex pair is written {re, im} and counts "
@@ -84,7 +84,7 @@ int drive_crane(Call& call) {
     call.at_most(2);
     lua_State* L = call.state();
     if (call.type(1) != LUA_TFUNCTION) wrong_argument(L, 1, "controller", Message("a function of t, x and theta"));
-    const Options options(call, 2, kCrane);
+    const Options options(call, 2, kCraneTables);
     CraneRun run;
     options.read(run);
     const auto controller = [L](double t, double x, double theta) {
@@ -119,7 +119,7 @@ constexpr FunctionEntry kControlFunctions[] = {
      {},
      kPlacementArguments},
     {"drive_crane", "control", "drive_crane(controller, {options}) -> table",
-     "tries a controller on the course's simulated crane", guarded<drive_crane>, kCrane, kCraneArguments},
+     "tries a controller on the course's simulated crane", guarded<drive_crane>, kCraneTables, kCraneArguments},
 };
 
 }  // namespace

@@ -25,10 +25,8 @@ constexpr OptionEntry kImportOptions[] = {
     {"units", ValueKind::kTable, about("units by column, {u = \"V\"}, instead of those in the file")},
     option<&ImportOptions::time>("time", about("name of the column of instants")),
     option<&ImportOptions::sheet>("sheet", about("name of a workbook's sheet; by default the first one"))};
-constexpr OptionEntry kDataOptions[] = {
-    option<&IdData::hold>("InterSample",
-                          about("input between its samples: held (\"zoh\") or linearly interpolated (\"foh\")"),
-                          {.initial = "\"zoh\"", .choices = kHolds}),
+constexpr OptionEntry kIddataOptions[] = {
+    option<&IdData::hold>("InterSample", kHoldOption.description, {.initial = "\"zoh\"", .choices = kHolds}),
     {"InputName", ValueKind::kAny, about("name of the input, or a list of names of several inputs")},
     {"OutputName", ValueKind::kAny, about("name of the output, or a list of names of several outputs")},
     {"InputUnit", ValueKind::kAny,
@@ -40,19 +38,20 @@ constexpr OptionEntry kDataOptions[] = {
     {"SamplingInstants", ValueKind::kVector, about("increasing instants of irregular sampling, instead of `Ts`")},
     {"Reference", ValueKind::kAny,
      about("N samples of the reference of the loop in which the data were recorded: a vector or a matrix")}};
-constexpr std::array kPlotOptions = {kLabelsOption};
-constexpr OptionTable kImport[] = {kImportOptions}, kData[] = {kDataOptions}, kPlot[] = {kPlotOptions};
+constexpr std::array kIdplotOptions = {kLabelsOption};
+constexpr OptionTable kImportTables[] = {kImportOptions}, kIddataTables[] = {kIddataOptions},
+                      kIdplotTables[] = {kIdplotOptions};
 
 constexpr ArgumentEntry kLoadArguments[] = {
     {"name_or_path", ValueKind::kText,
      about("name of a data set, such as \"winning_times\", or path of a file, such as \"my_record.csv\"")}};
-constexpr ArgumentEntry kDataArguments[] = {
+constexpr ArgumentEntry kIddataArguments[] = {
     {"y", ValueKind::kAny,
      about("N output samples: a vector, or a matrix with a column for each output; nil for inputs alone")},
     {"u", ValueKind::kAny,
      about("N input samples: a vector, or a matrix with a column for each input; nil for a time series")},
     {"Ts", ValueKind::kNumber, about("sampling time in `TimeUnit`; by default 1, which is printed once")}};
-constexpr ArgumentEntry kPlotArguments[] = {
+constexpr ArgumentEntry kIdplotArguments[] = {
     {"data, ...", ValueKind::kData, about("data objects with the same channels")},
     {"first, last", ValueKind::kCount, about("of one data object, first and last sample that are drawn")}};
 
@@ -95,11 +94,7 @@ void push_variable(const Call& call, const Variable& variable, const std::string
 /// Where a script is graded or checked it reads the course's data and what lies in its own folder, and nothing else.
 void check_stays_inside(const std::filesystem::path& path) {
     const bool leads_out = std::find(path.begin(), path.end(), "..") != path.end();
-    if (path.is_absolute() || leads_out)
-        throw InvalidArgument(
-            "\"{}\" leads outside the folder; where scripts are graded, only the course's data and files of the folder "
-            "itself can be loaded",
-            path.string());
+    if (path.is_absolute() || leads_out) throw InvalidArgument(refusal_outside(path.string()));
 }
 
 std::map<std::string, std::string> units_by_name(const Options& options) {
@@ -155,7 +150,7 @@ void add_units_and_headers(const Call& call, const LoadedData& loaded) {
 
 int load(Call& call) {
     call.at_most(2);
-    const Options options(call, 2, kImport);
+    const Options options(call, 2, kImportTables);
     const std::string name = call.text(1, Message("name or path"));
     const RunOptions& run = call.context().options;
     if (run.graded || run.stay_in_folder) check_stays_inside(name);
@@ -226,7 +221,7 @@ Matrix reference_of(const Options& options) {
 
 int make_iddata(Call& call) {
     call.at_most(4);
-    const Options options(call, 4, kData);
+    const Options options(call, 4, kIddataTables);
     if (call.holds_vector(3))
         throw InvalidArgument(
             "{} must be a number of seconds, but instants were given; where they lie at uneven distances write "
@@ -269,17 +264,17 @@ int idplot(Call& call) {
         all.push_back(to_object<IdData>(call.state(), i));
     if (all.empty()) wrong_argument(call.state(), 1, "data", with_article("iddata"));
     call.at_most(i);
-    return give_figure(call, id_plot(all, Options(call, i, kPlot).texts("labels")));
+    return give_figure(call, id_plot(all, Options(call, i, kIdplotTables).texts("labels")));
 }
 
 constexpr FunctionEntry kDataFunctions[] = {
     {"load", "data", "load(name_or_path, {options}) -> table",
-     "reads a data set of the course, a .mat file, or a table in a text file or workbook", guarded<load>, kImport,
+     "reads a data set of the course, a .mat file, or a table in a text file or workbook", guarded<load>, kImportTables,
      kLoadArguments},
     {"iddata", "data", "iddata(y, u, Ts, {options}) -> data", "input-output data with their sampling",
-     guarded<make_iddata>, kData, kDataArguments},
+     guarded<make_iddata>, kIddataTables, kIddataArguments},
     {"idplot", "data", "idplot(data, ..., {options}) -> fig; idplot(data, first, last)",
-     "outputs above inputs over time", guarded<idplot>, kPlot, kPlotArguments},
+     "outputs above inputs over time", guarded<idplot>, kIdplotTables, kIdplotArguments},
 };
 
 }  // namespace

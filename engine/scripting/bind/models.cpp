@@ -16,14 +16,14 @@
 namespace dynlab::inline scripting {
 namespace {
 
-constexpr OptionEntry kTs = {
+constexpr OptionEntry kModelPeriod = {
     "Ts", ValueKind::kNumber, about("sampling time; by default continuous time"), {.unit = "s"}};
-constexpr OptionEntry kTransferOptions[] = {kTs,
-                                            {"IODelay",
-                                             ValueKind::kNumber,
-                                             about("delay; in discrete time a multiple of `Ts`"),
-                                             {.initial = "0", .unit = "s"}}};
-constexpr OptionEntry kProcessOptions[] = {
+constexpr OptionEntry kTfOptions[] = {kModelPeriod,
+                                      {"IODelay",
+                                       ValueKind::kNumber,
+                                       about("delay; in discrete time a multiple of `Ts`"),
+                                       {.initial = "0", .unit = "s"}}};
+constexpr OptionEntry kIdprocOptions[] = {
     {"Kp", ValueKind::kNumber, about("gain")},
     {"Tp1", ValueKind::kNumber, about("first time constant"), {.unit = "s"}},
     {"Tp2", ValueKind::kNumber, about("second time constant"), {.unit = "s"}},
@@ -32,18 +32,18 @@ constexpr OptionEntry kProcessOptions[] = {
     {"Zeta", ValueKind::kNumber, about("damping ratio of that pair")},
     {"Tz", ValueKind::kNumber, about("time constant of the zero (Z)"), {.unit = "s"}},
     {"Td", ValueKind::kNumber, about("delay (D)"), {.unit = "s"}}};
-constexpr std::array kSystemOptions = {kTs};
-constexpr OptionTable kTransfer[] = {kTransferOptions}, kProcess[] = {kProcessOptions}, kSystem[] = {kSystemOptions};
+constexpr std::array kSsOptions = {kModelPeriod};
+constexpr OptionTable kTfTables[] = {kTfOptions}, kIdprocTables[] = {kIdprocOptions}, kSsTables[] = {kSsOptions};
 
 constexpr std::array kModelAlone = {kModelArgument};
-constexpr ArgumentEntry kTransferArguments[] = {
+constexpr ArgumentEntry kTfArguments[] = {
     {"num", ValueKind::kVector,
      about("coefficients of the numerator, highest power first; alone, a struct that `save_mat` or "
            "`save_json` wrote of a model")},
     {"den", ValueKind::kVector, about("coefficients of the denominator, highest power first")}};
-constexpr ArgumentEntry kProcessArguments[] = {
+constexpr ArgumentEntry kIdprocArguments[] = {
     {"structure", ValueKind::kProcess, about("name of the structure, such as \"P1\", \"P2U\", \"P1D\" or \"P2DU\"")}};
-constexpr ArgumentEntry kSystemArguments[] = {
+constexpr ArgumentEntry kSsArguments[] = {
     {"A", ValueKind::kAny, about("n x n matrix")},
     {"B", ValueKind::kAny, about("n x inputs matrix")},
     {"C", ValueKind::kAny, about("outputs x n matrix")},
@@ -134,7 +134,7 @@ int make_tf(Call& call) {
             call, TransferFunction(num, den, number_of_field(call, 1, "Ts"), number_of_field(call, 1, "IODelay")));
     }
     const bool sampled = call.type(3) == LUA_TNUMBER;  // tf(num, den, Ts)
-    const Options options(call, sampled ? 4 : 3, kTransfer);
+    const Options options(call, sampled ? 4 : 3, kTfTables);
     auto coefficients = [&](int index, ArgumentName what) {
         return call.type(index) == LUA_TNUMBER ? Vector(Vector::Constant(1, call.number(index, what)))
                                                : Vector(call.vector(index, what));
@@ -151,7 +151,7 @@ int make_idproc(Call& call) {
         push_object(call.state(), ProcessStructure(structure));
         return 1;
     }
-    const Options options(call, 2, kProcess);
+    const Options options(call, 2, kIdprocTables);
     const std::vector<std::string> names = structure.parameter_names();
     Vector parameters(static_cast<Index>(names.size()));
     for (std::size_t i = 0; i < names.size(); ++i) {
@@ -178,7 +178,7 @@ int make_ss(Call& call) {
         push_object(call.state(), to_state_space(with_rational_delay("ss", model_argument(call, 1, "G").G)));
         return 1;
     }
-    const Options options(call, 5, kSystem);
+    const Options options(call, 5, kSsTables);
     push_object(call.state(), StateSpace(call.matrix(1, "A"), call.matrix(2, "B"), call.matrix(3, "C"),
                                          call.matrix(4, "D"), options.number("Ts", 0)));
     return 1;
@@ -295,12 +295,12 @@ int present(Call& call) {
 
 constexpr FunctionEntry kModelsFunctions[] = {
     {"tf", "models", "tf(num, den, {options}) -> G; tf(\"s\"); tf(\"z\", Ts)",
-     "a transfer function, or its variable to write one with", guarded<make_tf>, kTransfer, kTransferArguments},
+     "a transfer function, or its variable to write one with", guarded<make_tf>, kTfTables, kTfArguments},
     {"idproc", "models", "idproc(\"P1D\", {options}) -> G; idproc(\"P1D\")",
-     "a process model from its gain, time constants and delay, or its structure", guarded<make_idproc>, kProcess,
-     kProcessArguments},
-    {"ss", "models", "ss(A, B, C, D, {options}) -> system; ss(G)", "a state-space model", guarded<make_ss>, kSystem,
-     kSystemArguments},
+     "a process model from its gain, time constants and delay, or its structure", guarded<make_idproc>, kIdprocTables,
+     kIdprocArguments},
+    {"ss", "models", "ss(A, B, C, D, {options}) -> system; ss(G)", "a state-space model", guarded<make_ss>, kSsTables,
+     kSsArguments},
     {"series", "models", "series(G1, G2) -> G", "one behind the other", guarded<connect_series>, {}, kSeriesArguments},
     {"parallel",
      "models",

@@ -16,40 +16,41 @@
 namespace dynlab::inline scripting {
 namespace {
 
-constexpr OptionEntry kSeed = {"seed", ValueKind::kCount,
-                               about("seed of a random stream of its own; by default the stream of `randn` is used")},
-                      kHoldOfData = {"hold",
-                                     ValueKind::kChoice,
-                                     about("input between its samples: held (\"zoh\") or linearly interpolated "
-                                           "(\"foh\"); by default as the data say, or \"zoh\""),
-                                     {.choices = kHolds}};
+constexpr OptionEntry kNoiseSeed = {"seed",
+                                    ValueKind::kCount,
+                                    about("seed of a separate random stream; by default that of `randn`"),
+                                    {.most = kLargestSeed}},
+                      kHoldOfData = {"hold", ValueKind::kChoice, kHoldOption.description, {.choices = kHolds}};
 constexpr OptionEntry kNoiseOptions[] = {
-    {"noise", ValueKind::kFlag, about("noise of the model itself, of an estimated one with one output")},
+    {"noise", ValueKind::kFlag, about("noise of the model itself, which must be estimated and have one output")},
     {"snr",
      ValueKind::kNumber,
      about("signal-to-noise ratio 20 log10(std x/std v) of noise that is added to the noise-free output x"),
      {.unit = "dB"}},
-    kSeed,
+    kNoiseSeed,
     kHoldOfData};
 constexpr OptionEntry kSpreadOptions[] = {
     {"runs", ValueKind::kCount, about("number of models that are drawn"), {.initial = "200", .least = 2}},
-    kSeed,
+    kNoiseSeed,
     kHoldOfData,
     kConfidenceOption};
-constexpr OptionTable kNoise[] = {kNoiseOptions}, kSpread[] = {kSpreadOptions};
+constexpr OptionTable kNoiseTables[] = {kNoiseOptions}, kSpreadTables[] = {kSpreadOptions};
 
-constexpr ArgumentEntry kInput = {"u", ValueKind::kAny,
-                                  about("samples of the input: a vector, or a matrix with a column for each input")},
-                        kPeriod = {"Ts", ValueKind::kNumber, about("sampling time of the input in seconds")},
-                        kInputData = {
-                            "data", ValueKind::kData,
-                            about("instead of `u` and `Ts`, a data object of one experiment; only its input is used")};
+constexpr ArgumentEntry
+    kSimulatedInput = {"u", ValueKind::kAny,
+                       about("samples of the input: a vector, or a matrix with a column for each input")},
+    kInputPeriod = {"Ts", ValueKind::kNumber, about("sampling time of the input in seconds")},
+    kInputData = {"data", ValueKind::kData,
+                  about("instead of `u` and `Ts`, a data object of one experiment; only its input is used")};
 constexpr ArgumentEntry kNoiseArguments[] = {
-    {"G", ValueKind::kModel, about("model, with one or several inputs and outputs")}, kInput, kPeriod, kInputData};
+    {"G", ValueKind::kModel, about("model, with one or several inputs and outputs")},
+    kSimulatedInput,
+    kInputPeriod,
+    kInputData};
 constexpr ArgumentEntry kSpreadArguments[] = {
     {"G", ValueKind::kModel, about("estimated model with one output and any number of inputs")},
-    kInput,
-    kPeriod,
+    kSimulatedInput,
+    kInputPeriod,
     kInputData};
 constexpr ArgumentEntry kValuesArguments[] = {
     kModelArgument,
@@ -113,10 +114,7 @@ class DrawnNumbers {
   public:
     DrawnNumbers(const Call& call, const Options& options) : stream_(&call.context().random) {
         if (!options.has("seed")) return;
-        const Index seed = options.size("seed", 0);
-        if (seed > 0xFFFFFFFF)
-            throw InvalidArgument("the seed must lie between 0 and 4294967295, but {} was given", seed);
-        own_ = RandomStream(static_cast<std::uint32_t>(seed));
+        own_ = RandomStream(static_cast<std::uint32_t>(options.size("seed", 0)));
         stream_ = &*own_;
     }
     DrawnNumbers(const DrawnNumbers&) = delete;
@@ -131,7 +129,7 @@ int simulate_with_noise(Call& call) {
     const NoisyModel model = noisy_model_argument(call, 1, "G");
     InputSignals input = input_argument(call);
     input.u = driving_input(call, 1, input.u);
-    const Options options(call, input.options_index, kNoise);
+    const Options options(call, input.options_index, kNoiseTables);
     const Matrix y = simulated_outputs(model.channels, input, hold_option(options, input.hold));
     const auto snr = options.optional_number("snr");
     if (!options.flag("noise", snr.has_value()))
@@ -188,10 +186,10 @@ Figure spread_figure(const std::string& name, const SimulationSpread& spread, co
     Curve curve;
     curve.x = t;
     curve.y = spread.output;
-    curve.label = name;
+    curve.label = Message::verbatim(name);
     panel.curves.push_back(std::move(curve));
-    panel.x_label = "time (s)";
-    panel.y_label = "output";
+    panel.x_label = axis_label(Message("time"), "s");
+    panel.y_label = Message("output");
     fix_colours(panel);
     add_confidence_band(panel, 0, normal_half_width(level) * spread.std, level);
     return figure;
@@ -201,7 +199,7 @@ int simulate_spread(Call& call) {
     const Model* object = to_object<Model>(call.state(), 1);
     const Model model = object != nullptr ? *object : model_argument(call, 1, "G");
     const InputSignals input = input_argument(call);
-    const Options options(call, input.options_index, kSpread);
+    const Options options(call, input.options_index, kSpreadTables);
     const double level = confidence_option(options);
     const SimulationSpread spread = spread_of(model, input, hold_option(options, input.hold), options.size("runs", 200),
                                               DrawnNumbers(call, options).stream());
@@ -226,10 +224,10 @@ int frequency_values(Call& call) {
 
 constexpr FunctionEntry kNoisySimulationFunctions[] = {
     {"sim", "simulation", "sim(G, u, Ts, {options}) -> y, v; sim(G, data, {...})",
-     "response of a model to an input, with noise of its own or of a given SNR", guarded<simulate_with_noise>, kNoise,
-     kNoiseArguments},
+     "response of a model to an input, with noise of its own or of a given SNR", guarded<simulate_with_noise>,
+     kNoiseTables, kNoiseArguments},
     {"simsd", "simulation", "simsd(G, u, Ts, {options}) -> fig, table; simsd(G, data, {...})",
-     "how far the uncertainty of an estimate spreads its simulated output", guarded<simulate_spread>, kSpread,
+     "how far the uncertainty of an estimate spreads its simulated output", guarded<simulate_spread>, kSpreadTables,
      kSpreadArguments},
     {"bode_values",
      "simulation",

@@ -18,25 +18,25 @@
 namespace dynlab::inline scripting {
 namespace {
 
-constexpr OptionEntry kQuiet = {
+constexpr OptionEntry kQuietEstimate = {
     "quiet", ValueKind::kFlag, about("no text and no figure, nil in its place"), {.initial = "false"}};
 constexpr OptionEntry kReadingConfidence = {"confidence",
                                             ValueKind::kNumber,
                                             about("probability of the band, and of the test that finds the dead time"),
                                             {.initial = "0.99"}};
-constexpr MessageId<> kMeans = about("removal of the mean of both signals first");
+constexpr MessageId<> kMeanRemoval = about("removal of the mean of both signals first");
 
 constexpr std::array kEtfeOptions = {
     option<&EtfeOptions::smooth>("smooth",
                                  about("number of frequencies on either side in a weighted mean, 0 for none")),
-    option<&EtfeOptions::remove_mean>("remove_mean", kMeans), kConfidenceOption, kLabelsOption, kQuiet};
+    option<&EtfeOptions::remove_mean>("remove_mean", kMeanRemoval), kConfidenceOption, kLabelsOption, kQuietEstimate};
 constexpr std::array kSpaOptions = {
     option<&SpaOptions::window>("window", about("length of the window in samples, 0 for the smaller of 30 and N/10")),
     option<&SpaOptions::w>("w", about("frequencies, at most pi/Ts; 128 of them by default"), {.unit = "rad/s"}),
-    option<&SpaOptions::remove_mean>("remove_mean", kMeans),
+    option<&SpaOptions::remove_mean>("remove_mean", kMeanRemoval),
     kConfidenceOption,
     kLabelsOption,
-    kQuiet};
+    kQuietEstimate};
 constexpr std::array kKernels = {"TC", "DC", "SS"};
 constexpr std::array kImpulseestOptions = {
     option<&ImpulseestOptions::kernel>("Kernel", about("covariance of the prior: what smooth means"),
@@ -52,8 +52,8 @@ constexpr std::array kCraOptions = {
     option<&CraOptions::whitening>(
         "whitening", about("order of the autoregressive filter, 0 for an input that is white already"), {.most = 100}),
     kReadingConfidence, kLabelsOption};
-constexpr OptionTable kEtfe[] = {kEtfeOptions}, kSpa[] = {kSpaOptions}, kImpulseest[] = {kImpulseestOptions},
-                      kCra[] = {kCraOptions};
+constexpr OptionTable kEtfeTables[] = {kEtfeOptions}, kSpaTables[] = {kSpaOptions},
+                      kImpulseestTables[] = {kImpulseestOptions}, kCraTables[] = {kCraOptions};
 
 constexpr ArgumentEntry
     kOneExperiment = {"data", ValueKind::kData,
@@ -80,8 +80,8 @@ SpectralModels comparison_arguments(const Call& call) {
     SpectralModels read{object_argument<IdData>(call, 1, "data"), {}, 2};
     for (; holds_model(call, read.options); ++read.options) {
         const Model* model = to_object<Model>(call.state(), read.options);
-        const std::string name =
-            model != nullptr && model->estimate ? model->estimate->method : fmt::format("model {}", read.options - 1);
+        const Message name = model != nullptr && model->estimate ? Message::verbatim(model->estimate->method)
+                                                                 : Message("model {}", read.options - 1);
         read.models.push_back({name, model_argument(call, read.options, "G").G});
     }
     call.at_most(read.options);
@@ -94,7 +94,7 @@ void name_models(const Options& options, std::vector<NamedModel>& models) {
     if (labels.size() != models.size())
         throw InvalidArgument("option 'labels' has {} for {}", plural(labels.size(), "{} text", "{} texts"),
                               plural(models.size(), "{} model", "{} models"));
-    for (std::size_t i = 0; i < models.size(); ++i) models[i].name = labels[i];
+    for (std::size_t i = 0; i < models.size(); ++i) models[i].name = Message::verbatim(labels[i]);
 }
 
 void print_message(const Call& call, const Message& message, const std::vector<Message>& warnings) {
@@ -111,7 +111,7 @@ int give_spectral(const Call& call, const Options& options, SpectralModels& read
         lua_pushnil(call.state());
     } else {
         print_message(call, estimate.message, estimate.warnings);
-        give_figure(call, spectral_plot(estimate, method, read.models, confidence_option(options)));
+        give_figure(call, spectral_plot(estimate, Message::verbatim(method), read.models, confidence_option(options)));
     }
     push_object(call.state(), frequency_data_of(estimate, read.data, method, smoothed));
     return 2;
@@ -132,7 +132,7 @@ int give_impulse(const Call& call, const Options& options, SpectralModels& read,
 
 int ratio_of_transforms(Call& call) {
     SpectralModels read = comparison_arguments(call);
-    const Options options(call, read.options, kEtfe);
+    const Options options(call, read.options, kEtfeTables);
     EtfeOptions wanted;
     options.read(wanted);
     return give_spectral(call, options, read, etfe(read.data, wanted), "etfe", wanted.smooth > 0);
@@ -140,7 +140,7 @@ int ratio_of_transforms(Call& call) {
 
 int spectral_analysis(Call& call) {
     SpectralModels read = comparison_arguments(call);
-    const Options options(call, read.options, kSpa);
+    const Options options(call, read.options, kSpaTables);
     SpaOptions wanted;
     options.read(wanted);
     return give_spectral(call, options, read, spa(read.data, wanted), "spa", true);
@@ -158,7 +158,7 @@ Index take_lags(Call& call) {
 int regression_on_past_inputs(Call& call) {
     const Index lags = take_lags(call);
     SpectralModels read = comparison_arguments(call);
-    const Options options(call, read.options, kImpulseest);
+    const Options options(call, read.options, kImpulseestTables);
     ImpulseestOptions wanted;
     wanted.lags = lags;
     options.read(wanted);
@@ -176,7 +176,7 @@ int regression_on_past_inputs(Call& call) {
 
 int correlation_analysis(Call& call) {
     SpectralModels read = comparison_arguments(call);
-    const Options options(call, read.options, kCra);
+    const Options options(call, read.options, kCraTables);
     CraOptions wanted;
     options.read(wanted);
     wanted.confidence = confidence_option(options);
@@ -189,15 +189,15 @@ int correlation_analysis(Call& call) {
 constexpr FunctionEntry kNonparametricFunctions[] = {
     {"etfe", "nonparametric", "etfe(data, G1, ..., {options}) -> fig, F",
      "frequency response as the ratio of the Fourier transforms of output and input", guarded<ratio_of_transforms>,
-     kEtfe, kEtfeArguments},
+     kEtfeTables, kEtfeArguments},
     {"spa", "nonparametric", "spa(data, G1, ..., {options}) -> fig, F",
-     "frequency response with errors, from smoothed correlations", guarded<spectral_analysis>, kSpa,
+     "frequency response with errors, from smoothed correlations", guarded<spectral_analysis>, kSpaTables,
      kSpectralArguments},
     {"impulseest", "nonparametric", "impulseest(data, n, G1, ..., {options}) -> fig, table",
      "impulse response by regression on past inputs, and the dead time it shows", guarded<regression_on_past_inputs>,
-     kImpulseest, kImpulseArguments},
+     kImpulseestTables, kImpulseArguments},
     {"cra", "nonparametric", "cra(data, G1, ..., {options}) -> fig, table",
-     "impulse response from correlations with the whitened input", guarded<correlation_analysis>, kCra,
+     "impulse response from correlations with the whitened input", guarded<correlation_analysis>, kCraTables,
      kSpectralArguments},
 };
 

@@ -25,11 +25,11 @@ namespace {
 
 constexpr std::array kStructureOrders = {kNb, kNf, kNk};
 
-constexpr OptionEntry kLambda = kFirstFilterOptions[0], kStable = kSearchOptions[0];
+constexpr OptionEntry kSearchLambda = kFirstFilterOptions[0], kSearchStable = kSearchOptions[0];
 constexpr OptionEntry kValidate = {"validate", ValueKind::kData,
                                    about("second data object, on which every model is checked, too")};
 template <auto kMember>
-constexpr OptionEntry kThreads = option<kMember>("threads", about("number of threads, 0 for all cores"));
+constexpr OptionEntry kSearchThreads = option<kMember>("threads", about("number of threads, 0 for all cores"));
 
 constexpr OptionEntry kGridOptions[] = {
     {"poles", ValueKind::kAny, about("numbers of poles: {from, to}, or one number"), {.initial = "{1, 4}"}},
@@ -39,22 +39,23 @@ constexpr OptionEntry kGridOptions[] = {
      about("numbers of samples of delay to try, such as {0, 1, 2}, instead of estimating the delay up to `TdMax`"),
      {.initial = "0"}},
     {"Feedthrough", ValueKind::kFlag, about("structures with as many zeros as poles, too"), {.initial = "false"}}};
-constexpr std::array kStructureOptions = {kValidate, kLambda, kStable, kThreads<&OrderSelectionOptions::threads>};
-constexpr OptionTable kListed[] = {kStructureOptions, kStartOptions, kIterationOptions, kIntegrationOptions},
-                      kGrid[] = {kGridOptions,  kDelayOptions,     kStructureOptions,
-                                 kStartOptions, kIterationOptions, kIntegrationOptions};
+constexpr std::array kStructureOptions = {kValidate, kSearchLambda, kSearchStable,
+                                          kSearchThreads<&OrderSelectionOptions::threads>};
+constexpr OptionTable kOrderListTables[] = {kStructureOptions, kStartOptions, kIterationOptions, kIntegrationOptions},
+                      kOrderGridTables[] = {kGridOptions,  kDelayOptions,     kStructureOptions,
+                                            kStartOptions, kIterationOptions, kIntegrationOptions};
 constexpr OptionEntry kArxOptions[] = {
     {"na", ValueKind::kAny, about("numbers of poles: {from, to}, or one number"), {.initial = "{1, 4}"}},
     {"nb", ValueKind::kAny, about("numbers of coefficients of B: {from, to}, or one number"), {.initial = "{1, 4}"}},
     {"nk", ValueKind::kAny, about("samples of delay: {from, to}, or one number"), {.initial = "1"}},
     kValidate};
-constexpr OptionTable kArx[] = {kArxOptions};
+constexpr OptionTable kArxstrucTables[] = {kArxOptions};
 constexpr OptionEntry kDelayGridOptions[] = {
     {"poles", ValueKind::kAny, about("numbers of poles: {from, to}, or one number"), {.initial = "{1, 3}"}},
     {"zeros", ValueKind::kAny, about("numbers of zeros: {from, to}, or one number"), {.initial = "{0, 1}"}}};
-constexpr std::array kDelaySearchOptions = {kLambda, kThreads<&DelaySearchOptions::threads>};
-constexpr OptionTable kDelay[] = {kDelayGridOptions, kDelayOptions, kDelaySearchOptions, kStartOptions,
-                                  kIterationOptions};
+constexpr std::array kDelaySearchOptions = {kSearchLambda, kSearchThreads<&DelaySearchOptions::threads>};
+constexpr OptionTable kDelayestTables[] = {kDelayGridOptions, kDelayOptions, kDelaySearchOptions, kStartOptions,
+                                           kIterationOptions};
 
 constexpr ArgumentEntry kSingleArguments[] = {
     {"data", ValueKind::kData, about("data object with one input and one output")}};
@@ -151,7 +152,8 @@ int try_structures(Call& call) {
     call.at_most(3);
     const IdData& data = object_argument<IdData>(call, 1, "data");
     const bool listed = is_list(call, 2);
-    const Options options(call, listed ? 3 : 2, listed ? OptionTables(kListed) : OptionTables(kGrid));
+    const Options options(call, listed ? 3 : 2,
+                          listed ? OptionTables(kOrderListTables) : OptionTables(kOrderGridTables));
     const std::vector<TransferStructure> structures = listed ? listed_structures(call, data) : grid_of(options, data);
     OrderSelectionOptions wanted;
     options.read(wanted);
@@ -195,7 +197,7 @@ int select_structure(Call& call) {
 int try_arx_structures(Call& call) {
     call.at_most(2);
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    const Options options(call, 2, kArx);
+    const Options options(call, 2, kArxstrucTables);
     ArxRanges ranges;
     ranges.na = range_of(options, "na", ranges.na);
     ranges.nb = range_of(options, "nb", ranges.nb);
@@ -241,7 +243,7 @@ void push_search(const Call& call, const IdData& data, const DelaySearch& search
 int estimate_delay(Call& call) {
     call.at_most(2);
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    const Options options(call, 2, kDelay);
+    const Options options(call, 2, kDelayestTables);
     DelaySearchOptions wanted;
     options.read(wanted);
     wanted.poles = range_of(options, "poles", wanted.poles);
@@ -262,7 +264,7 @@ int estimate_delay(Call& call) {
 constexpr FunctionEntry kOrdersFunctions[] = {
     {"srivcstruc", "structure", "srivcstruc(data, {options}) -> V",
      "srivc for many numbers of poles, zeros and samples of delay, with criteria for each",
-     guarded<memoized_call<try_structures>>, kGrid, kSingleArguments},
+     guarded<memoized_call<try_structures>>, kOrderGridTables, kSingleArguments},
     {"selcstruc",
      "structure",
      "selcstruc(V, criterion) -> G, fig",
@@ -271,7 +273,8 @@ constexpr FunctionEntry kOrdersFunctions[] = {
      {},
      kChoiceArguments},
     {"arxstruc", "structure", "arxstruc(data, {options}) -> V",
-     "the loss of arx for every structure, on a second record too", guarded<try_arx_structures>, kArx, kArxArguments},
+     "the loss of arx for every structure, on a second record too", guarded<try_arx_structures>, kArxstrucTables,
+     kArxArguments},
     {"selstruc",
      "structure",
      "selstruc(V, criterion) -> {na, nb, nk}, fig",
@@ -281,7 +284,7 @@ constexpr FunctionEntry kOrdersFunctions[] = {
      kArxChoiceArguments},
     {"delayest", "structure", "delayest(data, {options}) -> Td, fig, D",
      "the delay between input and output, with its standard error and the loss over the delay",
-     guarded<memoized_call<estimate_delay>>, kDelay, kSingleArguments},
+     guarded<memoized_call<estimate_delay>>, kDelayestTables, kSingleArguments},
 };
 
 }  // namespace

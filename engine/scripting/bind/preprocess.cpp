@@ -16,19 +16,19 @@ namespace {
 constexpr OptionEntry kTrendOptions[] = {
     {"samples", ValueKind::kCount,
      about("for \"start\", number of samples whose mean is the level; by default all before an input changes")}};
-constexpr std::array kStarts = {"zero", "steady"};
-constexpr OptionEntry kStart = {
+constexpr std::array kFilterStarts = {"zero", "steady"};
+constexpr OptionEntry kFilterStart = {
     "start",
     ValueKind::kChoice,
     about("signal before its first sample: zero (\"zero\"), or constant at the first sample (\"steady\")"),
-    {.initial = "\"zero\"", .choices = kStarts}};
-constexpr OptionEntry kFilterOptions[] = {
+    {.initial = "\"zero\"", .choices = kFilterStarts}};
+constexpr OptionEntry kButterworthOptions[] = {
     option<&FilterOptions::order>("order", about("order of the low-pass prototype; two edges give twice as many poles"),
                                   {.least = 1, .most = 20}),
     option<&FilterOptions::zero_phase>("zero_phase",
                                        about("filtering forwards, then backwards: no delay, the magnitude squared")),
     option<&FilterOptions::stop>("stop", about("removal of the band, instead of passing it")),
-    kStart,
+    kFilterStart,
     {"Ts", ValueKind::kNumber, about("sampling time of a vector"), {.initial = "1", .unit = "s"}}};
 constexpr OptionEntry kGapOptions[] = {
     {"t", ValueKind::kVector, about("increasing instants of irregular sampling")},
@@ -36,17 +36,17 @@ constexpr OptionEntry kGapOptions[] = {
 constexpr std::array kOutlierOptions = {
     option<&OutlierOptions::window>("window", about("odd number of samples of the moving median")),
     option<&OutlierOptions::threshold>("threshold", about("distance from the median in robust standard deviations"))};
-constexpr OptionTable kTrend[] = {kTrendOptions}, kFilter[] = {kFilterOptions}, kGaps[] = {kGapOptions},
-                      kOutliers[] = {kOutlierOptions};
+constexpr OptionTable kTrendTables[] = {kTrendOptions}, kButterworthTables[] = {kButterworthOptions},
+                      kGapsTables[] = {kGapOptions}, kOutliersTables[] = {kOutlierOptions};
 
-constexpr ArgumentEntry kSignals = {"data", ValueKind::kAny, about("data object, or one signal as a vector")},
+constexpr ArgumentEntry kAnySignals = {"data", ValueKind::kAny, about("data object, or one signal as a vector")},
                         kRegularSignals = {"data", ValueKind::kAny,
                                            about("data object, sampled regularly, or one signal as a vector")};
 constexpr ArgumentEntry kTrendArguments[] = {
-    kSignals,
+    kAnySignals,
     {"kind", ValueKind::kChoice,
      about("\"linear\" (the default), \"mean\", or \"start\"; 1 and 0 stand for the first two")}};
-constexpr ArgumentEntry kFilterArguments[] = {
+constexpr ArgumentEntry kButterworthArguments[] = {
     kRegularSignals,
     {"{lower, upper}", ValueKind::kVector,
      about("edges of the band in rad/s: {0, w} is a low-pass, {w, math.huge} a high-pass filter")}};
@@ -114,14 +114,14 @@ int give_repaired(const Call& call, const RepairedSignal& repaired) {
 
 int fill_gaps(Call& call) {
     call.at_most(2);
-    const Options options(call, 2, kGaps);
+    const Options options(call, 2, kGapsTables);
     const Vector t = options.has("t") ? Vector(options.vector("t")) : Vector();
     return give_repaired(call, fill_missing(call.vector(1, "x"), t, options.size("longest", 10)));
 }
 
 int remove_outliers(Call& call) {
     call.at_most(2);
-    const Options options(call, 2, kOutliers);
+    const Options options(call, 2, kOutliersTables);
     OutlierOptions wanted;
     options.read(wanted);
     if (const IdData* data = to_object<IdData>(call.state(), 1)) {
@@ -140,10 +140,11 @@ int remove_outliers(Call& call) {
 
 constexpr FunctionEntry kPreprocessFunctions[] = {
     {"detrend", "data", "detrend(data, \"linear\" | \"mean\" | \"start\", {options}) -> data",
-     "takes off the straight line, the mean, or the level before the input changes", guarded<detrend_signals>, kTrend,
-     kTrendArguments},
+     "takes off the straight line, the mean, or the level before the input changes", guarded<detrend_signals>,
+     kTrendTables, kTrendArguments},
     {"idfilt", "data", "idfilt(data, {lower, upper}, {options}) -> data",
-     "Butterworth filter over inputs and outputs alike", guarded<filter_signals>, kFilter, kFilterArguments},
+     "Butterworth filter over inputs and outputs alike", guarded<filter_signals>, kButterworthTables,
+     kButterworthArguments},
     {"resample",
      "data",
      "resample(data, up, down) -> data",
@@ -159,9 +160,9 @@ constexpr FunctionEntry kPreprocessFunctions[] = {
      {},
      kMergeArguments},
     {"fillmissing", "data", "fillmissing(x, {options}) -> filled, places",
-     "straight lines over samples that are not numbers", guarded<fill_gaps>, kGaps, kGapArguments},
+     "straight lines over samples that are not numbers", guarded<fill_gaps>, kGapsTables, kGapArguments},
     {"filloutliers", "data", "filloutliers(x | data, {options}) -> cleaned, places",
-     "straight lines over samples that stand out from their neighbours", guarded<remove_outliers>, kOutliers,
+     "straight lines over samples that stand out from their neighbours", guarded<remove_outliers>, kOutliersTables,
      kOutlierArguments},
 };
 
@@ -171,7 +172,7 @@ int detrend_signals(Call& call) {
     call.at_most(3);
     const Signals signals = signals_argument(call, 1);
     const std::string kind = trend_kind(call);
-    const Options options(call, 3, kTrend);
+    const Options options(call, 3, kTrendTables);
     if (kind == "start")
         return give_signals(call, signals, remove_initial_level(signals.data, options.size("samples", 0)));
     if (kind != "linear" && kind != "mean")
@@ -185,12 +186,12 @@ int detrend_signals(Call& call) {
 
 int filter_signals(Call& call) {
     call.at_most(3);
-    const Options options(call, 3, kFilter);
+    const Options options(call, 3, kButterworthTables);
     const Signals signals = signals_argument(call, options.number("Ts", 1));
     if (!signals.bare && options.has("Ts")) throw InvalidArgument("option 'Ts' is for a vector; data have their own");
     FilterOptions wanted;
     options.read(wanted);
-    wanted.steady_start = options.has("start") && options.choice(kStart) == 1;
+    wanted.steady_start = options.has("start") && options.choice(kFilterStart) == 1;
     if (wanted.zero_phase && options.has("start"))
         throw InvalidArgument(
             "option 'start' is for the causal filter; with zero_phase the record is continued at both ends");

@@ -49,8 +49,8 @@ int draw_construction(Call& call) {
     construction.final = test.record.final.value;
     for (const ReadingPoint& point : test.points)
         construction.readings.push_back({point.name, point.time, point.value});
-    construction.x_label = options.text("xlabel", construction.x_label);
-    construction.y_label = options.text("ylabel", "");
+    if (options.has("xlabel")) construction.x_label = Message::verbatim(options.text("xlabel", ""));
+    construction.y_label = Message::verbatim(options.text("ylabel", ""));
     return give_figure(call, step_construction(construction));
 }
 

@@ -30,17 +30,17 @@ struct Boxed<RegressionFit> {
 
 namespace {
 
-constexpr std::array kMethods = {"qr", "normal"};
-constexpr OptionEntry kMethod = option<&PolyfitOptions::method>(
+constexpr std::array kRegressionMethods = {"qr", "normal"};
+constexpr OptionEntry kRegressionMethod = option<&PolyfitOptions::method>(
     "method",
     about("orthogonal factorization (\"qr\"), or the normal equations (\"normal\"), which "
           "square the condition number"),
-    {.initial = "\"qr\"", .choices = kMethods});
-constexpr std::array kLsqOptions = {kMethod};
+    {.initial = "\"qr\"", .choices = kRegressionMethods});
+constexpr std::array kLsqOptions = {kRegressionMethod};
 constexpr std::array kPolyfitOptions = {
     option<&PolyfitOptions::centred>("centred", about("powers of x minus its mean, instead of those of x itself")),
-    kMethod};
-constexpr OptionEntry kPlotOptions[] = {
+    kRegressionMethod};
+constexpr OptionEntry kRegressionPlotOptions[] = {
     {"forecast", ValueKind::kNumber, about("x of a forecast that is marked")},
     {"text", ValueKind::kText, about("label of the forecast; by default its value")},
     {"level", ValueKind::kNumber, about("probability of the bands"), {.initial = "0.95"}},
@@ -52,16 +52,16 @@ constexpr std::array kDescentOptions = {
     option<&GradientDescentOptions::tolerance>("Tol", about("relative change of theta at which the search stops"),
                                                {.least = 0}),
     option<&GradientDescentOptions::start>("start", about("first theta; by default zero"))};
-constexpr OptionTable kLsq[] = {kLsqOptions}, kPolyfit[] = {kPolyfitOptions}, kPlot[] = {kPlotOptions},
-                      kDescent[] = {kDescentOptions};
+constexpr OptionTable kLsqTables[] = {kLsqOptions}, kPolyfitTables[] = {kPolyfitOptions},
+                      kRegressionPlotTables[] = {kRegressionPlotOptions}, kDescentTables[] = {kDescentOptions};
 
-constexpr ArgumentEntry kX = {"x", ValueKind::kVector, about("vector of N values")},
-                        kY = {"y", ValueKind::kVector, about("vector of N values")},
-                        kDegree = {"degree", ValueKind::kCount,
-                                   about("degree of the polynomial; 1 is a straight line")};
-constexpr std::array kPolynomialArguments = {kX, kY, kDegree};
+constexpr ArgumentEntry kRegressionX = {"x", ValueKind::kVector, about("vector of N values")},
+                        kRegressionY = {"y", ValueKind::kVector, about("vector of N values")},
+                        kPolynomialDegree = {"degree", ValueKind::kCount,
+                                             about("degree of the polynomial; 1 is a straight line")};
+constexpr std::array kPolynomialArguments = {kRegressionX, kRegressionY, kPolynomialDegree};
 constexpr ArgumentEntry kRegressorArguments[] = {
-    {"Phi", ValueKind::kAny, about("matrix with N rows and d columns, N at least d")}, kY};
+    {"Phi", ValueKind::kAny, about("matrix with N rows and d columns, N at least d")}, kRegressionY};
 constexpr ArgumentEntry kForecastArguments[] = {
     {"fit", ValueKind::kAny, about("result of `polyfit_report` or `lsq`")},
     {"x", ValueKind::kAny, about("number, for a polynomial; for `lsq` a vector of d regressors")},
@@ -70,7 +70,8 @@ constexpr ArgumentEntry kQuantileArguments[] = {
     {"p", ValueKind::kNumber,
      about("probability between 0 and 1; 0.975 for an interval of 95 %, as 2.5 % are left on each side")},
     {"degrees", ValueKind::kNumber, about("degrees of freedom, greater than 0")}};
-constexpr ArgumentEntry kPlotArguments[] = {kX, kY, {"fit", ValueKind::kAny, about("result of `polyfit_report`")}};
+constexpr ArgumentEntry kRegressionPlotArguments[] = {
+    kRegressionX, kRegressionY, {"fit", ValueKind::kAny, about("result of `polyfit_report`")}};
 
 template <auto kMember>
 constexpr lua_CFunction regression_field =
@@ -116,7 +117,7 @@ constexpr std::array kRegressionOperators = {Member{"__tostring", localized_fiel
 int least_squares(Call& call) {
     call.at_most(3);
     PolyfitOptions wanted;
-    Options(call, 3, kLsq).read(wanted);
+    Options(call, 3, kLsqTables).read(wanted);
     const MatrixMap Phi = call.matrix(1, "Phi");
     push_object(call.state(), RegressionFit{lsq(Phi, call.vector(2, "y"), wanted.method), {}});
     return 1;
@@ -125,7 +126,7 @@ int least_squares(Call& call) {
 int polynomial(Call& call) {
     call.at_most(4);
     PolyfitOptions wanted;
-    Options(call, 4, kPolyfit).read(wanted);
+    Options(call, 4, kPolyfitTables).read(wanted);
     const VectorMap x = call.vector(1, "x"), y = call.vector(2, "y");
     const PolynomialFit fit = fit_polynomial(x, y, static_cast<int>(call.size(3, "degree")), wanted);
     push_object(call.state(), RegressionFit{fit.regression, fit});
@@ -179,7 +180,7 @@ void add_line(RegressionPicture& picture, const RegressionFit& fit, double from,
 
 int draw_regression(Call& call) {
     call.at_most(4);
-    const Options options(call, 4, kPlot);
+    const Options options(call, 4, kRegressionPlotTables);
     const RegressionFit& fit = object_argument<RegressionFit>(call, 3, "fit");
     if (!fit.polynomial) throw InvalidArgument("{} must come from polyfit_report", argument_label(3, "fit"));
     RegressionPicture picture;
@@ -193,19 +194,19 @@ int draw_regression(Call& call) {
     if (x_new) {
         const Forecast at = forecast_at(fit, *x_new, level);
         picture.forecast =
-            ForecastPoint{*x_new, at.value, at.low, at.high, options.text("text", number_text(at.value))};
+            ForecastPoint{*x_new, at.value, at.low, at.high,
+                          options.has("text") ? Message::verbatim(options.text("text", "")) : Message("{}", at.value)};
     }
-    picture.confidence_label = fmt::format("{} % confidence band", number_text(100 * level));
-    picture.prediction_label = fmt::format("{} % prediction band", number_text(100 * level));
-    picture.x_label = options.text("xlabel", "");
-    picture.y_label = options.text("ylabel", "");
+    picture.level = level;
+    picture.x_label = Message::verbatim(options.text("xlabel", ""));
+    picture.y_label = Message::verbatim(options.text("ylabel", ""));
     return give_figure(call, regression_plot(picture));
 }
 
 int descend(Call& call) {
     call.at_most(3);
     GradientDescentOptions wanted;
-    Options(call, 3, kDescent).read(wanted);
+    Options(call, 3, kDescentTables).read(wanted);
     wanted.cancel = call.cancel();
     const MatrixMap Phi = call.matrix(1, "Phi");
     const GradientDescentResult result = gradient_descent(Phi, call.vector(2, "y"), wanted);
@@ -224,10 +225,10 @@ constexpr FunctionEntry kRegressionFunctions[] = {
      {},
      kPolynomialArguments},
     {"lsq", "regression", "lsq(Phi, y, {options}) -> fit",
-     "least squares with standard errors, residuals and condition number", guarded<least_squares>, kLsq,
+     "least squares with standard errors, residuals and condition number", guarded<least_squares>, kLsqTables,
      kRegressorArguments},
     {"polyfit_report", "regression", "polyfit_report(x, y, degree, {options}) -> fit",
-     "polynomial by least squares with its standard errors", guarded<polynomial>, kPolyfit, kPolynomialArguments},
+     "polynomial by least squares with its standard errors", guarded<polynomial>, kPolyfitTables, kPolynomialArguments},
     {"forecast",
      "regression",
      "forecast(fit, x, level) -> {value, low, high, ...}",
@@ -243,9 +244,10 @@ constexpr FunctionEntry kRegressionFunctions[] = {
      {},
      kQuantileArguments},
     {"regression_plot", "regression", "regression_plot(x, y, fit, {options}) -> fig",
-     "data, fitted polynomial and its bands", guarded<draw_regression>, kPlot, kPlotArguments},
+     "data, fitted polynomial and its bands", guarded<draw_regression>, kRegressionPlotTables,
+     kRegressionPlotArguments},
     {"gradient_descent", "regression", "gradient_descent(Phi, y, {options}) -> table",
-     "least squares by steepest descent, with the loss after every step", guarded<descend>, kDescent,
+     "least squares by steepest descent, with the loss after every step", guarded<descend>, kDescentTables,
      kRegressorArguments},
 };
 

@@ -33,7 +33,7 @@ constexpr OptionEntry kFoldOptions[] = {
      kStateOption.description,
      {.initial = "\"estimate\"", .choices = kInitialStates, .member = "initial_state"}},
     kOffsetOption};
-constexpr OptionTable kResiduals[] = {kResidualOptions, kComparisonStart}, kFolds[] = {kFoldOptions};
+constexpr OptionTable kResidualsTables[] = {kResidualOptions, kComparisonStart}, kFoldsTables[] = {kFoldOptions};
 
 constexpr ArgumentEntry kFoldArguments[] = {
     {"data", ValueKind::kData, about("data object with one or several experiments")},
@@ -104,7 +104,7 @@ ResidualTests tests_of_model(const Call& call, const IdData& data, const Options
 int test_residuals(Call& call) {
     call.at_most(3);
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    const Options options(call, 3, kResiduals);
+    const Options options(call, 3, kResidualsTables);
     const bool quiet = options.flag("quiet", false);
     ResidualOptions wanted;
     options.read(wanted);
@@ -155,7 +155,7 @@ int validate_across(Call& call) {
     call.at_most(3);
     const IdData& data = object_argument<IdData>(call, 1, "data");
     if (call.type(2) != LUA_TFUNCTION) wrong_argument(call.state(), 2, "fit", Message("a function of a data object"));
-    const Options options(call, 3, kFolds);
+    const Options options(call, 3, kFoldsTables);
     CrossValidationOptions wanted;
     options.read(wanted);
     wanted.simulation = compare_options(options, InitialState::kEstimate);
@@ -172,9 +172,9 @@ int validate_across(Call& call) {
 constexpr FunctionEntry kResidualsFunctions[] = {
     {"resid", "validation", "resid(data, G, {options}) -> fig, table",
      "is the simulation error white and independent of the input? with a verdict in words", guarded<test_residuals>,
-     kResiduals, kRecordAndModel},
+     kResidualsTables, kRecordAndModel},
     {"crossvalidate", "validation", "crossvalidate(data, fit, {options}) -> fig, table",
-     "fits on all parts but one and simulates on that one, part by part", guarded<validate_across>, kFolds,
+     "fits on all parts but one and simulates on that one, part by part", guarded<validate_across>, kFoldsTables,
      kFoldArguments},
 };
 

@@ -29,18 +29,17 @@ constexpr OptionEntry kStudyOptions[] = {
      about("number of samples that the controller takes to answer"),
      {.initial = "0"}},
     {"Ts", ValueKind::kNumber, about("sampling time"), {.unit = "s"}},
-    option<&MonteCarloStudy::hold>(
-        "hold", about("input, or reference, between its samples: held (\"zoh\") or linearly interpolated (\"foh\")"),
-        {.initial = "\"zoh\"", .choices = kHolds}),
+    option<&MonteCarloStudy::hold>("hold", kHoldOption.description, {.initial = "\"zoh\"", .choices = kHolds}),
     option<&MonteCarloStudy::sigma>("sigma", about("standard deviation of the noise"), {.least = 0}),
     option<&MonteCarloStudy::snr>("snr", about("signal-to-noise ratio 20 log10(std x/std noise), instead of `sigma`"),
                                   {.unit = "dB"}),
     option<&MonteCarloStudy::runs>("runs", about("number of repeated experiments"), {.least = 2}),
     option<&MonteCarloStudy::seed>(
-        "seed", about("seed of the noise: run k = 0, 1, ... adds what `rng(seed + k)` and `randn` give")),
+        "seed", about("seed of the noise: run k = 0, 1, ... adds what `rng(seed + k)` and `randn` give"),
+        {.most = kLargestSeed}),
     option<&MonteCarloStudy::threads>("threads", about("number of threads, 0 for all cores")),
     {"estimators", ValueKind::kTable, about("estimators by name, with their arguments after the data")}};
-constexpr OptionTable kStudy[] = {kStudyOptions};
+constexpr OptionTable kStudyTables[] = {kStudyOptions};
 
 MonteCarloEstimate estimate_in_study(const Fit& result) {
     return {result.theta, result.std, result.names, true, result.termination == Termination::kConverged};
@@ -224,7 +223,7 @@ MonteCarloStudy study_of(const Options& options) {
 
 int run_study(Call& call) {
     call.at_most(1);
-    const Options options(call, 1, kStudy);
+    const Options options(call, 1, kStudyTables);
     MonteCarloStudy study = study_of(options);
     const std::vector<MonteCarloMethod> methods = methods_of(call, options.push("estimators"));
     study.elsewhere = shared_out<MonteCarloRun>(call.state(), "montecarlo");
@@ -240,7 +239,7 @@ int run_study(Call& call) {
 constexpr FunctionEntry kStudiesFunctions[] = {
     {"montecarlo", "validation", "montecarlo{options} -> M",
      "the same experiment many times with fresh noise: bias and scatter of estimators",
-     guarded<memoized_call<run_study>>, kStudy},
+     guarded<memoized_call<run_study>>, kStudyTables},
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <array>
 
+#include "base/catalog.h"
 #include "numerics/estimators/coe.h"
 #include "numerics/estimators/ivsvf.h"
 #include "numerics/estimators/lssvf.h"
@@ -135,28 +136,28 @@ constexpr NamedReader kTransferEstimatorsReaders[] = {{"lssvf", read_filtered<ls
 
 constexpr FunctionEntry kTransferEstimatorsFunctions[] = {
     {"lssvf", "continuous time", "lssvf(data, {na, nb, nk}, lambda, {options}) -> G",
-     "A y = B u + e by least squares on state-variable filtered signals", guarded<estimate_by_least_squares>, kFiltered,
-     kFilteredArguments},
+     marked("estimator", "A y = B u + e by least squares on state-variable filtered signals"),
+     guarded<estimate_by_least_squares>, kFiltered, kFilteredArguments},
     {"ivsvf", "continuous time", "ivsvf(data, {na, nb, nk}, lambda, {options}) -> G",
-     "the same by instrumental variables, without lssvf's bias", guarded<estimate_filtered<ivsvf, true, false>>,
-     kFiltered, kFilteredArguments},
+     marked("estimator", "the same by instrumental variables, without lssvf's bias"),
+     guarded<estimate_filtered<ivsvf, true, false>>, kFiltered, kFilteredArguments},
     {"lsgpmf", "continuous time", "lsgpmf(data, {na, nb, nk}, lambda, {options}) -> G",
-     "least squares on Poisson moment functionals", guarded<estimate_filtered<lssvf, false, true>>, kMoments,
-     kFilteredArguments},
+     marked("estimator", "least squares on Poisson moment functionals"), guarded<estimate_filtered<lssvf, false, true>>,
+     kMoments, kFilteredArguments},
     {"ivgpmf", "continuous time", "ivgpmf(data, {na, nb, nk}, lambda, {options}) -> G",
-     "instrumental variables on Poisson moment functionals", guarded<estimate_filtered<ivsvf, true, true>>, kMoments,
-     kFilteredArguments},
+     marked("estimator", "instrumental variables on Poisson moment functionals"),
+     guarded<estimate_filtered<ivsvf, true, true>>, kMoments, kFilteredArguments},
     {"srivc", "continuous time", "srivc(data, {nb, nf, nk}, {options}) -> G",
-     "y = B/F u + e by refined instrumental variables", guarded<memoized_call<estimate_refined<read_refined<srivc>>>>,
-     kRefined, kRefinedArguments},
+     marked("estimator", "y = B/F u + e by refined instrumental variables"),
+     guarded<memoized_call<estimate_refined<read_refined<srivc>>>>, kRefined, kRefinedArguments},
     {"coe", "continuous time", "coe(data, {nb, nf, nk}, {options}) -> G",
-     "y = B/F u + e with the smallest simulation error", guarded<memoized_call<estimate_refined<read_refined<coe>>>>,
-     kRefined, kRefinedArguments},
+     marked("estimator", "y = B/F u + e with the smallest simulation error"),
+     guarded<memoized_call<estimate_refined<read_refined<coe>>>>, kRefined, kRefinedArguments},
     {"tfsrivc", "continuous time", "tfsrivc(data, np, nz, {options}) -> G",
-     "srivc by numbers of poles and zeros, the delay estimated",
+     marked("estimator", "srivc by numbers of poles and zeros, the delay estimated"),
      guarded<memoized_call<estimate_refined<read_transfer_function<srivc>>>>, kTransferFunction, kTransferArguments},
     {"tfcoe", "continuous time", "tfcoe(data, np, nz, {options}) -> G",
-     "coe by numbers of poles and zeros, the delay estimated",
+     marked("estimator", "coe by numbers of poles and zeros, the delay estimated"),
      guarded<memoized_call<estimate_refined<read_transfer_function<coe>>>>, kTransferFunction, kTransferArguments},
 };
 

@@ -17,14 +17,14 @@
 namespace dynlab::inline scripting {
 namespace {
 
-constexpr std::array kKinds = {"residual", "parametric"};
+constexpr std::array kBootstrapKinds = {"residual", "parametric"};
 constexpr std::array kBootstrapOptions = {
     option<&BootstrapOptions::runs>("runs", about("number of repeated experiments"), {.least = 20, .member = "runs"}),
     option<&BootstrapOptions::kind>("kind",
                                     about("new errors: those that the model left, drawn with replacement "
                                           "(\"residual\"), or normal ones (\"parametric\")"),
-                                    {.initial = "\"residual\"", .choices = kKinds}),
-    option<&BootstrapOptions::seed>("seed", about("seed of the new errors")),
+                                    {.initial = "\"residual\"", .choices = kBootstrapKinds}),
+    option<&BootstrapOptions::seed>("seed", about("seed of the new errors"), {.most = kLargestSeed}),
     option<&BootstrapOptions::confidence>("confidence", about("probability of the intervals"),
                                           {.member = "confidence"})};
 constexpr OptionEntry kProfileOptions[] = {
@@ -35,8 +35,8 @@ constexpr OptionEntry kProfileOptions[] = {
      about("ends {low, high} of the grid; by default four standard errors on both sides, or more where the "
            "interval ends farther out"),
      {.member = "range"}}};
-constexpr OptionTable kBootstrap[] = {kBootstrapOptions, kSimulationStart},
-                      kProfile[] = {kProfileOptions, kSimulationStart};
+constexpr OptionTable kBootstrapTables[] = {kBootstrapOptions, kSimulationStart},
+                      kProfileTables[] = {kProfileOptions, kSimulationStart};
 
 constexpr ArgumentEntry
     kEstimateArgument = {"G", ValueKind::kModel,
@@ -113,7 +113,7 @@ MonteCarlo as_study(const Bootstrap& found, int runs) {
 int repeat_experiment(Call& call) {
     call.at_most(3);
     const IdData& data = object_argument<IdData>(call, 2, "data");
-    const Options options(call, 3, kBootstrap);
+    const Options options(call, 3, kBootstrapTables);
     BootstrapOptions wanted;
     options.read(wanted);
     wanted.cancel = call.cancel();
@@ -138,7 +138,7 @@ int follow_parameter(Call& call) {
     call.at_most(4);
     const IdData& data = object_argument<IdData>(call, 2, "data");
     const std::string name = call.text(3, "parameter");
-    const Options options(call, 4, kProfile);
+    const Options options(call, 4, kProfileTables);
     ProfileOptions wanted;
     options.read(wanted);
     wanted.range = options.range("range");
@@ -156,10 +156,10 @@ int follow_parameter(Call& call) {
 constexpr FunctionEntry kIntervalFunctions[] = {
     {"bootstrap", "validation", "bootstrap(G, data, {options}) -> fig, table",
      "intervals of parameters, gain and time constants from experiments repeated on the computer",
-     guarded<memoized_call<repeat_experiment>>, kBootstrap, kBootstrapArguments},
+     guarded<memoized_call<repeat_experiment>>, kBootstrapTables, kBootstrapArguments},
     {"profile", "validation", "profile(G, data, name, {options}) -> fig, table",
      "interval of one parameter from how the fit gets worse beside it", guarded<memoized_call<follow_parameter>>,
-     kProfile, kProfileArguments},
+     kProfileTables, kProfileArguments},
 };
 
 }  // namespace
