@@ -9,15 +9,16 @@ namespace dynlab::inline scripting {
 /// The options and arguments that families of estimators share. What is a member of FitOptions is read by
 /// read_fit_options() (estimator_arguments.h).
 
-inline constexpr std::array kHolds = {"foh", "zoh"};
+inline constexpr std::array kHolds = {"zoh", "foh"};  // in the order of Hold
 inline constexpr std::array kInitialStates = {"zero", "steady", "estimate", "auto"};
 inline constexpr std::array kOffsets = {"none", "remove", "estimate", "auto"};
 
-inline constexpr OptionEntry kHoldOfOutput = {
+/// Of an options struct that has the member.
+template <class T>
+inline constexpr OptionEntry kHoldOfOutput = option<&T::hold_y>(
     "hold_y",
-    ValueKind::kChoice,
     about("how the output behaves between its samples inside the filters, straight lines (\"foh\") or steps (\"zoh\")"),
-    {.initial = "\"foh\"", .choices = kHolds}};
+    {.initial = "\"foh\"", .choices = kHolds});
 
 inline constexpr std::array kFirstFilterOptions = {
     option<&FitOptions::lambda>("lambda",
@@ -55,14 +56,15 @@ inline constexpr OptionEntry kCommonDenominator = {
     "CommonDenominator", ValueKind::kFlag, about("one denominator F for all channels"), {.initial = "false"}};
 inline constexpr std::array kSharingOptions = {kCommonDenominator};
 
+inline constexpr OptionEntry kStable = option<&FitOptions::stable>(
+    "Stable",
+    about("true keeps to models with all poles in the left half plane, false takes the best fit whatever its "
+          "poles; unless given, an unstable model is chosen only where it lowers the loss by 2 % or more"),
+    {.member = "stable"});
+inline constexpr OptionEntry kFixed = option<&FitOptions::fixed>(
+    "Fixed", about("known parameters, {a2 = 4}, which are not estimated"), {.member = "fixed"});
 inline constexpr std::array kSearchOptions = {
-    option<&FitOptions::stable>(
-        "Stable",
-        about("true keeps to models with all poles in the left half plane, false takes the best fit whatever its "
-              "poles; unless given, an unstable model is chosen only where it lowers the loss by 2 % or more"),
-        {.member = "stable"}),
-    option<&FitOptions::fixed>("Fixed", about("known parameters, {a2 = 4}, which are not estimated"),
-                               {.member = "fixed"}),
+    kStable, kFixed,
     option<&FitOptions::output_weights>(
         "OutputWeights",
         about("with several outputs a weight for each, by which its errors are multiplied; one over their "
@@ -77,17 +79,31 @@ inline constexpr std::array kDelayOptions = {
         {.unit = "s", .member = "largest_delay"}),
     option<&FitOptions::delay_count>("NumTd", about("maximum number of delays on the grid of the search"),
                                      {.member = "delay_count"})};
+/// Read by structure_of_counts().
+inline constexpr OptionEntry kKnownDelay = {
+    "IODelay",
+    ValueKind::kVector,
+    about("a known delay, which is then not estimated; with several inputs one for each"),
+    {.unit = "s", .member = "delay"}};
+inline constexpr std::array kFixedDelayOptions = {kKnownDelay};
 /// Read by started_structure().
 inline constexpr std::array kKnownDelayOptions = {
-    OptionEntry{"IODelay",
-                ValueKind::kVector,
-                about("a known delay, which is then not estimated; with several inputs one for each"),
-                {.unit = "s", .member = "delay"}},
+    kKnownDelay,
     OptionEntry{
         "Td0", ValueKind::kVector, about("the delay where its search begins, instead of on a grid"), {.unit = "s"}}};
 
 inline constexpr ArgumentEntry kDataArgument = {
     "data", ValueKind::kData,
     about("data object, or a measured frequency response (idfrd) where the method takes one")};
+inline constexpr ArgumentEntry kOneOutputData = {
+    "data", ValueKind::kData,
+    about("data object with one output, one or several inputs and experiments, regularly sampled")};
+inline constexpr ArgumentEntry kFilterFrequency = {
+    "lambda", ValueKind::kNumber,
+    about("cut-off frequency of the filter in rad/s, usually a bit above the bandwidth of the system")};
+inline constexpr ArgumentEntry kPoleCount = {
+    "np", ValueKind::kCount,
+    about("number of poles; with several inputs or outputs a number for all or a table with one for each")};
+inline constexpr ArgumentEntry kZeroCount = {"nz", ValueKind::kCount, about("number of zeros, in the same way")};
 
 }  // namespace dynlab::inline scripting
