@@ -41,12 +41,19 @@ inline constexpr std::array kStartOptions = {
               "constant is estimated (\"estimate\"), or the smaller BIC of none and estimate (\"auto\")"),
         {.initial = "\"none\"", .choices = kOffsets, .member = "offset"})};
 
+inline constexpr OptionEntry kTolerance =
+    option<&FitOptions::tolerance>("Tol", about("relative change of the parameters at which the search stops"),
+                                   {.initial = "1e-6", .member = "tolerance"});
 inline constexpr std::array kIterationOptions = {
     option<&FitOptions::max_iterations>(
         "MaxIter", about("maximum number of iterations; unless given, a search that has not settled goes on up to 500"),
         {.least = 0, .member = "max_iterations"}),
-    option<&FitOptions::tolerance>("Tol", about("relative change of the parameters at which the search stops"),
-                                   {.initial = "1e-6", .member = "tolerance"})};
+    kTolerance};
+/// Of methods that end there in any case.
+inline constexpr std::array kLimitOptions = {
+    option<&FitOptions::max_iterations>("MaxIter", about("maximum number of iterations"),
+                                        {.least = 0, .member = "max_iterations"}),
+    kTolerance};
 
 inline constexpr std::array kIntegrationOptions = {option<&FitOptions::integration>(
     "Integration", about("an integrator besides the poles, G = B/(s F); for held inputs only"),
@@ -56,15 +63,15 @@ inline constexpr OptionEntry kCommonDenominator = {
     "CommonDenominator", ValueKind::kFlag, about("one denominator F for all channels"), {.initial = "false"}};
 inline constexpr std::array kSharingOptions = {kCommonDenominator};
 
-inline constexpr OptionEntry kStable = option<&FitOptions::stable>(
+inline constexpr OptionEntry kStableOption = option<&FitOptions::stable>(
     "Stable",
     about("true keeps to models with all poles in the left half plane, false takes the best fit whatever its "
           "poles; unless given, an unstable model is chosen only where it lowers the loss by 2 % or more"),
     {.member = "stable"});
-inline constexpr OptionEntry kFixed = option<&FitOptions::fixed>(
+inline constexpr OptionEntry kFixedOption = option<&FitOptions::fixed>(
     "Fixed", about("known parameters, {a2 = 4}, which are not estimated"), {.member = "fixed"});
 inline constexpr std::array kSearchOptions = {
-    kStable, kFixed,
+    kStableOption, kFixedOption,
     option<&FitOptions::output_weights>(
         "OutputWeights",
         about("with several outputs a weight for each, by which its errors are multiplied; one over their "
@@ -80,15 +87,15 @@ inline constexpr std::array kDelayOptions = {
     option<&FitOptions::delay_count>("NumTd", about("maximum number of delays on the grid of the search"),
                                      {.member = "delay_count"})};
 /// Read by structure_of_counts().
-inline constexpr OptionEntry kKnownDelay = {
+inline constexpr OptionEntry kKnownDelayOption = {
     "IODelay",
     ValueKind::kVector,
     about("a known delay, which is then not estimated; with several inputs one for each"),
     {.unit = "s", .member = "delay"}};
-inline constexpr std::array kFixedDelayOptions = {kKnownDelay};
+inline constexpr std::array kFixedDelayOptions = {kKnownDelayOption};
 /// Read by started_structure().
 inline constexpr std::array kKnownDelayOptions = {
-    kKnownDelay,
+    kKnownDelayOption,
     OptionEntry{
         "Td0", ValueKind::kVector, about("the delay where its search begins, instead of on a grid"), {.unit = "s"}}};
 

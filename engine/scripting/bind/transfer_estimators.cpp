@@ -22,11 +22,11 @@ namespace {
 constexpr std::array kCarxOrders = {kNa, kNb, kNk};
 constexpr std::array kOutputErrorOrders = {kNb, kNf, kNk};
 
-constexpr std::array kFilterOptions = {kHoldOfOutput<SvfOptions>};
+constexpr std::array kSvfFilterOptions = {kHoldOfOutput<SvfOptions>};
 constexpr std::array kMomentOptions = {
     option<&SvfOptions::beta>("beta", about("gain of the filters; lambda unless given"), {.unit = "rad/s"}),
     kHoldOfOutput<SvfOptions>};
-constexpr OptionTable kFiltered[] = {kFilterOptions}, kMoments[] = {kMomentOptions};
+constexpr OptionTable kFiltered[] = {kSvfFilterOptions}, kMoments[] = {kMomentOptions};
 constexpr OptionTable kRefined[] = {kFirstFilterOptions, kStartOptions,   kIterationOptions,
                                     kIntegrationOptions, kSharingOptions, kSearchOptions};
 constexpr OptionTable kTransferFunction[] = {kFirstFilterOptions, kStartOptions,      kIterationOptions,
@@ -47,7 +47,7 @@ constexpr std::array kRefinedArguments = {
         about("nb coefficients of B (at most nf + 1), nf poles, nk samples of delay; with several inputs, each "
               "with poles of its own, they are tables with an entry for each input, with several outputs also "
               "for each channel, those of output 1 first")}};
-constexpr std::array kTransferArguments = {kDataArgument, kPoleCount, kZeroCount};
+constexpr std::array kTransferFunctionArguments = {kDataArgument, kPoleCount, kZeroCount};
 
 /// lssvf and ivsvf; lsgpmf and ivgpmf, whose filter has a gain beta. Their standard errors know the filters' colour.
 template <auto kMethod, bool kInstruments, bool kMomentFunctionals>
@@ -149,10 +149,12 @@ constexpr FunctionEntry kTransferEstimatorsFunctions[] = {
      guarded<memoized_call<estimate_refined<read_refined<coe>>>>, kRefined, kRefinedArguments},
     {"tfsrivc", "continuous time", "tfsrivc(data, np, nz, {options}) -> G",
      marked("estimator", "srivc by numbers of poles and zeros, the delay estimated"),
-     guarded<memoized_call<estimate_refined<read_transfer_function<srivc>>>>, kTransferFunction, kTransferArguments},
+     guarded<memoized_call<estimate_refined<read_transfer_function<srivc>>>>, kTransferFunction,
+     kTransferFunctionArguments},
     {"tfcoe", "continuous time", "tfcoe(data, np, nz, {options}) -> G",
      marked("estimator", "coe by numbers of poles and zeros, the delay estimated"),
-     guarded<memoized_call<estimate_refined<read_transfer_function<coe>>>>, kTransferFunction, kTransferArguments},
+     guarded<memoized_call<estimate_refined<read_transfer_function<coe>>>>, kTransferFunction,
+     kTransferFunctionArguments},
 };
 
 }  // namespace
