@@ -232,16 +232,21 @@ Catalog::Catalog(std::string_view po_text) {
     }
 }
 
-std::string_view Catalog::translation(std::string_view id, std::string_view context) const {
+std::span<const std::string> Catalog::forms(std::string_view id, std::string_view context) const {
     const auto found = context.empty() ? forms_.find(id) : forms_.find(key(id, context));
-    return found == forms_.end() ? std::string_view() : found->second.front();
+    return found == forms_.end() ? std::span<const std::string>() : std::span<const std::string>(found->second);
+}
+
+std::string_view Catalog::translation(std::string_view id, std::string_view context) const {
+    const std::span<const std::string> found = forms(id, context);
+    return found.empty() ? std::string_view() : found.front();
 }
 
 std::string_view Catalog::plural(std::string_view id, std::int64_t count) const {
-    const auto found = forms_.find(id);
-    if (found == forms_.end()) return {};
+    const std::span<const std::string> found = forms(id);
+    if (found.empty()) return {};
     const std::size_t form = rule_.form(count);
-    return form < found->second.size() ? std::string_view(found->second[form]) : std::string_view();
+    return form < found.size() ? std::string_view(found[form]) : std::string_view();
 }
 
 std::string Catalog::decimal_sign() const {

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -43,6 +44,9 @@ class Catalog {
     std::string_view translation(std::string_view id, std::string_view context = {}) const;
     /// The form for a count.
     std::string_view plural(std::string_view id, std::int64_t count) const;
+    /// All plural forms, or the one text, of an id in a context or none; empty where there is none.
+    std::span<const std::string> forms(std::string_view id, std::string_view context = {}) const;
+    const PluralRule& rule() const { return rule_; }
 
     /// What stands between a number's integer part and its decimals: the entry "." of the context "decimal sign".
     std::string decimal_sign() const;

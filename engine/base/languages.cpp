@@ -1,5 +1,6 @@
 #include "base/languages.h"
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -50,6 +51,10 @@ const Language* language_of(std::string_view code) {
 }
 
 }  // namespace
+
+bool is_language(std::string_view code) {
+    return std::ranges::count(languages(), code) > 0;
+}
 
 std::vector<std::string> languages() {
     std::vector<std::string> codes = {"en"};

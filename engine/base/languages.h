@@ -16,6 +16,7 @@ std::span<const PoFile> po_files();
 
 /// The languages that messages can be read in, by their codes: "en", which needs no catalog, then all with one.
 std::vector<std::string> languages();
+bool is_language(std::string_view code);
 
 /// The catalog of a language, read at its first use; nullptr, and thus English, for "en", for a language without one,
 /// and for one that cannot be read. Safe to call from several threads.

@@ -24,7 +24,7 @@ MessageArgument message_argument(MessageList list) {
 }
 
 Message Message::verbatim(std::string text) {
-    return Message("{}", text);
+    return text.empty() ? Message() : Message("{}", text);
 }
 
 Message Message::stored(std::string id, std::string many, std::vector<MessageArgument> arguments) {

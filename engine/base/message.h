@@ -114,7 +114,7 @@ class Message {
         return message;
     }
 
-    /// Text that has no translation: what another program printed, or what an author wrote.
+    /// Text that has no translation: what another program printed, or what an author wrote. Empty where the text is.
     static Message verbatim(std::string text);
 
     /// From its parts, as another process or an earlier run stored them. Throws std::invalid_argument when the

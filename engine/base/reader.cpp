@@ -81,6 +81,13 @@ std::vector<Slot> slots_in_translation(std::string_view format, std::size_t argu
     return slots;
 }
 
+/// The translation of a message that is an author's text and nothing else; empty where there is none.
+std::string_view translation_of_author(const Message& message, const Reader& reader) {
+    if (reader.authors == nullptr || message.id() != "{}") return {};
+    const auto* const text = std::get_if<std::string>(&message.arguments().front());
+    return text == nullptr ? std::string_view() : reader.authors->translation(*text);
+}
+
 struct Format {
     std::string_view text;
     std::vector<Slot> slots;
@@ -109,6 +116,7 @@ std::string number_text(const Number& number, const Reader& reader) {
 }
 
 std::string message_text(const Message& message, const Reader& reader) {
+    if (const std::string_view text = translation_of_author(message, reader); !text.empty()) return std::string(text);
     const Format format = format_of(message, reader);
     std::string result;
     std::size_t begin = 0;

@@ -13,10 +13,12 @@ class Catalog;
 struct Reader {
     const Catalog* catalog = nullptr;                        ///< nullptr: English
     std::string (*option_name)(std::string_view) = nullptr;  ///< of a member of an options struct
+    const Catalog* authors = nullptr;  ///< translations of what an author wrote: looked up for verbatim messages
 };
 
 /// The text of a message. Arguments appear unchanged, whatever they hold; numbers have the language's decimal sign. A
-/// translation whose {} are not as many as the arguments is not used.
+/// translation whose {} are not as many as the arguments is not used. A verbatim message is looked up whole among what
+/// authors wrote.
 std::string message_text(const Message& message, const Reader& reader = {});
 
 /// A number as messages show it in that language.

@@ -7,8 +7,8 @@
 
 #include "base/reader.h"
 #include "cli/commands.h"
+#include "cli/say.h"
 #include "platform/terminal/activity_line.h"
-#include "platform/terminal/terminal_text.h"
 
 namespace dynlab::inline cli {
 namespace {
@@ -57,17 +57,13 @@ ReportResult make_showing_activity(ReportRequest& request) {
 int make_document(ReportRequest request, bool show_timings) {
     const ReportResult result = make_showing_activity(request);
     const std::string file = std::filesystem::absolute(request.output).lexically_normal().string();
-    const char* const state = result.up_to_date      ? " (up to date)"
-                              : result.error         ? " (up to the error)"
-                              : !result.gaps.empty() ? " (a draft: ?? stands where something is missing)"
-                                                     : "";
-    if (result.error) std::cerr << "dynlab: " << terminal_text(*result.error) << std::endl;
-    if (!result.gaps.empty())
-        std::cerr << "dynlab: " << terminal_text(message_text(Message("{}", MessageList{result.gaps, Join::kLines})))
-                  << '\n';
-    for (const UnplacedEntries& entries : result.unplaced)
-        std::cerr << "dynlab: note: " << terminal_text(message_text(entries.message())) << '\n';
-    std::cout << file << state << '\n';
+    if (result.error) complain(*result.error);
+    if (!result.gaps.empty()) complain(Message("{}", MessageList{result.gaps, Join::kLines}));
+    for (const UnplacedEntries& entries : result.unplaced) note(entries.message());
+    say(result.up_to_date      ? Message("{} (up to date)", file)
+        : result.error         ? Message("{} (up to the error)", file)
+        : !result.gaps.empty() ? Message("{} (a draft: ?? stands where something is missing)", file)
+                               : Message("{}", file));
     if (show_timings) show(result);
     return result.error || !result.gaps.empty() ? kFailed : kDone;
 }

@@ -14,7 +14,7 @@
 #include <optional>
 
 #include "base/error.h"
-#include "base/reader.h"
+#include "cli/say.h"
 #include "cli/usage_error.h"
 #include "platform/error.h"
 #include "platform/files/file_error.h"
@@ -60,27 +60,24 @@ std::optional<Message> complaint_about_output() {
 /// Runs the chosen command and turns what it throws into one line on standard error and an exit code.
 int run_action(const Action& action) {
     const InterruptScope interrupts(InterruptScope::Unheard::kEnds);
-    const auto say = [](const Message& sentence, int code) {
-        std::fflush(stdout);
-        std::cerr << "dynlab: " << terminal_text(message_text(sentence)) << std::endl;
-        return code;
-    };
-    const auto complain = [&say](const std::exception& error, int code) { return say(message_of(error), code); };
     try {
         const int code = action();
         const std::optional<Message> complaint = complaint_about_output();
-        return complaint ? say(*complaint, kFailed) : code;
+        if (!complaint) return code;
+        complain(*complaint);
     } catch (const Interrupted& error) {
-        const int code = complain(error, kInterrupted);
+        complain(message_of(error));
         pass_on_termination();
-        return code;
+        return kInterrupted;
     } catch (const MissingProgram& error) {
-        return complain(error, kMissingProgram);
+        complain(message_of(error));
+        return kMissingProgram;
     } catch (const std::filesystem::filesystem_error& error) {
-        return say(file_error_sentence(error), kFailed);
+        complain(file_error_sentence(error));
     } catch (const std::exception& error) {
-        return complain(error, kFailed);
+        complain(message_of(error));
     }
+    return kFailed;
 }
 
 }  // namespace

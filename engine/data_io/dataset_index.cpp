@@ -6,6 +6,7 @@
 #include <fstream>
 #include <optional>
 #include <sstream>
+#include <variant>
 
 #include "data_io/packaged_record.h"
 #include "platform/error.h"
@@ -181,14 +182,26 @@ Source find_source(const std::string& name_or_path, const fs::path& script_folde
 Source find_graded_source(const std::string& name_or_path, const fs::path& script_folder) {
     if (const auto source = installed_source(name_or_path)) return *source;
     Source source = find_source(name_or_path, script_folder);
-    if (!lies_in(script_folder, source.file))
-        throw EnvironmentError(
-            "{} leads outside the folder; where scripts are graded, files of {} itself and installed data are read",
-            source.file.string(), full_path(script_folder));
+    if (!lies_in(script_folder, source.file)) throw EnvironmentError(refusal_outside(source.file.string()));
     return source;
 }
 
 }  // namespace
+
+Message refusal_outside(const std::string& file) {
+    return Message(
+        "\"{}\" leads outside the folder; where scripts are graded, only the course's data and files of the folder "
+        "itself can be loaded",
+        file);
+}
+
+bool is_refusal_outside(const Message& message) {
+    static const std::string id = refusal_outside("").id();
+    return message.id() == id || std::ranges::any_of(message.arguments(), [](const MessageArgument& argument) {
+               const auto* const list = std::get_if<MessageList>(&argument);
+               return list != nullptr && std::ranges::any_of(list->items, is_refusal_outside);
+           });
+}
 
 LoadedData load_data(const std::string& name_or_path, const fs::path& script_folder, bool graded,
                      const ImportOptions& options) {

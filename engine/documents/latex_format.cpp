@@ -8,6 +8,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "base/catalog.h"
+#include "base/languages.h"
 #include "documents/text_lines.h"
 #include "documents/work_file.h"
 #include "platform/atomic_file.h"
@@ -26,7 +28,9 @@ using namespace std::chrono_literals;
 /// The files that make a preamble: the names they are written under, and their texts.
 std::vector<std::pair<std::string, std::string>> preamble_files(const LatexLayout& layout) {
     const fs::path folder = layout.shared_templates / "latex";
-    const std::string language = layout.language == "fr" ? "french" : "english";
+    const Catalog* const catalog = catalog_of(layout.language);
+    const std::string_view other = catalog ? catalog->translation(marked("babel", "english"), "babel") : "";
+    const std::string language(other.empty() ? "english" : other);
     return {{"preamble.tex", read_file(folder / (layout.slides ? "slides_preamble.tex" : "preamble.tex"))},
             {"shared.tex", replaced(read_file(folder / "shared.tex"), "LANGUAGE", language)},
             {"characters.tex", read_file(folder / "characters.tex")}};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "base/languages.h"
 #include "documents/bibliography.h"
 #include "documents/error.h"
 #include "documents/text_lines.h"
@@ -72,8 +73,8 @@ class HeaderReader {
             header_.seed = seed_of(value);
         else
             *text = value;
-        if (key == "language" && value != "en" && value != "fr")
-            fail(Message("language \"{}\" is not known; write en or fr", value));
+        if (key == "language" && !is_language(value))
+            fail(Message("language \"{}\" is not known; write {}", value, listed(languages(), Join::kOr)));
         if (key == "bibliography")
             if (const Message fault = fault_of_bibliography_name(value); !fault.empty()) fail(fault);
         if (key == "template" && !is_name(value))

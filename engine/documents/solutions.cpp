@@ -2,6 +2,8 @@
 
 #include <optional>
 
+#include "base/languages.h"
+#include "base/reader.h"
 #include "documents/error.h"
 #include "documents/percent_script.h"
 #include "documents/text_lines.h"
@@ -54,8 +56,9 @@ SolutionLine solution_line(std::string_view line, const std::filesystem::path& f
 }
 
 AnswerMarks answer_marks(std::string_view language) {
-    if (language == "fr") return {"-- VOTRE CODE ICI", "-- *Votre réponse :*"};
-    return {"-- YOUR CODE HERE", "-- *Your answer:*"};
+    const Reader reader{catalog_of(language)};
+    return {"-- " + message_text(Message("YOUR CODE HERE"), reader),
+            "-- *" + message_text(Message("Your answer:"), reader) + "*"};
 }
 
 std::string without_solutions(const std::string& source, const std::filesystem::path& name, std::string_view language) {

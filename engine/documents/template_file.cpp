@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/languages.h"
 #include "documents/bibliography.h"
 #include "documents/document_rules.h"
 #include "documents/error.h"
@@ -83,8 +84,9 @@ void check_metadata(const std::string& key, const std::string& value, const Plac
         throw DocumentError(where,
                             Message("metadata key \"{}\" is not allowed; allowed are {}", key, listed(kAllowedKeys)));
     }
-    if (key == "lang" && value != "en" && value != "fr")
-        throw DocumentError(where, Message("lang \"{}\" is not known; write en or fr", value));
+    if (key == "lang" && !is_language(value))
+        throw DocumentError(where,
+                            Message("lang \"{}\" is not known; write {}", value, listed(languages(), Join::kOr)));
     if ((key == "toc" || key == "numbersections") && value != "true" && value != "false")
         throw DocumentError(where, Message("{} is true or false, not \"{}\"", key, value));
     if (key == "bibliography")

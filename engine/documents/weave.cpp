@@ -1,7 +1,5 @@
 #include "documents/weave.h"
 
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cctype>
 #include <string_view>
@@ -10,7 +8,7 @@
 #include "documents/solutions.h"
 #include "documents/text_lines.h"
 #include "figures/figure.h"
-#include "figures/french_texts.h"
+#include "figures/readable_figure.h"
 
 namespace dynlab::inline documents {
 namespace {
@@ -48,6 +46,14 @@ std::string literal(const std::string& text) {
         markdown += c;
     }
     return markdown;
+}
+
+/// "y (m), u (V) over time (s)": time is a sentence of its own, as other languages have an article there.
+Message over_axis(const MessageList& drawn, const std::string& over, const Reader& reader) {
+    if (over.empty()) return Message("{}", drawn);
+    const std::string time = message_text(Message("time"), reader);
+    if (over.starts_with(time)) return Message("{} over time{}", drawn, over.substr(time.size()));
+    return Message("{} over {}", drawn, over);
 }
 
 class Weaver {
@@ -123,10 +129,10 @@ class Weaver {
         const auto figure = record_.figures.find(name);
         std::string caption;
         if (figure != record_.figures.end() && figure->second.caption.empty()) {
-            const bool french = script_.header.language == "fr";
+            const Reader reader{catalog_of(script_.header.language)};
             const RecordedFigure& made = figure->second;
-            caption = made.axes.empty() && made.figure ? words_of_axes(*made.figure, french) : made.axes;
-            if (caption.empty()) caption = fmt::format("{} `{}`", french ? "De la cellule" : "From the cell", cell.id);
+            caption = made.axes.empty() && made.figure ? words_of_axes(*made.figure, reader) : made.axes;
+            if (caption.empty()) caption = message_text(Message("From the cell `{}`", cell.id), reader);
         }
         add(fmt::format("![{}](figure:{}){{#fig:{}}}", caption, name, name), cell.last_line());
         add("", cell.last_line());
@@ -139,26 +145,22 @@ class Weaver {
 
 }  // namespace
 
-std::string words_of_axes(const Figure& figure, bool french) {
-    Figure labels;
+std::string words_of_axes(const Figure& figure, const Reader& reader) {
+    Figure axes;
     for (const Panel& panel : figure.panels) {
-        Panel& own = labels.panels.emplace_back();
+        Panel& own = axes.panels.emplace_back();
         own.x_label = panel.x_label;
         own.y_label = panel.y_label;
     }
-    if (french) labels = in_french(labels);
     std::vector<std::string> drawn;
     std::string over;
-    for (const Panel& panel : labels.panels) {
-        if (!panel.y_label.empty() && std::find(drawn.begin(), drawn.end(), literal(panel.y_label)) == drawn.end())
-            drawn.push_back(literal(panel.y_label));
-        if (!panel.x_label.empty()) over = literal(panel.x_label);
+    for (const Panel& panel : readable(axes, reader).panels) {
+        const std::string label = literal(message_text(panel.y_label));
+        if (!label.empty() && std::find(drawn.begin(), drawn.end(), label) == drawn.end()) drawn.push_back(label);
+        if (!panel.x_label.empty()) over = literal(message_text(panel.x_label));
     }
     if (drawn.empty()) return {};
-    std::string words = fmt::format("{}", fmt::join(drawn, ", "));
-    if (!over.empty())
-        words +=
-            french ? (over.starts_with("temps") ? " en fonction du " : " en fonction de ") + over : " over " + over;
+    std::string words = message_text(over_axis(listed(drawn), over, reader), reader);
     const auto small = [&](std::size_t i) {
         return i < words.size() && std::islower(static_cast<unsigned char>(words[i]));
     };

@@ -1,6 +1,7 @@
 #pragma once
 #include <string>
 
+#include "base/reader.h"
 #include "documents/error.h"
 #include "documents/percent_script.h"
 #include "documents/run_record.h"
@@ -20,9 +21,9 @@ struct MarkdownText {
 /// left out; a recorded error appears at its cell.
 MarkdownText weave_cells(const PercentScript& script, const RunRecord& record);
 
-/// What the axes of a figure say, as Markdown in English or French, for a caption where nobody gave one: "y (m), u (V)
-/// over time (s)"; empty where they say nothing.
-std::string words_of_axes(const Figure& figure, bool french);
+/// What the axes of a figure say, as Markdown for the reader, for a caption where nobody gave one: "y (m), u (V) over
+/// time (s)"; empty where they say nothing.
+std::string words_of_axes(const Figure& figure, const Reader& reader);
 
 /// A block that shows an error's message.
 std::string error_block(const std::string& message);

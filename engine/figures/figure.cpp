@@ -1,7 +1,5 @@
 #include "figures/figure.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
 #include "numerics/error.h"
@@ -10,8 +8,8 @@ namespace dynlab::inline figures {
 namespace {
 
 /// Which panel or curve: its number, and its title or label.
-std::string numbered_name(std::size_t number, const std::string& label) {
-    return label.empty() ? fmt::format("{}", number) : fmt::format("{} (\"{}\")", number, label);
+Message numbered_name(std::size_t number, const Message& label) {
+    return label.empty() ? Message("{}", number) : Message("{} (\"{}\")", number, label);
 }
 
 /// As the caller gave it.
@@ -20,7 +18,7 @@ Number as_given(double value) {
 }
 
 void check_range(const std::optional<std::pair<double, double>>& range, bool log, const char* axis,
-                 const std::string& panel) {
+                 const Message& panel) {
     if (!range) return;
     const auto [low, high] = *range;
     if (!std::isfinite(low) || !std::isfinite(high) || !(low < high))
@@ -35,7 +33,7 @@ bool drawable(double value, bool log) {
     return std::isfinite(value) && (!log || value > 0);
 }
 
-void check_curve(const Curve& curve, const Panel& panel, const std::string& name_of_panel, const std::string& name) {
+void check_curve(const Curve& curve, const Panel& panel, const Message& name_of_panel, const Message& name) {
     if (curve.x.size() != curve.y.size())
         throw InvalidArgument("panel {}, curve {}: x and y must have the same length, but x has {} and y has {}",
                               name_of_panel, name, plural(curve.x.size(), "{} value", "{} values"), curve.y.size());
@@ -57,13 +55,13 @@ void check_curve(const Curve& curve, const Panel& panel, const std::string& name
                           samples);
 }
 
-void check_tick_step(const std::optional<double>& step, const char* axis, const std::string& panel) {
+void check_tick_step(const std::optional<double>& step, const char* axis, const Message& panel) {
     if (step && !(std::isfinite(*step) && *step > 0))
         throw InvalidArgument("panel {}: the step of the numbers on {} must be positive, not {}", panel, axis,
                               as_given(*step));
 }
 
-void check_panel(const Panel& panel, const std::string& name) {
+void check_panel(const Panel& panel, const Message& name) {
     check_range(panel.x_range, panel.log_x, "x", name);
     check_range(panel.y_range, panel.log_y, "y", name);
     check_tick_step(panel.x_tick_step, "x", name);

@@ -86,8 +86,8 @@ class GnuplotRenderer::Work {
     explicit Work(const Cache* cache) : cache_(cache && cache->lasting() ? cache : nullptr) {}
     ~Work() { give_up(); }
 
-    void draw(const Figure& figure, const fs::path& target, FigureFormat format, bool decimal_comma) {
-        const std::string script = gnuplot_script(figure, format, decimal_comma);
+    void draw(const Figure& figure, const fs::path& target, FigureFormat format, const Reader& reader) {
+        const std::string script = gnuplot_script(figure, format, reader);
         TemporaryFile made = make_temporary_beside(target);
         Pending next{0, format, std::move(made.path), target, std::move(made.file), {}, {}};
         next.ends = EndsWithProgram(next.temporary);
@@ -223,13 +223,13 @@ class GnuplotRenderer::Work {
 GnuplotRenderer::GnuplotRenderer(const Cache* cache) : work_(std::make_unique<Work>(cache)) {}
 GnuplotRenderer::~GnuplotRenderer() = default;
 
-void GnuplotRenderer::draw(const Figure& figure, const fs::path& file, FigureFormat format, bool decimal_comma) {
+void GnuplotRenderer::draw(const Figure& figure, const fs::path& file, FigureFormat format, const Reader& reader) {
     figure.validate();
     const fs::path target = fs::absolute(file);
     for (const char c : target.native())
         if (static_cast<unsigned char>(c) < 0x20)
             throw InvalidArgument("the name of a figure's file must not contain line breaks or control characters");
-    work_->draw(figure, target, format, decimal_comma);
+    work_->draw(figure, target, format, reader);
 }
 
 void GnuplotRenderer::finish() {

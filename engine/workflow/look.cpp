@@ -260,7 +260,7 @@ class DataLooker {
             const bool drawable = signal.numbers.size() == samples_ && signal.numbers.array().isFinite().any();
             if (!drawable || (timed && signal.name == time_->name)) continue;
             Panel panel;
-            panel.y_label = axis_label(signal.name, signal.unit);
+            panel.y_label = axis_label(Message::verbatim(signal.name), signal.unit);
             panel.legend = LegendPlace::kNone;
             panel.x_range = {x[0], x[samples_ - 1]};
             panel.curves.push_back(thinned(x, signal.numbers));
@@ -269,7 +269,7 @@ class DataLooker {
         }
         if (figure.panels.empty()) return nullptr;
         figure.rows = static_cast<int>(figure.panels.size());
-        figure.panels.back().x_label = timed ? axis_label(time_->name, "s") : "sample";
+        figure.panels.back().x_label = timed ? axis_label(Message::verbatim(time_->name), "s") : Message("sample");
         return std::make_shared<const Figure>(std::move(figure));
     }
 

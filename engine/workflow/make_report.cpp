@@ -274,8 +274,8 @@ ReportResult make_report(const ReportRequest& request) {
         record = run_script(run, renderer);
         result.cells = cells_in_order(request.script, record.timings);
         result.long_calls = calls.use();
-        if (record.error) result.error = error_text(*record.error, request.script);
-        if (record.error && request.print) throw DocumentError(Message::verbatim(*result.error));
+        if (record.error) result.error = error_message(*record.error, request.script);
+        if (record.error && request.print) throw DocumentError(*result.error);
         draw_figures(record, renderer, workplace.path(), figure_format_for(format), request.script.header.language);
         if (!request.record.empty()) write_file_atomically(request.record, to_json(record));
         watch.note(kRunStep);

@@ -44,9 +44,9 @@ DocumentSource document_source(const ReportRequest& request, const RunRecord& re
 inline constexpr const char* kRunStep = "run the script";
 
 struct ReportResult {
-    bool up_to_date = false;           ///< nothing had changed, nothing was made
-    std::optional<std::string> error;  ///< the script stopped with it; the report says so
-    std::vector<Message> gaps;         ///< what points to nothing, with its place: the report is a draft, with ?? there
+    bool up_to_date = false;       ///< nothing had changed, nothing was made
+    std::optional<Message> error;  ///< the script stopped with it; the report says so
+    std::vector<Message> gaps;     ///< what points to nothing, with its place: the report is a draft, with ?? there
     std::vector<UnplacedEntries> unplaced;                ///< what was reported and is not shown
     std::vector<std::pair<std::string, double>> timings;  ///< seconds of each step
     std::vector<std::pair<std::string, double>> cells;    ///< seconds of each code cell, when the script was run

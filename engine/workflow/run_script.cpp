@@ -6,11 +6,11 @@
 #include <cctype>
 #include <map>
 
+#include "base/languages.h"
 #include "documents/error.h"
 #include "documents/html/plot_data.h"
 #include "documents/text_lines.h"
 #include "documents/weave.h"
-#include "figures/french_texts.h"
 #include "platform/written_files.h"
 #include "scripting/memoized_calls/shared_pieces.h"
 #include "workflow/script_world.h"
@@ -131,15 +131,14 @@ std::vector<std::string> figures_in_order(const RunRecord& record) {
 
 void draw_figures(RunRecord& record, GnuplotRenderer& renderer, const std::filesystem::path& folder,
                   FigureFormat format, const std::string& language) {
-    const bool french = language == "fr";
+    const Reader reader{catalog_of(language)};
     std::size_t number = 0;
     for (const std::string& name : figures_in_order(record)) {
         RecordedFigure& figure = record.figures.at(name);
         figure.file = folder / (figure_file_stem(name, ++number) + extension(format));
-        const Figure shown = french ? in_french(*figure.figure) : *figure.figure;
-        renderer.draw(shown, figure.file, format, french);
-        if (format == FigureFormat::kSvg) figure.plot = plot_data(shown, french);
-        figure.axes = words_of_axes(*figure.figure, french);
+        renderer.draw(*figure.figure, figure.file, format, reader);
+        if (format == FigureFormat::kSvg) figure.plot = plot_data(*figure.figure, reader);
+        figure.axes = words_of_axes(*figure.figure, reader);
     }
 }
 

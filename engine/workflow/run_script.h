@@ -46,8 +46,7 @@ std::string missing_answers(const PercentScript& script, const RunRecord& record
 std::vector<std::string> figures_in_order(const RunRecord& record);
 
 /// Queues every figure of the record for a file of `folder` named after it and numbered in that order, and notes the
-/// file in the record; renderer.finish() makes them whole. In French ("fr") the texts of the standard plots are French
-/// and numbers have commas.
+/// file in the record; renderer.finish() makes them whole. Texts and numbers are those of the language.
 void draw_figures(RunRecord& record, GnuplotRenderer& renderer, const std::filesystem::path& folder,
                   FigureFormat format, const std::string& language);
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "base/languages.h"
+#include "base/reader.h"
 #include "documents/error.h"
 #include "documents/solutions.h"
 #include "documents/text_lines.h"
@@ -17,17 +19,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kGroupFile = R"(# Your group. Nothing in this file is ever printed in a report.
-members = []        # for example ["Ada Lovelace", "Rudolf Kalman"]
-seed = {}            # of the random numbers your group works with
-)";
-constexpr const char* kFrenchGroupFile = R"(# Votre groupe. Rien de ce fichier ne paraît jamais dans un rapport.
-members = []        # par exemple ["Ada Lovelace", "Rudolf Kalman"]
-seed = {}            # la graine des nombres aléatoires de votre groupe
-)";
-
 std::string group_file(std::uint32_t seed, const std::string& language) {
-    return fmt::format(fmt::runtime(language == "fr" ? kFrenchGroupFile : kGroupFile), seed);
+    const Reader reader{catalog_of(language)};
+    return fmt::format("# {}\nmembers = []        # {}\nseed = {}            # {}\n",
+                       message_text(Message("Your group. Nothing in this file is ever printed in a report."), reader),
+                       message_text(Message("for example [\"Ada Lovelace\", \"Rudolf Kalman\"]"), reader), seed,
+                       message_text(Message("of the random numbers your group works with"), reader));
 }
 
 void put(std::string& text, const std::string& slot, const std::string& value) {

@@ -60,10 +60,10 @@ TEST(script_motion, keeps_signals_and_rig_in_one_figure) {
     ASSERT_FALSE(record.error) << record.error->text();
     const Figure& figure = *record.figures.at("m").figure;
     ASSERT_TRUE(figure.motion);
-    EXPECT_EQ(figure.panels[1].y_label, "position (m)");
+    EXPECT_EQ(message_text(figure.panels[1].y_label), "position (m)");
     EXPECT_EQ(figure.panels[2].curves.size(), 2u);
     EXPECT_EQ(figure.panels[1].references.size(), 2u);
-    EXPECT_EQ(figure.title, "Both");
+    EXPECT_EQ(message_text(figure.title), "Both");
     EXPECT_EQ(figure.width_cm, 12);
 }
 

@@ -127,7 +127,7 @@ TEST(script_validation, figures_carry_bands_unless_refused) {
         for (const auto& [name, figure] : record.figures)
             for (const Panel& panel : figure.figure->panels)
                 for (const Curve& curve : panel.curves)
-                    count += curve.style == CurveStyle::kBand || curve.label == "90 % confidence";
+                    count += curve.style == CurveStyle::kBand || message_text(curve.label) == "90 % confidence";
         return count;
     };
     EXPECT_EQ(bands("step(G)"), 1u);

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "data_io/values/said_messages.h"
 #include "platform/atomic_file.h"
 #include "platform/child_process.h"
 #include "platform/program_lookup.h"
@@ -87,12 +88,16 @@ BackgroundWork::Made BackgroundWork::make(std::vector<std::string> command) {
         const std::lock_guard guard(mutex_);
         return end_;
     };
+    const fs::path messages = folder_.path() / "made.messages";
+    fs::remove(messages);
+    child.environment = {{kFileOfSaidMessages, messages.string()}};
     Made made;
     try {
         const ChildResult result = run_child(child, "dynlab");
-        const std::string said = result.output + result.error_output;
-        made = {result.exit_code == 0, Message::verbatim(said)};
-        if (result.timed_out) made.words = Message("{}{}", said, Message("it took longer than ten minutes"));
+        SaidMessages said = read_said_messages(messages);
+        if (result.timed_out) said.complaints.push_back(Message("it took longer than ten minutes"));
+        made = {result.exit_code == 0,
+                said.empty() ? Message::verbatim(result.output + result.error_output) : said.all()};
     } catch (const std::exception& error) {
         made.words = message_of(error);
     }
@@ -173,14 +178,17 @@ BackgroundWork::Pdf BackgroundWork::made_pdf(const std::map<std::string, double>
                      file.string()};
     for (const auto& [name, value] : slider_values)
         child.command.insert(child.command.end(), {"--set", fmt::format("{}={}", name, value)});
+    const fs::path messages = folder_.path() / "pdf.messages";
+    fs::remove(messages);
+    child.environment = {{kFileOfSaidMessages, messages.string()}};
     child.timeout = kLongest;
     child.give_up = give_up;
     try {
         const ChildResult made = run_child(child, "dynlab");
         if (fs::exists(file)) return {read_file(file), {}};
-        return {{},
-                made.timed_out ? Message("making the PDF took longer than ten minutes")
-                               : Message::verbatim(made.error_output)};
+        if (made.timed_out) return {{}, Message("making the PDF took longer than ten minutes")};
+        const SaidMessages said = read_said_messages(messages);
+        return {{}, said.empty() ? Message::verbatim(made.error_output) : said.all()};
     } catch (const std::exception& error) {
         return {{}, message_of(error)};
     }

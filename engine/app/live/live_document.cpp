@@ -37,14 +37,6 @@ std::string digest_of_picture(const fs::path& file) {
     }
 }
 
-/// A complaint for each line of an error: the page has them in paragraphs.
-std::vector<Message> complaints_about(const DocumentError& error) {
-    std::vector<Message> complaints;
-    for (std::string& line : lines_of(error.what())) complaints.push_back(Message::verbatim(std::move(line)));
-    if (complaints.size() == 1) complaints = {error.message()};
-    return complaints;
-}
-
 /// Entries of the run before stay until this one gives its own.
 template <class Map>
 void add_older(Map& entries, const Map& older) {
@@ -173,7 +165,7 @@ void LiveDocument::or_complain(const std::function<void()>& act) {
     try {
         act();
     } catch (const DocumentError& error) {
-        page_.complain(complaints_about(error));
+        page_.complain({error.message()});
         tell_();
     } catch (const EnvironmentError& error) {
         page_.complain({error.message()});
@@ -327,7 +319,7 @@ void LiveDocument::set_page() {
             if (request_->slider_values.empty()) remember_ = Clock::now() + kKeepAfter;
         }
     } catch (const DocumentError& error) {
-        page_.complain(complaints_about(error));
+        page_.complain({error.message()});
     }
     tell_();
 }

@@ -36,7 +36,7 @@ std::function<ReportRequest()> reader_of(const std::string& document) {
 void serve_page(WebServer& server, LivePage& page) {
     server.on_get("/picture/*", [&page](const PageRequest& asked) {
         const auto picture = page.picture(fs::path(asked.path).filename().string());
-        if (!picture) return PageReply{"This picture is no longer shown.", kPlainText, 404};
+        if (!picture) return PageReply{page.told(Message("This picture is no longer shown.")), kPlainText, 404};
         return PageReply{picture->second, picture->first};
     });
 }
@@ -113,14 +113,10 @@ void serve_sources(WebServer& server, SourceFiles& sources, LivePage& page) {
     constexpr const char* kJson = "application/json";
     server.on_get("/sources", [&](const PageRequest&) { return PageReply{json_of(sources.read()), kJson}; });
     server.on_post("/save", [&, kJson](const PageRequest& asked) {
-        constexpr int kConflict = 409, kFailure = 500;
-        try {
-            const SourceFiles::Outcome outcome = sources.save(from_json<SourceText>(asked.body));
-            page.set_sources(sources.digests());
-            return PageReply{json_of(outcome.now), kJson, outcome.written ? 200 : kConflict};
-        } catch (const EnvironmentError& error) {
-            return PageReply{page.told(error.message()), kPlainText, kFailure};
-        }
+        constexpr int kConflict = 409;
+        const SourceFiles::Outcome outcome = sources.save(from_json<SourceText>(asked.body));
+        page.set_sources(sources.digests());
+        return PageReply{json_of(outcome.now), kJson, outcome.written ? 200 : kConflict};
     });
 }
 
@@ -183,7 +179,7 @@ void preview(const PreviewOptions& options) {
     BackgroundWork background(options.document);
     std::mutex sending;  // news come from two threads, and the later must not go first
     std::function<void()> send_changes, look_for_readers;
-    WebServer server({.port = options.port});
+    WebServer server({.port = options.port, .told = [&page](const Message& message) { return page.told(message); }});
     const StopsBeforeServer stops{background};
     send_changes = [&] {
         const std::lock_guard lock(sending);

@@ -105,7 +105,7 @@ void take_script_orders(WebServer& server, WorkbenchSession& bench) {
         constexpr int kConflict = 409;
         const auto revision = bench.change(from_json<ScriptOrder>(asked.body));
         return revision ? PageReply{std::to_string(*revision), kJson}
-                        : PageReply{"The script has changed meanwhile.", kPlainText, kConflict};
+                        : PageReply{bench.told(Message("The script has changed meanwhile.")), kPlainText, kConflict};
     });
     server.on_post("/look", [&](const PageRequest& asked) {
         return PageReply{std::to_string(bench.look(from_json<ViewOrder>(asked.body))), kJson};
@@ -171,11 +171,11 @@ void serve_records(WebServer& server, WorkbenchSession& bench, const std::string
 }
 
 /// Help pages as the terminal shows them.
-void serve_help(WebServer& server) {
-    server.on_get("/help", [](const PageRequest& asked) {
+void serve_help(WebServer& server, const WorkbenchSession& bench) {
+    server.on_get("/help", [&](const PageRequest& asked) {
         const auto page = find_help_page(asked.parameter("name"));
         constexpr int kMissing = 404;
-        if (!page) return PageReply{"There is no help page of this name.", kPlainText, kMissing};
+        if (!page) return PageReply{bench.told(Message("There is no help page of this name.")), kPlainText, kMissing};
         return PageReply{std::string(page->text), kPlainText};
     });
 }
@@ -228,12 +228,14 @@ void serve_workbench(const WorkbenchOptions& options) {
     if (permissions.granted()) bench.allow_runs();
 
     BackgroundWork background(subject.script.string());
-    WebServer server({.port = options.port, .largest_body = kLargestUpload});
+    WebServer server({.port = options.port, .largest_body = kLargestUpload, .told = [&bench](const Message& message) {
+                          return bench.told(message);
+                      }});
     const StopsBeforeServer stops{background};
     serve_page_files(server, "workbench.html");
     take_script_orders(server, bench);
     serve_records(server, bench, subject.data);
-    serve_help(server);
+    serve_help(server, bench);
     serve_documents(server, bench, background, permissions);
     server.on_post("/allow", [&](const PageRequest&) {
         permissions.grant_script(bench.script());

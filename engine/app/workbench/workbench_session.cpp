@@ -10,15 +10,16 @@
 
 #include "app/workbench/estimator_forms.h"
 #include "base/error.h"
+#include "base/languages.h"
+#include "base/reader.h"
 #include "course/boxes/told_reason.h"
 #include "data_io/values/json_values.h"
 #include "documents/error.h"
 #include "documents/text_lines.h"
-#include "documents/weave.h"
-#include "documents/words/sentence_catalogue.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/interrupt.h"
+#include "scripting/conversions/option_words.h"
 #include "scripting/runtime/prompt_statement.h"
 
 namespace dynlab::inline app {
@@ -38,6 +39,10 @@ std::string printed_by(const RunRecord& record, const std::string& cell) {
     for (const CellOutput& output : outputs->second) text += output.printed;
     if (text.size() > kMostPrinted) text.resize(kMostPrinted);
     return text;
+}
+
+Reader reader_of_session(const std::string& language) {
+    return {catalog_of(language), &option_name};
 }
 
 }  // namespace
@@ -298,8 +303,7 @@ std::optional<Message> WorkbenchSession::mistake() const {
 
 std::string WorkbenchSession::told(const Message& message) const {
     const std::lock_guard lock(mutex_);
-    const std::string text = message_text(message);
-    return language() == "fr" ? shared_french_sentences().translated_lines(text) : text;
+    return message_text(message, reader_of_session(language()));
 }
 
 /// From now on only what stands before this part is run and looked at, until the script changes.
@@ -362,6 +366,7 @@ std::string WorkbenchSession::language() const {
 
 std::string WorkbenchSession::json(bool all) const {
     const std::string told_in = language();
+    const Reader reader = reader_of_session(told_in);
     ::nlohmann::json page = {{"all", all},
                              {"revision", text_.revision()},
                              {"shown", run_revision_},
@@ -371,20 +376,17 @@ std::string WorkbenchSession::json(bool all) const {
                              {"stopped", stopped_},
                              {"undo", text_.can_undo()},
                              {"redo", text_.can_redo()},
-                             {"unsaved", told_error(message_text(text_.unsaved()), told_in)},
+                             {"unsaved", message_text(text_.unsaved(), reader)},
                              {"states", ::nlohmann::json::object()}};
     for (const auto& [cell, state] : states_)
         page["states"][cell] = {{"state", state.state}, {"seconds", state.seconds}, {"progress", state.progress}};
     if (!unread_.empty())
-        page["error"] = {{"message", told_error(message_text(unread_), told_in)}, {"line", 0}};
+        page["error"] = {{"message", message_text(unread_, reader)}, {"line", 0}};
     else if (error_)
-        page["error"] = {{"message", told_error(error_->text(), told_in)},
+        page["error"] = {{"message", message_text(with_place(*error_), reader)},
                          {"line", error_->line_in(text_.file().filename().string())}};
     if (all) page["file"] = fs::absolute(text_.file()).string();
-    if (all || sent_language_ != told_in) {
-        page["forms"] =
-            ::nlohmann::json::parse(json_of(told_in == "fr" ? estimator_forms_in_french() : estimator_forms()));
-    }
+    if (all || sent_language_ != told_in) page["forms"] = ::nlohmann::json::parse(json_of(estimator_forms(reader)));
     if (all || sent_revision_ != text_.revision()) {
         page["source"] = text_.text();
         page["steps"] = ::nlohmann::json::parse(json_of(session_steps(text_.text())));

@@ -40,7 +40,7 @@ class WorkbenchSession {
     std::string saved(const std::string& name) const;
 
     std::optional<Message> mistake() const;          ///< at which the script stops, as the last run told it
-    std::string told(const Message& message) const;  ///< in the script's language as far as it is known there
+    std::string told(const Message& message) const;  ///< in the script's language
     std::string script() const;
     std::filesystem::path file() const;
     std::string whole() const;             ///< what a page shows, JSON
@@ -62,7 +62,7 @@ class WorkbenchSession {
     void take(RunnerNews news);
     void take_record(const RunnerNews& news);
     std::string json(bool all) const;
-    std::string language() const;  ///< that of the script, "en" or "fr"
+    std::string language() const;  ///< that of the script
 
     ScriptRunner& runner_;
     std::function<void()> tell_ = [] {};

@@ -8,7 +8,7 @@
 #include "cli/options/script_options.h"
 #include "course/boxes/told_reason.h"
 #include "course/findings/findings_report.h"
-#include "course/findings/french_sentences.h"
+#include "course/findings/lesson_reader.h"
 #include "course/grading/folder_check.h"
 #include "course/hand_ins/work_language.h"
 #include "documents/text_lines.h"
@@ -38,8 +38,8 @@ std::shared_ptr<const SoughtNames> sought_by(const CheckArguments& words) {
     auto names = std::make_shared<SoughtNames>();
     if (!words.roster.empty()) {
         const Roster roster(words.roster);
-        if (const std::string unsought = unsought_numbers_sentence(roster.students()); !unsought.empty())
-            std::cerr << terminal_text(fmt::format("dynlab: {}: {}\n", words.roster, unsought));
+        if (const Message unsought = unsought_numbers(roster.students()); !unsought.empty())
+            std::cerr << terminal_text(fmt::format("dynlab: {}: {}\n", words.roster, message_text(unsought)));
         *names = SoughtNames(roster);
     }
     if (const char* home = std::getenv("HOME")) names->add_account(home);
@@ -54,15 +54,16 @@ CheckResult check_script(const fs::path& script, const CheckOptions& wishes) {
     result.subject = script.string();
     const std::string name = script.filename().string(), pdf = fs::path(name).replace_extension(".pdf").string();
     const std::string source = is_notebook(script) ? read_file(folder.path() / "analysis.lua") : "";
-    const auto told = [&](const std::string& text) {
-        const std::string placed = source.empty() ? replaced(text, "analysis.lua", name)
-                                                  : with_places_in_notebook(text, "analysis.lua", name, source);
-        return replaced(replaced(placed, "report.pdf", pdf), "FOLDER", name);
+    const auto placed = [&](const auto& text) {
+        return source.empty() ? text : with_places_in_notebook(text, "analysis.lua", name, source);
+    };
+    const auto renamed = [&](const std::string& text) {
+        return replaced(replaced(replaced(text, "analysis.lua", name), "report.pdf", pdf), "FOLDER", name);
     };
     for (Finding& finding : result.findings) {
-        finding.place = told(finding.place);
-        finding.what = with_changed_text(finding.what, told);
-        finding.remedy = with_changed_text(finding.remedy, told);
+        finding.place = renamed(placed(finding.place));
+        finding.what = with_changed_text(placed(finding.what), renamed);
+        finding.remedy = with_changed_text(placed(finding.remedy), renamed);
     }
     return result;
 }
@@ -71,12 +72,12 @@ bool is_script(const fs::path& subject) {
     return fs::is_regular_file(subject) && (subject.extension() == ".lua" || is_notebook(subject));
 }
 
-/// Findings of French work are told in French.
-SentenceCatalogue sentences_for(const fs::path& subject, const CheckResult& result) {
+/// Findings are read in the language of the work.
+LessonReader reader_for(const fs::path& subject, const CheckResult& result) {
     std::string language = result.language;
     if (fs::is_directory(subject)) language = language_of_work(subject);
     if (is_script(subject)) language = read_script_or_notebook(subject).header.language;
-    return language == "fr" ? french_sentences(result.lesson) : SentenceCatalogue();
+    return LessonReader(language, result.lesson);
 }
 
 int check(const CheckArguments& words) {
@@ -102,7 +103,7 @@ int check(const CheckArguments& words) {
     else
         result = check_pdf(words.subject, wishes);
     std::cout << (words.as_json ? findings_as_json(result)
-                                : findings_in_words(result, in_colour(), sentences_for(words.subject, result)));
+                                : findings_in_words(result, in_colour(), reader_for(words.subject, result).reader()));
     return result.passed() ? kDone : kFailed;
 }
 

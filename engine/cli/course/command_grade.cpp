@@ -4,7 +4,6 @@
 #include <memory>
 #include <thread>
 
-#include "base/number_text.h"
 #include "base/reader.h"
 #include "cli/commands.h"
 #include "cli/course/grading_options.h"
@@ -77,7 +76,8 @@ int grade(const GradeArguments& words) {
     for (const Message& complaint : outcome.complaints)
         std::cerr << "dynlab: " << terminal_text(message_text(complaint)) << '\n';
     std::cout << fmt::format("{}: {} graded now, {} unchanged{}; isolation {}\n",
-                             counted(outcome.submissions, "submission"), outcome.made, outcome.kept,
+                             message_text(plural(outcome.submissions, "{} submission", "{} submissions")), outcome.made,
+                             outcome.kept,
                              outcome.not_whole > 0 ? fmt::format(", {} with ungraded checks", outcome.not_whole) : "",
                              isolation_name(request.setup.isolation))
               << eye_text(outcome) << (request.out / "gradebook.csv").string() << '\n'

@@ -1,9 +1,6 @@
-#include <fmt/format.h>
-
 #include <iostream>
 #include <memory>
 
-#include "base/number_text.h"
 #include "base/reader.h"
 #include "cli/commands.h"
 #include "course/similarity/class_similarity.h"
@@ -31,8 +28,10 @@ int compare(const SimilarArguments& words) {
     const SimilarityOutcome outcome = compare_class(request);
     for (const Message& complaint : outcome.complaints)
         std::cerr << "dynlab: " << terminal_text(message_text(complaint)) << '\n';
-    std::cout << fmt::format("{} compared: {} above the line\n", counted(outcome.scripts, "script"),
-                             counted(outcome.pairs, "pair"))
+    const Message pairs = plural(outcome.pairs, "{} pair", "{} pairs");
+    std::cout << message_text(plural(outcome.scripts, "{} script compared: {} above the line",
+                                     "{} scripts compared: {} above the line", pairs))
+              << '\n'
               << (request.out / "similarity.md").string() << '\n';
     return outcome.complaints.empty() ? kDone : kFailed;
 }

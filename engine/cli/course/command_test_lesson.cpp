@@ -2,7 +2,6 @@
 
 #include <iostream>
 
-#include "base/number_text.h"
 #include "base/reader.h"
 #include "cli/commands.h"
 #include "cli/course/grading_options.h"
@@ -46,8 +45,11 @@ int test_lesson(const TestLessonArguments& words) {
         tell(found, "documents");
     }
     if (faults > 0)
-        std::cerr << fmt::format("dynlab: {} in {}{}\n", counted(faults, "fault"), lesson.slug,
-                                 readable ? "" : "; nothing was run");
+        std::cerr << "dynlab: "
+                  << message_text(readable ? plural(faults, "{} fault in {}", "{} faults in {}", lesson.slug)
+                                           : plural(faults, "{} fault in {}; nothing was run",
+                                                    "{} faults in {}; nothing was run", lesson.slug))
+                  << '\n';
     return faults == 0 ? kDone : kFailed;
 }
 

@@ -5,7 +5,6 @@
 #include "course/boxes/told_reason.h"
 #include "documents/error.h"
 #include "documents/percent_script.h"
-#include "documents/words/sentence_catalogue.h"
 #include "figures/gnuplot_renderer.h"
 #include "platform/cache.h"
 #include "platform/confinement.h"
@@ -68,7 +67,6 @@ GradedRun run_for_grading(const RunJob& job) {
     limits.memory_bytes = job.memory_bytes + (2ull << 30);
     limits.open_files = kOpenFiles;
     confine_process(limits);
-    if (!job.french_sentences.empty()) read_french_engine_sentences_from(job.french_sentences);
     try {
         const PercentScript script = read_for_grading(job);
         GnuplotRenderer renderer;

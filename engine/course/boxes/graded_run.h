@@ -28,7 +28,6 @@ struct RunJob {
     using Result = GradedRun;
 
     std::filesystem::path script;
-    std::filesystem::path french_sentences;  ///< what models print in a French script: file_of_french_engine_sentences
     std::uint32_t seed = 1;
     std::vector<ExpectedAnswer> answers;  ///< as the lesson declares them
     std::int64_t time_ms = 0;             ///< most milliseconds of processor time

@@ -54,9 +54,9 @@ Message shortened_trouble(const Message& trouble) {
     });
 }
 
-std::string as_sentence(std::string text) {
-    const bool ended = text.ends_with('.') || text.ends_with('?') || text.ends_with('!');
-    return ended ? text : text + ".";
+std::string without_full_stop(std::string text) {
+    while (text.ends_with('.')) text.pop_back();
+    return text;
 }
 
 }  // namespace dynlab::inline course

@@ -23,7 +23,7 @@ Message with_place(const RecordedError& error);
 /// What an error says, cut where it is long.
 Message shortened_trouble(const Message& trouble);
 
-/// With a full stop, unless a sign that ends a sentence is there.
-std::string as_sentence(std::string text);
+/// What stands before the full stop of another sentence.
+std::string without_full_stop(std::string text);
 
 }  // namespace dynlab::inline course

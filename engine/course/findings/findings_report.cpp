@@ -42,9 +42,9 @@ std::string wrapped(const std::string& sentence, const std::string& first) {
 
 class Writer {
   public:
-    Writer(bool in_colour, const SentenceCatalogue& sentences) : in_colour_(in_colour), sentences_(sentences) {}
+    Writer(bool in_colour, const Reader& reader) : in_colour_(in_colour), reader_(reader) {}
 
-    std::string told(const Message& message) const { return sentences_.translated(message_text(message)); }
+    std::string words(const Message& message) const { return message_text(message, reader_); }
 
     std::string styled(const char* style, const std::string& text) const {
         return in_colour_ ? style + text + kPlain : text;
@@ -63,7 +63,7 @@ class Writer {
                 .second.push_back(&finding);
         }
         if (count == 0) return "";
-        std::string text = "\n" + styled(style, fmt::format("{} ({})", told(title), count)) + "\n";
+        std::string text = "\n" + styled(style, fmt::format("{} ({})", words(title), count)) + "\n";
         for (const auto& [id, findings] : kinds) text += "\n  " + styled(kBold, id) + "\n" + all_of(findings);
         return text;
     }
@@ -73,9 +73,9 @@ class Writer {
         for (std::size_t i = 0; i < findings.size(); ++i) {
             const std::string location = location_of(*findings[i]);
             text +=
-                wrapped(printable((location.empty() ? "" : location + ": ") + told(findings[i]->what), 2000), "    ");
+                wrapped(printable((location.empty() ? "" : location + ": ") + words(findings[i]->what), 2000), "    ");
             const bool last = i + 1 == findings.size() || findings[i + 1]->remedy != findings[i]->remedy;
-            if (last) text += styled(kFaint, wrapped(printable(told(findings[i]->remedy), 2000), "    -> "));
+            if (last) text += styled(kFaint, wrapped(printable(words(findings[i]->remedy), 2000), "    -> "));
         }
         return text;
     }
@@ -83,11 +83,11 @@ class Writer {
   private:
     std::string location_of(const Finding& finding) const {
         if (!finding.place.empty()) return finding.place;
-        return finding.page > 0 ? told(Message("page {}", finding.page)) : "";
+        return finding.page > 0 ? words(Message("page {}", finding.page)) : "";
     }
 
     bool in_colour_;
-    const SentenceCatalogue& sentences_;
+    Reader reader_;
 };
 
 /// The outcome with nothing in its texts that a terminal would obey, and none of them too long.
@@ -107,18 +107,18 @@ CheckResult printable_result(CheckResult result) {
 
 }  // namespace
 
-std::string findings_in_words(const CheckResult& result, bool in_colour, const SentenceCatalogue& sentences) {
-    const Writer writer(in_colour, sentences);
+std::string findings_in_words(const CheckResult& result, bool in_colour, const Reader& reader) {
+    const Writer writer(in_colour, reader);
     std::vector<std::string> parts;
-    for (const Message& part : result.checked) parts.push_back(writer.told(part));
+    for (const Message& part : result.checked) parts.push_back(writer.words(part));
     const std::string checked = fmt::format(
         "{}{}{}",
-        writer.told(result.template_name.empty() ? Message("checked")
-                                                 : Message("checked as {}", printable(result.template_name))),
+        writer.words(result.template_name.empty() ? Message("checked")
+                                                  : Message("checked as {}", printable(result.template_name))),
         parts.empty() ? "" : ": ", fmt::join(parts, ", "));
     const std::string subject = printable(result.subject);
     if (result.findings.empty())
-        return fmt::format("{}: {}; {}.\n", subject, writer.styled(kGreen, writer.told(Message("nothing to mend"))),
+        return fmt::format("{}: {}; {}.\n", subject, writer.styled(kGreen, writer.words(Message("nothing to mend"))),
                            checked);
     const auto rules = std::count_if(result.findings.begin(), result.findings.end(),
                                      [](const Finding& finding) { return finding.severity == Severity::kRule; });
@@ -126,7 +126,7 @@ std::string findings_in_words(const CheckResult& result, bool in_colour, const S
         fmt::format("{}{}\n", writer.styled(kBold, subject), result.checked.empty() ? "" : ": " + checked);
     text += writer.group(result, Severity::kRule, kRed, Message("Rules broken"));
     text += writer.group(result, Severity::kHint, kYellow, Message("Hints"));
-    if (rules == 0) text += "\n" + writer.styled(kGreen, writer.told(Message("No rule is broken."))) + "\n";
+    if (rules == 0) text += "\n" + writer.styled(kGreen, writer.words(Message("No rule is broken."))) + "\n";
     return text;
 }
 

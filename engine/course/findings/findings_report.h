@@ -1,15 +1,14 @@
 #pragma once
 #include <string>
 
+#include "base/reader.h"
 #include "course/findings/document_findings.h"
-#include "documents/words/sentence_catalogue.h"
 
 namespace dynlab::inline course {
 
 /// The outcome for a reader: rules broken, then hints, each with its place and remedy; one line when there is nothing
-/// to mend. Text from the document is shown without control characters. What `sentences` knows is told in their
-/// language.
-std::string findings_in_words(const CheckResult& result, bool in_colour, const SentenceCatalogue& sentences = {});
+/// to mend. Text from the document is shown without control characters.
+std::string findings_in_words(const CheckResult& result, bool in_colour, const Reader& reader = {});
 
 /// The outcome for a program, as JSON in UTF-8:
 ///

@@ -148,8 +148,8 @@ TextTable open_marks(const ClassResults& results) {
         if (!entry.grade || entry.grade->without_marks()) continue;
         for (const CheckGrade& check : entry.grade->checks)
             if (check.by_hand && !check.graded)
-                table.rows.push_back(
-                    {entry.submission.name, check.id, "", "", points_text(check.points), check.about, check.rubric});
+                table.rows.push_back({entry.submission.name, check.id, "", "", points_text(check.points),
+                                      message_text(check.about), check.rubric});
     }
     return table;
 }
@@ -271,8 +271,8 @@ RecordedFigure histogram_of(const Vector& points, double possible) {
     const double width = std::max(1.0, std::ceil(possible / kMostBars)), bars = std::ceil(possible / width) + 1;
     HistogramOptions options;
     options.edges = Vector::LinSpaced(static_cast<Index>(bars) + 1, -0.5 * width, (bars - 0.5) * width);
-    options.x_label = fmt::format("points of {}", points_text(possible));
-    options.y_label = "submissions";
+    options.x_label = Message("points of {}", points_text(possible));
+    options.y_label = Message("submissions");
     RecordedFigure figure;
     figure.figure = std::make_shared<const Figure>(histogram(points, options));
     figure.caption = "Points";

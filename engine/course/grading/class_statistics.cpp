@@ -96,7 +96,7 @@ std::vector<CheckStatistics> statistics_of_checks(const std::vector<Grade>& grad
     if (first == grades.end()) return all;
     for (const CheckGrade& declared : first->checks) {
         CheckStatistics one;
-        one.id = declared.id, one.about = declared.about, one.points = declared.points;
+        one.id = declared.id, one.about = message_text(declared.about), one.points = declared.points;
         std::map<std::string, int> said;
         for (const Grade& grade : grades)
             for (const CheckGrade& check : grade.checks) {

@@ -8,7 +8,6 @@
 #include <ctime>
 #include <set>
 
-#include "base/reader.h"
 #include "course/hand_ins/course_clock.h"
 #include "course/hand_ins/owners.h"
 #include "data_io/text_table.h"
@@ -169,28 +168,13 @@ Deadlines::Lateness Deadlines::of(const Submission& submission, const std::vecto
 Message Deadlines::Lateness::reason() const {
     if (percent == 0 && hours == 0) return {};
     const std::string received = shown_instant(came), due = shown_instant(deadline);
-    const std::string duration = duration_text(came - deadline);
+    const Message duration = duration_message(came - deadline);
     if (most_percent < 100)
         return Message(
             "received {}, {} after the deadline of {}; each begun day costs {} % of the points, at most {} %", received,
             duration, due, significant(percent_per_day, 4), significant(most_percent, 4));
     return Message("received {}, {} after the deadline of {}; each begun day costs {} % of the points", received,
                    duration, due, significant(percent_per_day, 4));
-}
-
-std::string Deadlines::Lateness::told(const std::string& language) const {
-    if (language != "fr" || (percent == 0 && hours == 0)) return message_text(reason());
-    const auto number = [](double value) {
-        std::string text = number_text(significant(value, 4));
-        std::ranges::replace(text, '.', ',');
-        return text;
-    };
-    std::string duration = duration_text(came - deadline);
-    if (came - deadline >= static_cast<long>(kSecondsOfADay)) duration.replace(duration.find('d'), 1, "j");
-    std::string text = fmt::format("reçu le {}, {} après l'échéance du {} ; chaque jour entamé coûte {} % des points",
-                                   shown_instant(came), duration, shown_instant(deadline), number(percent_per_day));
-    if (most_percent < 100) text += fmt::format(", au plus {} %", number(most_percent));
-    return text;
 }
 
 std::vector<std::string> Deadlines::strays(const std::vector<Submission>& submissions,

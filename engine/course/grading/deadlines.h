@@ -27,7 +27,6 @@ class Deadlines {
         /// "received 2026-03-01 18:20 CET, 20 min after the deadline of 2026-03-01 18:00 CET; each begun day costs 10 %
         /// of the points"; empty in time
         Message reason() const;
-        std::string told(const std::string& language) const;  ///< the same in French for "fr", else in English
     };
     /// `also`: by what else the submission may be named in the table: its owners' group, ids and names. A row of its
     /// own name goes first; of several others the one with the latest deadline holds.

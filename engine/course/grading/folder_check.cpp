@@ -4,14 +4,13 @@
 #include <re2/re2.h>
 
 #include <algorithm>
-#include <csignal>
 #include <optional>
 #include <thread>
 
 #include "base/reader.h"
-#include "course/boxes/boxed_work.h"
 #include "course/boxes/told_reason.h"
 #include "course/grading/feedback.h"
+#include "course/grading/folder_report.h"
 #include "course/grading/grading_rules.h"
 #include "course/hand_ins/folder_copy.h"
 #include "course/hand_ins/notebooks.h"
@@ -35,29 +34,39 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMissingProgramCode = 3;  ///< dynlab's exit code when pandoc or the like is not installed
-constexpr std::uint64_t kMostCheckOutput = 16u << 20, kLargestMade = 200u << 20;
 constexpr const char *kOwnScript = "analysis.lua", *kOwnNotebook = "analysis.ipynb";
-constexpr char kInBox[] = "/box/submission";
 
 Message sentence_about(const UnplacedEntries& entries) {
     const bool one = entries.names.size() == 1;
     const MessageList names = entries.quoted_names();
     switch (entries.kind) {
         case UnplacedEntries::Kind::kTable:
-            return one ? Message("In analysis.lua the table {} is reported, but has no place in the text.", names)
-                       : Message("In analysis.lua the tables {} are reported, but have no place in the text.", names);
+            return one ? Message("In {} the table {} is reported, but has no place in the text.", kOwnScript, names)
+                       : Message("In {} the tables {} are reported, but have no place in the text.", kOwnScript, names);
         case UnplacedEntries::Kind::kText:
-            return one ? Message("In analysis.lua the text {} is reported, but has no place in the text.", names)
-                       : Message("In analysis.lua the texts {} are reported, but have no place in the text.", names);
+            return one ? Message("In {} the text {} is reported, but has no place in the text.", kOwnScript, names)
+                       : Message("In {} the texts {} are reported, but have no place in the text.", kOwnScript, names);
         case UnplacedEntries::Kind::kValue:
-            return one ? Message("In analysis.lua the value {} is reported, but has no place in the text.", names)
-                       : Message("In analysis.lua the values {} are reported, but have no place in the text.", names);
+            return one ? Message("In {} the value {} is reported, but has no place in the text.", kOwnScript, names)
+                       : Message("In {} the values {} are reported, but have no place in the text.", kOwnScript, names);
         case UnplacedEntries::Kind::kFigure:
             break;
     }
-    return one ? Message("In analysis.lua the figure {} is reported, but has no place in the text.", names)
-               : Message("In analysis.lua the figures {} are reported, but have no place in the text.", names);
+    return one ? Message("In {} the figure {} is reported, but has no place in the text.", kOwnScript, names)
+               : Message("In {} the figures {} are reported, but have no place in the text.", kOwnScript, names);
+}
+
+Message sentence_about_missing(const ExpectedAnswer& answer) {
+    const std::string &name = answer.name, &kind = answer.kind;
+    if (kind == "number") return Message("The answer \"{}\" (number) is not given.", name);
+    if (kind == "text") return Message("The answer \"{}\" (text) is not given.", name);
+    if (kind == "truth") return Message("The answer \"{}\" (truth) is not given.", name);
+    if (kind == "vector") return Message("The answer \"{}\" (vector) is not given.", name);
+    if (kind == "matrix") return Message("The answer \"{}\" (matrix) is not given.", name);
+    if (kind == "data") return Message("The answer \"{}\" (data) is not given.", name);
+    if (kind == "model") return Message("The answer \"{}\" (model) is not given.", name);
+    if (kind == "response") return Message("The answer \"{}\" (response) is not given.", name);
+    return Message("The answer \"{}\" (table) is not given.", name);
 }
 
 Message remedy_for(const UnplacedEntries& entries) {
@@ -157,13 +166,13 @@ class FolderCheck {
     /// The cells of the notebook instead of lines that its author does not see.
     void tell_in_cells() {
         const std::string source = read_file(copy() / kOwnScript);
-        const auto in_cells = [&source](const std::string& text) {
+        const auto in_cells = [&source](const auto& text) {
             return with_places_in_notebook(text, kOwnScript, kOwnNotebook, source);
         };
         for (Finding& finding : result_.findings) {
             finding.place = in_cells(finding.place);
-            finding.what = with_changed_text(finding.what, in_cells);
-            finding.remedy = with_changed_text(finding.remedy, in_cells);
+            finding.what = in_cells(finding.what);
+            finding.remedy = in_cells(finding.remedy);
         }
     }
 
@@ -171,74 +180,35 @@ class FolderCheck {
         try {
             return read_percent_script(copy() / "analysis.lua");
         } catch (const DocumentError& error) {
-            add_failure(error.message());
+            add_failure(told_outside(error.message(), copy()));
             return std::nullopt;
         }
     }
 
-    /// The report and the record of its run, made in a box as grading does: the analysis may be anybody's.
-    ChildResult run_report() const {
-        Box box(isolation_);
-        box.add_document_home(shared_folder() / "data");
-        const fs::path inside = box.add(copy(), kInBox), made = box.add_writable(out(), "/box/made");
-        const fs::path program = box.add_program(program_);
-        Box::Limits most;
-        most.time = limits_.time;
-        most.output_bytes = kMostCheckOutput;
-        most.file_bytes = kLargestMade;
-        return box.run({program.string(), "report", inside.string(), "-o", (made / "report.pdf").string(), "--record",
-                        (made / "record.json").string(), "--stay-in-folder"},
-                       made, "", most);
-    }
-
-    /// The message as if the student's own folder had been used, without the lines of the script shown below it.
-    std::string in_folder(std::string message) const {
-        for (const std::string& place : {copy().string() + "/", std::string(kInBox) + "/", std::string("../folder/"),
-                                         std::string("../submission/")})
-            message = replaced(message, place, "");
-        std::string told;
-        for (const std::string& line : lines_of(message))
-            if (!line.starts_with("  ")) told += line + " ";
-        const std::string prefix = "dynlab: ";
-        return trimmed(told.starts_with(prefix) ? told.substr(prefix.size()) : told);
-    }
-
     void add_failure(const Message& message) {
-        const std::string told = in_folder(message_text(message));
-        if (told.find(kLeadsOutside) != std::string::npos) {
-            const std::string line = told.substr(0, told.find(' '));  // "analysis.lua:3:"
-            const bool located = line.starts_with("analysis.lua:") && line.ends_with(':');
-            add("file-outside", Severity::kRule, located ? line.substr(0, line.size() - 1) : "",
-                Message("The analysis reads a file that is not handed in, and stops there: {}.",
-                        located ? trimmed(told.substr(line.size())) : told),
-                Message("Copy the file into the folder and load it by its name there."));
-            return;
-        }
         add("analysis-fails", Severity::kRule, "",
-            Message("From a clean copy of the folder no report comes out: {}",
-                    with_changed_text(message, [this](const std::string& text) { return in_folder(text); })),
+            Message("From a clean copy of the folder no report comes out: {}", message),
             Message("Mend it and try \"dynlab report FOLDER\"; every file the analysis reads must lie in the folder or "
                     "in data."));
     }
 
+    /// The script stopped.
+    void add_failure(const RecordedError& error) {
+        if (!is_refusal_outside(error.message)) return add_failure(with_place(error));
+        const int line = error.line_in(kOwnScript);
+        add("file-outside", Severity::kRule, line > 0 ? fmt::format("{}:{}", kOwnScript, line) : "",
+            Message("The analysis reads a file that is not handed in, and stops there: {}.",
+                    line > 0 ? error.message : with_place(error)),
+            Message("Copy the file into the folder and load it by its name there."));
+    }
+
     bool makes_report() {
-        for (const auto& [name, package] : {std::pair("pandoc", "pandoc"), std::pair("pdflatex", "texlive-latex-base")})
-            if (!find_program(name)) throw MissingProgram(name, package);
-        const ChildResult made = run_report();
-        if (made.exit_code == 0) return true;
-        if (made.exit_code == kMissingProgramCode)
-            throw MissingProgram(Message::verbatim(in_folder(made.error_output)));
-        if (made.timed_out)
-            add_failure(Message("{}.", reason_of_end(made, limits_.time)));
-        else if (made.output_exceeded)
-            add_failure(Message("it prints more than 16 MB."));
-        else if (made.exit_code == 128 + SIGXFSZ)
-            add_failure(Message("it writes a file of more than {} MB.", kLargestMade >> 20));
-        else if (made.error_output.empty())
-            add_failure(Message("it ends with code {} and without a message.", made.exit_code));
-        else
-            add_failure(Message::verbatim(made.error_output));
-        return false;
+        const FolderReport made = make_folder_report(copy(), out(), program_, isolation_, limits_.time);
+        if (made.stopped)
+            add_failure(*made.stopped);
+        else if (!made.made)
+            add_failure(made.failure);
+        return made.made;
     }
 
     /// What the checks say of a run that stopped there speaks of answers that are given further down.
@@ -294,8 +264,7 @@ class FolderCheck {
     void check_answers(const PercentScript& script, const RunRecord& run) {
         for (const ExpectedAnswer& answer : script.header.answers) {
             if (run.answers.contains(answer.name)) continue;
-            add("answer-missing", Severity::kRule, "analysis.lua",
-                Message("The answer \"{}\" ({}) is not given.", answer.name, answer.kind),
+            add("answer-missing", Severity::kRule, "analysis.lua", sentence_about_missing(answer),
                 Message("Give it: answer(\"{}\", ...).", answer.name));
         }
     }
@@ -336,15 +305,16 @@ class FolderCheck {
         setup.jobs = static_cast<int>(std::thread::hardware_concurrency());
         const GradingRules::GroupSeed own = group_seed_of(copy() / "data");
         const Grade grade = GradingRules(setup).grade(folder_.filename().string(), copy(), own);
-        result_.checked.push_back(Message("checks of lesson {}: {} of {} points", lesson->slug,
-                                          points_text(grade.earned()), points_text(grade.possible())));
+        const Message name = slug.empty() ? Message("of the folder") : Message::verbatim(lesson->slug);
+        result_.checked.push_back(Message("checks of lesson {}: {} of {} points", name, points_number(grade.earned()),
+                                          points_number(grade.possible())));
         for (const CheckGrade& check : grade.checks) {
             if (check.by_hand || check.earned >= check.points) continue;
-            const Message score = Message("{} of {} points for \"{}\".", points_text(check.earned),
-                                          points_text(check.points), check.about);
+            const Message score = Message("{} of {} points for \"{}\".", points_number(check.earned),
+                                          points_number(check.points), check.about);
             add("check-failed", Severity::kHint, "",
                 message_text(check.message).empty() ? score : sentences({score, check.message}),
-                check.hint.empty() ? Message("See checks.lua of the lesson.") : Message::verbatim(check.hint));
+                check.hint.empty() ? Message("See checks.lua of the lesson.") : check.hint);
         }
     }
 

@@ -8,7 +8,8 @@ namespace dynlab::inline course {
 
 /// What one check gave a submission.
 struct CheckGrade {
-    std::string id, about, hint;
+    std::string id;
+    Message about, hint;  ///< as the author of the checks wrote them
     Message message;
     double points = 0, earned = 0;
     bool visible = true;   ///< the student may see the message
@@ -31,9 +32,8 @@ struct Grade {
     std::vector<CheckGrade> checks;
     double late_hours = 0, penalty = 0;  ///< penalty in points
     Message lateness;                    ///< why there is a penalty, as Deadlines says
-    std::string lateness_told;           ///< the same in the language of the feedback
     std::string title;                   ///< whom the feedback is for: a group or a person
-    std::string language;                ///< of the feedback: "fr", else English
+    std::string language;                ///< of the feedback; English where it has no catalog
     std::string counts_instead;          ///< the hand-in of the same owner that counts; empty where this one does
     bool newest_counts = false;          ///< ... as it is the newest; else as it is the better one
     std::string log;                     ///< what was run and how long it took; not part of the result
@@ -49,5 +49,14 @@ struct Grade {
 std::string to_results_json(const Grade& grade, const Grade& marked);
 /// The `grade` of that text. Throws EnvironmentError for a text that to_results_json did not make.
 Grade from_results_json(const std::string& text);
+
+/// What that text shows of one check of `marked`.
+struct ShownResult {
+    Message about;
+    Message output;  ///< what the check said, and its hint where points are missing; may be empty text
+    double points = 0, earned = 0;
+};
+/// Throws as from_results_json.
+std::vector<ShownResult> shown_results(const std::string& text);
 
 }  // namespace dynlab::inline course

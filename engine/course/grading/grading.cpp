@@ -266,7 +266,6 @@ class ClassGrader {
         const Deadlines::Lateness late = deadlines_.of(submission, owners_->names_of(submission));
         grade.late_hours = late.hours;
         grade.lateness = late.reason();
-        grade.lateness_told = late.told(grade.language);
         finish(submission, std::move(grade), late.percent, index);
         advance(bar, kept ? &outcome_.kept : &outcome_.made);
     }

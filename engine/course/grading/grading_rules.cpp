@@ -13,7 +13,6 @@
 #include "course/findings/findings_report.h"
 #include "course/grading/grading_memory.h"
 #include "data_io/values/json_values.h"
-#include "documents/words/sentence_catalogue.h"
 #include "numerics/rigs/catalogue.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
@@ -134,7 +133,6 @@ GradedRun GradingRules::run(const std::string& name, const fs::path& folder, con
     box.set_environment("DYNLAB_HOME", add_home(box, name, group_seed).string());
     RunJob job;
     job.script = box.add(folder, "/box/submission") / "analysis.lua";
-    job.french_sentences = box.add(file_of_french_engine_sentences(), "/box/words/engine_sentences.fr.txt");
     job.seed = name == kOtherSeedRun ? drawn("seed") : seed_;
     job.answers = answers_;
     job.memory_bytes = kScriptMemory;
@@ -300,8 +298,8 @@ Grade GradingRules::ungraded(const std::string& name) const {
     for (const CheckDescription& check : checks_) {
         CheckGrade one;
         one.id = check.id;
-        one.about = check.about;
-        one.hint = check.hint;
+        one.about = Message::verbatim(check.about);
+        if (!check.hint.empty()) one.hint = Message::verbatim(check.hint);
         one.points = check.points;
         one.visible = check.visible;
         one.by_hand = check.by_hand;
@@ -322,9 +320,7 @@ CheckedSubmission GradingRules::work_in(const fs::path& folder, const GroupSeed&
     if (fs::file_size(script, error) <= kMostSource && !error) work.source = read_file(script);
     for (auto& [name, run] : work.runs)
         if (of_notebook && run.error)
-            run.error = with_changed_text(*run.error, [&work](const std::string& text) {
-                return with_places_in_notebook(text, "analysis.lua", "analysis.ipynb", work.source);
-            });
+            run.error = with_places_in_notebook(*run.error, "analysis.lua", "analysis.ipynb", work.source);
     return work;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "base/catalog.h"
 #include "base/error.h"
 #include "base/reader.h"
 #include "course/checks/check_functions.h"
@@ -177,7 +178,7 @@ void look_at_report(const Lesson& lesson, const std::string& language, const std
     faults.attempt(source, [&] {
         const fs::path pdf = folder / (lesson.slug + "." + language + ".pdf");
         const ReportResult made = make_report(report_of(lesson.folder.string(), pdf, has_report ? language : ""));
-        if (made.error) throw DocumentError(Message::verbatim(*made.error));
+        if (made.error) throw DocumentError(*made.error);
         for (const Message& gap : made.gaps) faults.add(source, 0, gap);
         look_at_pdf(pdf, source, standard_of_report(lesson, language), faults);
     });
@@ -229,6 +230,8 @@ LessonFaults faults_of_texts(const Lesson& lesson) {
     for (const char* language : kLanguages) {
         if (fs::exists(lesson.hints(language)))
             faults.attempt(lesson.hints(language), [&] { read_hints(lesson.hints(language)); });
+        if (const fs::path words = lesson.checks_in(language); fs::exists(words))
+            faults.attempt(words, [&words] { const Catalog catalog(read_text(words)); });
         if (fs::exists(lesson.tasks(language)))
             faults.attempt(lesson.tasks(language), [&] { lesson_script(lesson, language); });
         if (fs::exists(lesson.report(language)))

@@ -1,12 +1,11 @@
 #include "course/hand_ins/course_clock.h"
 
-#include <fmt/format.h>
-
 #include <charconv>
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
 
+#include "base/reader.h"
 #include "numerics/error.h"
 
 namespace dynlab::inline course {
@@ -91,12 +90,16 @@ std::string utc_text(Instant instant) {
     return formatted(time, "%Y-%m-%dT%H:%M:%SZ");
 }
 
-std::string duration_text(std::int64_t seconds) {
+Message duration_message(std::int64_t seconds) {
     const auto d = seconds / 86400, h = seconds / 3600 % 24, min = seconds / 60 % 60, s = seconds % 60;
-    if (d > 0) return h > 0 ? fmt::format("{} d {} h", d, h) : fmt::format("{} d", d);
-    if (h > 0) return min > 0 ? fmt::format("{} h {} min", h, min) : fmt::format("{} h", h);
-    if (min > 0) return s > 0 ? fmt::format("{} min {} s", min, s) : fmt::format("{} min", min);
-    return fmt::format("{} s", s);
+    if (d > 0) return h > 0 ? Message("{} d {} h", d, h) : Message("{} d", d);
+    if (h > 0) return min > 0 ? Message("{} h {} min", h, min) : Message("{} h", h);
+    if (min > 0) return s > 0 ? Message("{} min {} s", min, s) : Message("{} min", min);
+    return Message("{} s", s);
+}
+
+std::string duration_text(std::int64_t seconds) {
+    return message_text(duration_message(seconds));
 }
 
 std::optional<std::int64_t> duration_of(const std::string& text) {

@@ -27,4 +27,13 @@ void store_text_with_message(V& member, const char* name, const char* message_na
     }
 }
 
+/// What an author wrote, which is its text and nothing else.
+template <class V, class M>
+void store_text_of_author(V& member, const char* name, M& message) {
+    std::string text;
+    if constexpr (std::is_const_v<M>) text = message_text(message);
+    member(name, text);
+    if constexpr (!std::is_const_v<M>) message = text.empty() ? Message() : Message::verbatim(std::move(text));
+}
+
 }  // namespace dynlab::inline course

@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "base/error.h"
+#include "base/reader.h"
 #include "course/names/plain_words.h"
 #include "course/review/oral_marks.h"
 #include "course/review/review_marks.h"
@@ -223,7 +224,7 @@ std::string marks_csv(Course& course, const Assignment& a) {
                 remark += (remark.empty() ? "" : "; ") + own->second;
             for (const GroupMark& mark : marks.groups)
                 if (mark.group == id)
-                    for (const std::string& cost : mark.costs) remark += (remark.empty() ? "" : "; ") + cost;
+                    for (const Message& cost : mark.costs) remark += (remark.empty() ? "" : "; ") + message_text(cost);
             const auto say = [&](const std::string& comment) {
                 if (!comment.empty()) remark += (remark.empty() ? "" : "; ") + comment;
             };

@@ -50,7 +50,7 @@ struct Candidate {
     std::optional<ReviewPair> pair;
     bool from_pack = false, made = false;  ///< a PDF that was taken out of the group's pack; made of it
     bool unreadable = false;               ///< no PDF, but the document all the same: kept, and told
-    std::string missing;                   ///< of a pack without the PDF that is wanted
+    Message missing;                       ///< of a pack without the PDF that is wanted
     Inspection inspection;
     std::map<std::string, double> scores;  ///< of a review's pack, by criterion
 };

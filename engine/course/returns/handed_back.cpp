@@ -5,15 +5,15 @@
 
 #include <algorithm>
 #include <map>
-#include <nlohmann/json.hpp>
+#include <optional>
 
-#include "course/findings/french_sentences.h"
+#include "base/reader.h"
+#include "course/findings/lesson_reader.h"
 #include "course/grading/feedback.h"
 #include "course/grading/grade.h"
 #include "course/hand_ins/roster.h"
 #include "course/returns/mailing.h"
 #include "data_io/text_table.h"
-#include "data_io/values/json_values.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/hash.h"
@@ -91,49 +91,33 @@ std::vector<MarkedStudent> marked_students(const HandBackRequest& request) {
     return all;
 }
 
-/// Numbers and sentences of a result in the language of its feedback.
-class ResultWords {
-  public:
-    explicit ResultWords(const nlohmann::json& result) {
-        const nlohmann::json& own = result.at("extra_data").at("dynlab");
-        french_ = own.value("language", "") == "fr";
-        if (french_) sentences_ = french_sentences(own.value("lesson", ""));
-    }
-
-    const FeedbackWords& words() const { return feedback_words(french_ ? "fr" : "en"); }
-    std::string told(const std::string& sentence) const { return sentences_.translated(sentence); }
-    std::string number(std::string points) const {
-        if (french_) std::replace(points.begin(), points.end(), '.', ',');
-        return points;
-    }
-    std::string share(const char* form, const std::string& points, const std::string& most) const {
-        return fmt::format(fmt::runtime(form), number(points), number(most));
-    }
-
-  private:
-    bool french_;
-    SentenceCatalogue sentences_;
-};
+/// Points as a table has them.
+Message points_in_cell(const std::string& cell) {
+    const std::optional<double> value = number_in_cell(cell);
+    return value ? Message("{}", points_number(*value)) : Message::verbatim(cell);
+}
 
 /// What Moodle shows beside the grade: a line for each check that lacks points.
 std::string comments_on(const fs::path& marks, const MarkedStudent& student) {
     const fs::path file = marks / "results" / student.submission / "results.json";
     if (student.submission.empty() || !fs::exists(file)) return "";
+    std::vector<ShownResult> shown;
+    Grade grade;
     try {
-        const nlohmann::json result = parsed_json(read_file(file));
-        const ResultWords in(result);
-        std::string text = in.share(in.words().points, student.points, student.possible);
-        for (const auto& test : result.at("tests")) {
-            const double most = test.at("max_score"), earned = test.value("score", most);
-            if (earned >= most) continue;
-            const std::string name = in.told(test.at("name")), said = in.told(test.at("output"));
-            text += "\n" + name + in.words().colon + in.share(in.words().of, points_text(earned), points_text(most)) +
-                    "." + (said.empty() ? "" : " " + said);
-        }
-        return text;
-    } catch (const nlohmann::json::exception&) {
-        throw EnvironmentError("{} is not a result that dynlab grade wrote", file.string());
+        const std::string text = read_file(file);
+        shown = shown_results(text);
+        grade = from_results_json(text);
+    } catch (const EnvironmentError& error) {
+        throw EnvironmentError("{}: {}", file.string(), error.message());
     }
+    MessageList lines{{Message("{} of {} points.", points_in_cell(student.points), points_in_cell(student.possible))},
+                      Join::kLines};
+    for (const ShownResult& one : shown) {
+        if (one.earned >= one.points) continue;
+        const Message line = Message("{}: {} of {}.", one.about, points_number(one.earned), points_number(one.points));
+        lines.items.push_back(message_text(one.output).empty() ? line : sentences({line, one.output}));
+    }
+    return LessonReader(grade.language, grade.lesson).text(Message("{}", lines));
 }
 
 /// What is written, into the folder handed_back.

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
+
 namespace dynlab::inline course {
 
 /// What goes back to students and platforms from a folder of marks.

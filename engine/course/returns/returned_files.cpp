@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "base/number_text.h"
+#include "base/reader.h"
 #include "course/office/receive.h"
 #include "course/returns/mailing.h"
 #include "course/store/groups.h"
@@ -109,16 +109,16 @@ class Returner {
 
     void remember() {
         Transaction transaction(course_.database());
-        std::size_t count = 0;
+        std::int64_t count = 0;
         for (const auto& [group, files] : groups_)
             for (const FileToReturn& file : files) {
                 course_.database().run("INSERT INTO returns (group_id, place, hash, made_at) VALUES (?, ?, ?, ?)",
                                        group.id, assignment_.name + "/" + file.place, file.hash, request_.now);
                 ++count;
             }
-        course_.note(fmt::format("{}: {} returned to {}", assignment_.name, counted(count, "file"),
-                                 counted(groups_.size(), "group")),
-                     request_.now);
+        const Message files = plural(count, "{} file", "{} files"),
+                      groups = plural(static_cast<std::int64_t>(groups_.size()), "{} group", "{} groups");
+        course_.note(message_text(Message("{}: {} returned to {}", assignment_.name, files, groups)), request_.now);
         transaction.commit();
     }
 

@@ -1,10 +1,7 @@
 #include "course/review/allocation.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
-#include "base/number_text.h"
 #include "numerics/error.h"
 
 namespace dynlab::inline course {
@@ -256,10 +253,10 @@ class Allocator {
     }
 
     void explain(Allocation& allocation) const {
-        const auto say = [&](const std::string& sentence) { allocation.remarks.push_back(sentence); };
+        const auto say = [&](const Message& sentence) { allocation.remarks.push_back(sentence); };
         if (wanted_ < problem_.reviews)
-            say(fmt::format("Only {} groups are left, so that each can write at most {} of the {} reviews wanted.",
-                            order_.size(), wanted_, problem_.reviews));
+            say(Message("Only {} groups are left, so that each can write at most {} of the {} reviews wanted.",
+                        order_.size(), wanted_, problem_.reviews));
         int few_written = 0, few_got = 0, more = 0;
         for (const int i : order_) {
             few_written += board_.writes(i) < wanted_;
@@ -268,15 +265,16 @@ class Allocator {
         }
         if (few_written + few_got > 0)
             say(
-                fmt::format("{} groups write and {} reports get fewer than {} reviews: common members and reviews "
-                            "that are written or sent leave no other way.",
-                            few_written, few_got, wanted_));
+                Message("{} groups write and {} reports get fewer than {} reviews: common members and reviews that are "
+                        "written or sent leave no other way.",
+                        few_written, few_got, wanted_));
         if (more > 0)
-            say(fmt::format("{} groups write or get one review more than {}: what was written or sent stays.", more,
-                            wanted_));
+            say(Message("{} groups write or get one review more than {}: what was written or sent stays.", more,
+                        wanted_));
         if (allocation.swapped > 0)
-            say(fmt::format("{} of groups review each other; no exchange of two reviews avoids that.",
-                            counted(allocation.swapped, "couple")));
+            say(plural(allocation.swapped,
+                       "{} couple of groups review each other; no exchange of two reviews avoids that.",
+                       "{} couples of groups review each other; no exchange of two reviews avoids that."));
     }
 
     const AllocationProblem& problem_;

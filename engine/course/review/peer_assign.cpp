@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "base/reader.h"
 #include "course/review/allocation.h"
 #include "course/review/peer_review.h"
 #include "course/store/exceptions.h"
@@ -72,10 +73,11 @@ class ReviewAssigner {
             const bool both = problem_.active[static_cast<std::size_t>(edge.first)] &&
                               problem_.active[static_cast<std::size_t>(edge.second)];
             if (!both || refused_.contains(edge)) {
+                const std::string &reviewer = groups_[static_cast<std::size_t>(edge.first)].name,
+                                  &author = groups_[static_cast<std::size_t>(edge.second)].name;
                 outcome_.remarks.push_back(
-                    fmt::format("{} was to review {}, but {}.", groups_[static_cast<std::size_t>(edge.first)].name,
-                                groups_[static_cast<std::size_t>(edge.second)].name,
-                                both ? "they share a member, or are kept apart" : "one of them has handed in nothing"));
+                    both ? Message("{} was to review {}, but they share a member, or are kept apart.", reviewer, author)
+                         : Message("{} was to review {}, but one of them has handed in nothing.", reviewer, author));
                 continue;
             }
             std::erase(problem_.loose, edge);
@@ -124,7 +126,7 @@ class ReviewAssigner {
         outcome_.fresh = static_cast<int>(fresh.size());
         if (outcome_.fresh + outcome_.ended == 0) return;
         db_.run("INSERT INTO allocations (assignment, made_at, explanation) VALUES (?, ?, ?)", assignment_.id, now_,
-                fmt::format("{}", fmt::join(allocation.remarks, "\n")));
+                message_text(Message("{}", MessageList{allocation.remarks, Join::kLines})));
         const std::int64_t id = db_.getLastInsertRowid();
         for (const auto& [reviewer, author] : fresh)
             db_.run("INSERT INTO pairs (allocation, assignment, reviewer, author) VALUES (?, ?, ?, ?)", id,

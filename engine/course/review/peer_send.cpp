@@ -130,15 +130,16 @@ class CopySender {
             request.pack = under_its_name(*pack);
         fs::create_directories(request.copy.parent_path());
         const CopyOutcome copy = copier_(request);
+        const Message document = to_reviewers() ? Message("report") : Message("review");
         if (!copy.made) {
             stopped_.insert(version->id);
             ++outcome_.stopped;
-            outcome_.hits.push_back(fmt::format("{} of {} was not sent: {}", part, author, fmt::join(copy.hits, " ")));
+            outcome_.hits.push_back(Message("{} of {} was not sent: {}", document, author, sentences(copy.hits)));
             return;
         }
         if (!copy.hints.empty() && doubted_.insert(version->id).second)
             outcome_.hints.push_back(
-                fmt::format("{} of {} was sent, but look at it: {}", part, author, fmt::join(copy.hints, " ")));
+                Message("{} of {} was sent, but look at it: {}", document, author, sentences(copy.hints)));
         record(pair, *version, read_file(request.copy));
     }
 

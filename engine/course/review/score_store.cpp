@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include "base/number_text.h"
+#include "base/reader.h"
 #include "course/review/oral_marks.h"
 #include "course/review/review_marks.h"
 #include "course/review/score_sheet.h"
@@ -62,7 +62,8 @@ int import_scores(Course& course, const Assignment& a, const ScoreSheet& sheet,
             ++fresh;
         }
     }
-    if (fresh > 0) course.note(fmt::format("{}: {} read", a.name, counted(fresh, "score")));
+    if (fresh > 0)
+        course.note(fmt::format("{}: {}", a.name, message_text(plural(fresh, "{} score read", "{} scores read"))));
     transaction.commit();
     return fresh;
 }
@@ -97,12 +98,12 @@ class CostTaker {
         return now_ > due_for(course_, a_, mark.group, stage) + a_.grace;
     }
 
-    void take(GroupMark& mark, std::optional<double>& from, double points, const std::string& why) const {
+    void take(GroupMark& mark, std::optional<double>& from, double points, const Message& why) const {
         const bool work = &from == &mark.work;  // of a talk, students may have points where their group has none
         if (points <= 0 || (!from && (!work || a_.is_report()))) return;
         if (from) from = std::max(0.0, *from - points);
         if (work) mark.work_costs += points;
-        mark.costs.push_back(fmt::format("{:g} off for {}", points, why));
+        mark.costs.push_back(Message("{} off for {}", significant(points, 6), why));
     }
 
     void take_off_work(GroupMark& mark) {
@@ -113,10 +114,12 @@ class CostTaker {
             if (found == parts.end() || !found->second.is_late()) continue;
             const std::int64_t days = (found->second.late + kDay - 1) / kDay;
             take(mark, mark.work, a_.costs.late_day * static_cast<double>(days),
-                 fmt::format("a {} version late by {}", stage, duration_text(found->second.late)));
+                 std::string_view(stage) == "first"
+                     ? Message("a first version late by {}", duration_message(found->second.late))
+                     : Message("a final version late by {}", duration_message(found->second.late)));
         }
         if (a_.is_report() && versions_[mark.group]["final"].empty() && over(mark, "final"))
-            take(mark, mark.work, a_.costs.missing_final, "a missing final version");
+            take(mark, mark.work, a_.costs.missing_final, Message("a missing final version"));
     }
 
     void take_off_reviews(GroupMark& mark) {
@@ -126,8 +129,9 @@ class CostTaker {
             written += pair.written, late += pair.late, missing += !pair.written && over(mark, "review");
         }
         if (missing > 0 && written == 0 && a_.costs.missing_review > 0 && !mark.reviews) mark.reviews = 0;
-        take(mark, mark.reviews, a_.costs.missing_review * missing, counted(missing, "missing review"));
-        take(mark, mark.reviews, a_.costs.late_review * late, counted(late, "late review"));
+        take(mark, mark.reviews, a_.costs.missing_review * missing,
+             plural(missing, "{} missing review", "{} missing reviews"));
+        take(mark, mark.reviews, a_.costs.late_review * late, plural(late, "{} late review", "{} late reviews"));
     }
 
     Course& course_;

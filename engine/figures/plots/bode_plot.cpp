@@ -31,9 +31,10 @@ Vector shown_phase(const NamedModel& model, const Vector& w) {
     return phase_degrees_unwrapped(shown_response(model, w), w, model.G.delay());
 }
 
-std::string shown_name(const NamedModel& model) {
+Message shown_name(const NamedModel& model) {
     if (!is_held(model) || model.name.empty()) return model.name;
-    return model.name + (model.beside.inter_sample == InterSample::kZoh ? ", input held" : ", input on lines");
+    return model.beside.inter_sample == InterSample::kZoh ? Message("{}, input held", model.name)
+                                                          : Message("{}, input on lines", model.name);
 }
 
 /// As the measurements say that the models are drawn beside, if they all say the same.
@@ -130,9 +131,9 @@ Vector joint_frequency_grid(const std::vector<NamedModel>& models, Index count) 
 FrequencyPanels frequency_panels() {
     FrequencyPanels panels;
     panels.magnitude.log_x = panels.phase.log_x = true;
-    panels.magnitude.y_label = "magnitude (dB)";
-    panels.phase.y_label = "phase (°)";
-    panels.phase.x_label = "frequency (rad/s)";
+    panels.magnitude.y_label = axis_label(Message("magnitude"), "dB");
+    panels.phase.y_label = axis_label(Message("phase"), "°");
+    panels.phase.x_label = axis_label(Message("frequency"), "rad/s");
     panels.phase.legend = LegendPlace::kNone;
     return panels;
 }
@@ -153,7 +154,7 @@ Figure bode_plot(const std::vector<NamedModel>& given, const Vector& w, const st
         curve.y = shown_phase(model, curve.x);
         phase.curves.push_back(std::move(curve));
         if (model.G.continuous()) continue;
-        const ReferenceLine end{false, std::numbers::pi / model.G.Ts(), "", 2};
+        const ReferenceLine end{false, std::numbers::pi / model.G.Ts(), {}, 2};
         if (end.at <= grid.maxCoeff() * 1.001) magnitude.references.push_back(end), phase.references.push_back(end);
     }
     fix_colours(magnitude);

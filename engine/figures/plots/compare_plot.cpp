@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "figures/plots/id_plot.h"
 #include "figures/style.h"
 #include "numerics/error.h"
 
@@ -27,8 +26,8 @@ Curve model_curve(const ModelOutput& model, Index output, const Vector& t, int i
     Curve curve;
     curve.x = t;
     curve.y = model.y.col(output);
-    curve.label = curve.y.allFinite() ? fmt::format("{}: {:.1f} %", model.name, model.fit_percent[output])
-                                      : fmt::format("{}: lost", model.name);
+    curve.label = curve.y.allFinite() ? Message("{}: {} %", model.name, decimals(model.fit_percent[output], 1))
+                                      : Message("{}: lost", model.name);
     curve.colour = kColours[index % 7];
     curve.dash = index % 8;
     return curve;
@@ -60,13 +59,14 @@ Figure compare_plot(const IdData& data, const std::vector<ModelOutput>& models, 
     for (Index output = 0; output < measured.cols(); ++output) {
         Panel panel;
         const auto index = static_cast<std::size_t>(output);
-        panel.y_label = axis_label(
-            index < data.output_names.size() ? data.output_names[index] : fmt::format("y_{{{}}}", output + 1),
-            index < data.output_units.size() ? data.output_units[index] : "");
+        panel.y_label =
+            axis_label(Message::verbatim(index < data.output_names.size() ? data.output_names[index]
+                                                                          : fmt::format("y_{{{}}}", output + 1)),
+                       index < data.output_units.size() ? data.output_units[index] : "");
         Curve curve;
         curve.x = t;
         curve.y = measured.col(output);
-        curve.label = "measured";
+        curve.label = Message("measured");
         curve.colour = style::kGreyColour;
         curve.dash = 0;
         curve.line_width = kMeasuredWidth;
@@ -76,7 +76,7 @@ Figure compare_plot(const IdData& data, const std::vector<ModelOutput>& models, 
         keep_to_the_others(panel);
         figure.panels.push_back(std::move(panel));
     }
-    figure.panels.back().x_label = axis_label("time", data.time_unit);
+    figure.panels.back().x_label = axis_label(Message("time"), data.time_unit);
     return figure;
 }
 

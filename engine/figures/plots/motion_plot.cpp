@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "figures/figure_layout.h"
-#include "figures/plots/id_plot.h"
 #include "figures/style.h"
 #include "numerics/error.h"
 
@@ -82,17 +81,17 @@ struct PicturePlace {
 
 Panel signal_panel(const RigPart& part, const MotionRecord& record, Index column) {
     Panel panel;
-    panel.y_label = axis_label(part.signal, part.unit);
-    const auto add = [&](const Matrix& signals, const char* label, int colour, double width) {
+    panel.y_label = axis_label(Message::verbatim(part.signal), part.unit);
+    const auto add = [&](const Matrix& signals, const Message& label, int colour, double width) {
         if (signals.size() == 0) return;
         Curve curve;
         curve.x = record.t, curve.y = signals.col(column);
-        curve.label = column == 0 ? label : "";
+        curve.label = column == 0 ? label : Message();
         curve.colour = colour, curve.dash = 0, curve.line_width = width;
         panel.curves.push_back(std::move(curve));
     };
-    add(record.measured, "measured", style::kGreyColour, kMeasuredLine);
-    add(record.simulated, "simulated", kSimulatedColour, kSimulatedLine);
+    add(record.measured, Message("measured"), style::kGreyColour, kMeasuredLine);
+    add(record.simulated, Message("simulated"), kSimulatedColour, kSimulatedLine);
     return panel;
 }
 
@@ -166,9 +165,9 @@ Figure motion_plot(const RigDrawing& rig, const MotionRecord& whole, const Motio
     for (std::size_t k = 0; k < rig.parts.size(); ++k) {
         Panel& panel = figure.panels.emplace_back(signal_panel(rig.parts[k], record, static_cast<Index>(k)));
         panel.x_range = {first, last};
-        for (const double instant : instants) panel.references.push_back({false, instant, "", 2});
+        for (const double instant : instants) panel.references.push_back({false, instant, {}, 2});
     }
-    figure.panels.back().x_label = "time (s)";
+    figure.panels.back().x_label = axis_label(Message("time"), "s");
     const Rectangle frame = lay_out(figure).panels.front().box;
     draw_pictures(figure.panels.front(), rig, record, instants, frame.width(), frame.height());
     figure.motion = Motion{rig, 0, record.measured.size() > 0, record.simulated.size() > 0};

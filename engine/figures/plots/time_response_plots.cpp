@@ -37,8 +37,8 @@ Figure time_response_figure(const std::vector<NamedModel>& models, const Vector&
     if (models.empty()) throw InvalidArgument("there are no models to plot");
     const double end = t.size() > 0 ? 0 : longest_window(models);
     Panel panel;
-    panel.x_label = "time (s)";
-    panel.y_label = "amplitude";
+    panel.x_label = axis_label(Message("time"), "s");
+    panel.y_label = Message("amplitude");
     for (const NamedModel& model : models) {
         const TimeResponse result = response(model.G, instants(model.G, t, end));
         Curve curve;

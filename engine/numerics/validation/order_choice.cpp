@@ -13,13 +13,13 @@ constexpr double kSlightFit = 0.5;     // percentage points of validation fit
 constexpr double kNoteworthyFit = 1;   // the same, when another candidate is pointed to
 
 constexpr OrderMeasure kOrderMeasures[] = {
-    {OrderCriterion::kRSquared, "RT2", "R_T^2", "", true, [](const OrderCandidate& c) { return c.r_squared; }},
-    {OrderCriterion::kYic, "YIC", "YIC", "", false, [](const OrderCandidate& c) { return c.yic; }},
-    {OrderCriterion::kAic, "AIC", "AIC", "", false, [](const OrderCandidate& c) { return c.aic; }},
-    {OrderCriterion::kBic, "BIC", "BIC", "", false, [](const OrderCandidate& c) { return c.bic; }},
-    {OrderCriterion::kFpe, "FPE", "FPE", "", false, [](const OrderCandidate& c) { return c.fpe; }},
-    {OrderCriterion::kFit, "fit", "fit", " (%)", true, [](const OrderCandidate& c) { return c.fit_percent; }},
-    {OrderCriterion::kValidationFit, "validation", "validation fit", " (%)", true,
+    {OrderCriterion::kRSquared, "RT2", true, [](const OrderCandidate& c) { return c.r_squared; }},
+    {OrderCriterion::kYic, "YIC", false, [](const OrderCandidate& c) { return c.yic; }},
+    {OrderCriterion::kAic, "AIC", false, [](const OrderCandidate& c) { return c.aic; }},
+    {OrderCriterion::kBic, "BIC", false, [](const OrderCandidate& c) { return c.bic; }},
+    {OrderCriterion::kFpe, "FPE", false, [](const OrderCandidate& c) { return c.fpe; }},
+    {OrderCriterion::kFit, "fit", true, [](const OrderCandidate& c) { return c.fit_percent; }},
+    {OrderCriterion::kValidationFit, "validation", true,
      [](const OrderCandidate& c) { return c.validation_fit.value_or(std::nan("")); }}};
 
 /// Smaller is better.

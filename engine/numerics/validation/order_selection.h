@@ -76,7 +76,7 @@ OrderSelection select_order(const IdData& data, const std::vector<TransferStruct
 /// What a criterion compares.
 struct OrderMeasure {
     OrderCriterion criterion;
-    const char *word, *name, *unit;  ///< "validation", "validation fit" and " (%)"
+    const char* word;  ///< of scripts: "YIC", "validation"
     bool larger_is_better;
     double (*value)(const OrderCandidate&);  ///< not a number where there is none
 };

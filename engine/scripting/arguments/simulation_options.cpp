@@ -108,8 +108,9 @@ std::optional<Index> steps_option(const Options& options, std::optional<Index> f
                   Message("{}", significant(*steps, 10)));
 }
 
-std::string steps_text(const std::optional<Index>& steps) {
-    return steps ? fmt::format(", {} step{} ahead", *steps, *steps == 1 ? "" : "s") : std::string();
+Message with_steps(const Message& name, const std::optional<Index>& steps) {
+    if (!steps) return name;
+    return Message("{}, {}", name, plural(*steps, "{} step ahead", "{} steps ahead"));
 }
 
 }  // namespace dynlab::inline scripting

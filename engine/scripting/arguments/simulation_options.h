@@ -38,7 +38,7 @@ const IdData& driving_data(const Call& call, int index, const IdData& data, IdDa
 void read_steps_as_option(const Call& call, int index);
 /// The option k: a whole number of steps from 1 on, or nothing for math.huge, a simulation.
 std::optional<Index> steps_option(const Options& options, std::optional<Index> fallback);
-/// What stands behind a model's name in a legend: ", 5 steps ahead", or nothing for a simulation.
-std::string steps_text(const std::optional<Index>& steps);
+/// A model's name in a legend: "arx, 5 steps ahead", or the name alone for a simulation.
+Message with_steps(const Message& name, const std::optional<Index>& steps);
 
 }  // namespace dynlab::inline scripting

@@ -55,11 +55,7 @@ void push_variable(const Call& call, const Variable& variable, const std::string
 /// Where a script is graded or checked it reads the course's data and what lies in its own folder, and nothing else.
 void check_stays_inside(const std::filesystem::path& path) {
     const bool leads_out = std::find(path.begin(), path.end(), "..") != path.end();
-    if (path.is_absolute() || leads_out)
-        throw InvalidArgument(
-            "\"{}\" leads outside the folder; where scripts are graded, only the course's data and files of the folder "
-            "itself can be loaded",
-            path.string());
+    if (path.is_absolute() || leads_out) throw InvalidArgument(refusal_outside(path.string()));
 }
 
 std::map<std::string, std::string> units_by_name(const Options& options) {

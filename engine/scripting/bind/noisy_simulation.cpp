@@ -150,10 +150,10 @@ Figure spread_figure(const std::string& name, const SimulationSpread& spread, co
     Curve curve;
     curve.x = t;
     curve.y = spread.output;
-    curve.label = name;
+    curve.label = Message::verbatim(name);
     panel.curves.push_back(std::move(curve));
-    panel.x_label = "time (s)";
-    panel.y_label = "output";
+    panel.x_label = axis_label(Message("time"), "s");
+    panel.y_label = Message("output");
     fix_colours(panel);
     add_confidence_band(panel, 0, normal_half_width(level) * spread.std, level);
     return figure;

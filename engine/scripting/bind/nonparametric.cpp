@@ -28,8 +28,8 @@ SpectralModels comparison_arguments(const Call& call) {
     SpectralModels read{object_argument<IdData>(call, 1, "data"), {}, 2};
     for (; holds_model(call, read.options); ++read.options) {
         const Model* model = to_object<Model>(call.state(), read.options);
-        const std::string name =
-            model != nullptr && model->estimate ? model->estimate->method : fmt::format("model {}", read.options - 1);
+        const Message name = model != nullptr && model->estimate ? Message::verbatim(model->estimate->method)
+                                                                 : Message("model {}", read.options - 1);
         read.models.push_back({name, model_argument(call, read.options, "G").G});
     }
     call.at_most(read.options);
@@ -42,7 +42,7 @@ void name_models(const Options& options, std::vector<NamedModel>& models) {
     if (labels.size() != models.size())
         throw InvalidArgument("option 'labels' has {} for {}", plural(labels.size(), "{} text", "{} texts"),
                               plural(models.size(), "{} model", "{} models"));
-    for (std::size_t i = 0; i < models.size(); ++i) models[i].name = labels[i];
+    for (std::size_t i = 0; i < models.size(); ++i) models[i].name = Message::verbatim(labels[i]);
 }
 
 double confidence_of(const Options& options) {
@@ -66,7 +66,7 @@ int give_spectral(const Call& call, const Options& options, SpectralModels& read
         lua_pushnil(call.state());
     } else {
         print_message(call, estimate.message, estimate.warnings);
-        give_figure(call, spectral_plot(estimate, method, read.models, confidence_of(options)));
+        give_figure(call, spectral_plot(estimate, Message::verbatim(method), read.models, confidence_of(options)));
     }
     push_object(call.state(), frequency_data_of(estimate, read.data, method, smoothed));
     return 2;

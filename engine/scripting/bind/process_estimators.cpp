@@ -16,9 +16,8 @@
 namespace dynlab::inline scripting {
 namespace {
 
-constexpr std::array kConstructionOptions = {
-    option<&StepConstruction::x_label>("xlabel", about("label of the time axis"), {.initial = "\"Time (s)\""}),
-    option<&StepConstruction::y_label>("ylabel", about("label of the output axis"))};
+constexpr std::array kConstructionOptions = {OptionEntry{"xlabel", ValueKind::kText, about("label of the x axis")},
+                                             OptionEntry{"ylabel", ValueKind::kText, about("label of the y axis")}};
 constexpr std::array kProcessStartOptions = {
     option<&FitOptions::initial_state>("InitialState", kStartOptions[0].description,
                                        {.initial = "\"auto\"", .choices = kInitialStates, .member = "initial_state"}),
@@ -77,7 +76,8 @@ int draw_construction(Call& call) {
     construction.final = test.record.final.value;
     for (const ReadingPoint& point : test.points)
         construction.readings.push_back({point.name, point.time, point.value});
-    options.read(construction);
+    if (options.has("xlabel")) construction.x_label = Message::verbatim(options.text("xlabel", ""));
+    construction.y_label = Message::verbatim(options.text("ylabel", ""));
     return give_figure(call, step_construction(construction));
 }
 
@@ -94,13 +94,13 @@ constexpr const char* kStep = "step tests";
 constexpr FunctionEntry kEstimatorsFunctions[] = {
     {"step_first_order", kStep, "step_first_order(data) -> G",
      marked("estimator", "K/(1 + T s) read off a step response: gain and 5 % settling time"),
-     guarded<read_step_response<step_first_order>>, OptionTables(), kStepArguments},
+     guarded<read_step_response<step_first_order>>, kNoOptions, kStepArguments},
     {"step_second_order", kStep, "step_second_order(data) -> G",
      marked("estimator", "gain, damping and natural frequency read off the first overshoot"),
-     guarded<read_step_response<step_second_order>>, OptionTables(), kStepArguments},
+     guarded<read_step_response<step_second_order>>, kNoOptions, kStepArguments},
     {"step_delayed", kStep, "step_delayed(data) -> G",
      marked("estimator", "K exp(-D s)/(1 + T s) from two points of a step response"),
-     guarded<read_step_response<step_delayed>>, OptionTables(), kStepArguments},
+     guarded<read_step_response<step_delayed>>, kNoOptions, kStepArguments},
     {"step_construction", kStep, "step_construction(G, {options}) -> fig",
      "the reading points of a step test on its response", guarded<draw_construction>, kConstruction,
      kConstructionArguments},

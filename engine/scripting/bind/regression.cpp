@@ -153,12 +153,12 @@ int draw_regression(Call& call) {
     if (x_new) {
         const Forecast at = forecast_at(fit, *x_new, level);
         picture.forecast =
-            ForecastPoint{*x_new, at.value, at.low, at.high, options.text("text", number_text(at.value))};
+            ForecastPoint{*x_new, at.value, at.low, at.high,
+                          options.has("text") ? Message::verbatim(options.text("text", "")) : Message("{}", at.value)};
     }
-    picture.confidence_label = fmt::format("{} % confidence band", number_text(100 * level));
-    picture.prediction_label = fmt::format("{} % prediction band", number_text(100 * level));
-    picture.x_label = options.text("xlabel", "");
-    picture.y_label = options.text("ylabel", "");
+    picture.level = level;
+    picture.x_label = Message::verbatim(options.text("xlabel", ""));
+    picture.y_label = Message::verbatim(options.text("ylabel", ""));
     return give_figure(call, regression_plot(picture));
 }
 

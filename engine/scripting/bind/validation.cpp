@@ -15,15 +15,15 @@
 namespace dynlab::inline scripting {
 namespace {
 
-std::string model_name(const Call& call, int index, const std::vector<std::string>& labels, std::size_t number) {
-    if (number < labels.size()) return labels[number];
+Message model_name(const Call& call, int index, const std::vector<std::string>& labels, std::size_t number) {
+    if (number < labels.size()) return Message::verbatim(labels[number]);
     const std::string method = method_of_model(call, index);
-    return method.empty() ? fmt::format("model {}", number + 1) : method;
+    return method.empty() ? Message("model {}", number + 1) : Message::verbatim(method);
 }
 
 /// What one model says of all experiments.
 struct ModelOutputs {
-    std::string name;
+    Message name;
     std::vector<Matrix> y;
     std::vector<Vector> fit_percent;  // per output
 };
@@ -36,7 +36,7 @@ Vector fits_of(const std::vector<Result>& outputs) {
 }
 
 template <class Results>
-ModelOutputs model_outputs(std::string name, const Results& all) {
+ModelOutputs model_outputs(Message name, const Results& all) {
     ModelOutputs outputs{std::move(name), {}, {}};
     for (std::size_t k = 0; k < all.results.size(); ++k) {
         outputs.y.push_back(all.outputs(k));
@@ -53,7 +53,7 @@ Figure comparison_figure(const IdData& data, const std::vector<ModelOutputs>& mo
         std::vector<ModelOutput> outputs;
         for (const ModelOutputs& model : models) outputs.push_back({model.name, model.y[k], model.fit_percent[k]});
         Figure one = compare_plot(data, outputs, k);
-        if (data.experiments.size() > 1) one.panels.front().title = fmt::format("experiment {}", k + 1);
+        if (data.experiments.size() > 1) one.panels.front().title = Message("experiment {}", k + 1);
         all.rows += one.rows;
         for (Panel& panel : one.panels) all.panels.push_back(std::move(panel));
     }
@@ -67,7 +67,7 @@ int draw_comparison(Call& call, const IdData& data, int first, int options_index
     const std::optional<Index> steps = steps_option(options, std::nullopt);
     std::vector<ModelOutputs> models;
     for (int i = first; holds_model(call, i); ++i) {
-        const std::string name = model_name(call, i, labels, models.size()) + steps_text(steps);
+        const Message name = with_steps(model_name(call, i, labels, models.size()), steps);
         models.push_back(
             steps ? model_outputs(name, prediction_argument(call, i, data, {steps, compare_options(options)}))
                   : model_outputs(name, comparison_argument(call, i, data, options)));

@@ -286,14 +286,11 @@ void Options::check_bounds(const OptionEntry& option) const {
     if ((std::isinf(least) && std::isinf(most)) || !has(option.name)) return;
     const double value = number(option.name, 0);
     if (value >= least && value <= most) return;
-    if (std::isinf(most))
-        throw InvalidArgument("{} must be at least {}, but {} was given", option_label(option.name), least,
-                              significant(value, 10));
-    if (std::isinf(least))
-        throw InvalidArgument("{} must be at most {}, but {} was given", option_label(option.name), most,
-                              significant(value, 10));
-    throw InvalidArgument("{} must lie between {} and {}, but {} was given", option_label(option.name), least, most,
-                          significant(value, 10));
+    const Message label = option_label(option.name);
+    const Number given = significant(value, 10), lowest = significant(least, 10), highest = significant(most, 10);
+    if (std::isinf(most)) throw InvalidArgument("{} must be at least {}, but {} was given", label, lowest, given);
+    if (std::isinf(least)) throw InvalidArgument("{} must be at most {}, but {} was given", label, highest, given);
+    throw InvalidArgument("{} must lie between {} and {}, but {} was given", label, lowest, highest, given);
 }
 
 void Options::read_members(const void* tag, void* into) const {

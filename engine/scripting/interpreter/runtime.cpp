@@ -3,6 +3,7 @@
 #include <cstring>
 #include <utility>
 
+#include "base/languages.h"
 #include "numerics/error.h"
 #include "platform/error.h"
 #include "scripting/interpreter/catalogue.h"
@@ -184,7 +185,7 @@ RunRecord Runtime::run_part(const PercentScript& script, const ScriptPart& part)
     context_->recorder.follow(script);
     run_with_variables(
         read_script_part(std::string(static_cast<std::size_t>(part.first_line) - 1, '\n') + part.code, shown_calls()));
-    RunRecord record = context_->recorder.so_far();
+    RunRecord record = context_->recorder.so_far({catalog_of(context_->services.language_code())});
     throw_if_stopped();
     return record;
 }
@@ -223,7 +224,7 @@ RunRecord Runtime::run_recorded(const PercentScript& script, const std::function
     prepare(script);
     begin_recording(script);
     work();
-    RunRecord record = context_->recorder.finish();
+    RunRecord record = context_->recorder.finish({catalog_of(context_->services.language_code())});
     throw_if_stopped();
     return record;
 }

@@ -58,6 +58,7 @@ struct OptionEntry {
 using OptionTable = std::span<const OptionEntry>;
 /// All options of a function, the families' and its own.
 using OptionTables = std::span<const OptionTable>;
+inline constexpr OptionTables kNoOptions;
 
 /// One argument of a function besides its options, for help pages and forms.
 struct ArgumentEntry {

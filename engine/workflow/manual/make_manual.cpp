@@ -72,7 +72,7 @@ class ManualMaker {
     std::string body_of(ReportRequest request) {
         request.output = work_.path() / "page.html";
         const ReportResult made = make_report(request);
-        if (made.error) throw DocumentError(Message::verbatim(*made.error));
+        if (made.error) throw DocumentError(*made.error);
         return between(read_file(request.output), "<header>", "<script>");
     }
 
@@ -193,7 +193,7 @@ class ManualMaker {
         const std::string style = read_file(shared / "html/document.css") + read_file(shared / "html/manual.css");
         for (const ManualPage& page : pages_) files_[page.file] = framed_page(page, style);
         files_["search.js"] = search_index(pages_);
-        files_["document.js"] = scripts_of_pages(shared);
+        files_["document.js"] = scripts_of_pages(shared, "en");
         files_["manual.js"] = read_file(shared / "html/manual.js");
         result_.pages = pages_.size();
     }

@@ -6,7 +6,10 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <utility>
+#include <variant>
 
+#include "base/reader.h"
 #include "documents/error.h"
 #include "documents/percent_script.h"
 #include "documents/text_lines.h"
@@ -323,23 +326,70 @@ Message place_in_notebook(const std::string& source, int line) {
     return place_in_segments(segments_of(source), line);
 }
 
+namespace {
+
+/// What a text says of places in a script, as a notebook's author knows them.
+class NotebookPlaces {
+  public:
+    NotebookPlaces(const std::string& script, const std::string& notebook, const std::string& source)
+        : script_(script), notebook_(notebook), segments_(segments_of(source)) {}
+
+    /// The text in pieces: texts, and the places between them.
+    std::vector<MessageArgument> pieces(const std::string& text) const {
+        std::vector<MessageArgument> all;
+        std::string piece;
+        std::size_t at = 0;
+        for (std::size_t found; (found = text.find(script_, at)) != std::string::npos;) {
+            piece += text.substr(at, found - at) + notebook_;
+            at = found + script_.size();
+            std::size_t end = at + 1;
+            while (end < text.size() && std::isdigit(static_cast<unsigned char>(text[end]))) ++end;
+            const bool has_line = at < text.size() && text[at] == ':' && end > at + 1 && end < at + 9;
+            const Message place =
+                has_line ? place_in_segments(segments_, std::stoi(text.substr(at + 1, 8))) : Message();
+            if (place.empty()) continue;
+            all.emplace_back(std::exchange(piece, "") + ", ");
+            all.emplace_back(message_argument(place));
+            at = end;
+        }
+        all.emplace_back(piece + text.substr(at));
+        return all;
+    }
+
+    Message in(const Message& message) const {
+        std::vector<MessageArgument> arguments = message.arguments();
+        for (MessageArgument& argument : arguments) {
+            if (const auto* const text = std::get_if<std::string>(&argument)) {
+                argument = joined(pieces(*text));
+            } else if (auto* const list = std::get_if<MessageList>(&argument)) {
+                for (Message& item : list->items) item = in(item);
+            }
+        }
+        return Message::stored(message.id(), message.many(), std::move(arguments));
+    }
+
+  private:
+    static MessageArgument joined(std::vector<MessageArgument> pieces) {
+        if (pieces.size() == 1) return pieces.front();
+        std::string format;
+        for (std::size_t i = 0; i < pieces.size(); ++i) format += "{}";
+        return message_argument(Message::stored(format, "", std::move(pieces)));
+    }
+
+    const std::string &script_, &notebook_;
+    std::vector<Segment> segments_;
+};
+
+}  // namespace
+
+Message with_places_in_notebook(const Message& message, const std::string& script, const std::string& notebook,
+                                const std::string& source) {
+    return NotebookPlaces(script, notebook, source).in(message);
+}
+
 std::string with_places_in_notebook(const std::string& text, const std::string& script, const std::string& notebook,
                                     const std::string& source) {
-    const std::vector<Segment> segments = segments_of(source);
-    std::string result;
-    std::size_t at = 0;
-    for (std::size_t found; (found = text.find(script, at)) != std::string::npos;) {
-        result += text.substr(at, found - at);
-        at = found + script.size();
-        std::size_t end = at + 1;
-        while (end < text.size() && std::isdigit(static_cast<unsigned char>(text[end]))) ++end;
-        const bool has_line = at < text.size() && text[at] == ':' && end > at + 1 && end < at + 9;
-        const std::string place =
-            has_line ? message_text(place_in_segments(segments, std::stoi(text.substr(at + 1, 8)))) : "";
-        result += notebook + (place.empty() ? "" : ", " + place);
-        if (!place.empty()) at = end;
-    }
-    return result + text.substr(at);
+    return message_text(with_places_in_notebook(Message::verbatim(text), script, notebook, source));
 }
 
 }  // namespace dynlab::inline workflow

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/message.h"
 #include "documents/percent_script.h"
 #include "documents/run_record.h"
 
@@ -43,7 +44,9 @@ PercentScript read_script_or_notebook(const std::filesystem::path& file);
 
 /// "cell 3, line 2" for a line of the script that a notebook became; empty for the line of a marker.
 Message place_in_notebook(const std::string& source, int line);
-/// A text in which every "SCRIPT:12" is "NOTEBOOK, cell 3, line 2", and SCRIPT is NOTEBOOK elsewhere.
+/// A message, or a text, in which every "SCRIPT:12" is "NOTEBOOK, cell 3, line 2", and SCRIPT is NOTEBOOK elsewhere.
+Message with_places_in_notebook(const Message& message, const std::string& script, const std::string& notebook,
+                                const std::string& source);
 std::string with_places_in_notebook(const std::string& text, const std::string& script, const std::string& notebook,
                                     const std::string& source);
 

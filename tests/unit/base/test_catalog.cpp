@@ -8,6 +8,7 @@
 namespace dynlab {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
@@ -83,6 +84,10 @@ msgstr[1] "{} fichiers"
     EXPECT_EQ(catalog.translation("open", "menu"), "ouvrir");
     EXPECT_EQ(catalog.plural("{} file", 0), "{} fichier");
     EXPECT_EQ(catalog.plural("{} file", 2), "{} fichiers");
+    EXPECT_THAT(catalog.forms("{} file"), ElementsAre("{} fichier", "{} fichiers"));
+    EXPECT_THAT(catalog.forms("open", "menu"), ElementsAre("ouvrir"));
+    EXPECT_TRUE(catalog.forms("open").empty());
+    EXPECT_EQ(catalog.rule().form(1), 0u);
     EXPECT_EQ(catalog.size(), 3u);
     EXPECT_EQ(catalog.decimal_sign(), ".");
     EXPECT_EQ(catalog.list_separator(" and "), " and ");

@@ -74,6 +74,12 @@ TEST(message, arguments_with_braces_percent_signs_and_quotes_appear_unchanged) {
     }
 }
 
+TEST(message, verbatim_text_is_empty_where_it_says_nothing) {
+    EXPECT_TRUE(Message::verbatim("").empty());
+    EXPECT_EQ(Message::verbatim(""), Message());
+    EXPECT_FALSE(Message::verbatim(" ").empty());
+}
+
 TEST(message, lists_are_joined_in_the_language_of_the_reader) {
     const Message message("set {}", listed({"a", "b", "c"}, Join::kAnd));
     EXPECT_EQ(message_text(message), "set a, b and c");
@@ -92,6 +98,18 @@ TEST(message, option_has_the_name_that_its_reader_knows) {
 
 TEST(message, translation_may_take_the_arguments_in_another_order) {
     EXPECT_EQ(message_text(Message("{} of {}", "y{1}", "{1}"), {&french()}), "{1} : y{1}");
+}
+
+TEST(message, what_authors_wrote_is_looked_up_whole_in_their_own_catalog) {
+    const Catalog authors("msgid \"Hz is wanted.\"\nmsgstr \"On demande des Hz.\"\n");
+    const Reader reader{&french(), nullptr, &authors};
+    const Message wanted = Message::verbatim("Hz is wanted.");
+    EXPECT_EQ(message_text(wanted, reader), "On demande des Hz.");
+    EXPECT_EQ(message_text(Message("set {}", wanted), reader), "donnez On demande des Hz.");
+    EXPECT_EQ(message_text(sentences({wanted, Message("set {}", 1.5)}), reader), "On demande des Hz. donnez 1,5");
+    EXPECT_EQ(message_text(Message("set {}", "Hz is wanted."), reader), "donnez Hz is wanted.") << "a name";
+    EXPECT_EQ(message_text(Message::verbatim("Hz is wanted. So"), reader), "Hz is wanted. So");
+    EXPECT_EQ(message_text(wanted), "Hz is wanted.");
 }
 
 TEST(message, translation_with_missing_arguments_falls_back_to_english) {

@@ -52,13 +52,14 @@ TEST(weave, figures_without_a_caption_are_numbered_and_say_what_their_axes_do) {
     record.outputs["a"] = {{"", "a-figure-1"}, {"", "a-figure-2"}};
     const auto figure = std::make_shared<Figure>();
     figure->panels.resize(3);
-    figure->panels[0].y_label = "y_1 (m)", figure->panels[1].y_label = figure->panels[2].y_label = "voltage (V)";
-    figure->panels[2].x_label = "time (s)";
+    figure->panels[0].y_label = Message("y_1 (m)"),
+    figure->panels[1].y_label = figure->panels[2].y_label = Message("voltage (V)");
+    figure->panels[2].x_label = axis_label(Message("time"), "s");
     record.figures["a-figure-1"].figure = figure;
     record.figures["a-figure-2"].figure = std::make_shared<Figure>(Panel());
     const std::string text = weave("-- %% id=a\nplot(x)\n", record).text;
     EXPECT_THAT(text, HasSubstr("![y\\_1 (m), voltage (V) over time (s)](figure:a-figure-1){#fig:a-figure-1}"));
-    figure->panels[0].y_label = "thrust (N)";
+    figure->panels[0].y_label = Message("thrust (N)");
     EXPECT_THAT(weave("-- %% id=a\nplot(x)\n", record).text, HasSubstr("![Thrust (N), voltage (V) over"));
     EXPECT_THAT(text, HasSubstr("![From the cell `a`](figure:a-figure-2){#fig:a-figure-2}"));
     EXPECT_THAT(weave("-- ---\n-- title: Essai\n-- language: fr\n-- ---\n-- %% id=a\nplot(x)\n", record).text,
@@ -70,7 +71,7 @@ TEST(weave, units_in_brackets_at_the_axes_are_no_formula) {
     RunRecord record;
     record.outputs["a"] = {{"", "a-figure-1"}};
     Panel panel;
-    panel.y_label = "voltage [V]", panel.x_label = "R&D [s]";
+    panel.y_label = Message("voltage [V]"), panel.x_label = Message("R&D [s]");
     record.figures["a-figure-1"].figure = std::make_shared<Figure>(panel);
     const MarkdownText woven = weave("-- %% id=a\nplot(x)\n", record);
     EXPECT_THAT(woven.text, HasSubstr("![Voltage &#91;V&#93; over R\\&D &#91;s&#93;](figure:a-figure-1)"));

@@ -14,7 +14,7 @@ Curve line(const std::string& name, double from, double to) {
     Curve curve;
     curve.x = Vector::LinSpaced(101, 0, 10);
     curve.y = Vector::LinSpaced(101, from, to);
-    curve.label = name;
+    curve.label = Message::verbatim(name);
     return curve;
 }
 

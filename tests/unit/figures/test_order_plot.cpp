@@ -47,7 +47,7 @@ TEST(order_plot, over_the_delay_when_nothing_else_differs) {
     selection.candidates = {candidate(2, 0, 0, 3), candidate(2, 0, 0.1, 1), candidate(2, 0, 0.2, 2)};
     const Figure figure = order_plot(selection, OrderCriterion::kRecommended, {1, {}});
     EXPECT_EQ(figure.panels.front().curves[0].x, (Vector{{0, 0.1, 0.2}}));
-    EXPECT_EQ(figure.panels.front().x_label, "delay (s)");
+    EXPECT_EQ(message_text(figure.panels.front().x_label), "delay (s)");
     EXPECT_THROW(order_plot(selection, OrderCriterion::kValidationFit, {1, {}}), InvalidArgument);
     for (OrderCandidate& one : selection.candidates) one.failure = Message("no luck");
     EXPECT_THROW(order_plot(selection, OrderCriterion::kBic, {1, {}}), InvalidArgument);

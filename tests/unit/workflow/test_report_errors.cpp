@@ -57,7 +57,9 @@ TEST(report_errors, the_error_of_a_script_stands_in_the_report_up_to_there) {
     with_report(work, "-- %%\nprint('before')\n-- %%\nerror('on purpose')\n-- %%\nprint('after')\n",
                 "::: {.cells}\n:::\n");
     for (int repeat = 0; repeat < 2; ++repeat)
-        EXPECT_THAT(report_in(work).error.value_or("(none)"), HasSubstr("analysis.lua:4: on purpose")) << repeat;
+        EXPECT_THAT(message_text(report_in(work).error.value_or(Message("(none)"))),
+                    HasSubstr("analysis.lua:4: on purpose"))
+            << repeat;
     EXPECT_THAT(work.read("report.md"),
                 testing::ContainsRegex("\nbefore\n(.|\n)*on purpose(.|\n)*nothing below was run(.|\n)*print"));
 }
