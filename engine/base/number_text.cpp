@@ -16,8 +16,4 @@ std::string number_text(double value, int significant_digits) {
     return {text.data(), end.ptr};
 }
 
-std::string counted(std::int64_t count, const std::string& one, const std::string& many) {
-    return std::to_string(count) + " " + (count == 1 ? one : many.empty() ? one + "s" : many);
-}
-
 }  // namespace dynlab::inline base

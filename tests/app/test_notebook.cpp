@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/languages.h"
+#include "base/reader.h"
 #include "documents/error.h"
 #include "platform/atomic_file.h"
 #include "support/message_texts.h"
@@ -119,6 +121,12 @@ TEST(notebook, places_are_told_as_jupyter_counts_them) {
               "a.ipynb, cell 3, line 2: no; see a.ipynb");
     EXPECT_EQ(with_places_in_notebook("analysis.lua:99999999999999999999: no", "analysis.lua", "a", source),
               "a:99999999999999999999: no");
+    const Message placed = with_places_in_notebook(
+        Message("{}{}", "analysis.lua:10: ", Message("see {}", listed({"analysis.lua", "analysis.lua:6"}))),
+        "analysis.lua", "a.ipynb", source);
+    EXPECT_EQ(message_text(placed), "a.ipynb, cell 3, line 2: see a.ipynb, a.ipynb, cell 2, line 1");
+    EXPECT_EQ(message_text(placed, {catalog_of("fr")}),
+              "a.ipynb, cellule 3, ligne 2: see a.ipynb, a.ipynb, cellule 2, ligne 1");
 }
 
 TEST(notebook, other_files_are_refused_with_a_reason) {

@@ -57,13 +57,7 @@ TEST(boxed_jobs, come_back) {
     expect_to_come_back(sample_run());
     expect_to_come_back(sample_checks());
     expect_to_come_back(ChecksJob());
-    expect_to_come_back(RunJob{"/box/submission/analysis.lua",
-                               "/box/words/engine_sentences.fr.txt",
-                               7,
-                               {{"gain", "number"}},
-                               60000,
-                               5,
-                               1ull << 30});
+    expect_to_come_back(RunJob{"/box/submission/analysis.lua", 7, {{"gain", "number"}}, 60000, 5, 1ull << 30});
     expect_to_come_back(UnpackJob{"/box/archive", "/box/to", 200ull << 20, 2000, true});
     expect_to_come_back(
         Unpacked{{Message("\"{}\" leads outside of the archive", "../x")}, Message("the archive is damaged")});

@@ -15,7 +15,8 @@ Grade work(const std::string& name, double a, double b, double c, const Message&
     grade.submission = name;
     for (const auto& [id, earned] : {std::pair("a", a), std::pair("b", b), std::pair("c", c)}) {
         CheckGrade check;
-        check.id = check.about = id;
+        check.id = id;
+        check.about = Message::verbatim(id);
         check.points = 2;
         check.earned = earned;
         if (earned < 2 && id == std::string("a")) check.message = said;

@@ -62,7 +62,7 @@ void expect_full_marks(const GroupsOfLesson& groups, Workbench::Memory memory,
         EXPECT_EQ(message_text(grade.trouble), "") << grade.submission;
         for (const CheckGrade& check : grade.checks)
             EXPECT_TRUE(check.graded && check.earned == check.points)
-                << grade.submission << ", " << check.about << ": " << message_text(check.message);
+                << grade.submission << ", " << message_text(check.about) << ": " << message_text(check.message);
     }
 }
 

@@ -5,6 +5,7 @@
 #include "data_io/values/json_values.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
+#include "platform/files/temporary_file.h"
 #include "platform/hash.h"
 
 namespace dynlab::inline app {
@@ -17,7 +18,9 @@ SourceFiles::SourceFiles(const std::vector<fs::path>& files) {
         const fs::path place = fs::canonical(file, failure);  // a link is followed, not replaced
         const bool writable =
             !failure && ::access(place.c_str(), W_OK) == 0 && ::access(place.parent_path().c_str(), W_OK) == 0;
-        if (writable && std::find(files_.begin(), files_.end(), place) == files_.end()) files_.push_back(place);
+        if (!writable || std::find(files_.begin(), files_.end(), place) != files_.end()) continue;
+        files_.push_back(place);
+        remove_leftover_files(place.parent_path());
     }
 }
 

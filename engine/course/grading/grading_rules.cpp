@@ -299,7 +299,7 @@ Grade GradingRules::ungraded(const std::string& name) const {
         CheckGrade one;
         one.id = check.id;
         one.about = Message::verbatim(check.about);
-        if (!check.hint.empty()) one.hint = Message::verbatim(check.hint);
+        one.hint = Message::verbatim(check.hint);
         one.points = check.points;
         one.visible = check.visible;
         one.by_hand = check.by_hand;

@@ -33,7 +33,7 @@ void store_text_of_author(V& member, const char* name, M& message) {
     std::string text;
     if constexpr (std::is_const_v<M>) text = message_text(message);
     member(name, text);
-    if constexpr (!std::is_const_v<M>) message = text.empty() ? Message() : Message::verbatim(std::move(text));
+    if constexpr (!std::is_const_v<M>) message = Message::verbatim(std::move(text));
 }
 
 }  // namespace dynlab::inline course

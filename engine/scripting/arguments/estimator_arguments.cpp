@@ -221,10 +221,6 @@ Denominators sharing_of(const Options& options) {
     return options.flag("CommonDenominator", false) ? Denominators::kCommon : Denominators::kPerChannel;
 }
 
-Hold hold_y_of(const Options& options) {
-    return options.choice("hold_y", {"foh", "zoh"}, 0) == 0 ? Hold::kFoh : Hold::kZoh;
-}
-
 void read_fit_options(const Options& options, FitOptions& wanted) {
     options.read(wanted);
     wanted.goes_on = !options.has("MaxIter");

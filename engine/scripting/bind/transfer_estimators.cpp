@@ -22,11 +22,11 @@ namespace {
 constexpr std::array kCarxOrders = {kNa, kNb, kNk};
 constexpr std::array kOutputErrorOrders = {kNb, kNf, kNk};
 
-constexpr std::array kFilterOptions = {kHoldOfOutput};
+constexpr std::array kSvfFilterOptions = {kHoldOfOutput<SvfOptions>};
 constexpr std::array kMomentOptions = {
-    OptionEntry{"beta", ValueKind::kNumber, about("gain of the filters; lambda unless given"), {.unit = "rad/s"}},
-    kHoldOfOutput};
-constexpr OptionTable kFiltered[] = {kFilterOptions}, kMoments[] = {kMomentOptions};
+    option<&SvfOptions::beta>("beta", about("gain of the filters; lambda unless given"), {.unit = "rad/s"}),
+    kHoldOfOutput<SvfOptions>};
+constexpr OptionTable kFiltered[] = {kSvfFilterOptions}, kMoments[] = {kMomentOptions};
 constexpr OptionTable kRefined[] = {kFirstFilterOptions, kStartOptions,   kIterationOptions,
                                     kIntegrationOptions, kSharingOptions, kSearchOptions};
 constexpr OptionTable kTransferFunction[] = {kFirstFilterOptions, kStartOptions,      kIterationOptions,
@@ -39,8 +39,7 @@ constexpr std::array kFilteredArguments = {
         "orders", ValueKind::kOrders,
         about("na poles, nb coefficients of B (at most na + 1), nk samples of delay; with several inputs nb and nk "
               "are tables with an entry for each input, with several outputs also for each channel")},
-    ArgumentEntry{"lambda", ValueKind::kNumber,
-                  about("cut-off frequency of the filter in rad/s, usually a bit above the bandwidth of the system")}};
+    kFilterFrequency};
 constexpr std::array kRefinedArguments = {
     kDataArgument,
     ArgumentEntry{
@@ -48,12 +47,7 @@ constexpr std::array kRefinedArguments = {
         about("nb coefficients of B (at most nf + 1), nf poles, nk samples of delay; with several inputs, each "
               "with poles of its own, they are tables with an entry for each input, with several outputs also "
               "for each channel, those of output 1 first")}};
-constexpr std::array kTransferArguments = {
-    kDataArgument,
-    ArgumentEntry{
-        "np", ValueKind::kCount,
-        about("number of poles; with several inputs or outputs a number for all or a table with one for each")},
-    ArgumentEntry{"nz", ValueKind::kCount, about("number of zeros, in the same way")}};
+constexpr std::array kTransferFunctionArguments = {kDataArgument, kPoleCount, kZeroCount};
 
 /// lssvf and ivsvf; lsgpmf and ivgpmf, whose filter has a gain beta. Their standard errors know the filters' colour.
 template <auto kMethod, bool kInstruments, bool kMomentFunctionals>
@@ -65,8 +59,8 @@ Estimation read_filtered(const Call& call) {
     const Options options(call, 4, kMomentFunctionals ? OptionTables(kMoments) : OptionTables(kFiltered));
     SvfOptions wanted;
     wanted.lambda = call.number(3, "lambda");
-    wanted.hold_y = hold_y_of(options);
-    if constexpr (kMomentFunctionals) wanted.beta = options.optional_number("beta").value_or(wanted.lambda);
+    if constexpr (kMomentFunctionals) wanted.beta = wanted.lambda;
+    options.read(wanted);
     return
         [structure = structure_of_orders(kCarxOrders, orders, Denominators::kPerOutput), wanted](const IdData& data) {
             Fit fit = kMethod(data, structure(data), wanted);
@@ -155,10 +149,12 @@ constexpr FunctionEntry kTransferEstimatorsFunctions[] = {
      guarded<memoized_call<estimate_refined<read_refined<coe>>>>, kRefined, kRefinedArguments},
     {"tfsrivc", "continuous time", "tfsrivc(data, np, nz, {options}) -> G",
      marked("estimator", "srivc by numbers of poles and zeros, the delay estimated"),
-     guarded<memoized_call<estimate_refined<read_transfer_function<srivc>>>>, kTransferFunction, kTransferArguments},
+     guarded<memoized_call<estimate_refined<read_transfer_function<srivc>>>>, kTransferFunction,
+     kTransferFunctionArguments},
     {"tfcoe", "continuous time", "tfcoe(data, np, nz, {options}) -> G",
      marked("estimator", "coe by numbers of poles and zeros, the delay estimated"),
-     guarded<memoized_call<estimate_refined<read_transfer_function<coe>>>>, kTransferFunction, kTransferArguments},
+     guarded<memoized_call<estimate_refined<read_transfer_function<coe>>>>, kTransferFunction,
+     kTransferFunctionArguments},
 };
 
 }  // namespace

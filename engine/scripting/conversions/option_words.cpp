@@ -30,7 +30,6 @@ constexpr std::array kOptionWords = {
     OptionWord{"bins", "Bins"},
     OptionWord{"breakpoints", "Breakpoints"},
     OptionWord{"block_rows", "BlockRows"},
-    OptionWord{"weighting", "Weighting"},
     OptionWord{"transient", "transient"},
     OptionWord{"noise_variance", "NoiseVariance"},
     OptionWord{"history_points", "HistoryPoints"},

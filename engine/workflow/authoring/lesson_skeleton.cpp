@@ -167,16 +167,16 @@ msgid "The stiffness of the spring"
 msgstr "La raideur du ressort"
 
 msgid "This is the compliance in mm/N; the stiffness is its inverse."
-msgstr "C'est la souplesse en mm/N ; la raideur en est l'inverse."
+msgstr "C'est la souplesse en mm/N ; la raideur en est l'inverse."
 
 msgid "Which of the two, force or elongation, is divided by the other?"
-msgstr "Laquelle des deux, force ou allongement, divise l'autre ?"
+msgstr "Laquelle des deux, force ou allongement, divise l'autre ?"
 
 msgid "The measuring errors"
 msgstr "Les erreurs de mesure"
 
 msgid "What does the model leave over?"
-msgstr "Que laisse le modèle ?"
+msgstr "Que laisse le modèle ?"
 )";
 
 /// 24 loadings of a spring of 2.5 N/mm; the errors come from no random numbers, so that the file is the same

@@ -13,6 +13,7 @@
 #include "platform/error.h"
 #include "platform/files/plain_file.h"
 #include "platform/files/replacement_file.h"
+#include "platform/files/temporary_file.h"
 #include "platform/keys/secure_random.h"
 #include "platform/signature.h"
 #include "platform/system_call.h"
@@ -34,6 +35,7 @@ constexpr char kNoticeFile[] = "spool.json";
 constexpr std::uintmax_t kMostOfAFile = std::uintmax_t{2} << 30, kMostOfANotice = 1 << 16;
 constexpr const char* kSpoolFolders[] = {"jobs",    "suspects", "leases", "done",    "failed", "results",
                                          "refused", "common",   "logs",   "workers", "keys"};
+constexpr const char* kSpoolFiles[] = {"spool.json", "identity", "stop", "slurm"};
 
 /// What stands in a spool for anybody to read.
 struct SpoolNotice {
@@ -111,6 +113,17 @@ void refuse_places_of_others(const fs::path& folder) {
     }
 }
 
+/// Whether the folder holds what spools hold and nothing else: the process that made or removed one was killed.
+bool is_abandoned_spool(const fs::path& folder) {
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        const std::string name = entry.path().filename();
+        const bool own = entry.is_directory() ? std::ranges::count(kSpoolFolders, name) > 0
+                                              : std::ranges::count(kSpoolFiles, name) > 0;
+        if (!own || entry.is_symlink()) return false;
+    }
+    return true;
+}
+
 /// Logs are what programs said; and a folder that others may write into is no place to work.
 void refuse_open_folder(const fs::path& folder) {
     struct stat status {};
@@ -150,10 +163,12 @@ Spool Spool::begin(const fs::path& folder, const fs::path& key_file, SpoolIdenti
     const fs::path place = fs::absolute(folder).lexically_normal();
     const fs::path key = fs::absolute(key_file).lexically_normal();
     refuse_places_of_others(place);
+    remove_leftover_files(place);
+    for (const char* name : kSpoolFolders) remove_leftover_files(place / name);
     const auto notice = notice_of(place);
     if (notice && (notice->purpose != identity.purpose || notice->key != key))
         refuse_spool_of(place, notice->purpose, identity.purpose);
-    if (!notice && fs::is_directory(place) && !fs::is_empty(place))
+    if (!notice && fs::is_directory(place) && !is_abandoned_spool(place))
         throw EnvironmentError(
             "{} holds other things than a spool; name an empty folder, or one that is not there yet, with --spool",
             place.string());
