@@ -25,7 +25,7 @@ namespace {
 
 constexpr std::array kStructureOrders = {kNb, kNf, kNk};
 
-constexpr OptionEntry kSearchLambda = kFirstFilterOptions[0], kSearchStable = kSearchOptions[0];
+constexpr OptionEntry kSearchLambda = kFirstFilterOptions[0];
 constexpr OptionEntry kValidate = {"validate", ValueKind::kData,
                                    about("second data object, on which every model is checked, too")};
 template <auto kMember>
@@ -39,7 +39,7 @@ constexpr OptionEntry kGridOptions[] = {
      about("numbers of samples of delay to try, such as {0, 1, 2}, instead of estimating the delay up to `TdMax`"),
      {.initial = "0"}},
     {"Feedthrough", ValueKind::kFlag, about("structures with as many zeros as poles, too"), {.initial = "false"}}};
-constexpr std::array kStructureOptions = {kValidate, kSearchLambda, kSearchStable,
+constexpr std::array kStructureOptions = {kValidate, kSearchLambda, kStableOption,
                                           kSearchThreads<&OrderSelectionOptions::threads>};
 constexpr OptionTable kOrderListTables[] = {kStructureOptions, kStartOptions, kIterationOptions, kIntegrationOptions},
                       kOrderGridTables[] = {kGridOptions,  kDelayOptions,     kStructureOptions,
