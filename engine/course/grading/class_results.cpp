@@ -237,7 +237,7 @@ std::string attention_of(const ClassResults& results) {
 }
 
 /// The points of those graded whole, sorted.
-Vector points_of(const ClassResults& results) {
+Vector points_by_group(const ClassResults& results) {
     std::vector<double> points;
     for (const Entry& entry : results.entries)
         if (entry.grade && entry.grade->whole()) points.push_back(entry.grade->earned());
@@ -342,7 +342,7 @@ void write_class_results(const ClassResults& results) {
     double possible = 0;
     for (const Entry& entry : results.entries)
         if (entry.grade) possible = std::max(possible, entry.grade->possible());
-    const Vector points = points_of(results);
+    const Vector points = points_by_group(results);
     RunRecord record;
     add_numbers(results, points, possible, record);
     const std::vector<Grade> grades = grades_of(results);

@@ -27,12 +27,4 @@ TEST(number_text, what_is_no_number_has_a_name) {  // oracle: the table in the h
     EXPECT_EQ(number_text(-0.0), "0");
 }
 
-TEST(number_text, counts_in_words) {  // oracle: English
-    EXPECT_EQ(counted(0, "pole"), "0 poles");
-    EXPECT_EQ(counted(1, "pole"), "1 pole");
-    EXPECT_EQ(counted(2, "pole"), "2 poles");
-    EXPECT_EQ(counted(1, "pass", "passes"), "1 pass");
-    EXPECT_EQ(counted(3, "pass", "passes"), "3 passes");
-}
-
 }  // namespace test_number_text
