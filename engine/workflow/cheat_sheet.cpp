@@ -132,7 +132,7 @@ std::vector<std::string> cells_of(std::string_view line) {
 
 /// How a function is called, without what it gives and further forms.
 std::string called(const FunctionEntry& entry) {
-    const std::string signature = entry.signature;
+    const std::string signature = signature_text(entry);
     return trimmed(signature.substr(0, std::min(signature.find("->"), signature.find(';'))));
 }
 

@@ -425,15 +425,14 @@ std::vector<std::string> literals_of(const std::string& source) {
     return matches(code, R"rx("((?:[^"\\\n]|\\.)*)")rx");
 }
 
-/// Names of options as scripts write them, MaxIter, of all bindings, but for the field's own symbols.
+/// Names of options as scripts write them, MaxIter, of all functions, but for the field's own symbols.
 std::set<std::string> option_words_of_lua() {
     const std::set<std::string> symbols = {"Kp", "Td",   "Ts",       "Tw",
                                            "Tz", "Zeta", "Reference"};  // "Reference: Ljung ..."
     std::set<std::string> words;
-    for (const fs::path& file : sources_below(kRoot / "engine/scripting/bind"))
-        for (const std::string& list : matches(text_of(file), R"rx(Options[^;{}]*\(\s*call,[^;{}]*\{([^}]*)\})rx"))
-            for (const std::string& word : matches(list, R"rx("([A-Z][A-Za-z]+)")rx"))
-                if (!symbols.contains(word)) words.insert(word);
+    for (const dynlab::FunctionEntry& function : dynlab::catalogue_of_functions())
+        for (const std::string& word : dynlab::option_names(function.options))
+            if (std::regex_match(word, std::regex("[A-Z][A-Za-z]+")) && !symbols.contains(word)) words.insert(word);
     return words;
 }
 

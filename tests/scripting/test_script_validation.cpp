@@ -119,6 +119,29 @@ TEST(script_validation, present_writes_no_digits_below_the_error) {
     EXPECT_GT(pairs, 10);
 }
 
+// Oracle: the words and bounds of the help pages.
+TEST(script_validation, options_are_held_to_their_words_and_bounds) {
+    const std::string model = kRecord + "local G = idproc('P1', {Kp = 2, Tp1 = 1})\n";
+    for (const auto& [call, said] : std::vector<std::pair<std::string, std::string>>{
+             {"compare(white, G, {InitialState = 'model'})",
+              "option 'InitialState' must be one of \"zero\", \"steady\", \"estimate\", \"auto\", but \"model\" was "
+              "given"},
+             {"predict(white, G, {Offset = 'big'})",
+              "option 'Offset' must be one of \"none\", \"remove\", \"estimate\", \"auto\", but \"big\" was given"},
+             {"bootstrap(G, white, {kind = 'blocks'})",
+              "option 'kind' must be one of \"residual\", \"parametric\", but \"blocks\" was given"},
+             {"bootstrap(G, white, {runs = 19})", "option 'runs' must be at least 20, but 19 was given"},
+             {"lsq({{1}, {2}}, {1, 2}, {method = 'svd'})",
+              "option 'method' must be one of \"qr\", \"normal\", but \"svd\" was given"},
+             {"lsq({{1, 1}, {2, 2}, {3, 3}}, {1, 2, 3}, {method = 'normal'})", "lsq"},
+             {"idfilt(white, {0, 1}, {order = 21})", "option 'order' must lie between 1 and 20, but 21 was given"}})
+        EXPECT_THAT(error_of(model + call), HasSubstr(said)) << call;
+    EXPECT_EQ(printed("print(lsq({{1, 1}, {2, 2}, {3, 3}}, {1, 2, 3}, {method = 'qr'}).rank == 1)\n"
+                      "print(iddata({1, 2}, {1, 2}, 1).InterSample)\n"
+                      "print(iddata({1, 2}, {1, 2}, 1, {InterSample = 'foh'}).InterSample)"),
+              "true\nzoh\nfoh\n");
+}
+
 TEST(script_validation, figures_carry_bands_unless_refused) {
     const auto bands = [](const std::string& drawing) {
         const RunRecord record = test::run(kRecord + "local G = procsrivc(white, 'P2')\n" + drawing);

@@ -30,24 +30,6 @@ Changes changes_of(const VectorView& u) {
 
 }  // namespace
 
-InitialState parse_initial_state(const std::string& text) {
-    if (text == "zero") return InitialState::kZero;
-    if (text == "steady") return InitialState::kSteady;
-    if (text == "estimate") return InitialState::kEstimate;
-    if (text == "auto") return InitialState::kAuto;
-    throw InvalidArgument("{} is \"zero\", \"steady\", \"estimate\" or \"auto\", and not \"{}\"",
-                          OptionName{"initial_state"}, text);
-}
-
-Offset parse_offset(const std::string& text) {
-    if (text == "none") return Offset::kNone;
-    if (text == "remove") return Offset::kRemove;
-    if (text == "estimate") return Offset::kEstimate;
-    if (text == "auto") return Offset::kAuto;
-    throw InvalidArgument("{} is \"none\", \"remove\", \"estimate\" or \"auto\", and not \"{}\"", OptionName{"offset"},
-                          text);
-}
-
 JointOperatingPoint joint_operating_point(const MatrixView& u, const VectorView& y) {
     Index most = 0, first_step = u.rows();
     for (Index j = 0; j < u.cols(); ++j) {

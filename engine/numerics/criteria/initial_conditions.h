@@ -23,10 +23,6 @@ enum class Offset {
     kAuto,      ///< "auto": none or estimate, by BIC
 };
 
-/// Throw InvalidArgument that lists the words. Messages write the names of options in backticks.
-InitialState parse_initial_state(const std::string& text);
-Offset parse_offset(const std::string& text);
-
 /// Where a record's signals rest. A step experiment (inputs, N x nu, that change at most once each) rests where it was
 /// before the step: the first input values, and the mean output up to the sample of the first step. Inputs that never
 /// change are a step from zero at the first sample: zero, zero. Any other record swings about its means.

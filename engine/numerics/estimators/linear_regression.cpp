@@ -71,12 +71,6 @@ Index distinct_values(const VectorView& x) {
 
 }  // namespace
 
-RegressionMethod parse_regression_method(const std::string& text) {
-    if (text == "qr") return RegressionMethod::kQr;
-    if (text == "normal") return RegressionMethod::kNormal;
-    throw InvalidArgument("The method is \"qr\" or \"normal\", and not \"{}\"", text);
-}
-
 LinearRegression lsq(const MatrixView& Phi, const VectorView& y, RegressionMethod method) {
     const LeastSquares orthogonal = solve_least_squares(Phi, y);  // checks sizes and values, tells the rank
     Solution solution{orthogonal.solution, orthogonal.inverse_gram};

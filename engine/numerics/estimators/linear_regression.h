@@ -1,6 +1,4 @@
 #pragma once
-#include <string>
-
 #include "base/message.h"
 #include "numerics/linalg/types.h"
 
@@ -10,9 +8,6 @@ enum class RegressionMethod {
     kQr,      ///< "qr": orthogonal factorisation of the column-scaled regressors; accurate, works at any rank
     kNormal,  ///< "normal": (Phi'Phi) theta = Phi'y by Cholesky, as on the blackboard; squares the condition number
 };
-
-/// Throws InvalidArgument that lists the words.
-RegressionMethod parse_regression_method(const std::string& text);
 
 /// y = Phi theta + e with white e, theta by least squares.
 struct LinearRegression {

@@ -241,13 +241,6 @@ void describe(SubspaceFit& found, bool reflected) {
 
 }  // namespace
 
-SubspaceWeighting parse_subspace_weighting(const std::string& text) {
-    if (text == "MOESP") return SubspaceWeighting::kMoesp;
-    if (text == "N4SID") return SubspaceWeighting::kN4sid;
-    if (text == "CVA") return SubspaceWeighting::kCva;
-    throw InvalidArgument("{} must be \"MOESP\", \"N4SID\" or \"CVA\", and is \"{}\"", OptionName{"weighting"}, text);
-}
-
 void SubspaceOptions::validate() const {
     if (block_rows < 0)
         throw InvalidArgument("{} must not be negative, and is {}", OptionName{"block_rows"}, block_rows);

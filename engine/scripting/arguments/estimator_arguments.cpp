@@ -221,26 +221,10 @@ Denominators sharing_of(const Options& options) {
     return options.flag("CommonDenominator", false) ? Denominators::kCommon : Denominators::kPerChannel;
 }
 
-Hold hold_y_of(const Options& options) {
-    return options.choice("hold_y", {"foh", "zoh"}, 0) == 0 ? Hold::kFoh : Hold::kZoh;
-}
-
 void read_fit_options(const Options& options, FitOptions& wanted) {
-    wanted.lambda = options.optional_number("lambda");
-    wanted.hold_y = hold_y_of(options);
-    if (options.has("InitialState")) wanted.initial_state = parse_initial_state(options.text("InitialState", ""));
-    if (options.has("Offset")) wanted.offset = parse_offset(options.text("Offset", ""));
-    wanted.least_delay = options.number("TdMin", wanted.least_delay);
-    wanted.largest_delay = options.optional_number("TdMax");
-    wanted.delay_count = static_cast<int>(options.size("NumTd", wanted.delay_count));
-    wanted.max_iterations = static_cast<int>(options.size("MaxIter", wanted.max_iterations));
+    options.read(wanted);
     wanted.goes_on = !options.has("MaxIter");
-    wanted.tolerance = options.number("Tol", wanted.tolerance);
-    if (options.has("Stable")) wanted.stable = options.flag("Stable", false);
-    wanted.fixed = options.numbers_by_name("Fixed");
-    if (options.has("OutputWeights")) wanted.output_weights = options.vector("OutputWeights");
     wanted.start_is_given = options.has("InitialState") && options.has("Offset");
-    wanted.integration = options.flag("Integration", false);
     wanted.cancel = options.call().cancel();
     wanted.validate();
     if (wanted.integration) wanted = options_with_integrator(std::move(wanted));

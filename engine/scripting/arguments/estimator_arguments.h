@@ -65,7 +65,6 @@ StartedStructure started_structure(const Call& call, const Options& options, con
 
 /// The option CommonDenominator.
 Denominators sharing_of(const Options& options);
-Hold hold_y_of(const Options& options);
 /// The options of fits, those of them that the binding knows; for others `wanted` keeps what it holds.
 void read_fit_options(const Options& options, FitOptions& wanted);
 

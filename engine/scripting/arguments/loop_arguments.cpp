@@ -25,7 +25,7 @@ Index computing_delay_of(const Options& options) {
 
 LoopKnowledge loop_knowledge(const Options& options) {
     LoopKnowledge known;
-    known.hold_r = options.choice("hold_r", {"zoh", "foh"}, 0) == 0 ? Hold::kZoh : Hold::kFoh;
+    options.read(known);
     if (!options.has("controller")) {
         if (options.has("ComputingDelay"))
             throw InvalidArgument(

@@ -11,13 +11,22 @@
 
 namespace dynlab::inline scripting {
 
-CompareOptions compare_options(const Options& options, const char* initial_state) {
-    return {parse_initial_state(options.text("InitialState", initial_state)),
-            parse_offset(options.text("Offset", "auto"))};
+CompareOptions compare_options(const Options& options, InitialState otherwise) {
+    CompareOptions wanted{otherwise, Offset::kAuto};
+    options.read(wanted);
+    if (options.has("InitialState")) wanted.initial_state = static_cast<InitialState>(options.choice(kStateOption));
+    return wanted;
 }
 
 Hold hold_option(const Options& options, Hold fallback) {
-    return options.choice("hold", {"zoh", "foh"}, fallback == Hold::kZoh ? 0 : 1) == 0 ? Hold::kZoh : Hold::kFoh;
+    return options.has("hold") ? static_cast<Hold>(options.choice(kHoldOption)) : fallback;
+}
+
+double confidence_option(const Options& options) {
+    const double level = options.number("confidence", 0.99);
+    if (level > 0 && level < 1) return level;
+    refuse_option("confidence", Message("a probability between 0 and 1, such as 0.99"),
+                  Message("{}", significant(level, 10)));
 }
 
 std::vector<TransferFunction> channels_argument(const Call& call, int index, ArgumentName what) {

@@ -1,19 +1,60 @@
 #pragma once
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "numerics/validation/compare.h"
 #include "numerics/validation/prediction.h"
-#include "scripting/conversions/arguments.h"
+#include "scripting/arguments/estimator_options.h"
 
 namespace dynlab::inline scripting {
 
+/// The options and arguments of functions that simulate a model.
+
+inline constexpr double kLargestSeed = 0xFFFFFFFF;
+
+inline constexpr OptionEntry kHoldOption = {
+    "hold",
+    ValueKind::kChoice,
+    about("behavior of the input between its samples: constant (\"zoh\") or straight lines (\"foh\")"),
+    {.initial = "\"zoh\"", .choices = kHolds}};
+
+inline constexpr OptionEntry kStateOption = {
+    "InitialState",
+    ValueKind::kChoice,
+    kStartOptions[0].description,
+    {.initial = "\"auto\"", .choices = kInitialStates, .member = "initial_state"}};
+inline constexpr std::array kStatesOfComparison = {"zero", "steady", "estimate", "auto", "model"};
+inline constexpr OptionEntry kComparedStateOption = {
+    "InitialState",
+    ValueKind::kChoice,
+    about("the state before the data begin, as in `srivc`; of a grey-box model also \"model\", its own initial state"),
+    {.initial = "\"auto\"", .choices = kStatesOfComparison, .member = "initial_state"}};
+inline constexpr OptionEntry kOffsetOption = option<&CompareOptions::offset>(
+    "Offset", kStartOptions[1].description, {.initial = "\"auto\"", .choices = kOffsets, .member = "offset"});
+inline constexpr std::array kSimulationStart = {kStateOption, kOffsetOption};
+/// Of functions that simulate grey-box models, too.
+inline constexpr std::array kComparisonStart = {kComparedStateOption, kOffsetOption};
+
+inline constexpr OptionEntry kLabelsOption = {"labels", ValueKind::kAny,
+                                              about("names in the legend: a text, or a list of texts")};
+inline constexpr OptionEntry kConfidenceOption = {
+    "confidence", ValueKind::kNumber, about("probability of the confidence band"), {.initial = "0.99"}};
+
+inline constexpr ArgumentEntry kRecordArgument = {"data", ValueKind::kData,
+                                                  about("data object with the inputs and outputs of the model")};
+inline constexpr ArgumentEntry kModelArgument = {"G", ValueKind::kModel, about("model")};
+inline constexpr std::array kRecordAndModel = {kRecordArgument, kModelArgument};
+
 /// The options InitialState and Offset of functions that simulate a model on a record.
-CompareOptions compare_options(const Options& options, const char* initial_state = "auto");
+CompareOptions compare_options(const Options& options, InitialState otherwise = InitialState::kAuto);
 
 /// The option hold: how inputs go on between samples.
 Hold hold_option(const Options& options, Hold fallback);
+
+/// The option confidence: a probability between 0 and 1.
+double confidence_option(const Options& options);
 
 /// The transfer functions of a model argument, one a channel: all inputs of the first output, then of the second.
 std::vector<TransferFunction> channels_argument(const Call& call, int index, ArgumentName what);

@@ -1,5 +1,6 @@
 #include <array>
 
+#include "base/catalog.h"
 #include "numerics/estimators/armax.h"
 #include "numerics/estimators/arx.h"
 #include "numerics/estimators/bj.h"
@@ -8,6 +9,7 @@
 #include "numerics/estimators/sriv.h"
 #include "numerics/fit/integrated_input.h"
 #include "scripting/arguments/estimator_arguments.h"
+#include "scripting/arguments/estimator_options.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/data_object.h"
@@ -27,6 +29,34 @@ constexpr std::array kArmaxOrders = {kDiscreteNa, kDiscreteNb, kDiscreteNc, kDis
 constexpr std::array kDiscreteOutputErrorOrders = {kDiscreteNb, kDiscreteNf, kDiscreteNk};
 constexpr std::array kBoxJenkinsOrders = {kDiscreteNb, kDiscreteNc, kDiscreteNd, kDiscreteNf, kDiscreteNk};
 
+constexpr std::array kDiscreteIntegration = {option<&FitOptions::integration>(
+    "Integration", about("an integrator besides the poles, B/(1 - q^-1) in the place of B"),
+    {.member = "integration"})};
+constexpr OptionTable kEquationError[] = {kDiscreteIntegration};
+constexpr OptionTable kPredictionError[] = {kLimitOptions, kDiscreteIntegration};
+constexpr OptionTable kDiscreteSimulation[] = {kStartOptions, kDiscreteIntegration, kLimitOptions};
+
+constexpr std::array kEquationErrorArguments = {
+    kOneOutputData, ArgumentEntry{"orders", ValueKind::kOrders,
+                                  about("na poles, nb coefficients of B, nk samples of delay, 1 for no direct term; "
+                                        "with several inputs nb and nk are tables, {2, {1, 2}, {1, 3}}")}};
+constexpr std::array kArmaxArguments = {
+    kOneOutputData,
+    ArgumentEntry{"orders", ValueKind::kOrders,
+                  about("na poles, nb coefficients of B, nc coefficients of C after the leading one, nk samples of "
+                        "delay, 1 for no direct term; with several inputs nb and nk are tables")}};
+constexpr std::array kDiscreteOutputErrorArguments = {
+    kOneOutputData,
+    ArgumentEntry{
+        "orders", ValueKind::kOrders,
+        about("nb coefficients of B, nf poles, nk samples of delay, 1 for no direct term; with several inputs, "
+              "each with poles of its own, they are tables, {{2, 1}, {2, 1}, {1, 3}}")}};
+constexpr std::array kBoxJenkinsArguments = {
+    kOneOutputData,
+    ArgumentEntry{"orders", ValueKind::kOrders,
+                  about("nb coefficients of B, nc and nd of C and D after the leading one, nf poles, nk samples of "
+                        "delay, 1 for no direct term; with several inputs nb, nf and nk are tables")}};
+
 /// The entry of an order vector that is one number for all inputs.
 int only_value(const std::vector<int>& entry, const OrderEntry& what) {
     if (entry.size() == 1) return entry.front();
@@ -39,7 +69,7 @@ int estimate_equation_error(Call& call) {
     call.at_most(3);
     const IdData& data = object_argument<IdData>(call, 1, "data");
     const auto orders = order_lists(call, 2, kArxOrders);
-    const bool integration = Options(call, 3, {"Integration"}).flag("Integration", false);
+    const bool integration = Options(call, 3, kEquationError).flag("Integration", false);
     Fit result = kMethod(integration ? summed_inputs(data) : data,
                          PolynomialOrders::arx(only_value(orders[0], kDiscreteNa), orders[1], orders[2]));
     if (integration) append_integrator(result);
@@ -50,7 +80,7 @@ int estimate_equation_error(Call& call) {
 template <auto kMethod>
 int estimate_simulation(Call& call, const PolynomialOrders& orders) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    const Options options(call, 3, {"InitialState", "Offset", "MaxIter", "Tol", "Integration"});
+    const Options options(call, 3, kDiscreteSimulation);
     return give_fit(call, call.function_name(), kMethod(data, orders, fit_options(options, Purpose::kModel)));
 }
 
@@ -68,7 +98,7 @@ int estimate_armax(Call& call) {
     const auto lists = order_lists(call, 2, kArmaxOrders);
     PolynomialOrders orders = PolynomialOrders::arx(only_value(lists[0], kDiscreteNa), lists[1], lists[3]);
     orders.nc = only_value(lists[2], kDiscreteNc);
-    const Options options(call, 3, {"MaxIter", "Tol", "Integration"});
+    const Options options(call, 3, kPredictionError);
     return give_fit(call, "armax", armax(data, orders, fit_options(options, Purpose::kModel)));
 }
 
@@ -83,18 +113,24 @@ int estimate_bj(Call& call) {
 }
 
 constexpr FunctionEntry kDiscreteEstimatorsFunctions[] = {
-    {"arx", "discrete time", "arx(data, {na, nb, nk}, {Integration =}) -> G", "A y = B u + e by least squares",
-     guarded<estimate_equation_error<arx>>},
-    {"iv4", "discrete time", "iv4(data, {na, nb, nk}, {Integration =}) -> G",
-     "A y = B u + v by instrumental variables in four steps", guarded<memoized_call<estimate_equation_error<iv4>>>},
-    {"armax", "discrete time", "armax(data, {na, nb, nc, nk}, {MaxIter =, Tol =, Integration =}) -> G",
-     "A y = B u + C e with the smallest prediction error", guarded<memoized_call<estimate_armax>>},
-    {"oe", "discrete time", "oe(data, {nb, nf, nk}, {InitialState =, Offset =, Integration =, ...}) -> G",
-     "y = B/F u + e with the smallest simulation error", guarded<memoized_call<estimate_output_error<oe>>>},
-    {"sriv", "discrete time", "sriv(data, {nb, nf, nk}, {InitialState =, Offset =, Integration =, ...}) -> G",
-     "y = B/F u + e by refined instrumental variables", guarded<memoized_call<estimate_output_error<sriv>>>},
-    {"bj", "discrete time", "bj(data, {nb, nc, nd, nf, nk}, {InitialState =, Offset =, Integration =, ...}) -> G",
-     "y = B/F u + C/D e with the smallest prediction error", guarded<memoized_call<estimate_bj>>},
+    {"arx", "discrete time", "arx(data, {na, nb, nk}, {options}) -> G",
+     marked("estimator", "A y = B u + e by least squares"), guarded<estimate_equation_error<arx>>, kEquationError,
+     kEquationErrorArguments},
+    {"iv4", "discrete time", "iv4(data, {na, nb, nk}, {options}) -> G",
+     marked("estimator", "A y = B u + v by instrumental variables in four steps"),
+     guarded<memoized_call<estimate_equation_error<iv4>>>, kEquationError, kEquationErrorArguments},
+    {"armax", "discrete time", "armax(data, {na, nb, nc, nk}, {options}) -> G",
+     marked("estimator", "A y = B u + C e with the smallest prediction error"), guarded<memoized_call<estimate_armax>>,
+     kPredictionError, kArmaxArguments},
+    {"oe", "discrete time", "oe(data, {nb, nf, nk}, {options}) -> G",
+     marked("estimator", "y = B/F u + e with the smallest simulation error"),
+     guarded<memoized_call<estimate_output_error<oe>>>, kDiscreteSimulation, kDiscreteOutputErrorArguments},
+    {"sriv", "discrete time", "sriv(data, {nb, nf, nk}, {options}) -> G",
+     marked("estimator", "y = B/F u + e by refined instrumental variables"),
+     guarded<memoized_call<estimate_output_error<sriv>>>, kDiscreteSimulation, kDiscreteOutputErrorArguments},
+    {"bj", "discrete time", "bj(data, {nb, nc, nd, nf, nk}, {options}) -> G",
+     marked("estimator", "y = B/F u + C/D e with the smallest prediction error"), guarded<memoized_call<estimate_bj>>,
+     kDiscreteSimulation, kBoxJenkinsArguments},
 };
 
 }  // namespace

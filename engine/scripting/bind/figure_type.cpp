@@ -11,6 +11,18 @@
 namespace dynlab::inline scripting {
 namespace {
 
+constexpr std::array kPanelNumberOptions = {
+    OptionEntry{"panel", ValueKind::kCount, about("number of the panel"), {.initial = "1"}}};
+constexpr std::array kHandleOptions = {
+    OptionEntry{"x", ValueKind::kAny, about("position on the x axis: a number, or a function of the slider's number")},
+    OptionEntry{"x_slider", ValueKind::kText, about("name of the slider that moves x")},
+    OptionEntry{"y", ValueKind::kAny, about("position on the y axis: a number, or a function of the slider's number")},
+    OptionEntry{"y_slider", ValueKind::kText, about("name of the slider that moves y")},
+    OptionEntry{"text", ValueKind::kText, about("text beside the point")}};
+constexpr OptionTable kAddTables[] = {kCurveLookOptions, kPanelNumberOptions},
+                      kHandleTables[] = {kHandleOptions, kPanelNumberOptions},
+                      kSetTables[] = {kPanelOptions, kFigureSizeOptions, kPanelNumberOptions};
+
 Figure& figure_self(Call& call) {
     return object_argument<FigurePointer>(call, 1, "figure")->figure;
 }
@@ -40,7 +52,7 @@ int give_self(Call& call) {
 /// fig:add(x, y, {label =, style =, panel =, ...})
 int add_curve(Call& call) {
     call.at_most(4);
-    const Options options(call, 4, {"label", "style", "colour", "dash", "line_width", "marker", "panel"});
+    const Options options(call, 4, kAddTables);
     Curve curve;
     curve.x = call.vector(2, "x");
     curve.y = call.vector(3, "y");
@@ -129,7 +141,7 @@ double handle_coordinate(const Options& options, const char* coordinate, bool ho
 /// fig:handle{x = function or number, x_slider =, y =, y_slider =, text =, panel =}
 int add_handle(Call& call) {
     call.at_most(2);
-    const Options options(call, 2, {"x", "x_slider", "y", "y_slider", "text", "panel"});
+    const Options options(call, 2, kHandleTables);
     Annotation handle;
     handle.x = handle_coordinate(options, "x", true, handle);
     handle.y = handle_coordinate(options, "y", false, handle);
@@ -161,13 +173,10 @@ int add_arrow(Call& call) {
 /// fig:set{title =, xlabel =, ..., panel =}
 int set_options(Call& call) {
     call.at_most(2);
-    const Options options(call, 2,
-                          {"title", "xlabel", "ylabel", "x_range", "y_range", "x_log", "y_log", "equal_axes", "legend",
-                           "width", "height", "panel", "curves", "references", "annotations", "arrows"});
+    const Options options(call, 2, kSetTables);
     Figure& figure = figure_self(call);
     read_panel_options(call, options, panel_of(figure, options.size("panel", 1)));
-    figure.width_cm = options.number("width", figure.width_cm);
-    figure.height_cm = options.number("height", figure.height_cm);
+    options.read(figure);
     figure.validate();
     return give_self(call);
 }

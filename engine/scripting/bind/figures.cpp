@@ -17,6 +17,58 @@
 namespace dynlab::inline scripting {
 namespace {
 
+constexpr std::array kCurveLists = {
+    OptionEntry{"label", ValueKind::kAny, about("name of the curve in the legend, or a list with one for each curve")},
+    OptionEntry{"style",
+                ValueKind::kAny,
+                about("\"line\", \"points\", \"line_points\", \"stairs\", \"stems\" or \"bars\", for all curves or a "
+                      "list with one for each"),
+                {.initial = "\"line\"", .choices = kCurveStyles}},
+    OptionEntry{
+        "colour", ValueKind::kAny,
+        about(
+            "number in the palette, from 0 on, or a name such as \"red\", for all curves or a list with one for each")},
+    OptionEntry{
+        "dash", ValueKind::kVector,
+        about(
+            "dash pattern, for all curves or each: 0 solid, 1 dashed, 2 dotted, 3 dash-dot, 4 to 7 further patterns")},
+    OptionEntry{"marker", ValueKind::kVector,
+                about("shape of the points, for all curves or each: 0 dot, 1 square, 2 triangle, 3 diamond, 4 to 7 the "
+                      "same open, 8 cross, 9 plus, 10 asterisk")},
+    option<&Curve::line_width>("line_width", about("line width"), {.unit = "points"})};
+constexpr std::array kFigureGridOptions = {
+    OptionEntry{"panels", ValueKind::kTable, about("list of panels, each a table of the options of one panel")},
+    OptionEntry{"rows", ValueKind::kCount, about("number of rows of panels; by default as many as the panels need")},
+    OptionEntry{"columns", ValueKind::kCount, about("number of columns of panels"), {.initial = "1"}}};
+constexpr std::array kMotionOptions = {
+    OptionEntry{"rig", ValueKind::kText, about("name of the rig, such as \"crane\"")},
+    OptionEntry{"t", ValueKind::kVector, about("instants of the samples, increasing"), {.unit = "s"}},
+    OptionEntry{"measured", ValueKind::kTable, about("measured signals of the rig, a table with a vector for each")},
+    OptionEntry{"simulated", ValueKind::kTable, about("simulated signals of the rig, a table with a vector for each")},
+    option<&MotionLook::instants>(
+        "instants", about("instants of the pictures on paper; by default four, evenly spread"), {.unit = "s"}),
+    OptionEntry{"title", ValueKind::kText, about("text above the figure")},
+    option<&MotionLook::width_cm>("width", about("width of the figure"), {.unit = "cm"}),
+    option<&MotionLook::height_cm>("height", about("height of the figure; 0 for a height that follows from the panels"),
+                                   {.unit = "cm"})};
+constexpr OptionTable kPlotTables[] = {kPanelOptions, kCurveLists, kFigureSizeOptions},
+                      kFigureTables[] = {kPanelOptions, kFigureGridOptions, kFigureSizeOptions},
+                      kMotionTables[] = {kMotionOptions};
+
+constexpr std::array kCurvesArguments = {ArgumentEntry{
+    "x, y, \"name\", ...", ValueKind::kVector,
+    about("curves and their names for the legend; the name may be left out, and x, too, which is then 1, 2, 3, ...")}};
+constexpr std::array kFigureNumberArguments = {
+    ArgumentEntry{"n", ValueKind::kCount, about("number of the next figure, instead of a description")}};
+constexpr std::array kSubplotArguments = {
+    ArgumentEntry{"rows", ValueKind::kCount, about("number of rows of panels")},
+    ArgumentEntry{"columns", ValueKind::kCount, about("number of columns of panels")},
+    ArgumentEntry{"{fig1, fig2, ...}", ValueKind::kAny, about("figures, row by row")}};
+constexpr std::array kSaveFigureArguments = {
+    ArgumentEntry{"fig", ValueKind::kAny, about("figure")},
+    ArgumentEntry{"path", ValueKind::kText,
+                  about("file ending in .pdf, .svg, .png or .gp, below the output folder or the script's folder")}};
+
 /// Options of plot that hold one value for all curves or one per curve.
 struct CurveLists {
     std::vector<std::string> labels, styles;
@@ -64,7 +116,7 @@ void read_curve_lists(const Options& options, std::vector<Curve>& curves) {
         if (auto marker = value_for(lists.markers, i, curves.size(), "marker"))
             curve.marker = place_of_look(*marker, "marker");
         if (auto colour = value_for(lists.colours, i, curves.size(), "colour")) curve.colour = *colour;
-        curve.line_width = options.number("line_width", curve.line_width);
+        options.read(curve);
     }
 }
 
@@ -136,17 +188,13 @@ int plot(Call& call) {
     const bool with_options = holds_options(call, call.count());
     Panel panel;
     panel.curves = read_curves(call, call.count() - (with_options ? 1 : 0));
-    const Options options(call, with_options ? call.count() : call.count() + 1,
-                          {"title",      "xlabel", "ylabel", "x_range",    "y_range",     "x_log",  "y_log",
-                           "equal_axes", "legend", "curves", "references", "annotations", "arrows", "label",
-                           "style",      "dash",   "marker", "colour",     "line_width",  "width",  "height"});
+    const Options options(call, with_options ? call.count() : call.count() + 1, kPlotTables);
     read_curve_lists(options, panel.curves);
     panel.log_x = kLogX;
     panel.log_y = kLogY;
     read_panel_options(call, options, panel);
     Figure figure(std::move(panel));
-    figure.width_cm = options.number("width", figure.width_cm);
-    figure.height_cm = options.number("height", figure.height_cm);
+    options.read(figure);
     figure.validate();  // x and y are of one length from here on
     note_left_out(call, figure.panels.front());
     return give_figure(call, std::move(figure));
@@ -179,10 +227,7 @@ int figure(Call& call) {
         call.context().recorder.set_next_figure_number(call.integer(1, "number"));
         return 0;
     }
-    const Options options(
-        call, 1,
-        {"title", "xlabel", "ylabel", "x_range", "y_range", "x_log", "y_log", "equal_axes", "legend", "curves",
-         "references", "annotations", "arrows", "panels", "rows", "columns", "width", "height"});
+    const Options options(call, 1, kFigureTables);
     Figure figure;
     figure.panels = described_panels(call, options);
     figure.columns = count_in_grid(options.size("columns", 1));
@@ -190,8 +235,7 @@ int figure(Call& call) {
     figure.rows =
         count_in_grid(options.size("rows", static_cast<Index>((figure.panels.size() + columns - 1) / columns)));
     if (options.has("panels")) figure.title = Message::verbatim(options.text("title", ""));
-    figure.width_cm = options.number("width", figure.width_cm);
-    figure.height_cm = options.number("height", figure.height_cm);
+    options.read(figure);
     return give_figure(call, std::move(figure));
 }
 
@@ -240,10 +284,9 @@ Matrix signals_of_parts(const Options& options, const char* name, const RigDrawi
     return signals;
 }
 
-/// motion{rig =, t =, measured = {...}, simulated = {...}, instants =, title =, width =, height =}
 int motion(Call& call) {
     call.at_most(1);
-    const Options options(call, 1, {"rig", "t", "measured", "simulated", "instants", "title", "width", "height"});
+    const Options options(call, 1, kMotionTables);
     if (call.context().options.graded) return give_figure(call, Figure(Panel()));  // there are no drawings, and no eyes
     const RigDrawing rig = rig_drawing(options.text("rig", ""));
     MotionRecord record;
@@ -251,9 +294,8 @@ int motion(Call& call) {
     record.measured = signals_of_parts(options, "measured", rig, record.t.size());
     record.simulated = signals_of_parts(options, "simulated", rig, record.t.size());
     MotionLook look;
-    if (options.has("instants")) look.instants = options.vector("instants");
+    options.read(look);
     look.title = Message::verbatim(options.text("title", ""));
-    look.width_cm = options.number("width", look.width_cm), look.height_cm = options.number("height", look.height_cm);
     return give_figure(call, motion_plot(rig, record, look));
 }
 
@@ -276,21 +318,23 @@ int save(Call& call) {
 }
 
 constexpr FunctionEntry kFiguresFunctions[] = {
-    {"plot", "figures", "plot(x, y, \"name\", ..., {title =, xlabel =, ylabel =, style =, ...}) -> fig",
-     "draws curves in one panel", guarded<plot<false, false>>},
+    {"plot", "figures", "plot(x, y, \"name\", ..., {options}) -> fig", "draws curves in one panel",
+     guarded<plot<false, false>>, kPlotTables, kCurvesArguments},
     {"semilogx", "figures", "semilogx(x, y, \"name\", ..., {options}) -> fig", "the same with a logarithmic x axis",
-     guarded<plot<true, false>>},
+     guarded<plot<true, false>>, kPlotTables, kCurvesArguments},
     {"semilogy", "figures", "semilogy(x, y, \"name\", ..., {options}) -> fig", "the same with a logarithmic y axis",
-     guarded<plot<false, true>>},
+     guarded<plot<false, true>>, kPlotTables, kCurvesArguments},
     {"loglog", "figures", "loglog(x, y, \"name\", ..., {options}) -> fig", "the same with two logarithmic axes",
-     guarded<plot<true, true>>},
-    {"figure", "figures", "figure{...} -> fig; figure(n)",
-     "a figure from its description; or the number of the next figure", guarded<figure>},
+     guarded<plot<true, true>>, kPlotTables, kCurvesArguments},
+    {"figure", "figures", "figure{options} -> fig; figure(n)",
+     "a figure from its description; or the number of the next figure", guarded<figure>, kFigureTables,
+     kFigureNumberArguments},
     {"subplot", "figures", "subplot(rows, columns, {fig1, fig2, ...}) -> fig", "puts the panels of figures into one",
-     guarded<subplot>},
-    {"motion", "figures", "motion{rig =, t =, measured = {...}, simulated = {...}} -> fig",
-     "a rig that moves as its signals say: measured beside simulated", guarded<motion>},
-    {"save", "figures", "save(fig, path)", "writes a figure as .pdf, .svg or .png", guarded<save>},
+     guarded<subplot>, kNoOptions, kSubplotArguments},
+    {"motion", "figures", "motion{options} -> fig", "a rig that moves as its signals say: measured beside simulated",
+     guarded<motion>, kMotionTables},
+    {"save", "figures", "save(fig, path)", "writes a figure as .pdf, .svg or .png", guarded<save>, kNoOptions,
+     kSaveFigureArguments},
 };
 
 }  // namespace

@@ -16,6 +16,46 @@
 namespace dynlab::inline scripting {
 namespace {
 
+constexpr OptionEntry kNoiseSeed = {"seed",
+                                    ValueKind::kCount,
+                                    about("seed of a separate random stream; by default that of `randn`"),
+                                    {.most = kLargestSeed}},
+                      kHoldOfData = {"hold", ValueKind::kChoice, kHoldOption.description, {.choices = kHolds}};
+constexpr OptionEntry kNoiseOptions[] = {
+    {"noise", ValueKind::kFlag, about("noise of the model itself, which must be estimated and have one output")},
+    {"snr",
+     ValueKind::kNumber,
+     about("signal-to-noise ratio 20 log10(std x/std v) of noise that is added to the noise-free output x"),
+     {.unit = "dB"}},
+    kNoiseSeed,
+    kHoldOfData};
+constexpr OptionEntry kSpreadOptions[] = {
+    {"runs", ValueKind::kCount, about("number of models that are drawn"), {.initial = "200", .least = 2}},
+    kNoiseSeed,
+    kHoldOfData,
+    kConfidenceOption};
+constexpr OptionTable kNoiseTables[] = {kNoiseOptions}, kSpreadTables[] = {kSpreadOptions};
+
+constexpr ArgumentEntry
+    kSimulatedInput = {"u", ValueKind::kAny,
+                       about("samples of the input: a vector, or a matrix with a column for each input")},
+    kInputPeriod = {"Ts", ValueKind::kNumber, about("sampling time of the input in seconds")},
+    kInputData = {"data", ValueKind::kData,
+                  about("instead of `u` and `Ts`, a data object of one experiment; only its input is used")};
+constexpr ArgumentEntry kNoiseArguments[] = {
+    {"G", ValueKind::kModel, about("model, with one or several inputs and outputs")},
+    kSimulatedInput,
+    kInputPeriod,
+    kInputData};
+constexpr ArgumentEntry kSpreadArguments[] = {
+    {"G", ValueKind::kModel, about("estimated model with one output and any number of inputs")},
+    kSimulatedInput,
+    kInputPeriod,
+    kInputData};
+constexpr ArgumentEntry kValuesArguments[] = {
+    kModelArgument,
+    {"w", ValueKind::kVector, about("frequencies in rad/s; by default chosen from the poles and zeros")}};
+
 /// What a model is simulated with: (G, u, Ts, options) or (G, data, options).
 struct InputSignals {
     Matrix u;  // N x inputs
@@ -74,10 +114,7 @@ class DrawnNumbers {
   public:
     DrawnNumbers(const Call& call, const Options& options) : stream_(&call.context().random) {
         if (!options.has("seed")) return;
-        const Index seed = options.size("seed", 0);
-        if (seed > 0xFFFFFFFF)
-            throw InvalidArgument("the seed must lie between 0 and 4294967295, but {} was given", seed);
-        own_ = RandomStream(static_cast<std::uint32_t>(seed));
+        own_ = RandomStream(static_cast<std::uint32_t>(options.size("seed", 0)));
         stream_ = &*own_;
     }
     DrawnNumbers(const DrawnNumbers&) = delete;
@@ -88,12 +125,11 @@ class DrawnNumbers {
     RandomStream* stream_;
 };
 
-/// sim(G, u, Ts, {noise =, snr =, seed =, hold =}) or sim(G, data, {...})
 int simulate_with_noise(Call& call) {
     const NoisyModel model = noisy_model_argument(call, 1, "G");
     InputSignals input = input_argument(call);
     input.u = driving_input(call, 1, input.u);
-    const Options options(call, input.options_index, {"noise", "snr", "seed", "hold"});
+    const Options options(call, input.options_index, kNoiseTables);
     const Matrix y = simulated_outputs(model.channels, input, hold_option(options, input.hold));
     const auto snr = options.optional_number("snr");
     if (!options.flag("noise", snr.has_value()))
@@ -159,15 +195,12 @@ Figure spread_figure(const std::string& name, const SimulationSpread& spread, co
     return figure;
 }
 
-/// simsd(G, u, Ts, {runs =, seed =, hold =, confidence =}) or simsd(G, data, {...})
 int simulate_spread(Call& call) {
     const Model* object = to_object<Model>(call.state(), 1);
     const Model model = object != nullptr ? *object : model_argument(call, 1, "G");
     const InputSignals input = input_argument(call);
-    const Options options(call, input.options_index, {"runs", "seed", "hold", "confidence"});
-    const double level = options.number("confidence", 0.99);
-    if (!(level > 0 && level < 1))
-        refuse_option("confidence", Message("a probability between 0 and 1"), Message("{}", significant(level, 10)));
+    const Options options(call, input.options_index, kSpreadTables);
+    const double level = confidence_option(options);
     const SimulationSpread spread = spread_of(model, input, hold_option(options, input.hold), options.size("runs", 200),
                                               DrawnNumbers(call, options).stream());
     give_figure(call, spread_figure(model.estimate->method, spread, input.t, level));
@@ -190,13 +223,19 @@ int frequency_values(Call& call) {
 }
 
 constexpr FunctionEntry kNoisySimulationFunctions[] = {
-    {"sim", "simulation", "sim(G, u, Ts, {noise =, snr =, seed =, hold =}) -> y, v; sim(G, data, {...})",
-     "response of a model to an input, with noise of its own or of a given SNR", guarded<simulate_with_noise>},
-    {"simsd", "simulation",
-     "simsd(G, u, Ts, {runs =, seed =, hold =, confidence =}) -> fig, table; simsd(G, data, {...})",
-     "how far the uncertainty of an estimate spreads its simulated output", guarded<simulate_spread>},
-    {"bode_values", "simulation", "bode_values(G, w) -> mag, ph, w, sdmag, sdph",
-     "the numbers of bode with their standard deviations", guarded<frequency_values>},
+    {"sim", "simulation", "sim(G, u, Ts, {options}) -> y, v; sim(G, data, {...})",
+     "response of a model to an input, with noise of its own or of a given SNR", guarded<simulate_with_noise>,
+     kNoiseTables, kNoiseArguments},
+    {"simsd", "simulation", "simsd(G, u, Ts, {options}) -> fig, table; simsd(G, data, {...})",
+     "how far the uncertainty of an estimate spreads its simulated output", guarded<simulate_spread>, kSpreadTables,
+     kSpreadArguments},
+    {"bode_values",
+     "simulation",
+     "bode_values(G, w) -> mag, ph, w, sdmag, sdph",
+     "the numbers of bode with their standard deviations",
+     guarded<frequency_values>,
+     {},
+     kValuesArguments},
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "numerics/estimators/frequency/etfe.h"
 #include "numerics/estimators/frequency/spa.h"
 #include "numerics/estimators/impulseest.h"
+#include "scripting/arguments/simulation_options.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/conversions/localized.h"
 #include "scripting/conversions/table_fields.h"
@@ -16,6 +17,57 @@
 
 namespace dynlab::inline scripting {
 namespace {
+
+constexpr OptionEntry kQuietEstimate = {
+    "quiet", ValueKind::kFlag, about("no text and no figure, nil in its place"), {.initial = "false"}};
+constexpr OptionEntry kReadingConfidence = {"confidence",
+                                            ValueKind::kNumber,
+                                            about("probability of the band, and of the test that finds the dead time"),
+                                            {.initial = "0.99"}};
+constexpr MessageId<> kMeanRemoval = about("removal of the mean of both signals first");
+
+constexpr std::array kEtfeOptions = {
+    option<&EtfeOptions::smooth>("smooth",
+                                 about("number of frequencies on either side in a weighted mean, 0 for none")),
+    option<&EtfeOptions::remove_mean>("remove_mean", kMeanRemoval), kConfidenceOption, kLabelsOption, kQuietEstimate};
+constexpr std::array kSpaOptions = {
+    option<&SpaOptions::window>("window", about("length of the window in samples, 0 for the smaller of 30 and N/10")),
+    option<&SpaOptions::w>("w", about("frequencies, at most pi/Ts; 128 of them by default"), {.unit = "rad/s"}),
+    option<&SpaOptions::remove_mean>("remove_mean", kMeanRemoval),
+    kConfidenceOption,
+    kLabelsOption,
+    kQuietEstimate};
+constexpr std::array kKernels = {"TC", "DC", "SS"};
+constexpr std::array kImpulseestOptions = {
+    option<&ImpulseestOptions::kernel>("Kernel", about("covariance of the prior: what smooth means"),
+                                       {.initial = "\"TC\"", .choices = kKernels}),
+    option<&ImpulseestOptions::lags>(
+        "lags",
+        about("number of samples that the response lasts, as the argument `n`; 0 for the smaller of 70 and N/5")),
+    option<&ImpulseestOptions::smooth>("smooth",
+                                       about("smooth response that dies out, instead of plain least squares")),
+    kReadingConfidence, kLabelsOption};
+constexpr std::array kCraOptions = {
+    option<&CraOptions::lags>("lags", about("number of lags, 0 for the smaller of 70 and N/5")),
+    option<&CraOptions::whitening>(
+        "whitening", about("order of the autoregressive filter, 0 for an input that is white already"), {.most = 100}),
+    kReadingConfidence, kLabelsOption};
+constexpr OptionTable kEtfeTables[] = {kEtfeOptions}, kSpaTables[] = {kSpaOptions},
+                      kImpulseestTables[] = {kImpulseestOptions}, kCraTables[] = {kCraOptions};
+
+constexpr ArgumentEntry
+    kOneExperiment = {"data", ValueKind::kData,
+                      about("data object with one input, one output and one experiment, sampled regularly")},
+    kSingleData = {"data", ValueKind::kData,
+                   about("data object with one input and one output, sampled regularly; experiments are joined")},
+    kComparedModels = {"G1, ...", ValueKind::kModel, about("models that are drawn over the estimate")};
+constexpr std::array kEtfeArguments = {kOneExperiment, kComparedModels},
+                     kSpectralArguments = {kSingleData, kComparedModels};
+constexpr ArgumentEntry kImpulseArguments[] = {
+    kSingleData,
+    {"n", ValueKind::kCount,
+     about("number of samples that the response lasts, 1 to 400; by default the smaller of 70 and N/5")},
+    kComparedModels};
 
 /// (data, G1, G2, ..., {options}): the models to draw over the estimate, and where the options stand.
 struct SpectralModels {
@@ -45,13 +97,6 @@ void name_models(const Options& options, std::vector<NamedModel>& models) {
     for (std::size_t i = 0; i < models.size(); ++i) models[i].name = Message::verbatim(labels[i]);
 }
 
-double confidence_of(const Options& options) {
-    const double level = options.number("confidence", 0.99);
-    if (level > 0 && level < 1) return level;
-    refuse_option("confidence", Message("a probability between 0 and 1, such as 0.99"),
-                  Message("{}", significant(level, 10)));
-}
-
 void print_message(const Call& call, const Message& message, const std::vector<Message>& warnings) {
     std::vector<Message> all = {message};
     all.insert(all.end(), warnings.begin(), warnings.end());
@@ -66,7 +111,7 @@ int give_spectral(const Call& call, const Options& options, SpectralModels& read
         lua_pushnil(call.state());
     } else {
         print_message(call, estimate.message, estimate.warnings);
-        give_figure(call, spectral_plot(estimate, Message::verbatim(method), read.models, confidence_of(options)));
+        give_figure(call, spectral_plot(estimate, Message::verbatim(method), read.models, confidence_option(options)));
     }
     push_object(call.state(), frequency_data_of(estimate, read.data, method, smoothed));
     return 2;
@@ -75,7 +120,7 @@ int give_spectral(const Call& call, const Options& options, SpectralModels& read
 int give_impulse(const Call& call, const Options& options, SpectralModels& read, const ImpulseEstimate& estimate) {
     name_models(options, read.models);
     print_message(call, estimate.message, estimate.warnings);
-    give_figure(call, impulse_estimate_plot(estimate, read.data.Ts, read.models, confidence_of(options)));
+    give_figure(call, impulse_estimate_plot(estimate, read.data.Ts, read.models, confidence_option(options)));
     give_table(call, "t", estimate.t, "response", estimate.response, "std", estimate.std, "chance", estimate.null_std,
                "noise_variance", estimate.noise_variance);
     if (estimate.first)
@@ -87,20 +132,17 @@ int give_impulse(const Call& call, const Options& options, SpectralModels& read,
 
 int ratio_of_transforms(Call& call) {
     SpectralModels read = comparison_arguments(call);
-    const Options options(call, read.options, {"smooth", "remove_mean", "confidence", "labels", "quiet"});
+    const Options options(call, read.options, kEtfeTables);
     EtfeOptions wanted;
-    wanted.smooth = options.size("smooth", 0);
-    wanted.remove_mean = options.flag("remove_mean", true);
+    options.read(wanted);
     return give_spectral(call, options, read, etfe(read.data, wanted), "etfe", wanted.smooth > 0);
 }
 
 int spectral_analysis(Call& call) {
     SpectralModels read = comparison_arguments(call);
-    const Options options(call, read.options, {"window", "w", "remove_mean", "confidence", "labels", "quiet"});
+    const Options options(call, read.options, kSpaTables);
     SpaOptions wanted;
-    wanted.window = options.size("window", 0);
-    if (options.has("w")) wanted.w = options.vector("w");
-    wanted.remove_mean = options.flag("remove_mean", true);
+    options.read(wanted);
     return give_spectral(call, options, read, spa(read.data, wanted), "spa", true);
 }
 
@@ -116,15 +158,13 @@ Index take_lags(Call& call) {
 int regression_on_past_inputs(Call& call) {
     const Index lags = take_lags(call);
     SpectralModels read = comparison_arguments(call);
-    const Options options(call, read.options, {"lags", "smooth", "Kernel", "confidence", "labels"});
+    const Options options(call, read.options, kImpulseestTables);
     ImpulseestOptions wanted;
-    wanted.lags = options.size("lags", lags);
-    wanted.smooth = options.flag("smooth", true);
-    wanted.kernel = std::array{ResponseKernel::kTc, ResponseKernel::kDc,
-                               ResponseKernel::kSs}[options.choice("Kernel", {"TC", "DC", "SS"}, 0)];
+    wanted.lags = lags;
+    options.read(wanted);
     if (!wanted.smooth && options.has("Kernel"))
         throw InvalidArgument("option 'Kernel' is of the smooth estimate, and 'smooth' is false");
-    wanted.confidence = confidence_of(options);
+    wanted.confidence = confidence_option(options);
     const RegressedResponse result = impulseest(read.data, wanted);
     give_impulse(call, options, read, result);
     set_field(call, "covariance", result.covariance);
@@ -136,11 +176,10 @@ int regression_on_past_inputs(Call& call) {
 
 int correlation_analysis(Call& call) {
     SpectralModels read = comparison_arguments(call);
-    const Options options(call, read.options, {"lags", "whitening", "confidence", "labels"});
+    const Options options(call, read.options, kCraTables);
     CraOptions wanted;
-    wanted.lags = options.size("lags", 0);
-    wanted.whitening = options.size("whitening", wanted.whitening);
-    wanted.confidence = confidence_of(options);
+    options.read(wanted);
+    wanted.confidence = confidence_option(options);
     const CorrelationAnalysis result = cra(read.data, wanted);
     give_impulse(call, options, read, result.impulse);
     set_field(call, "whitening_filter", result.whitening_filter, "input_correlation", result.input_correlation);
@@ -148,17 +187,18 @@ int correlation_analysis(Call& call) {
 }
 
 constexpr FunctionEntry kNonparametricFunctions[] = {
-    {"etfe", "nonparametric",
-     "etfe(data, G1, ..., {smooth =, remove_mean =, confidence =, labels =, quiet =}) -> fig, F",
-     "frequency response as the ratio of the Fourier transforms of output and input", guarded<ratio_of_transforms>},
-    {"spa", "nonparametric",
-     "spa(data, G1, ..., {window =, w =, remove_mean =, confidence =, labels =, quiet =}) -> fig, F",
-     "frequency response with errors, from smoothed correlations", guarded<spectral_analysis>},
-    {"impulseest", "nonparametric",
-     "impulseest(data, n, G1, ..., {Kernel =, lags =, smooth =, confidence =, labels =}) -> fig, table",
-     "impulse response by regression on past inputs, and the dead time it shows", guarded<regression_on_past_inputs>},
-    {"cra", "nonparametric", "cra(data, G1, ..., {lags =, whitening =, confidence =, labels =}) -> fig, table",
-     "impulse response from correlations with the whitened input", guarded<correlation_analysis>},
+    {"etfe", "nonparametric", "etfe(data, G1, ..., {options}) -> fig, F",
+     "frequency response as the ratio of the Fourier transforms of output and input", guarded<ratio_of_transforms>,
+     kEtfeTables, kEtfeArguments},
+    {"spa", "nonparametric", "spa(data, G1, ..., {options}) -> fig, F",
+     "frequency response with errors, from smoothed correlations", guarded<spectral_analysis>, kSpaTables,
+     kSpectralArguments},
+    {"impulseest", "nonparametric", "impulseest(data, n, G1, ..., {options}) -> fig, table",
+     "impulse response by regression on past inputs, and the dead time it shows", guarded<regression_on_past_inputs>,
+     kImpulseestTables, kImpulseArguments},
+    {"cra", "nonparametric", "cra(data, G1, ..., {options}) -> fig, table",
+     "impulse response from correlations with the whitened input", guarded<correlation_analysis>, kCraTables,
+     kSpectralArguments},
 };
 
 }  // namespace

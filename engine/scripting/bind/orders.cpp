@@ -8,6 +8,7 @@
 #include "numerics/validation/delay_search.h"
 #include "platform/terminal/progress.h"
 #include "scripting/arguments/estimator_arguments.h"
+#include "scripting/arguments/estimator_options.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/conversions/localized.h"
 #include "scripting/conversions/table_fields.h"
@@ -23,6 +24,53 @@ namespace dynlab::inline scripting {
 namespace {
 
 constexpr std::array kStructureOrders = {kNb, kNf, kNk};
+
+constexpr OptionEntry kSearchLambda = kFirstFilterOptions[0];
+constexpr OptionEntry kValidate = {"validate", ValueKind::kData,
+                                   about("second data object, on which every model is checked, too")};
+template <auto kMember>
+constexpr OptionEntry kSearchThreads = option<kMember>("threads", about("number of threads, 0 for all cores"));
+
+constexpr OptionEntry kGridOptions[] = {
+    {"poles", ValueKind::kAny, about("numbers of poles: {from, to}, or one number"), {.initial = "{1, 4}"}},
+    {"zeros", ValueKind::kAny, about("numbers of zeros: {from, to}, or one number"), {.initial = "{0, 2}"}},
+    {"delays",
+     ValueKind::kAny,
+     about("numbers of samples of delay to try, such as {0, 1, 2}, instead of estimating the delay up to `TdMax`"),
+     {.initial = "0"}},
+    {"Feedthrough", ValueKind::kFlag, about("structures with as many zeros as poles, too"), {.initial = "false"}}};
+constexpr std::array kStructureOptions = {kValidate, kSearchLambda, kStableOption,
+                                          kSearchThreads<&OrderSelectionOptions::threads>};
+constexpr OptionTable kOrderListTables[] = {kStructureOptions, kStartOptions, kIterationOptions, kIntegrationOptions},
+                      kOrderGridTables[] = {kGridOptions,  kDelayOptions,     kStructureOptions,
+                                            kStartOptions, kIterationOptions, kIntegrationOptions};
+constexpr OptionEntry kArxOptions[] = {
+    {"na", ValueKind::kAny, about("numbers of poles: {from, to}, or one number"), {.initial = "{1, 4}"}},
+    {"nb", ValueKind::kAny, about("numbers of coefficients of B: {from, to}, or one number"), {.initial = "{1, 4}"}},
+    {"nk", ValueKind::kAny, about("samples of delay: {from, to}, or one number"), {.initial = "1"}},
+    kValidate};
+constexpr OptionTable kArxstrucTables[] = {kArxOptions};
+constexpr OptionEntry kDelayGridOptions[] = {
+    {"poles", ValueKind::kAny, about("numbers of poles: {from, to}, or one number"), {.initial = "{1, 3}"}},
+    {"zeros", ValueKind::kAny, about("numbers of zeros: {from, to}, or one number"), {.initial = "{0, 1}"}}};
+constexpr std::array kDelaySearchOptions = {kSearchLambda, kSearchThreads<&DelaySearchOptions::threads>};
+constexpr OptionTable kDelayestTables[] = {kDelayGridOptions, kDelayOptions, kDelaySearchOptions, kStartOptions,
+                                           kIterationOptions};
+
+constexpr ArgumentEntry kSingleArguments[] = {
+    {"data", ValueKind::kData, about("data object with one input and one output")}};
+constexpr ArgumentEntry kArxArguments[] = {
+    {"data", ValueKind::kData, about("data object with one input and one output, sampled regularly")}};
+constexpr ArgumentEntry kChoiceArguments[] = {
+    {"V", ValueKind::kAny, about("result of `srivcstruc`")},
+    {"criterion", ValueKind::kText,
+     about("\"recommended\" (the default), \"RT2\", \"YIC\", \"AIC\", \"BIC\", \"FPE\", \"fit\" or "
+           "\"validation\"")}};
+constexpr ArgumentEntry kArxChoiceArguments[] = {
+    {"V", ValueKind::kAny, about("result of `arxstruc`")},
+    {"criterion", ValueKind::kText,
+     about("\"loss\", \"AIC\", or \"BIC\", which is also called \"MDL\"; by default the loss where there is a "
+           "second data object, else BIC")}};
 
 /// {from, to} or a single number.
 std::pair<int, int> range_of(const Options& options, const char* name, std::pair<int, int> fallback) {
@@ -104,17 +152,12 @@ int try_structures(Call& call) {
     call.at_most(3);
     const IdData& data = object_argument<IdData>(call, 1, "data");
     const bool listed = is_list(call, 2);
-    const Options options =
-        listed ? Options(call, 3,
-                         {"validate", "lambda", "InitialState", "Offset", "MaxIter", "Tol", "Stable", "Integration",
-                          "threads"})
-               : Options(call, 2,
-                         {"poles", "zeros", "delays", "TdMin", "TdMax", "NumTd", "validate", "lambda", "InitialState",
-                          "Offset", "MaxIter", "Tol", "Stable", "Feedthrough", "Integration", "threads"});
+    const Options options(call, listed ? 3 : 2,
+                          listed ? OptionTables(kOrderListTables) : OptionTables(kOrderGridTables));
     const std::vector<TransferStructure> structures = listed ? listed_structures(call, data) : grid_of(options, data);
     OrderSelectionOptions wanted;
+    options.read(wanted);
     wanted.validation = validation_record(options);
-    wanted.threads = static_cast<int>(options.size("threads", 0));
     wanted.cancel = call.cancel();
     wanted.estimation = fit_options(options, Purpose::kModel);
     wanted.elsewhere = shared_out<OrderCandidate>(call.state(), "srivcstruc");
@@ -154,7 +197,7 @@ int select_structure(Call& call) {
 int try_arx_structures(Call& call) {
     call.at_most(2);
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    const Options options(call, 2, {"na", "nb", "nk", "validate"});
+    const Options options(call, 2, kArxstrucTables);
     ArxRanges ranges;
     ranges.na = range_of(options, "na", ranges.na);
     ranges.nb = range_of(options, "nb", ranges.nb);
@@ -200,14 +243,12 @@ void push_search(const Call& call, const IdData& data, const DelaySearch& search
 int estimate_delay(Call& call) {
     call.at_most(2);
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    const Options options(
-        call, 2,
-        {"poles", "zeros", "TdMin", "TdMax", "NumTd", "lambda", "InitialState", "Offset", "MaxIter", "Tol", "threads"});
+    const Options options(call, 2, kDelayestTables);
     DelaySearchOptions wanted;
+    options.read(wanted);
     wanted.poles = range_of(options, "poles", wanted.poles);
     wanted.zeros = range_of(options, "zeros", wanted.zeros);
     wanted.estimation = fit_options(options, Purpose::kModel);
-    wanted.threads = static_cast<int>(options.size("threads", 0));
     wanted.cancel = call.cancel();
     ProgressBar bar("delay search", order_grid(wanted.poles, wanted.zeros, {0.0}).size());
     wanted.progress = [&bar](std::size_t done) { bar.advance(done); };
@@ -221,18 +262,29 @@ int estimate_delay(Call& call) {
 }
 
 constexpr FunctionEntry kOrdersFunctions[] = {
-    {"srivcstruc", "structure", "srivcstruc(data, {poles = {1, 4}, zeros = {0, 2}, delays =, validate =, ...}) -> V",
+    {"srivcstruc", "structure", "srivcstruc(data, {options}) -> V",
      "srivc for many numbers of poles, zeros and samples of delay, with criteria for each",
-     guarded<memoized_call<try_structures>>},
-    {"selcstruc", "structure", "selcstruc(V, criterion) -> G, fig",
-     "the structure that a criterion chooses, explained in words", guarded<select_structure>},
-    {"arxstruc", "structure", "arxstruc(data, {na = {1, 4}, nb = {1, 4}, nk = 1, validate =}) -> V",
-     "the loss of arx for every structure, on a second record too", guarded<try_arx_structures>},
-    {"selstruc", "structure", "selstruc(V, criterion) -> {na, nb, nk}, fig",
-     "the orders that a criterion chooses among those of arxstruc", guarded<select_arx_structure>},
-    {"delayest", "structure", "delayest(data, {poles = {1, 3}, zeros = {0, 1}, TdMin =, TdMax =, ...}) -> Td, fig, D",
+     guarded<memoized_call<try_structures>>, kOrderGridTables, kSingleArguments},
+    {"selcstruc",
+     "structure",
+     "selcstruc(V, criterion) -> G, fig",
+     "the structure that a criterion chooses, explained in words",
+     guarded<select_structure>,
+     {},
+     kChoiceArguments},
+    {"arxstruc", "structure", "arxstruc(data, {options}) -> V",
+     "the loss of arx for every structure, on a second record too", guarded<try_arx_structures>, kArxstrucTables,
+     kArxArguments},
+    {"selstruc",
+     "structure",
+     "selstruc(V, criterion) -> {na, nb, nk}, fig",
+     "the orders that a criterion chooses among those of arxstruc",
+     guarded<select_arx_structure>,
+     {},
+     kArxChoiceArguments},
+    {"delayest", "structure", "delayest(data, {options}) -> Td, fig, D",
      "the delay between input and output, with its standard error and the loss over the delay",
-     guarded<memoized_call<estimate_delay>>},
+     guarded<memoized_call<estimate_delay>>, kDelayestTables, kSingleArguments},
 };
 
 }  // namespace

@@ -1,15 +1,54 @@
+#include <array>
 #include <cctype>
 #include <cmath>
 
 #include "scripting/bind/bindings.h"
 #include "scripting/conversions/arguments.h"
 #include "scripting/conversions/localized.h"
+#include "scripting/conversions/option_member.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/runtime/sandbox.h"
 #include "scripting/runtime/text_form.h"
 
 namespace dynlab::inline scripting {
 namespace {
+
+constexpr std::array kSliderOptions = {
+    option<&RecordedSlider::step>("step",
+                                  about("distance between places; by default any number of the range can be chosen")),
+    option<&RecordedSlider::logarithmic>(
+        "log", about("true spaces the places evenly on a logarithmic scale; `step` does not go with it")),
+    option<&RecordedSlider::unit>("unit", about("unit behind the number")),
+    option<&RecordedSlider::label>("label", about("text beside the slider, by default its name"))};
+constexpr OptionTable kSliderTables[] = {kSliderOptions};
+
+constexpr ArgumentEntry kEntryName = {
+    "name", ValueKind::kText, about("name of the entry, made of letters, digits, _ and -; each name is used once")};
+constexpr std::array kReportValueArguments = {
+    kEntryName, ArgumentEntry{"x", ValueKind::kAny, about("number or text")},
+    ArgumentEntry{"format", ValueKind::kText,
+                  about("format of a number, such as \"%.2f\"; by default a sensible one")}};
+constexpr std::array kReportTableArguments = {
+    kEntryName, ArgumentEntry{"{{title, ...}, {cell, ...}, ...}", ValueKind::kTable,
+                              about("rows of texts or numbers, the first row with the titles; a text may hold formulas "
+                                    "between dollar signs, \"$a_1$\"")}};
+constexpr std::array kReportFigureArguments = {
+    kEntryName, ArgumentEntry{"fig", ValueKind::kAny, about("figure")},
+    ArgumentEntry{"caption", ValueKind::kText, about("caption for documents that do not write one")}};
+constexpr std::array kReportTextArguments = {kEntryName,
+                                             ArgumentEntry{"markdown", ValueKind::kText, about("text in Markdown")}};
+constexpr std::array kSliderArguments = {
+    kEntryName,
+    ArgumentEntry{"x", ValueKind::kNumber, about("number that the script uses before the reader chooses another")},
+    ArgumentEntry{"from", ValueKind::kNumber, about("smallest number; above 0 with `log`")},
+    ArgumentEntry{"to", ValueKind::kNumber, about("largest number")}};
+constexpr std::array kGuessArguments = {
+    ArgumentEntry{"name", ValueKind::kText, about("name of the guess, for `outcome`; each name is used once")},
+    ArgumentEntry{"value", ValueKind::kNumber, about("your guess, or nil while you have made none")},
+    ArgumentEntry{"unit", ValueKind::kText, about("unit behind the numbers")}};
+constexpr std::array kOutcomeArguments = {
+    ArgumentEntry{"name", ValueKind::kText, about("name of a guess above")},
+    ArgumentEntry{"value", ValueKind::kNumber, about("number that was found, in the unit of the guess")}};
 
 /// The name under which documents find an entry; each is given once per kind.
 template <class Taken>
@@ -147,11 +186,8 @@ int slider(Call& call) {
     slider.initial = call.number(2, "value");
     slider.from = call.number(3, "from");
     slider.to = call.number(4, "to");
-    const Options options(call, 5, {"step", "log", "unit", "label"});
-    slider.step = options.optional_number("step");
-    slider.logarithmic = options.flag("log", false);
-    slider.unit = options.text("unit", "");
-    slider.label = options.text("label", name);
+    slider.label = name;
+    Options(call, 5, kSliderTables).read(slider);
     if (slider.step && slider.logarithmic)
         throw InvalidArgument("the slider \"{}\" has log = true: it takes no step", name);
     const SliderValues* const given = call.context().services.sliders;
@@ -234,18 +270,20 @@ int outcome(Call& call) {
 
 constexpr FunctionEntry kReportFunctions[] = {
     {"report.value", "report", "report.value(name, x, format)", "puts a number or text into the report",
-     guarded<report_value>},
+     guarded<report_value>, kNoOptions, kReportValueArguments},
     {"report.table", "report", "report.table(name, {{title, ...}, {cell, ...}, ...})",
-     "puts a table into the report, header first", guarded<report_table>},
+     "puts a table into the report, header first", guarded<report_table>, kNoOptions, kReportTableArguments},
     {"report.figure", "report", "report.figure(name, fig, caption)", "puts a figure into the report",
-     guarded<report_figure>},
-    {"report.text", "report", "report.text(name, markdown)", "puts Markdown text into the report",
-     guarded<report_text>},
+     guarded<report_figure>, kNoOptions, kReportFigureArguments},
+    {"report.text", "report", "report.text(name, markdown)", "puts Markdown text into the report", guarded<report_text>,
+     kNoOptions, kReportTextArguments},
     {"report.language", "report", "report.language() -> text", "tells the report's language", guarded<report_language>},
-    {"slider", "report", "slider(name, x, from, to, {step = , log = , unit = , label = }) -> x",
-     "a number that the reader of a page moves", guarded<slider>},
-    {"guess", "report", "guess(name, value, unit)", "writes down what you expect before you look", guarded<guess>},
-    {"outcome", "report", "outcome(name, value)", "prints a guess beside what was found", guarded<outcome>},
+    {"slider", "report", "slider(name, x, from, to, {options}) -> x", "a number that the reader of a page moves",
+     guarded<slider>, kSliderTables, kSliderArguments},
+    {"guess", "report", "guess(name, value, unit)", "writes down what you expect before you look", guarded<guess>,
+     kNoOptions, kGuessArguments},
+    {"outcome", "report", "outcome(name, value)", "prints a guess beside what was found", guarded<outcome>, kNoOptions,
+     kOutcomeArguments},
 };
 
 }  // namespace

@@ -16,6 +16,29 @@
 namespace dynlab::inline scripting {
 namespace {
 
+constexpr OptionEntry kResidualOptions[] = {
+    option<&ResidualOptions::lags>("lags", about("number of lags that are tested")),
+    option<&ResidualOptions::confidence>("confidence", about("probability of the bounds")),
+    {"prediction",
+     ValueKind::kFlag,
+     about("errors of the prediction one step ahead, instead of the simulation errors"),
+     {.initial = "false"}},
+    {"quiet", ValueKind::kFlag, about("no text and no figure"), {.initial = "false"}}};
+constexpr OptionEntry kFoldOptions[] = {
+    option<&CrossValidationOptions::folds>("folds", about("number of parts")),
+    option<&CrossValidationOptions::by_experiment>("by_experiment",
+                                                   about("one experiment left out after the other, instead of parts")),
+    {"InitialState",
+     ValueKind::kChoice,
+     kStateOption.description,
+     {.initial = "\"estimate\"", .choices = kInitialStates, .member = "initial_state"}},
+    kOffsetOption};
+constexpr OptionTable kResidualsTables[] = {kResidualOptions, kComparisonStart}, kFoldsTables[] = {kFoldOptions};
+
+constexpr ArgumentEntry kFoldArguments[] = {
+    {"data", ValueKind::kData, about("data object with one or several experiments")},
+    {"fit", ValueKind::kAny, about("function of a data object that returns a model")}};
+
 void push_independence(const Call& call, const IndependenceTest& test) {
     give_table(call, "correlation", test.correlation, "bound", test.bound, "outside", static_cast<double>(test.outside),
                "p_value", test.p_value, "p_value_future", test.p_value_future, "independent", test.independent,
@@ -81,11 +104,10 @@ ResidualTests tests_of_model(const Call& call, const IdData& data, const Options
 int test_residuals(Call& call) {
     call.at_most(3);
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    const Options options(call, 3, {"lags", "confidence", "InitialState", "Offset", "prediction", "quiet"});
+    const Options options(call, 3, kResidualsTables);
     const bool quiet = options.flag("quiet", false);
     ResidualOptions wanted;
-    wanted.lags = options.size("lags", wanted.lags);
-    wanted.confidence = options.number("confidence", wanted.confidence);
+    options.read(wanted);
     const ResidualTests tests = tests_of_model(call, data, options, wanted);
     if (!quiet) call.print(localized(call, tests.verdict) + "\n");
     bool drawable = false;
@@ -133,11 +155,10 @@ int validate_across(Call& call) {
     call.at_most(3);
     const IdData& data = object_argument<IdData>(call, 1, "data");
     if (call.type(2) != LUA_TFUNCTION) wrong_argument(call.state(), 2, "fit", Message("a function of a data object"));
-    const Options options(call, 3, {"folds", "by_experiment", "InitialState", "Offset"});
+    const Options options(call, 3, kFoldsTables);
     CrossValidationOptions wanted;
-    wanted.folds = static_cast<int>(options.size("folds", wanted.folds));
-    wanted.by_experiment = options.flag("by_experiment", false);
-    wanted.simulation = compare_options(options, "estimate");
+    options.read(wanted);
+    wanted.simulation = compare_options(options, InitialState::kEstimate);
     wanted.cancel = call.cancel();
     lua_State* L = call.state();
     const CrossValidation result = cross_validate(
@@ -149,12 +170,12 @@ int validate_across(Call& call) {
 }
 
 constexpr FunctionEntry kResidualsFunctions[] = {
-    {"resid", "validation",
-     "resid(data, G, {lags =, confidence =, InitialState =, Offset =, prediction =, quiet =}) -> fig, table",
-     "is the simulation error white and independent of the input? with a verdict in words", guarded<test_residuals>},
-    {"crossvalidate", "validation",
-     "crossvalidate(data, fit, {folds =, by_experiment =, InitialState =, Offset =}) -> fig, table",
-     "fits on all parts but one and simulates on that one, part by part", guarded<validate_across>},
+    {"resid", "validation", "resid(data, G, {options}) -> fig, table",
+     "is the simulation error white and independent of the input? with a verdict in words", guarded<test_residuals>,
+     kResidualsTables, kRecordAndModel},
+    {"crossvalidate", "validation", "crossvalidate(data, fit, {options}) -> fig, table",
+     "fits on all parts but one and simulates on that one, part by part", guarded<validate_across>, kFoldsTables,
+     kFoldArguments},
 };
 
 }  // namespace

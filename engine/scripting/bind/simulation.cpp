@@ -1,3 +1,4 @@
+#include <array>
 
 #include "figures/histogram.h"
 #include "figures/plots/bode_plot.h"
@@ -18,6 +19,61 @@
 
 namespace dynlab::inline scripting {
 namespace {
+
+constexpr std::array kLsimOptions = {
+    kHoldOption,
+    OptionEntry{"x0", ValueKind::kVector,
+                about("state at the first sample, in the controllable canonical form of a transfer function")}};
+constexpr std::array kSvfOptions = {
+    OptionEntry{"Ts", ValueKind::kNumber, about("sampling time; it must be given"), {.unit = "s"}},
+    OptionEntry{"hold",
+                ValueKind::kChoice,
+                about("behavior of the signal between its samples: straight lines (\"foh\"), as measured outputs have, "
+                      "or constant (\"zoh\"), as held inputs are"),
+                {.initial = "\"foh\"", .choices = kHolds}}};
+constexpr std::array kModelNameOptions = {
+    OptionEntry{"labels", ValueKind::kAny, about("names of the models in the legend, a list with one for each")}};
+constexpr std::array kRegionOptions = {
+    OptionEntry{"confidence",
+                ValueKind::kAny,
+                about("probability of the confidence regions of estimated continuous-time models; false for none"),
+                {.initial = "0.99"}}};
+constexpr std::array kHistogramOptions = {
+    option<&HistogramOptions::bins>("bins", about("number of bins; 0 chooses it from the scatter of the values")),
+    option<&HistogramOptions::truth>("truth", about("value that a line marks")),
+    OptionEntry{"xlabel", ValueKind::kText, about("label of the x axis")},
+    OptionEntry{"label", ValueKind::kText, about("name of the bars in the legend")},
+    OptionEntry{
+        "truth_label", ValueKind::kText, about("name of the line in the legend"), {.initial = "\"true value\""}}};
+constexpr OptionTable kLsimTables[] = {kLsimOptions}, kSvfTables[] = {kSvfOptions},
+                      kNamedTables[] = {kModelNameOptions}, kRegionTables[] = {kModelNameOptions, kRegionOptions},
+                      kHistogramTables[] = {kHistogramOptions};
+
+constexpr ArgumentEntry kOneModel = {"G", ValueKind::kModel, about("model")},
+                        kDrawnModels = {"G1, G2, ...", ValueKind::kModel, about("models to draw")},
+                        kDrawnFrequencies = {"w", ValueKind::kVector, about("vector of frequencies in rad/s")},
+                        kDrawnInstants = {"t", ValueKind::kVector, about("vector of instants in seconds, from 0 on")};
+constexpr std::array kLsimArguments = {
+    ArgumentEntry{"G", ValueKind::kModel, about("model with at least as many poles as zeros")},
+    ArgumentEntry{"u", ValueKind::kVector,
+                  about("vector of N samples; for several inputs a matrix with a column each")},
+    ArgumentEntry{"t_or_Ts", ValueKind::kVector,
+                  about("sampling time in seconds, or a vector of N increasing instants, which may be irregular")}};
+constexpr std::array kSvfArguments = {
+    ArgumentEntry{"x", ValueKind::kVector, about("vector of N samples")},
+    ArgumentEntry{"n", ValueKind::kCount, about("order of the filter, 1 to 50")},
+    ArgumentEntry{"lambda", ValueKind::kNumber, about("cut-off frequency of the filter in rad/s")}};
+constexpr std::array kFreqrespArguments = {kOneModel, kDrawnFrequencies};
+constexpr std::array kTimeResponseArguments = {kOneModel, kDrawnInstants, kDrawnModels};
+constexpr std::array kNyquistArguments = {kDrawnModels, kDrawnFrequencies};
+constexpr std::array kBodeArguments = {
+    ArgumentEntry{"G1, G2, ...", ValueKind::kModel,
+                  about("models, and measured frequency responses (idfrd, bla, spa, etfe), in any order")},
+    kDrawnFrequencies};
+constexpr std::array kPzmapArguments = {
+    ArgumentEntry{"G1, G2, ...", ValueKind::kModel, about("models, all continuous or all discrete")}};
+constexpr std::array kHistogramArguments = {
+    ArgumentEntry{"values", ValueKind::kVector, about("vector of finite values")}};
 
 /// Several inputs or outputs: columns of a matrix.
 int simulate_system(Call& call, const StateSpace& system, const Options& options, const VectorView& x0) {
@@ -48,7 +104,7 @@ int simulate_grey_box(Call& call, const GreyFit& grey, const Options& options, c
 
 int simulate(Call& call) {
     call.at_most(4);
-    const Options options(call, 4, {"hold", "x0"});
+    const Options options(call, 4, kLsimTables);
     const Vector x0 = options.has("x0") ? Vector(options.vector("x0")) : Vector();
     if (const GreyEstimate grey = to_grey_box(call, 1)) return simulate_grey_box(call, *grey, options, x0);
     if (const SimulatedModel* model = simulated_model(call, 1)) return simulate_freely(call, *model->run, options, x0);
@@ -63,7 +119,7 @@ int simulate(Call& call) {
 
 int filter_states(Call& call) {
     call.at_most(4);
-    const Options options(call, 4, {"hold", "Ts"});
+    const Options options(call, 4, kSvfTables);
     const auto Ts = options.optional_number("Ts");
     if (!Ts) throw InvalidArgument("the sampling time is needed: svf(x, n, lambda, {Ts = 0.01})");
     const VectorMap x = call.vector(1, "x");
@@ -151,7 +207,7 @@ int draw_models(Call& call) {
     const Vector grid = call.holds_vector(next) ? Vector(call.vector(next++, Message("t or w"))) : Vector();
     if (kBands) refuse_option_texts(call, next);
     call.at_most(next);
-    const Options options = kBands ? Options(call, next, {"labels", "confidence"}) : Options(call, next, {"labels"});
+    const Options options(call, next, kBands ? OptionTables(kRegionTables) : OptionTables(kNamedTables));
     name_models(call, options, models);
     if (kBands) add_confidence(call, options, models);
     return give_figure(call, kPlot(models, grid));
@@ -166,7 +222,7 @@ int draw_bode(Call& call) {
     const Vector grid = call.holds_vector(next) ? Vector(call.vector(next++, "w")) : Vector();
     refuse_option_texts(call, next);
     call.at_most(next);
-    const Options options(call, next, {"labels", "confidence"});
+    const Options options(call, next, kRegionTables);
     const std::vector<std::string> labels = given_labels(options, static_cast<std::size_t>(count));
     const std::optional<double> level = confidence_level(options);
     std::vector<NamedModel> models;
@@ -190,7 +246,7 @@ int draw_poles_and_zeros(Call& call) {
     int next = 0;
     std::vector<NamedModel> models = models_to_draw(call, next);
     call.at_most(next);
-    const Options options(call, next, {"labels", "confidence"});
+    const Options options(call, next, kRegionTables);
     name_models(call, options, models);
     add_confidence(call, options, models);
     return give_figure(call, pole_zero_map(models));
@@ -211,10 +267,9 @@ int time_response(Call& call) {
 
 int draw_histogram(Call& call) {
     call.at_most(2);
-    const Options options(call, 2, {"bins", "truth", "label", "xlabel", "truth_label"});
+    const Options options(call, 2, kHistogramTables);
     HistogramOptions wanted;
-    wanted.bins = options.size("bins", 0);
-    wanted.truth = options.optional_number("truth");
+    options.read(wanted);
     wanted.label = Message::verbatim(options.text("label", ""));
     wanted.x_label = Message::verbatim(options.text("xlabel", ""));
     if (options.has("truth_label")) wanted.truth_label = Message::verbatim(options.text("truth_label", ""));
@@ -223,26 +278,27 @@ int draw_histogram(Call& call) {
 
 constexpr const char* kFigures = "figures";
 constexpr FunctionEntry kSimulationFunctions[] = {
-    {"lsim", "simulation", "lsim(G, u, t_or_Ts, {hold = \"zoh\" | \"foh\", x0 =}) -> y",
-     "response of a model to an input, exact at the samples", guarded<simulate>},
-    {"svf", "simulation", "svf(x, n, lambda, {Ts =, hold = \"zoh\" | \"foh\"}) -> matrix",
-     "outputs of the state-variable filter, highest derivative first", guarded<filter_states>},
-    {"step", "simulation", "step(G, t) -> y, t, sd; step(G1, G2, ..., {labels =, confidence =}) -> fig",
+    {"lsim", "simulation", "lsim(G, u, t_or_Ts, {options}) -> y",
+     "response of a model to an input, exact at the samples", guarded<simulate>, kLsimTables, kLsimArguments},
+    {"svf", "simulation", "svf(x, n, lambda, {options}) -> matrix",
+     "outputs of the state-variable filter, highest derivative first", guarded<filter_states>, kSvfTables,
+     kSvfArguments},
+    {"step", "simulation", "step(G, t) -> y, t, sd; step(G1, G2, ..., {options}) -> fig",
      "response to a unit step, as numbers at given instants or as a figure",
-     guarded<time_response<step_response, step_plot, true>>},
-    {"impulse", "simulation", "impulse(G, t) -> y, t; impulse(G1, G2, ..., {labels =}) -> fig",
+     guarded<time_response<step_response, step_plot, true>>, kRegionTables, kTimeResponseArguments},
+    {"impulse", "simulation", "impulse(G, t) -> y, t; impulse(G1, G2, ..., {options}) -> fig",
      "response to a unit impulse, as numbers or as a figure",
-     guarded<time_response<impulse_response, impulse_plot, false>>},
+     guarded<time_response<impulse_response, impulse_plot, false>>, kNamedTables, kTimeResponseArguments},
     {"freqresp", "simulation", "freqresp(G, w) -> complex vector", "frequency response at w (rad/s)",
-     guarded<frequency_response_of>},
-    {"bode", kFigures, "bode(G1, G2, ..., w, {labels =, confidence =}) -> fig", "magnitude and phase over frequency",
-     guarded<draw_bode>},
-    {"nyquist", kFigures, "nyquist(G1, G2, ..., w, {labels =}) -> fig", "frequency response in the complex plane",
-     guarded<draw_models<nyquist_plot, false>>},
-    {"pzmap", kFigures, "pzmap(G1, G2, ..., {labels =, confidence =}) -> fig", "poles and zeros in the complex plane",
-     guarded<draw_poles_and_zeros>},
-    {"histogram", kFigures, "histogram(values, {bins =, truth =, xlabel =}) -> fig",
-     "how often values fall into each interval", guarded<draw_histogram>},
+     guarded<frequency_response_of>, kNoOptions, kFreqrespArguments},
+    {"bode", kFigures, "bode(G1, G2, ..., w, {options}) -> fig", "magnitude and phase over frequency",
+     guarded<draw_bode>, kRegionTables, kBodeArguments},
+    {"nyquist", kFigures, "nyquist(G1, G2, ..., w, {options}) -> fig", "frequency response in the complex plane",
+     guarded<draw_models<nyquist_plot, false>>, kNamedTables, kNyquistArguments},
+    {"pzmap", kFigures, "pzmap(G1, G2, ..., {options}) -> fig", "poles and zeros in the complex plane",
+     guarded<draw_poles_and_zeros>, kRegionTables, kPzmapArguments},
+    {"histogram", kFigures, "histogram(values, {options}) -> fig", "how often values fall into each interval",
+     guarded<draw_histogram>, kHistogramTables, kHistogramArguments},
 };
 
 }  // namespace

@@ -18,6 +18,29 @@
 namespace dynlab::inline scripting {
 namespace {
 
+constexpr OptionEntry kStudyOptions[] = {
+    {"system", ValueKind::kModel, about("the true model in continuous time")},
+    {"input", ValueKind::kVector, about("samples of its input")},
+    {"controller", ValueKind::kModel,
+     about("controller of a closed loop u = C (r - y), instead of `input`: a model, or a number")},
+    {"reference", ValueKind::kVector, about("samples of the reference of the closed loop")},
+    {"ComputingDelay",
+     ValueKind::kCount,
+     about("number of samples that the controller takes to answer"),
+     {.initial = "0"}},
+    {"Ts", ValueKind::kNumber, about("sampling time"), {.unit = "s"}},
+    option<&MonteCarloStudy::hold>("hold", kHoldOption.description, {.initial = "\"zoh\"", .choices = kHolds}),
+    option<&MonteCarloStudy::sigma>("sigma", about("standard deviation of the noise"), {.least = 0}),
+    option<&MonteCarloStudy::snr>("snr", about("signal-to-noise ratio 20 log10(std x/std noise), instead of `sigma`"),
+                                  {.unit = "dB"}),
+    option<&MonteCarloStudy::runs>("runs", about("number of repeated experiments"), {.least = 2}),
+    option<&MonteCarloStudy::seed>(
+        "seed", about("seed of the noise: run k = 0, 1, ... adds what `rng(seed + k)` and `randn` give"),
+        {.most = kLargestSeed}),
+    option<&MonteCarloStudy::threads>("threads", about("number of threads, 0 for all cores")),
+    {"estimators", ValueKind::kTable, about("estimators by name, with their arguments after the data")}};
+constexpr OptionTable kStudyTables[] = {kStudyOptions};
+
 MonteCarloEstimate estimate_in_study(const Fit& result) {
     return {result.theta, result.std, result.names, true, result.termination == Termination::kConverged};
 }
@@ -190,24 +213,17 @@ MonteCarloStudy study_of(const Options& options) {
     MonteCarloStudy study;
     study.system = system_of(options);
     read_excitation(options, study);
+    options.read(study);
     const auto Ts = options.optional_number("Ts");
     if (!Ts) throw InvalidArgument("option 'Ts' is missing: the sampling time in seconds");
     study.Ts = *Ts;
-    study.hold = hold_option(options, Hold::kZoh);
-    study.sigma = options.optional_number("sigma");
-    study.snr = options.optional_number("snr");
-    study.runs = static_cast<int>(options.size("runs", study.runs));
-    study.seed = static_cast<std::uint32_t>(options.size("seed", study.seed));
-    study.threads = static_cast<int>(options.size("threads", study.threads));
     study.cancel = options.call().cancel();
     return study;
 }
 
 int run_study(Call& call) {
     call.at_most(1);
-    const Options options(call, 1,
-                          {"system", "input", "controller", "reference", "ComputingDelay", "Ts", "hold", "sigma", "snr",
-                           "runs", "seed", "threads", "estimators"});
+    const Options options(call, 1, kStudyTables);
     MonteCarloStudy study = study_of(options);
     const std::vector<MonteCarloMethod> methods = methods_of(call, options.push("estimators"));
     study.elsewhere = shared_out<MonteCarloRun>(call.state(), "montecarlo");
@@ -221,11 +237,9 @@ int run_study(Call& call) {
 }
 
 constexpr FunctionEntry kStudiesFunctions[] = {
-    {"montecarlo", "validation",
-     "montecarlo{system =, input = | controller =, reference =, Ts =, sigma = | snr =, runs =, seed =, "
-     "estimators = {...}} -> M",
+    {"montecarlo", "validation", "montecarlo{options} -> M",
      "the same experiment many times with fresh noise: bias and scatter of estimators",
-     guarded<memoized_call<run_study>>},
+     guarded<memoized_call<run_study>>, kStudyTables},
 };
 
 }  // namespace

@@ -50,9 +50,13 @@ int draw_histograms(Call& call) {
     return give_figure(call, monte_carlo_histograms(study_self(call)));
 }
 
+constexpr OptionEntry kScatterOptions[] = {
+    {"level", ValueKind::kNumber, about("probability of the ellipse"), {.initial = "0.95"}}};
+constexpr OptionTable kScatterTables[] = {kScatterOptions};
+
 int draw_scatter(Call& call) {
     call.at_most(4);
-    const Options options(call, 4, {"level"});
+    const Options options(call, 4, kScatterTables);
     return give_figure(call,
                        monte_carlo_scatter(study_self(call), call.text(2, Message("parameter on x")),
                                            call.text(3, Message("parameter on y")), options.number("level", 0.95)));

@@ -15,6 +15,17 @@
 namespace dynlab::inline scripting {
 namespace {
 
+constexpr OptionEntry kStepsOption = {
+    "k", ValueKind::kNumber,
+    about("number of samples ahead for which outputs are predicted, as by `predict`, instead of simulated")};
+constexpr std::array kComparisonOptions = {kLabelsOption, kStepsOption};
+constexpr std::array kFitOptions = {kStepsOption};
+constexpr OptionTable kCompareTables[] = {kComparisonOptions, kComparisonStart},
+                      kFitTables[] = {kFitOptions, kComparisonStart}, kMeasuresTables[] = {kComparisonStart};
+
+constexpr ArgumentEntry kCompareArguments[] = {kRecordArgument, {"G1, ...", ValueKind::kModel, about("models")}};
+constexpr std::array kTestArguments = {kModelArgument, kRecordArgument};
+
 Message model_name(const Call& call, int index, const std::vector<std::string>& labels, std::size_t number) {
     if (number < labels.size()) return Message::verbatim(labels[number]);
     const std::string method = method_of_model(call, index);
@@ -62,7 +73,7 @@ Figure comparison_figure(const IdData& data, const std::vector<ModelOutputs>& mo
 
 /// Draws measured and simulated, with k predicted, output for the models from argument `first` on.
 int draw_comparison(Call& call, const IdData& data, int first, int options_index) {
-    const Options options(call, options_index, {"labels", "k", "InitialState", "Offset"});
+    const Options options(call, options_index, kCompareTables);
     const std::vector<std::string> labels = options.texts("labels");
     const std::optional<Index> steps = steps_option(options, std::nullopt);
     std::vector<ModelOutputs> models;
@@ -95,7 +106,7 @@ int fit(Call& call) {
     call.at_most(3);
     const IdData& data = object_argument<IdData>(call, 1, "data");
     read_steps_as_option(call, 3);
-    const Options options(call, 3, {"k", "InitialState", "Offset"});
+    const Options options(call, 3, kFitTables);
     const auto steps = steps_option(options, std::nullopt);
     const Vector percents = steps ? prediction_argument(call, 2, data, {steps, compare_options(options)}).fit_percent
                                   : comparison_argument(call, 2, data, options).fit_percent;
@@ -136,7 +147,7 @@ MeasuredModel measured_model(const Call& call, int index) {
 int measure_fit(Call& call) {
     call.at_most(3);
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    const Options options(call, 3, {"InitialState", "Offset"});
+    const Options options(call, 3, kMeasuresTables);
     const MeasuredModel model = measured_model(call, 2);
     const Comparison comparison = comparison_argument(call, 2, data, options);
     const LevelledOutputs pair = levelled_outputs(data, comparison);
@@ -155,14 +166,16 @@ int measure_fit(Call& call) {
 }
 
 constexpr FunctionEntry kValidationFunctions[] = {
-    {"test_your_model", "step tests", "test_your_model(G, data, {InitialState =, Offset =}) -> fig",
-     "measured response and the model's over each other", guarded<test_model>},
-    {"compare", "validation", "compare(data, G1, G2, ..., {labels =, k =, InitialState =, Offset =}) -> fig",
-     "measured and simulated, or predicted, outputs with their fits", guarded<compare_models>},
-    {"fit", "validation", "fit(data, G, {k =, InitialState =, Offset =}) -> percent",
-     "fit of the simulated, or predicted, output, 100 % is perfect", guarded<fit>},
-    {"fit_measures", "validation", "fit_measures(data, G, {InitialState =, Offset =}) -> table",
-     "fit, R_T^2, RMSE, FPE, AIC, BIC and YIC of the simulated output", guarded<measure_fit>},
+    {"test_your_model", "step tests", "test_your_model(G, data, {options}) -> fig",
+     "measured response and the model's over each other", guarded<test_model>, kCompareTables, kTestArguments},
+    {"compare", "validation", "compare(data, G1, G2, ..., {options}) -> fig",
+     "measured and simulated, or predicted, outputs with their fits", guarded<compare_models>, kCompareTables,
+     kCompareArguments},
+    {"fit", "validation", "fit(data, G, {options}) -> percent",
+     "fit of the simulated, or predicted, output, 100 % is perfect", guarded<fit>, kFitTables, kRecordAndModel},
+    {"fit_measures", "validation", "fit_measures(data, G, {options}) -> table",
+     "fit, R_T^2, RMSE, FPE, AIC, BIC and YIC of the simulated output", guarded<measure_fit>, kMeasuresTables,
+     kRecordAndModel},
 };
 
 }  // namespace

@@ -230,34 +230,43 @@ int Call::give_matrix(const MatrixView& m) const {
     return 1;
 }
 
-Options::Options(const Call& call, int index, std::initializer_list<const char*> known)
-    : call_(call), index_(lua_absindex(call.state(), index)) {
-    lua_State* L = call.state();
-    if (lua_isnoneornil(L, index_)) {
+Options::Options(const Call& call, int index, OptionTables known)
+    : call_(call), index_(lua_absindex(call.state(), index)), known_(known) {
+    if (lua_isnoneornil(call.state(), index_)) {
         index_ = 0;
         return;
     }
+    check_names(option_names(known));
+    for (const OptionTable& table : known)
+        for (const OptionEntry& option : table) check_bounds(option);
+}
+
+Options::Options(const Call& call, int index, std::initializer_list<const char*> known)
+    : call_(call), index_(lua_absindex(call.state(), index)) {
+    if (lua_isnoneornil(call.state(), index_))
+        index_ = 0;
+    else
+        check_names({known.begin(), known.end()});
+}
+
+void Options::check_names(const std::vector<std::string>& known) const {
+    lua_State* L = call_.state();
     if (lua_type(L, index_) != LUA_TTABLE) {
-        if (known.size() == 0)
+        if (known.empty())
             throw InvalidArgument("options are written as a table {name = value}, but {} was given",
                                   given_value(L, index_));
         throw InvalidArgument("options are written as a table {name = value}, but {} was given; the names are {}",
-                              given_value(L, index_), listed({known.begin(), known.end()}));
+                              given_value(L, index_), listed(known));
     }
-    check_names(known);
-}
-
-void Options::check_names(std::initializer_list<const char*> known) const {
-    lua_State* L = call_.state();
     lua_pushnil(L);
     while (lua_next(L, index_)) {
         lua_pop(L, 1);
         if (lua_type(L, -1) != LUA_TSTRING) {
-            if (known.size() == 0)
+            if (known.empty())
                 throw InvalidArgument("options are written {name = value}; the entry [{}] has no name",
                                       given_value(L, -1));
             throw InvalidArgument("options are written {name = value}; the entry [{}] has no name; the names are {}",
-                                  given_value(L, -1), listed({known.begin(), known.end()}));
+                                  given_value(L, -1), listed(known));
         }
         const std::string name = lua_tostring(L, -1);
         const auto is_known = [&](const std::string& word) { return std::ranges::find(known, word) != known.end(); };
@@ -268,8 +277,26 @@ void Options::check_names(std::initializer_list<const char*> known) const {
             lua_pop(L, 1);
             continue;
         }
-        throw InvalidArgument(unknown_option(name, {known.begin(), known.end()}));
+        throw InvalidArgument(unknown_option(name, known));
     }
+}
+
+void Options::check_bounds(const OptionEntry& option) const {
+    const double least = option.facts.least, most = option.facts.most;
+    if ((std::isinf(least) && std::isinf(most)) || !has(option.name)) return;
+    const double value = number(option.name, 0);
+    if (value >= least && value <= most) return;
+    const Message label = option_label(option.name);
+    const Number given = significant(value, 10), lowest = significant(least, 10), highest = significant(most, 10);
+    if (std::isinf(most)) throw InvalidArgument("{} must be at least {}, but {} was given", label, lowest, given);
+    if (std::isinf(least)) throw InvalidArgument("{} must be at most {}, but {} was given", label, highest, given);
+    throw InvalidArgument("{} must lie between {} and {}, but {} was given", label, lowest, highest, given);
+}
+
+void Options::read_members(const void* tag, void* into) const {
+    for (const OptionTable& table : known_)
+        for (const OptionEntry& option : table)
+            if (option.tag == tag && has(option.name)) option.read(*this, option, into);
 }
 
 int Options::push(const char* name) const {
@@ -381,6 +408,16 @@ std::size_t Options::choice(const char* name, std::initializer_list<const char*>
     const auto found = std::ranges::find(choices, given);
     if (found == choices.end())
         throw InvalidArgument("{} must be one of {}, but \"{}\" was given", option_label(name),
+                              listed_in_quotes({choices.begin(), choices.end()}), given);
+    return static_cast<std::size_t>(found - choices.begin());
+}
+
+std::size_t Options::choice(const OptionEntry& option) const {
+    const std::string given = text(option.name, "");
+    const auto& choices = option.facts.choices;
+    const auto found = std::ranges::find(choices, given);
+    if (found == choices.end())
+        throw InvalidArgument("{} must be one of {}, but \"{}\" was given", option_label(option.name),
                               listed_in_quotes({choices.begin(), choices.end()}), given);
     return static_cast<std::size_t>(found - choices.begin());
 }

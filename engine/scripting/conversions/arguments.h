@@ -11,6 +11,7 @@
 #include "numerics/error.h"
 #include "scripting/conversions/numeric.h"
 #include "scripting/runtime/context.h"
+#include "scripting/runtime/option_entry.h"
 
 namespace dynlab::inline scripting {
 
@@ -90,8 +91,14 @@ Message given_value(lua_State* L, int index);
 /// A table {name = value} whose names are all known; an unknown one throws InvalidArgument with the nearest known name.
 class Options {
   public:
-    /// An absent table stands for all defaults. `index` may be any stack index.
+    /// An absent table stands for all defaults. `index` may be any stack index. Numbers are held to the bounds that
+    /// their entries state.
+    Options(const Call& call, int index, OptionTables known);
     Options(const Call& call, int index, std::initializer_list<const char*> known);
+
+    /// Sets the members of a struct that have an option which is given (conversions/option_member.h).
+    template <class T>
+    void read(T& into) const;
 
     bool has(const char* name) const;
     double number(const char* name, double fallback) const;
@@ -105,15 +112,27 @@ class Options {
     std::optional<std::pair<double, double>> range(const char* name) const;  ///< {low, high}
     /// Place of the text among `choices`; throws for any other text, naming them.
     std::size_t choice(const char* name, std::initializer_list<const char*> choices, std::size_t fallback) const;
+    std::size_t choice(const OptionEntry& option) const;  ///< of one that is given
     const Call& call() const { return call_; }
     /// Pushes the option's value (nil when absent) and returns its stack index.
     int push(const char* name) const;
 
   private:
-    void check_names(std::initializer_list<const char*> known) const;
+    void check_names(const std::vector<std::string>& known) const;
+    void check_bounds(const OptionEntry& option) const;
+    void read_members(const void* tag, void* into) const;
     Call call_;
     int index_;
+    OptionTables known_;
 };
+
+template <class T>
+inline constexpr char options_tag = 0;  ///< its address tells structs of options apart
+
+template <class T>
+void Options::read(T& into) const {
+    read_members(&options_tag<T>, &into);
+}
 
 using Binding = int (*)(Call&);
 int run_guarded(lua_State* L, Binding body);

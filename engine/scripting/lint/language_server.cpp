@@ -59,7 +59,7 @@ json all_completions() {
     for (const FunctionEntry& entry : catalogue_of_functions())
         items.push_back({{"label", entry.name},
                          {"kind", kFunction},
-                         {"detail", entry.signature},
+                         {"detail", signature_text(entry)},
                          {"documentation", entry.summary}});
     return items;
 }
@@ -115,9 +115,8 @@ json LanguageServer::result_of(const std::string& method, const json& parameters
     if (method == "textDocument/hover") {
         const FunctionEntry* const function = find_function(word_at(parameters));
         if (function == nullptr) return nullptr;
-        return {
-            {"contents",
-             {{"kind", "markdown"}, {"value", std::string("`") + function->signature + "`\n\n" + function->summary}}}};
+        return {{"contents",
+                 {{"kind", "markdown"}, {"value", "`" + signature_text(*function) + "`\n\n" + function->summary}}}};
     }
     throw std::invalid_argument("there is no " + method + " here");
 }

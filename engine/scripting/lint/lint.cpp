@@ -153,11 +153,14 @@ class Linter {
     void look_at_options(const WrittenCall& call) {
         const std::string function = call.function.starts_with("dynlab.") ? call.function.substr(7) : call.function;
         if (call.arguments.empty() || call.arguments.back().kind != WrittenArgument::Kind::kTable) return;
-        const auto options = options_of_function(function);
-        if (!options || call.arguments.size() <= options->first_place) return;
+        const FunctionEntry* const entry = find_function(function);
+        if (entry == nullptr || entry->options.empty()) return;
+        const std::optional<std::size_t> place = place_of_options(*entry);
+        if (!place || call.arguments.size() <= *place) return;
         for (const WrittenKey& key : call.arguments.back().keys)
-            if (!options->knows(key.name))
-                add(key.begin, "unknown-option", Message("{}: {}", function, unknown_option(key.name, options->names)));
+            if (find_option(entry->options, key.name) == nullptr)
+                add(key.begin, "unknown-option",
+                    Message("{}: {}", function, unknown_option(key.name, option_names(entry->options))));
     }
 
     void look_at_answers(const std::vector<WrittenCall>& calls) {

@@ -12,7 +12,29 @@
 namespace dynlab::inline scripting {
 namespace {
 
-constexpr std::array kStyleNames = {"line", "points", "line_points", "stairs", "stems", "bars", "band"};
+constexpr std::array kMarkPlaceOptions = {OptionEntry{"x", ValueKind::kNumber, about("position on the x axis")},
+                                          OptionEntry{"y", ValueKind::kNumber, about("position on the y axis")}};
+constexpr std::array kReferenceOptions = {
+    OptionEntry{"label", ValueKind::kText, about("text beside the line")},
+    option<&ReferenceLine::dash>(
+        "dash", about("dash pattern: 0 solid, 1 dashed, 2 dotted, 3 dash-dot, 4 to 7 further patterns"))};
+constexpr std::array kAnnotationOptions = {
+    OptionEntry{"text", ValueKind::kText, about("text beside the point")},
+    option<&Annotation::marker>("marker", about("true draws a mark at the point"))};
+constexpr std::array kArrowOptions = {
+    OptionEntry{"x0", ValueKind::kNumber, about("x at the beginning of the arrow")},
+    OptionEntry{"y0", ValueKind::kNumber, about("y at the beginning of the arrow")},
+    OptionEntry{"x1", ValueKind::kNumber, about("x at the end of the arrow")},
+    OptionEntry{"y1", ValueKind::kNumber, about("y at the end of the arrow")},
+    OptionEntry{"text", ValueKind::kText, about("text at the middle of the arrow")},
+    option<&Arrow::both_heads>("both_heads", about("true draws a head at both ends"))};
+constexpr std::array kOneCurveOptions = {
+    OptionEntry{"x", ValueKind::kVector, about("values on the x axis, by default 1, 2, 3, ...")},
+    OptionEntry{"y", ValueKind::kVector, about("values on the y axis")},
+    OptionEntry{"y_upper", ValueKind::kVector, about("upper end of a band, whose lower end is y")}};
+constexpr OptionTable kPanelTables[] = {kPanelOptions}, kReferenceTables[] = {kMarkPlaceOptions, kReferenceOptions},
+                      kAnnotationTables[] = {kMarkPlaceOptions, kAnnotationOptions}, kArrowTables[] = {kArrowOptions},
+                      kOneCurveTables[] = {kOneCurveOptions, kCurveLookOptions};
 
 /// Calls `read` with the stack index of every entry of the list under `name`.
 void for_each_entry(const Call& call, const Options& options, const char* name, const std::function<void(int)>& read) {
@@ -36,51 +58,46 @@ double needed_number(const Options& options, const char* name, const Message& wh
 }
 
 ReferenceLine read_reference(const Call& call, int index) {
-    const Options options(call, index, {"x", "y", "label", "dash"});
+    const Options options(call, index, kReferenceTables);
     if (options.has("x") == options.has("y"))
         throw InvalidArgument("a reference is {y = level} or {x = instant}, one of both");
     ReferenceLine line;
     line.horizontal = options.has("y");
     line.at = line.horizontal ? options.number("y", 0) : options.number("x", 0);
     line.label = label_option(options, "label");
-    line.dash = static_cast<int>(options.size("dash", line.dash));
+    options.read(line);
     return line;
 }
 
 Annotation read_annotation(const Call& call, int index) {
-    const Options options(call, index, {"x", "y", "text", "marker"});
+    const Options options(call, index, kAnnotationTables);
     return {needed_number(options, "x", Message("an annotation")),
             needed_number(options, "y", Message("an annotation")), Message::verbatim(options.text("text", "")),
             options.flag("marker", true)};
 }
 
 Arrow read_arrow(const Call& call, int index) {
-    const Options options(call, index, {"x0", "y0", "x1", "y1", "text", "both_heads"});
+    const Options options(call, index, kArrowTables);
     return {needed_number(options, "x0", Message("an arrow")), needed_number(options, "y0", Message("an arrow")),
             needed_number(options, "x1", Message("an arrow")), needed_number(options, "y1", Message("an arrow")),
             Message::verbatim(options.text("text", "")),       options.flag("both_heads", false)};
 }
 
-struct ColourName {
-    std::string_view name;
-    int place;  ///< in the palette of figures/style
-};
-
-constexpr std::array kColourNames = {ColourName{"blue", 0},  ColourName{"orange", 1},  ColourName{"black", 2},
-                                     ColourName{"green", 3}, ColourName{"purple", 4},  ColourName{"cyan", 5},
-                                     ColourName{"red", 6},   ColourName{"magenta", 7}, ColourName{"grey", 8},
-                                     ColourName{"gray", 8}};
+/// In the order of the palette of figures/style; "gray" is "grey".
+constexpr std::array kColourNames = {"blue", "orange", "black",   "green", "purple",
+                                     "cyan", "red",    "magenta", "grey",  "gray"};
+constexpr std::ptrdiff_t kGrey = 8;
 
 int colour_at(const Call& call, int index) {
     lua_State* L = call.state();
     if (lua_type(L, index) == LUA_TSTRING) {
         const std::string name = lua_tostring(L, index);
-        for (const ColourName& known : kColourNames)
-            if (known.name == name) return known.place;
-        std::vector<std::string> all;
-        for (const ColourName& known : kColourNames) all.emplace_back(known.name);
-        throw InvalidArgument("{} must be {}, but \"{}\" was given", option_label("colour"),
-                              Message("a number from 0 on, or one of {}", listed_in_quotes(all)), name);
+        const auto found = std::ranges::find(kColourNames, name);
+        if (found != kColourNames.end()) return static_cast<int>(std::min(found - kColourNames.begin(), kGrey));
+        throw InvalidArgument(
+            "{} must be {}, but \"{}\" was given", option_label("colour"),
+            Message("a number from 0 on, or one of {}", listed_in_quotes({kColourNames.begin(), kColourNames.end()})),
+            name);
     }
     const double number = lua_type(L, index) == LUA_TNUMBER ? lua_tonumber(L, index) : -1;
     if (number < 0 || number != std::floor(number) || number > 1000)
@@ -95,7 +112,7 @@ std::optional<int> optional_index(const Options& options, const char* name) {
 
 /// A curve from its table; x defaults to 1, 2, 3, ...
 Curve read_curve(const Call& call, int index) {
-    const Options options(call, index, kCurveOptions);
+    const Options options(call, index, kOneCurveTables);
     Curve curve;
     curve.y = options.vector("y");
     curve.x = options.has("x") ? Vector(options.vector("x"))
@@ -116,11 +133,11 @@ Message label_option(const Options& options, const char* name) {
 }
 
 CurveStyle parse_curve_style(const std::string& name) {
-    const auto found = std::find(kStyleNames.begin(), kStyleNames.end(), name);
-    if (found == kStyleNames.end())
+    const auto found = std::find(kCurveStyles.begin(), kCurveStyles.end(), name);
+    if (found == kCurveStyles.end())
         throw InvalidArgument("{} must be one of {}, but \"{}\" was given", option_label("style"),
-                              listed_in_quotes({kStyleNames.begin(), kStyleNames.end()}), name);
-    return static_cast<CurveStyle>(found - kStyleNames.begin());
+                              listed_in_quotes({kCurveStyles.begin(), kCurveStyles.end()}), name);
+    return static_cast<CurveStyle>(found - kCurveStyles.begin());
 }
 
 std::vector<int> colours_of(const Options& options) {
@@ -145,11 +162,10 @@ std::vector<int> colours_of(const Options& options) {
 }
 
 void read_curve_look(const Options& options, Curve& curve) {
-    if (options.has("style")) curve.style = parse_curve_style(options.text("style", ""));
+    options.read(curve);
     if (const std::vector<int> colours = colours_of(options); !colours.empty()) curve.colour = colours.front();
     curve.dash = optional_index(options, "dash");
     curve.marker = optional_index(options, "marker");
-    curve.line_width = options.number("line_width", curve.line_width);
 }
 
 void read_panel_options(const Call& call, const Options& options, Panel& panel) {
@@ -160,11 +176,7 @@ void read_panel_options(const Call& call, const Options& options, Panel& panel) 
     if (options.has("x_range")) panel.x_range = options.range("x_range");
     if (options.has("y_range")) panel.y_range = options.range("y_range");
     if (counted && !options.has("title")) panel.title = outside_text(panel);
-    panel.log_x = options.flag("x_log", panel.log_x);
-    panel.log_y = options.flag("y_log", panel.log_y);
-    panel.equal_axes = options.flag("equal_axes", panel.equal_axes);
-    panel.legend = static_cast<LegendPlace>(options.choice("legend", {"automatic", "above", "right", "none", "direct"},
-                                                           static_cast<std::size_t>(panel.legend)));
+    options.read(panel);
     for_each_entry(call, options, "curves", [&](int entry) { panel.curves.push_back(read_curve(call, entry)); });
     for_each_entry(call, options, "references",
                    [&](int entry) { panel.references.push_back(read_reference(call, entry)); });
@@ -175,7 +187,7 @@ void read_panel_options(const Call& call, const Options& options, Panel& panel) 
 
 Panel read_panel(const Call& call, int index) {
     Panel panel;
-    read_panel_options(call, Options(call, index, kPanelOptions), panel);
+    read_panel_options(call, Options(call, index, kPanelTables), panel);
     return panel;
 }
 

@@ -207,7 +207,7 @@ std::string help_overview(const FunctionList& functions, std::size_t width) {
 std::string help_text(const std::string& name, const FunctionList& functions, std::size_t width) {
     if (const auto page = find_help_page(name)) return laid_out(page->text, width);
     if (const FunctionEntry* entry = entry_of(name, functions))
-        return fmt::format("{}\n  {}\n", entry->signature, entry->summary);
+        return fmt::format("{}\n  {}\n", signature_text(*entry), entry->summary);
     if (const auto method = method_answer(name, width)) return *method;
     if (const Message* const hint = matlab_name_hint(name))
         return matlab_answer(name, message_text(*hint), functions, width);

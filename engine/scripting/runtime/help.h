@@ -15,7 +15,10 @@ struct HelpPage {
     std::string_view text;  ///< Markdown
 };
 
-/// All pages, sorted by name (from reference/*.md and reference/guides/*.md, made at build time).
+/// The files reference/*.md and reference/guides/*.md, as they are.
+std::span<const HelpPage> stored_pages();
+/// All pages, sorted by name; those of functions with what the catalogue says of their options and arguments
+/// (interpreter/function_pages.cpp).
 std::span<const HelpPage> help_pages();
 std::optional<HelpPage> find_help_page(std::string_view name);
 /// What stands behind "guide: " or "subject: " in the third line of a page that is no function's.

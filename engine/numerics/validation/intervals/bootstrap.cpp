@@ -165,12 +165,6 @@ bool are_white(const RefittedOutput& model, const Vector& errors) {
 
 }  // namespace
 
-BootstrapKind parse_bootstrap_kind(const std::string& text) {
-    if (text == "residual") return BootstrapKind::kResidual;
-    if (text == "parametric") return BootstrapKind::kParametric;
-    throw InvalidArgument("{} must be \"residual\" or \"parametric\", and is \"{}\"", OptionName{"kind"}, text);
-}
-
 void BootstrapOptions::validate() const {
     if (runs < 20) throw InvalidArgument("bootstrap: {} must be at least 20, and is {}", OptionName{"runs"}, runs);
     if (!(confidence > 0 && confidence < 1))

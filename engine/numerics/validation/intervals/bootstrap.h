@@ -11,9 +11,6 @@ enum class BootstrapKind {
     kParametric,  ///< "parametric": normal errors of the estimated variance, coloured where those left are
 };
 
-/// Throws InvalidArgument that lists the words.
-BootstrapKind parse_bootstrap_kind(const std::string& text);
-
 struct BootstrapOptions {
     int runs = 500;
     BootstrapKind kind = BootstrapKind::kResidual;

@@ -13,6 +13,29 @@
 namespace dynlab::inline scripting {
 namespace {
 
+constexpr std::array kIdgreyOptions = {
+    OptionEntry{"states", ValueKind::kAny,
+                about("names of the states, or how many there are; if absent, as many as x0 has values")},
+    OptionEntry{
+        "outputs", ValueKind::kAny,
+        about("function(t, x, u, p) that returns a table of outputs; if absent, the outputs are the first states")},
+    OptionEntry{
+        "x0",
+        ValueKind::kAny,
+        about("the initial state: for each state a number, the name of a parameter or \"estimate\"; one of them for "
+              "all; or function(p) that returns a table"),
+        {.initial = "0"}},
+    OptionEntry{"inputs", ValueKind::kCount,
+                about("number of inputs, needed where the function cannot be followed and there is not exactly one")}};
+constexpr OptionTable kIdgrey[] = {kIdgreyOptions};
+constexpr std::array kIdgreyArguments = {
+    ArgumentEntry{
+        "f", ValueKind::kAny,
+        about("function(t, x, u, p) that returns a table with one derivative for each state, or function(p) that "
+              "returns the matrices A, B, C, D of a linear model")},
+    ArgumentEntry{"parameters", ValueKind::kTable,
+                  about("the parameters by name, each a start or {start, min =, max =, fixed = true}")}};
+
 /// k2 before k10.
 bool comes_before(const std::string& a, const std::string& b) {
     const auto number_begin = [](const std::string& name) {
@@ -182,7 +205,7 @@ int make_grey_model(Call& call) {
     if (call.type(1) != LUA_TFUNCTION)
         wrong_argument(call.state(), 1, "f",
                        Message("a function(t, x, u, p) that returns the derivatives of the states"));
-    const Options options(call, 3, {"states", "outputs", "x0", "inputs"});
+    const Options options(call, 3, kIdgrey);
     GreyModel model;
     ScriptEquations equations;
     model.parameters = parameters_argument(call, 2);
@@ -249,9 +272,9 @@ constexpr std::array kGreyModelFields = {Member{"names", field<GreyModel, parame
 constexpr std::array kGreyModelOperators = {Member{"__tostring", localized_field<GreyModel, model_text>}};
 
 constexpr FunctionEntry kIdgreyFunctions[] = {
-    {"idgrey", "grey box",
-     "idgrey(f, {p1 = {start, min =, max =, fixed =}, ...}, {states =, outputs = h, x0 =, inputs =}) -> m",
-     "a model of differential equations, with parameters to be estimated", guarded<make_grey_model>},
+    {"idgrey", "grey box", "idgrey(f, {p1 = {start, min =, max =, fixed =}, ...}, {options}) -> m",
+     "a model of differential equations, with parameters to be estimated", guarded<make_grey_model>, kIdgrey,
+     kIdgreyArguments},
 };
 
 constexpr std::array kIdgreyTypes = {TypeEntry{&Boxed<GreyModel>::type, kGreyModelFields, {}, kGreyModelOperators}};

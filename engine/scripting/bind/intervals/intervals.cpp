@@ -17,6 +17,38 @@
 namespace dynlab::inline scripting {
 namespace {
 
+constexpr std::array kBootstrapKinds = {"residual", "parametric"};
+constexpr std::array kBootstrapOptions = {
+    option<&BootstrapOptions::runs>("runs", about("number of repeated experiments"), {.least = 20, .member = "runs"}),
+    option<&BootstrapOptions::kind>("kind",
+                                    about("new errors: those that the model left, drawn with replacement "
+                                          "(\"residual\"), or normal ones (\"parametric\")"),
+                                    {.initial = "\"residual\"", .choices = kBootstrapKinds}),
+    option<&BootstrapOptions::seed>("seed", about("seed of the new errors"), {.most = kLargestSeed}),
+    option<&BootstrapOptions::confidence>("confidence", about("probability of the intervals"),
+                                          {.member = "confidence"})};
+constexpr OptionEntry kProfileOptions[] = {
+    option<&ProfileOptions::confidence>("confidence", about("probability of the interval"), {.member = "confidence"}),
+    option<&ProfileOptions::points>("points", about("number of points of the grid"), {.least = 5, .member = "points"}),
+    {"range",
+     ValueKind::kVector,
+     about("ends {low, high} of the grid; by default four standard errors on both sides, or more where the "
+           "interval ends farther out"),
+     {.member = "range"}}};
+constexpr OptionTable kBootstrapTables[] = {kBootstrapOptions, kSimulationStart},
+                      kProfileTables[] = {kProfileOptions, kSimulationStart};
+
+constexpr ArgumentEntry
+    kEstimateArgument = {"G", ValueKind::kModel,
+                         about("estimate by `procsrivc`, `tfsrivc`, `srivc`, `coe` or `tfcoe` with one input and one "
+                               "output")},
+    kItsDataArgument = {"data", ValueKind::kData, about("data object from which the model was estimated")};
+constexpr std::array kBootstrapArguments = {kEstimateArgument, kItsDataArgument};
+constexpr ArgumentEntry kProfileArguments[] = {
+    kEstimateArgument,
+    kItsDataArgument,
+    {"name", ValueKind::kText, about("name of one of its parameters, such as \"Td\"; `G.names` lists them")}};
+
 /// A model that an output-error method left, or a sentence why it is none.
 const Model& output_error_argument(const Call& call, int index) {
     const Model* model = index <= call.count() ? to_object<Model>(call.state(), index) : nullptr;
@@ -81,12 +113,9 @@ MonteCarlo as_study(const Bootstrap& found, int runs) {
 int repeat_experiment(Call& call) {
     call.at_most(3);
     const IdData& data = object_argument<IdData>(call, 2, "data");
-    const Options options(call, 3, {"runs", "kind", "seed", "confidence", "InitialState", "Offset"});
+    const Options options(call, 3, kBootstrapTables);
     BootstrapOptions wanted;
-    wanted.runs = static_cast<int>(options.size("runs", wanted.runs));
-    wanted.kind = parse_bootstrap_kind(options.text("kind", "residual"));
-    wanted.seed = static_cast<std::uint32_t>(options.size("seed", wanted.seed));
-    wanted.confidence = options.number("confidence", wanted.confidence);
+    options.read(wanted);
     wanted.cancel = call.cancel();
     ProgressBar bar("bootstrap", static_cast<std::size_t>(wanted.runs));
     wanted.progress = [&bar](std::size_t done) { bar.advance(done); };
@@ -109,10 +138,9 @@ int follow_parameter(Call& call) {
     call.at_most(4);
     const IdData& data = object_argument<IdData>(call, 2, "data");
     const std::string name = call.text(3, "parameter");
-    const Options options(call, 4, {"confidence", "points", "range", "InitialState", "Offset"});
+    const Options options(call, 4, kProfileTables);
     ProfileOptions wanted;
-    wanted.confidence = options.number("confidence", wanted.confidence);
-    wanted.points = static_cast<int>(options.size("points", wanted.points));
+    options.read(wanted);
     wanted.range = options.range("range");
     wanted.cancel = call.cancel();
     const RefittedOutput model(data, fitted_argument(call, 1, data, compare_options(options)));
@@ -126,13 +154,12 @@ int follow_parameter(Call& call) {
 }
 
 constexpr FunctionEntry kIntervalFunctions[] = {
-    {"bootstrap", "validation",
-     "bootstrap(G, data, {runs =, kind =, seed =, confidence =, InitialState =, Offset =}) -> fig, table",
+    {"bootstrap", "validation", "bootstrap(G, data, {options}) -> fig, table",
      "intervals of parameters, gain and time constants from experiments repeated on the computer",
-     guarded<memoized_call<repeat_experiment>>},
-    {"profile", "validation",
-     "profile(G, data, name, {confidence =, points =, range =, InitialState =, Offset =}) -> fig, table",
-     "interval of one parameter from how the fit gets worse beside it", guarded<memoized_call<follow_parameter>>},
+     guarded<memoized_call<repeat_experiment>>, kBootstrapTables, kBootstrapArguments},
+    {"profile", "validation", "profile(G, data, name, {options}) -> fig, table",
+     "interval of one parameter from how the fit gets worse beside it", guarded<memoized_call<follow_parameter>>,
+     kProfileTables, kProfileArguments},
 };
 
 }  // namespace

@@ -108,7 +108,6 @@ TEST(bootstrap, says_what_it_needs) {
     BootstrapOptions options;
     options.confidence = 1.5;
     EXPECT_THAT(thrown_message([&] { bootstrap(model(0.1), options); }), HasSubstr("`confidence`"));
-    EXPECT_THAT(thrown_message([&] { parse_bootstrap_kind("blocks"); }), HasSubstr("\"residual\" or \"parametric\""));
 }
 
 }  // namespace test_bootstrap
