@@ -53,11 +53,13 @@ class Occupancy {
     std::size_t cell_index(int column, int row) const { return static_cast<std::size_t>(row * columns_ + column); }
     static std::pair<int, int> cells(double low, double high, int count) {
         const auto cell = [count](double value) {
-            return static_cast<int>(std::clamp(std::floor(value / kCell), -1.0, static_cast<double>(count)));
+            const double place = std::floor(value / kCell);
+            return place > -1 ? static_cast<int>(std::min<double>(place, count)) : -1;  // also where it is no number
         };
         return {std::max(cell(low), 0), std::min(cell(high), count - 1)};
     }
-    /// Shortens a segment to the frame (Liang and Barsky 1984); false when it lies outside.
+    /// Shortens a segment to the frame (Liang and Barsky 1984); false when it lies outside, and where its ends are so
+    /// far apart that their difference is no number.
     bool clip(PagePoint& a, PagePoint& b) const {
         const double dx = b.x - a.x, dy = b.y - a.y;
         double from = 0, to = 1;
@@ -72,7 +74,7 @@ class Occupancy {
         const PagePoint start = a;
         a = {start.x + from * dx, start.y + from * dy};
         b = {start.x + to * dx, start.y + to * dy};
-        return true;
+        return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(b.x) && std::isfinite(b.y);
     }
 
     int columns_, rows_;
