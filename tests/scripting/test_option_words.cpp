@@ -30,7 +30,7 @@ TEST(option_words, errors_name_the_options_of_scripts) {
              {"tfsrivc(d, 2, 0, {TdMax = 1000})", "TdMax must be shorter than the record"},
              {"tfcoe(d, 2, 0, {TdMin = -1})", "TdMin must not be negative, and is -1"},
              {"tfsrivc(d, 2, 0, {NumTd = 0})", "NumTd must be at least 1"},
-             {"coe(d, {1, 2, 0}, {InitialState = 'warm'})", "InitialState is \"zero\", \"steady\""},
+             {"coe(d, {1, 2, 0}, {InitialState = 'warm'})", "InitialState is \"none\", \"steady\""},
              {"oe(d, {1, 2, 1}, {Offset = 'big'})", "Offset is \"none\", \"remove\""},
              {"procsrivc(d, 'P1I', {InitialState = 'estimate', Offset = 'estimate'})",
               "with InitialState \"estimate\""},

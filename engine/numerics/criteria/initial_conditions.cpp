@@ -31,11 +31,11 @@ Changes changes_of(const VectorView& u) {
 }  // namespace
 
 InitialState parse_initial_state(const std::string& text) {
-    if (text == "zero") return InitialState::kZero;
+    if (text == "zero" || text == "none") return InitialState::kZero;
     if (text == "steady") return InitialState::kSteady;
     if (text == "estimate") return InitialState::kEstimate;
     if (text == "auto") return InitialState::kAuto;
-    throw InvalidArgument("{} is \"zero\", \"steady\", \"estimate\" or \"auto\", and not \"{}\"",
+    throw InvalidArgument("{} is \"none\", \"steady\", \"estimate\" or \"auto\", and not \"{}\"",
                           OptionName{"initial_state"}, text);
 }
 

@@ -239,7 +239,6 @@ void read_fit_options(const Options& options, FitOptions& wanted) {
     if (options.has("Stable")) wanted.stable = options.flag("Stable", false);
     wanted.fixed = options.numbers_by_name("Fixed");
     if (options.has("OutputWeights")) wanted.output_weights = options.vector("OutputWeights");
-    wanted.start_is_given = options.has("InitialState") && options.has("Offset");
     wanted.integration = options.flag("Integration", false);
     wanted.cancel = options.call().cancel();
     wanted.validate();
@@ -248,7 +247,7 @@ void read_fit_options(const Options& options, FitOptions& wanted) {
 
 FitOptions fit_options(const Options& options, Purpose purpose) {
     FitOptions wanted;
-    wanted.doubts = purpose == Purpose::kModel;
+    if (purpose == Purpose::kStudy) wanted = wanted.from_rest();
     read_fit_options(options, wanted);
     return wanted;
 }

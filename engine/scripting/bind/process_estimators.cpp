@@ -60,7 +60,7 @@ int estimate_process_model(Call& call) {
     const ProcessStructure structure = process_structure_argument(call, 2);
     ProcsrivcOptions wanted;
     read_fit_options(Options(call, 3, {"InitialState", "Offset", "TdMin", "TdMax", "NumTd", "MaxIter", "Tol"}), wanted);
-    return give_fit(call, "procsrivc", procsrivc(data, structure, wanted));
+    return give_diagnosed_fit(call, "procsrivc", procsrivc(data, structure, wanted), wanted);
 }
 
 constexpr const char* kStep = "step tests";
