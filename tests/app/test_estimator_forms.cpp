@@ -88,8 +88,8 @@ TEST(estimator_forms, functions_know_all_options_that_are_offered) {
 TEST(estimator_forms, choices_flags_and_numbers_are_told_apart) {
     EXPECT_EQ(option("srivc", "InitialState").kind, "choice");
     EXPECT_THAT(option("srivc", "InitialState").parts,
-                testing::ElementsAre("\"zero\"", "\"steady\"", "\"estimate\"", "\"auto\""));
-    EXPECT_EQ(option("srivc", "InitialState").initial, "\"zero\"");
+                testing::ElementsAre("\"none\"", "\"steady\"", "\"estimate\"", "\"auto\""));
+    EXPECT_EQ(option("srivc", "InitialState").initial, "\"auto\"");
     EXPECT_EQ(option("tfsrivc", "hold_y").kind, "choice") << "said on the page of srivc";
     EXPECT_EQ(option("rivsvf", "hold_y").kind, "choice") << "said on the page of lssvf";
     EXPECT_EQ(option("hammerstein", "TdMax").words, option("tfsrivc", "TdMax").words) << "more is said behind a colon";

@@ -33,11 +33,11 @@ TEST(option_words, errors_name_the_options_of_scripts) {
              {"tfcoe(d, 2, 0, {TdMin = -1})", "TdMin must not be negative, and is -1"},
              {"tfsrivc(d, 2, 0, {NumTd = 0})", "NumTd must be at least 1"},
              {"coe(d, {1, 2, 0}, {InitialState = 'warm'})",
-              "option 'InitialState' must be one of \"zero\", \"steady\", \"estimate\", \"auto\", but \"warm\" was "
+              "option 'InitialState' must be one of \"none\", \"steady\", \"estimate\", \"auto\", but \"warm\" was "
               "given"},
              {"oe(d, {1, 2, 1}, {Offset = 'big'})", "option 'Offset' must be one of \"none\", \"remove\""},
              {"hammerstein(d, 2, 0, {InitialState = 'estimate'})",
-              "option 'InitialState' must be one of \"zero\", \"steady\", but \"estimate\" was given"},
+              "option 'InitialState' must be one of \"none\", \"steady\", but \"estimate\" was given"},
              {"n4sid(d, 3, {Weighting = 'moesp'})", "option 'Weighting' must be one of \"MOESP\", \"N4SID\", \"CVA\""},
              {"procsrivc(d, 'P1I', {InitialState = 'estimate', Offset = 'estimate'})",
               "with InitialState \"estimate\""},

@@ -9,7 +9,7 @@ namespace dynlab::inline numerics {
 
 /// What a simulated system did before its record begins.
 enum class InitialState {
-    kZero,      ///< "zero": at rest with zero input
+    kZero,      ///< "none" or "zero": at rest with zero input
     kSteady,    ///< "steady": at rest with the record's first input value
     kEstimate,  ///< "estimate": as steady, plus a free motion whose initial values are estimated
     kAuto,      ///< "auto": whichever of these explains the output best (smallest BIC)

@@ -8,7 +8,6 @@
 #include "numerics/error.h"
 #include "numerics/fit/delay_scan.h"
 #include "numerics/fit/diagnosis.h"
-#include "numerics/fit/doubts.h"
 #include "numerics/fit/first_estimate.h"
 #include "numerics/fit/operating_points.h"
 #include "numerics/fit/output_error.h"
@@ -310,7 +309,6 @@ Fit procsrivc(const IdData& data, const ProcessStructure& structure, const Procs
     if (structure.zero) warn_of_zero(fit);
     if (structure.delay) warn_of_delay(fit, fit.theta[fit.theta.size() - 1], problem.range);
     fit.message = process_message(fit);
-    add_assessment(fit, data, options);
     return fit;
 }
 

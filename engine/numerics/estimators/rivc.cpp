@@ -7,7 +7,7 @@
 #include "numerics/error.h"
 #include "numerics/estimators/srivc.h"
 #include "numerics/fit/diagnosis.h"
-#include "numerics/fit/doubts.h"
+#include "numerics/fit/finished_fit.h"
 #include "numerics/fit/operating_points.h"
 #include "numerics/fit/output_error.h"
 #include "numerics/fit/transfer_refinement.h"
@@ -211,7 +211,7 @@ void fill_noise(Fit& result, const Passes& passes, const NoiseOrders& orders, do
 
 Fit rivc_fit(const IdData& data, const TransferStructure& structure, const NoiseOrders& orders,
              const FitOptions& options) {
-    check_transfer_data("rivc", data, structure);
+    check_transfer_data("rivc", data, structure, options.offset);
     const Fit start = srivc(data, structure, options);
     FitOptions wanted = options;
     if (structure.free_delays && !wanted.largest_delay)

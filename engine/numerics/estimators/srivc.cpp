@@ -6,11 +6,12 @@
 
 #include "numerics/error.h"
 #include "numerics/fit/diagnosis.h"
-#include "numerics/fit/doubts.h"
+#include "numerics/fit/finished_fit.h"
 #include "numerics/fit/first_estimate.h"
 #include "numerics/fit/search_starts.h"
 #include "numerics/fit/simulation_error.h"
 #include "numerics/fit/srivc_iteration.h"
+#include "numerics/fit/start_choice.h"
 #include "numerics/fit/transfer_search.h"
 
 namespace dynlab::inline numerics {
@@ -181,11 +182,17 @@ bool srivc_passes_suffice(const TransferStructure& structure, const FitOptions& 
 Fit srivc(const IdData& data, const TransferStructure& structure, const FitOptions& options, const SearchAids& aids) {
     options.validate();
     return finished_fit(data, options, [&](const IdData& seen, const FitOptions& wanted) {
-        if (!srivc_passes_suffice(structure, wanted) || aids.start.size() > 0)
-            return search_transfer("srivc", seen, structure, wanted, aids);
-        Fit estimate = srivc_by_passes(seen, structure, wanted);
-        if (estimate.termination == Termination::kCancelled) return estimate;
-        return search_where_passes_fail(std::move(estimate), seen, wanted, aids);
+        const FitOptions plain = start_is_open(wanted) ? wanted.from_rest() : wanted;
+        if (!srivc_passes_suffice(structure, plain) || aids.start.size() > 0)
+            return search_with_chosen_start("srivc", seen, structure, wanted, aids);
+        const auto passes = [&](const FitOptions& how) { return srivc_by_passes(seen, structure, how); };
+        const auto finish = [&](Fit estimate, const FitOptions& how) {
+            if (estimate.termination == Termination::kCancelled) return estimate;
+            return search_where_passes_fail(std::move(estimate), seen, how, aids);
+        };
+        if (!start_is_open(wanted)) return finish(passes(wanted), wanted);
+        const auto search = [&](const FitOptions& how) { return search_transfer("srivc", seen, structure, how, aids); };
+        return with_chosen_start(seen, wanted, {passes, finish, search});
     });
 }
 

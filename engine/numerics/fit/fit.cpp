@@ -37,11 +37,17 @@ void FitOptions::validate() const {
         throw InvalidArgument("{} must be positive, and is {}", OptionName{"tolerance"}, tolerance);
 }
 
+FitOptions FitOptions::started(const StartCondition& condition) const {
+    FitOptions other = *this;
+    other.initial_state = condition.state;
+    other.offset = condition.offset ? Offset::kEstimate : Offset::kNone;
+    return other;
+}
+
 FitOptions FitOptions::limited(int iterations, double limit) const {
     FitOptions other = *this;
     other.max_iterations = iterations;
     other.goes_on = false;
-    other.doubts = false;
     other.tolerance = limit;
     return other;
 }

@@ -13,6 +13,7 @@
 #include "numerics/fit/search_starts.h"
 #include "numerics/fit/simulation_error.h"
 #include "numerics/fit/srivc_iteration.h"
+#include "numerics/fit/start_choice.h"
 #include "numerics/fit/transfer_refinement.h"
 #include "numerics/linalg/side_by_side.h"
 
@@ -290,6 +291,13 @@ Fit search_transfer(const char* method, const IdData& data, const TransferStruct
     best.delay_grid = scan.delays;
     best.delay_loss = scan.losses;
     return best;
+}
+
+Fit search_with_chosen_start(const char* method, const IdData& data, const TransferStructure& structure,
+                             const FitOptions& options, const SearchAids& aids) {
+    const auto search = [&](const FitOptions& how) { return search_transfer(method, data, structure, how, aids); };
+    if (aids.start.size() > 0) return search(options);
+    return with_chosen_start(data, options, {search, [](Fit found, const FitOptions&) { return found; }, search});
 }
 
 }  // namespace dynlab::inline numerics

@@ -38,7 +38,6 @@ double samples_per_turn(const IdData& data) {
     FitOptions options;
     options.initial_state = InitialState::kSteady;
     options.offset = Offset::kEstimate;
-    options.doubts = false;
     try {
         const Fit quick = srivc(data, TransferStructure::single(2, 0), options);
         if (!(quick.fit_percent[0] > 20)) return 0;
@@ -125,7 +124,6 @@ void choose_start(DelaySearch& search, const IdData& data, FitOptions options) {
     Fit& found = search.candidate.estimate;
     options.initial_state = InitialState::kAuto;
     options.offset = Offset::kAuto;
-    options.doubts = false;
     SearchAids aids;
     aids.start = found.theta;
     aids.poorer = {&found};

@@ -121,7 +121,6 @@ DelaySearch search_delay(const IdData& data, const DelaySearchOptions& options) 
     selecting.progress = options.progress;
     selecting.cancel = options.cancel;
     selecting.estimation = options.estimation;
-    selecting.estimation.doubts = false;
     const OrderSelection selection =
         select_order(data, order_grid(options.poles, options.zeros, {options.estimation.least_delay}, true), selecting);
     DelaySearch search;

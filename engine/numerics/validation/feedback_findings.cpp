@@ -31,7 +31,6 @@ bool may_be_exchanged(const IdData& turned, double forward) {
     options.initial_state = InitialState::kEstimate;
     options.offset = Offset::kEstimate;
     options.tolerance = kQuickTolerance;
-    options.doubts = false;
     try {
         return srivc(turned, TransferStructure::single(2, 1), options).fit_percent[0] >
                std::max(kPromises, forward - kQuickMisses);

@@ -9,7 +9,7 @@ namespace dynlab::inline numerics {
 /// What an estimation doubts of its model, for verdicts on it.
 struct ModelDoubts {
     std::vector<std::string> undetermined = {};  ///< parameters whose standard errors are larger than they
-    Message remedy = {};                         ///< a sentence: what the estimation missed (fit/missed_options.h)
+    Message remedy = {};                         ///< a sentence: what the estimation missed (fit/missed_structure.h)
 };
 
 /// What is known of the model of one output: stability, fit, the tests of its errors, the estimation's own doubts.

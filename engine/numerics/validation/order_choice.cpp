@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "numerics/error.h"
-#include "numerics/fit/missed_options.h"
 #include "numerics/validation/order_selection.h"
 
 namespace dynlab::inline numerics {
@@ -119,13 +118,6 @@ Message validation_doubt(const OrderSelection& selection, const Places& sound, s
         "On the second record it fits clearly worse than on the first: the records differ, or the model is wrong.");
 }
 
-/// Which option its fit lacks; empty where none is known.
-Message missed_by(const OrderCandidate& candidate) {
-    const std::optional<MissedOption>& missed = candidate.estimate.doubts.missed_option;
-    if (!missed) return {};
-    return sentences({sentence_of(*missed), Message("Then compare the structures again.")});
-}
-
 Message sentences_that_are_there(std::vector<Message> all) {
     std::erase_if(all, [](const Message& one) { return one.empty(); });
     return sentences(std::move(all));
@@ -153,7 +145,6 @@ OrderChoice recommend(const OrderSelection& selection, const Places& estimated) 
         explanation.push_back(passed_over(selection, estimated, chosen));
     }
     explanation.push_back(validation_doubt(selection, sound, chosen));
-    explanation.push_back(missed_by(taken));
     return {chosen, sentences_that_are_there(std::move(explanation))};
 }
 
@@ -219,7 +210,6 @@ OrderChoice choose_order(const OrderSelection& selection, OrderCriterion criteri
     const OrderCandidate& taken = selection.candidates[chosen];
     std::vector<Message> explanation{best_by(criterion, taken)};
     if (!taken.sound()) explanation.push_back(Message("But that model has {}.", faults_of(taken)));
-    explanation.push_back(missed_by(taken));
     return {chosen, sentences_that_are_there(std::move(explanation))};
 }
 

@@ -12,10 +12,10 @@
 #include "numerics/error.h"
 #include "numerics/estimators/srivc.h"
 #include "numerics/fit/diagnosis.h"
-#include "numerics/fit/doubts.h"
 #include "numerics/fit/integrated_input.h"
-#include "numerics/fit/missed_options.h"
 #include "numerics/fit/search_starts.h"
+#include "numerics/fit/start_choice.h"
+#include "numerics/fit/transfer_refinement.h"
 #include "numerics/linalg/side_by_side.h"
 #include "numerics/validation/compare.h"
 #include "numerics/validation/fit_measures.h"
@@ -86,12 +86,23 @@ double validation_fit_with_integrator(const IdData& data, Fit estimate) {
     return validation_fit(data, estimate, Offset::kNone);
 }
 
+/// Where each fit chose its start, what that costs counts; otherwise it is the same for all of them.
+Index counted_values(const Fit& estimate, const IdData& data, const FitOptions& estimation) {
+    if (!start_is_open(estimation)) return estimate.theta.size();
+    return value_count(estimate.structure, estimate.start, static_cast<Index>(data.experiments.size()));
+}
+
+Offset offset_of(const Fit& estimate, const FitOptions& estimation) {
+    if (!start_is_open(estimation)) return estimation.offset;
+    return estimate.start.offset ? Offset::kEstimate : Offset::kNone;
+}
+
 void measure(OrderCandidate& candidate, const IdData& data, const OrderSelectionOptions& options) {
     const Fit& estimate = candidate.estimate;
-    const Offset offset = options.estimation.offset;
+    const Offset offset = offset_of(estimate, options.estimation);
     const Comparison comparison = comparison_of(data, estimate, offset);
     const LevelledOutputs outputs = levelled_outputs(data, comparison);
-    const Index N = data.sample_count(), d = estimate.theta.size();
+    const Index N = data.sample_count(), d = counted_values(estimate, data, options.estimation);
     const auto samples = static_cast<double>(N), count = static_cast<double>(d);
     const double mean_square = (outputs.measured - outputs.simulated).squaredNorm() / samples;
     const InformationCriteria criteria = information_criteria(mean_square, N, d);
@@ -127,8 +138,7 @@ OrderCandidate candidate_of(const IdData& data, const TransferStructure& structu
     candidate.delay = structure.channels.front().delay;
     candidate.integrator = options.estimation.integration;
     FitOptions estimation = options.estimation;
-    estimation.integration = estimation.doubts =
-        false;  // `data` are integrated; of the choice alone doubts are looked for
+    estimation.integration = false;  // `data` are integrated
     try {
         candidate.estimate = srivc(data, structure, estimation, {{}, {}, std::move(poorer)});
         if (!candidate.estimate.theta.allFinite()) throw InvalidArgument("a parameter is not finite");
@@ -191,12 +201,6 @@ std::vector<const Fit*> poorer_fits(const std::vector<TransferStructure>& struct
         if (candidate.failure.empty()) fits.push_back(&candidate.estimate);
     }
     return fits;
-}
-
-void doubt_the_choice(OrderSelection& selection, const IdData& data, const FitOptions& options) {
-    if (!options.doubts || options.start_is_given || options.integration) return;
-    Fit& chosen = selection.candidates[choose_order(selection).place].estimate;
-    add_missed_option(chosen, missed_option(data, chosen, options));
 }
 
 }  // namespace
@@ -279,7 +283,6 @@ OrderSelection select_order(const IdData& data, const std::vector<TransferStruct
     if (!selection.cancelled && std::none_of(selection.candidates.begin(), selection.candidates.end(), estimated))
         throw InvalidArgument("none of the structures could be estimated; the first one says: {}",
                               selection.candidates.front().failure);
-    if (!selection.cancelled) doubt_the_choice(selection, data, options.estimation);
     return selection;
 }
 

@@ -64,12 +64,11 @@ std::vector<TransferStructure> order_grid(std::pair<int, int> poles, std::pair<i
 /// Estimates every structure on `data` (one input, one output, any number of experiments) by srivc, several at once,
 /// from few poles and zeros up: a structure's search knows the fits of those that are a step poorer.
 /// A second record is simulated as compare_all() does it with the initial state estimated, for that is the record's
-/// own, and with the offset that the estimation was asked for. Equal numbers for any number of threads. Throws
-/// InvalidArgument for other data, no candidates, and when none of them could be estimated.
-/// The choice by kRecommended gets the option that its fit misses (fit/missed_options.h), if estimation.doubts is true;
-/// no candidate is assessed.
-/// With estimation.integration inputs are held (zoh), the record begins at rest, and a second record's initial state is
-/// that of the integrator too, so that an offset of its output is part of it.
+/// own, and with the offset that the estimation was asked for, or chose. Equal numbers for any number of threads.
+/// Throws InvalidArgument for other data, no candidates, and when none of them could be estimated. Where the options
+/// leave the start open each fit chooses its own (fit/start_choice.h), and AIC, BIC and FPE count its initial values
+/// and its offset. With estimation.integration inputs are held (zoh), the record begins at rest, and a second record's
+/// initial state is that of the integrator too, so that an offset of its output is part of it.
 OrderSelection select_order(const IdData& data, const std::vector<TransferStructure>& candidates,
                             const OrderSelectionOptions& options = {});
 

@@ -224,7 +224,6 @@ Denominators sharing_of(const Options& options) {
 void read_fit_options(const Options& options, FitOptions& wanted) {
     options.read(wanted);
     wanted.goes_on = !options.has("MaxIter");
-    wanted.start_is_given = options.has("InitialState") && options.has("Offset");
     wanted.cancel = options.call().cancel();
     wanted.validate();
     if (wanted.integration) wanted = options_with_integrator(std::move(wanted));
@@ -232,7 +231,7 @@ void read_fit_options(const Options& options, FitOptions& wanted) {
 
 FitOptions fit_options(const Options& options, Purpose purpose) {
     FitOptions wanted;
-    wanted.doubts = purpose == Purpose::kModel;
+    if (purpose == Purpose::kStudy) wanted = wanted.from_rest();
     read_fit_options(options, wanted);
     return wanted;
 }

@@ -14,6 +14,11 @@ namespace dynlab::inline scripting {
 
 /// An estimation as a script asked for it, its arguments checked: ready for any data, in any thread.
 using Estimation = std::function<Fit(const IdData&)>;
+/// The same with the options that it goes by.
+struct OptionedEstimation {
+    Estimation estimation;
+    FitOptions options;
+};
 
 /// Reads the arguments of one method from the second on; the first, where the data stand, is not looked at.
 using EstimationReader = Estimation (*)(const Call& call);
@@ -68,13 +73,13 @@ Denominators sharing_of(const Options& options);
 /// The options of fits, those of them that the binding knows; for others `wanted` keeps what it holds.
 void read_fit_options(const Options& options, FitOptions& wanted);
 
-/// A fit is the script's own model, or one of many in a study, which asks for no doubts.
+/// A fit is the script's own model, or one of many in a study, whose data are simulated from rest.
 enum class Purpose { kModel, kStudy };
 FitOptions fit_options(const Options& options, Purpose purpose);
 /// The EstimationReader of a function that reads for either purpose.
-template <Estimation (*kRead)(const Call&, Purpose)>
+template <OptionedEstimation (*kRead)(const Call&, Purpose)>
 Estimation read_for_study(const Call& call) {
-    return kRead(call, Purpose::kStudy);
+    return kRead(call, Purpose::kStudy).estimation;
 }
 
 }  // namespace dynlab::inline scripting

@@ -10,7 +10,7 @@ namespace dynlab::inline scripting {
 /// read_fit_options() (estimator_arguments.h).
 
 inline constexpr std::array kHolds = {"zoh", "foh"};  // in the order of Hold
-inline constexpr std::array kInitialStates = {"zero", "steady", "estimate", "auto"};
+inline constexpr std::array kInitialStates = {"none", "steady", "estimate", "auto"};
 inline constexpr std::array kOffsets = {"none", "remove", "estimate", "auto"};
 
 /// Of an options struct that has the member.
@@ -32,14 +32,14 @@ inline constexpr std::array kFirstFilterOptions = {
 inline constexpr std::array kStartOptions = {
     option<&FitOptions::initial_state>(
         "InitialState",
-        about("the state before the data begin: at rest with zero input (\"zero\"), at rest with the first input value "
+        about("the state before the data begin: at rest with zero input (\"none\"), at rest with the first input value "
               "(\"steady\"), unknown (\"estimate\"), or whichever of them has the smallest BIC (\"auto\")"),
-        {.initial = "\"zero\"", .choices = kInitialStates, .member = "initial_state"}),
+        {.initial = "\"auto\"", .choices = kInitialStates, .former = "zero", .member = "initial_state"}),
     option<&FitOptions::offset>(
         "Offset",
         about("a constant in the output: none, the operating point is removed first (\"remove\"), a "
               "constant is estimated (\"estimate\"), or the smaller BIC of none and estimate (\"auto\")"),
-        {.initial = "\"none\"", .choices = kOffsets, .member = "offset"})};
+        {.initial = "\"auto\"", .choices = kOffsets, .member = "offset"})};
 
 inline constexpr OptionEntry kTolerance =
     option<&FitOptions::tolerance>("Tol", about("relative change of the parameters at which the search stops"),

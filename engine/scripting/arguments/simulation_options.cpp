@@ -38,7 +38,8 @@ std::vector<TransferFunction> channels_argument(const Call& call, int index, Arg
 Comparison comparison_argument(const Call& call, int index, const IdData& data, const Options& options) {
     if (const GreyEstimate grey = to_grey_box(call, index)) {
         const std::string start = options.text("InitialState", "auto");
-        return compare_grey(data, *grey, start == "auto" ? usual_start(*grey) : parse_grey_start(start));
+        return compare_grey(data, *grey,
+                            start == "auto" ? usual_start(*grey) : parse_grey_start(start == "none" ? "zero" : start));
     }
     const SimulatedModel* simulated = simulated_model(call, index);
     if (simulated == nullptr) {

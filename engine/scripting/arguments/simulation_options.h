@@ -24,13 +24,13 @@ inline constexpr OptionEntry kStateOption = {
     "InitialState",
     ValueKind::kChoice,
     kStartOptions[0].description,
-    {.initial = "\"auto\"", .choices = kInitialStates, .member = "initial_state"}};
-inline constexpr std::array kStatesOfComparison = {"zero", "steady", "estimate", "auto", "model"};
+    {.initial = "\"auto\"", .choices = kInitialStates, .former = "zero", .member = "initial_state"}};
+inline constexpr std::array kStatesOfComparison = {"none", "steady", "estimate", "auto", "model"};
 inline constexpr OptionEntry kComparedStateOption = {
     "InitialState",
     ValueKind::kChoice,
     about("the state before the data begin, as in `srivc`; of a grey-box model also \"model\", its own initial state"),
-    {.initial = "\"auto\"", .choices = kStatesOfComparison, .member = "initial_state"}};
+    {.initial = "\"auto\"", .choices = kStatesOfComparison, .former = "zero", .member = "initial_state"}};
 inline constexpr OptionEntry kOffsetOption = option<&CompareOptions::offset>(
     "Offset", kStartOptions[1].description, {.initial = "\"auto\"", .choices = kOffsets, .member = "offset"});
 inline constexpr std::array kSimulationStart = {kStateOption, kOffsetOption};

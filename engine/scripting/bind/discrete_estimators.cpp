@@ -81,7 +81,8 @@ template <auto kMethod>
 int estimate_simulation(Call& call, const PolynomialOrders& orders) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
     const Options options(call, 3, kDiscreteSimulation);
-    return give_fit(call, call.function_name(), kMethod(data, orders, fit_options(options, Purpose::kModel)));
+    const FitOptions wanted = fit_options(options, Purpose::kModel);
+    return give_diagnosed_fit(call, call.function_name(), kMethod(data, orders, wanted), wanted);
 }
 
 template <auto kMethod>
@@ -99,7 +100,8 @@ int estimate_armax(Call& call) {
     PolynomialOrders orders = PolynomialOrders::arx(only_value(lists[0], kDiscreteNa), lists[1], lists[3]);
     orders.nc = only_value(lists[2], kDiscreteNc);
     const Options options(call, 3, kPredictionError);
-    return give_fit(call, "armax", armax(data, orders, fit_options(options, Purpose::kModel)));
+    const FitOptions wanted = fit_options(options, Purpose::kModel);
+    return give_diagnosed_fit(call, "armax", armax(data, orders, wanted), wanted);
 }
 
 int estimate_bj(Call& call) {

@@ -104,9 +104,9 @@ double noise_variance_of(const Model& model) {
     throw InvalidArgument("{} tells no variance of the noise", estimate.method);
 }
 
-const Assessment& assessment_of(const Model& model) {
+std::shared_ptr<const Assessment> assessment_of(const Model& model) {
     const Estimate& estimate = estimate_in(model);
-    if (estimate.doubts.assessment) return *estimate.doubts.assessment;
+    if (auto assessment = estimate.diagnostics.assessment()) return assessment;
     throw InvalidArgument("{} gives no robust standard errors", estimate.method);
 }
 
@@ -176,8 +176,8 @@ constexpr std::array kModelTypeFields = {
     Member{"std", field<Model, [](const Model& model) { return estimate_in(model).std; }>},
     Member{"covariance", field<Model, [](const Model& model) { return estimate_in(model).covariance; }>},
     Member{"noise_variance", field<Model, noise_variance_of>},
-    Member{"robust_std", field<Model, [](const Model& model) { return assessment_of(model).std; }>},
-    Member{"robust_covariance", field<Model, [](const Model& model) { return assessment_of(model).covariance; }>},
+    Member{"robust_std", field<Model, [](const Model& model) { return assessment_of(model)->std; }>},
+    Member{"robust_covariance", field<Model, [](const Model& model) { return assessment_of(model)->covariance; }>},
     Member{"names", field<Model, [](const Model& model) { return parameters_of(model).names; }>},
     Member{"report", guarded<field_report>},
     Member{"history", guarded<field_history>},

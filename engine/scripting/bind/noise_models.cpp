@@ -40,11 +40,12 @@ int noise_order(const std::vector<int>& entry, const OrderEntry& what) {
     throw InvalidArgument("{} is one number for the noise of the output, but {} were given", what.name, entry.size());
 }
 
-Estimation noisy_estimation(const StructureMaker& structure, const NoiseOrders& noise, const FitOptions& wanted) {
-    return [=](const IdData& data) { return rivc(data, structure(data), noise, wanted); };
+OptionedEstimation noisy_estimation(const StructureMaker& structure, const NoiseOrders& noise,
+                                    const FitOptions& wanted) {
+    return {[=](const IdData& data) { return rivc(data, structure(data), noise, wanted); }, wanted};
 }
 
-Estimation read_rivc(const Call& call, Purpose purpose) {
+OptionedEstimation read_rivc(const Call& call, Purpose purpose) {
     call.at_most(3);
     const auto orders = order_lists(call, 2, kNoiseModelOrders);
     const Options options(call, 3, kNoisy);
@@ -52,7 +53,7 @@ Estimation read_rivc(const Call& call, Purpose purpose) {
                             {noise_order(orders[1], kNc), noise_order(orders[2], kNd)}, fit_options(options, purpose));
 }
 
-Estimation read_tfrivc(const Call& call, Purpose purpose) {
+OptionedEstimation read_tfrivc(const Call& call, Purpose purpose) {
     call.at_most(4);
     const Options options(call, 4, kNoisyTransferFunction);
     const FitOptions wanted = fit_options(options, purpose);
@@ -65,7 +66,8 @@ Estimation read_tfrivc(const Call& call, Purpose purpose) {
 template <auto kRead>
 int estimate_with_noise(Call& call) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    return give_fit(call, call.function_name(), kRead(call, Purpose::kModel)(data));
+    const OptionedEstimation wanted = kRead(call, Purpose::kModel);
+    return give_diagnosed_fit(call, call.function_name(), wanted.estimation(data), wanted.options);
 }
 
 constexpr NamedReader kNoiseModelsReaders[] = {{"rivc", read_for_study<read_rivc>},

@@ -18,13 +18,8 @@ namespace {
 
 constexpr std::array kConstructionOptions = {OptionEntry{"xlabel", ValueKind::kText, about("label of the x axis")},
                                              OptionEntry{"ylabel", ValueKind::kText, about("label of the y axis")}};
-constexpr std::array kProcessStartOptions = {
-    option<&FitOptions::initial_state>("InitialState", kStartOptions[0].description,
-                                       {.initial = "\"auto\"", .choices = kInitialStates, .member = "initial_state"}),
-    option<&FitOptions::offset>("Offset", kStartOptions[1].description,
-                                {.initial = "\"auto\"", .choices = kOffsets, .member = "offset"})};
 constexpr OptionTable kConstruction[] = {kConstructionOptions};
-constexpr OptionTable kProcsrivc[] = {kDelayOptions, kProcessStartOptions, kLimitOptions};
+constexpr OptionTable kProcsrivc[] = {kDelayOptions, kStartOptions, kLimitOptions};
 
 constexpr std::array kStepArguments = {
     ArgumentEntry{"data", ValueKind::kData,
@@ -87,7 +82,7 @@ int estimate_process_model(Call& call) {
     const ProcessStructure structure = process_structure_argument(call, 2);
     ProcsrivcOptions wanted;
     read_fit_options(Options(call, 3, kProcsrivc), wanted);
-    return give_fit(call, "procsrivc", procsrivc(data, structure, wanted));
+    return give_diagnosed_fit(call, "procsrivc", procsrivc(data, structure, wanted), wanted);
 }
 
 constexpr const char* kStep = "step tests";

@@ -2,7 +2,7 @@
 #include "figures/plots/cross_validation_plot.h"
 #include "figures/plots/residual_plot.h"
 #include "numerics/fit/diagnosis.h"
-#include "numerics/fit/missed_options.h"
+#include "numerics/fit/missed_structure.h"
 #include "numerics/validation/crossvalidate.h"
 #include "numerics/validation/residual_tests.h"
 #include "scripting/arguments/simulation_options.h"
@@ -31,7 +31,7 @@ constexpr OptionEntry kFoldOptions[] = {
     {"InitialState",
      ValueKind::kChoice,
      kStateOption.description,
-     {.initial = "\"estimate\"", .choices = kInitialStates, .member = "initial_state"}},
+     {.initial = "\"estimate\"", .choices = kInitialStates, .former = "zero", .member = "initial_state"}},
     kOffsetOption};
 constexpr OptionTable kResidualsTables[] = {kResidualOptions, kComparisonStart}, kFoldsTables[] = {kFoldOptions};
 
@@ -78,7 +78,7 @@ ModelDoubts doubts_of(const Call& call, int index) {
     const Model* model = to_object<Model>(call.state(), index);
     if (model == nullptr || !model->estimate) return {};
     const Estimate& estimate = *model->estimate;
-    const std::optional<MissedOption>& missed = estimate.doubts.missed_option;
+    const std::optional<MissedStructure> missed = estimate.diagnostics.missed();
     return {undetermined_parameters(estimate.names, estimate.theta, estimate.std),
             missed ? sentence_of(*missed) : Message()};
 }

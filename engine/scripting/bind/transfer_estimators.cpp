@@ -78,18 +78,19 @@ int estimate_filtered(Call& call) {
 }
 
 template <auto kMethod>
-Estimation refined_estimation(const StartedStructure& started, const FitOptions& wanted) {
-    return [=](const IdData& data) {
-        const TransferStructure structure = started.structure(data);
-        SearchAids aids = started.aids;
-        if (aids.delays.size() == 1) aids.delays.resize(structure.channels.size(), aids.delays.front());
-        return kMethod(data, structure, wanted, aids);
-    };
+OptionedEstimation refined_estimation(const StartedStructure& started, const FitOptions& wanted) {
+    return {[=](const IdData& data) {
+                const TransferStructure structure = started.structure(data);
+                SearchAids aids = started.aids;
+                if (aids.delays.size() == 1) aids.delays.resize(structure.channels.size(), aids.delays.front());
+                return kMethod(data, structure, wanted, aids);
+            },
+            wanted};
 }
 
 /// srivc and coe: orders and fixed delays in samples.
 template <auto kMethod>
-Estimation read_refined(const Call& call, Purpose purpose) {
+OptionedEstimation read_refined(const Call& call, Purpose purpose) {
     call.at_most(3);
     const auto orders = order_lists(call, 2, kOutputErrorOrders);
     const Options options(call, 3, kRefined);
@@ -99,7 +100,7 @@ Estimation read_refined(const Call& call, Purpose purpose) {
 
 /// tfsrivc and tfcoe: numbers of poles and zeros, and a delay that is estimated unless it is given.
 template <auto kMethod>
-Estimation read_transfer_function(const Call& call, Purpose purpose) {
+OptionedEstimation read_transfer_function(const Call& call, Purpose purpose) {
     const int last = holds_model(call, 2) ? 3 : 4;
     call.at_most(last);
     const Options options(call, last, kTransferFunction);
@@ -111,7 +112,8 @@ template <auto kRead>
 int estimate_refined(Call& call) {
     if (holds_response(call, 1)) return fit_response(call);
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    return give_fit(call, call.function_name(), kRead(call, Purpose::kModel)(data));
+    const OptionedEstimation wanted = kRead(call, Purpose::kModel);
+    return give_diagnosed_fit(call, call.function_name(), wanted.estimation(data), wanted.options);
 }
 
 int estimate_by_least_squares(Call& call) {

@@ -415,6 +415,7 @@ std::size_t Options::choice(const char* name, std::initializer_list<const char*>
 std::size_t Options::choice(const OptionEntry& option) const {
     const std::string given = text(option.name, "");
     const auto& choices = option.facts.choices;
+    if (given == option.facts.former) return 0;
     const auto found = std::ranges::find(choices, given);
     if (found == choices.end())
         throw InvalidArgument("{} must be one of {}, but \"{}\" was given", option_label(option.name),

@@ -20,6 +20,28 @@ std::size_t Boxed<StateSpace>::outside_bytes(const StateSpace& system) {
            static_cast<std::size_t>(system.A.size() + system.B.size() + system.C.size() + system.D.size());
 }
 
+Message Estimate::full_message() const {
+    const std::optional<MissedStructure> missed = diagnostics.missed();
+    if (!missed) return message;
+    return message.empty() ? sentence_of(*missed) : sentences({message, sentence_of(*missed)});
+}
+
+std::vector<Message> Estimate::all_warnings() const {
+    std::vector<Message> all = warnings;
+    if (const std::optional<MissedStructure> missed = diagnostics.missed()) all.push_back(sentence_of(*missed));
+    return all;
+}
+
+std::shared_ptr<const Assessment> Estimate::colour() const {
+    std::shared_ptr<const Assessment> assessment = diagnostics.assessment();
+    return assessment && !assessment->white ? assessment : nullptr;
+}
+
+Matrix Estimate::trusted_covariance() const {
+    const auto coloured = colour();
+    return coloured ? coloured->covariance : covariance;
+}
+
 bool holds_model(const Call& call, int index) {
     return index <= lua_gettop(call.state()) &&
            (runs_freely(call, index) || to_object<Model>(call.state(), index) != nullptr ||
@@ -87,7 +109,7 @@ std::vector<TransferFunction> channels_of(const Model& model) {
 
 std::optional<UncertainModel> uncertain_model(const Model& model) {
     if (!model.estimate || !model.G.continuous() || !model.single_channel()) return std::nullopt;
-    const Matrix& covariance = model.estimate->trusted_covariance();
+    const Matrix covariance = model.estimate->trusted_covariance();
     if (covariance.size() == 0 || !covariance.allFinite()) return std::nullopt;
     if (model.process) return UncertainModel(*model.process, covariance);
     if (!model.estimate->of_coefficients) return std::nullopt;

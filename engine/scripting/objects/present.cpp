@@ -62,7 +62,7 @@ std::string Presentation::error_of(const Vector& std, Index index) const {
 
 std::string Presentation::parameter_lines(const Model& model) const {
     const ModelParameters parameters = parameters_of(model);
-    const bool coloured = model.estimate && model.estimate->errors_are_coloured();
+    const auto coloured = model.estimate ? model.estimate->colour() : nullptr;
     std::string lines = text(Message("Parameters:")) + "\n";
     for (std::size_t i = 0; i < parameters.names.size(); ++i) {
         const auto index = static_cast<Index>(i);
@@ -70,9 +70,8 @@ std::string Presentation::parameter_lines(const Model& model) const {
         lines += fmt::format("  {:<5} {:>12}", parameters.names[i],
                              to_the_error(parameters.values[index], has_error ? parameters.std[index] : 0, 3, 6));
         if (has_error) lines += error_of(parameters.std, index);
-        if (coloured && model.estimate->doubts.assessment->std[index] > 0)
-            lines +=
-                "  " + text(Message("(robust ± {})", significant(model.estimate->doubts.assessment->std[index], 3)));
+        if (coloured && coloured->std[index] > 0)
+            lines += "  " + text(Message("(robust ± {})", significant(coloured->std[index], 3)));
         lines += '\n';
     }
     return lines;
@@ -181,8 +180,8 @@ std::string Presentation::estimate_lines(const Estimate& estimate) const {
     else
         lines = text(Message("Estimated by {}.", estimate.method));
     lines += "\n";
-    if (!estimate.message.empty()) lines += text(estimate.message) + "\n";
-    if (estimate.errors_are_coloured()) lines += text(estimate.doubts.assessment->verdict) + "\n";
+    if (const Message message = estimate.full_message(); !message.empty()) lines += text(message) + "\n";
+    if (const auto coloured = estimate.colour()) lines += text(coloured->verdict) + "\n";
     return lines;
 }
 

@@ -38,6 +38,7 @@ struct OptionFacts {
     const char* unit = "";
     double least = -std::numeric_limits<double>::infinity(), most = std::numeric_limits<double>::infinity();
     std::span<const char* const> choices = {};  ///< of a text, or of an enumeration in its order
+    const char* former = "";                    ///< another word for the first choice, which older scripts use
     const char* member = "";                    ///< numerics' name in its messages (OptionName), "max_iterations"
 };
 

@@ -125,8 +125,7 @@ Fit direct(const IdData& data, const TransferStructure& structure, const FitOpti
 Fit clsrivc(const IdData& data, const TransferStructure& structure, const FitOptions& options,
             const LoopKnowledge& known, LoopRoute route) {
     options.validate();
-    FitOptions own = options;
-    own.doubts = false;  // they would be of a fit in open loop
+    const FitOptions own = options.from_rest();
     check_loop_data("clsrivc", data, structure);
     if (route == LoopRoute::kDirect) return direct(data, structure, own);
     if (route == LoopRoute::kIndirect && !known.controller)

@@ -6,6 +6,7 @@
 #include "numerics/error.h"
 #include "numerics/fit/operating_points.h"
 #include "numerics/fit/output_error.h"
+#include "numerics/fit/start_choice.h"
 
 namespace dynlab::inline numerics {
 
@@ -33,6 +34,10 @@ void add_uncertainty(Fit& estimate, const DiscreteOutput& model, const Vector& t
         estimate.condition_number = precision.condition_number;
     }
     estimate.std = estimate.covariance.diagonal().cwiseMax(0).cwiseSqrt();
+}
+
+bool begins_at_rest(const StartCondition& condition) {
+    return condition.state == InitialState::kZero && !condition.offset;
 }
 
 /// Under one start condition.
@@ -99,12 +104,21 @@ Fit fit_discrete_output(const std::string& method, const IdData& data, const Pol
     };
     const auto conditions = start_conditions(record.data, options.initial_state, options.offset);
     check_sample_count(method, data.sample_count(), values(conditions.front()));
-    Fit best = fit_output_error({method, record.data, conditions, values, [&](const StartCondition& condition) {
-                                     return fit_condition(DiscreteOutput(orders, condition, experiments), record.data,
-                                                          options, search);
-                                 }});
-    add_operating_points(best, record.removed);
-    return best;
+    const auto fit_one = [&](const StartCondition& condition) {
+        return fit_condition(DiscreteOutput(orders, condition, experiments), record.data, options, search);
+    };
+    if (!start_is_open(options)) {
+        Fit best = fit_output_error({method, record.data, conditions, values, fit_one});
+        add_operating_points(best, record.removed);
+        return best;
+    }
+    const std::vector<StartCondition> rest{conditions.front()};
+    const Fit plain = fit_output_error({method, record.data, rest, values, fit_one});
+    if (plain.termination == Termination::kCancelled || !other_discrete_start_promises(data, plain, options))
+        return plain;
+    return fit_output_error({method, record.data, conditions, values, [&](const StartCondition& condition) {
+                                 return begins_at_rest(condition) ? plain : fit_one(condition);
+                             }});
 }
 
 }  // namespace dynlab::inline numerics
