@@ -6,6 +6,8 @@
 #include "base/reader.h"
 #include "numerics/estimators/srivc.h"
 #include "numerics/fit/assessment.h"
+#include "numerics/fit/diagnostics.h"
+#include "numerics/fit/missed_structure.h"
 #include "numerics/signals/prbs.h"
 #include "numerics/simulation/lsim.h"
 #include "script_run.h"

@@ -69,8 +69,8 @@ Case random_case(std::uint32_t seed, const Planted& planted) {
     y += noise * random.normal(N);
     if (planted.late) {
         constexpr Index kLate = 7;
-        const Vector before = y;
-        y.tail(N - kLate) = before.head(N - kLate);
+        const Vector early = y;
+        y.tail(N - kLate) = early.head(N - kLate);
         y.head(kLate) = noise * random.normal(kLate);
     }
     if (planted.offset) y.array() += uniform(random, 0.6, 3) * spread;
