@@ -175,26 +175,6 @@ TEST(lint, has_nothing_to_say_of_lessons_demonstrations_and_examples) {
     }
 }
 
-/// Every name that a binding checks options against must be one that a page tells, or a right script would be blamed.
-TEST(lint, knows_every_option_that_the_bindings_read) {
-    std::string pages;
-    for (const HelpPage& page : help_pages()) pages += std::string(page.text);
-    int names = 0;
-    for (const char* folder : {"/engine/scripting/bind", "/engine/scripting/arguments"})
-        for (const auto& entry : fs::recursive_directory_iterator(std::string(DYNLAB_SOURCE_DIR) + folder)) {
-            if (!entry.is_regular_file()) continue;
-            const std::string source = read_text(entry.path());
-            const std::regex list(R"(Options(?: \w+)?\(call, [^{};]*\{([^}]*)\})"), word("\"(\\w+)\"");
-            for (std::sregex_iterator found(source.begin(), source.end(), list), end; found != end; ++found) {
-                const std::string inside = (*found)[1];
-                for (std::sregex_iterator name(inside.begin(), inside.end(), word); name != end; ++name, ++names)
-                    EXPECT_TRUE(std::regex_search(pages, std::regex("[`{ ]" + (*name)[1].str() + "( ?=|`)")))
-                        << entry.path() << ": " << (*name)[1];
-            }
-        }
-    EXPECT_GT(names, 200);
-}
-
 TEST(lint, reads_hostile_text_in_no_time) {
     for (const std::string& text : {std::string(100000, '('), std::string(2000, '{'),
                                     "x = " + std::string(300, '(') + "1" + std::string(300, ')'),

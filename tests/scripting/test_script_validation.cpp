@@ -124,7 +124,7 @@ TEST(script_validation, options_are_held_to_their_words_and_bounds) {
     const std::string model = kRecord + "local G = idproc('P1', {Kp = 2, Tp1 = 1})\n";
     for (const auto& [call, said] : std::vector<std::pair<std::string, std::string>>{
              {"compare(white, G, {InitialState = 'model'})",
-              "option 'InitialState' must be one of \"zero\", \"steady\", \"estimate\", \"auto\", but \"model\" was "
+              "option 'InitialState' must be one of \"none\", \"steady\", \"estimate\", \"auto\", but \"model\" was "
               "given"},
              {"predict(white, G, {Offset = 'big'})",
               "option 'Offset' must be one of \"none\", \"remove\", \"estimate\", \"auto\", but \"big\" was given"},

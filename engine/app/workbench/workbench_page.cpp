@@ -176,7 +176,7 @@ void serve_help(WebServer& server, const WorkbenchSession& bench) {
         const auto page = find_help_page(asked.parameter("name"));
         constexpr int kMissing = 404;
         if (!page) return PageReply{bench.told(Message("There is no help page of this name.")), kPlainText, kMissing};
-        return PageReply{std::string(page->text), kPlainText};
+        return PageReply{page_text(*page, find_function(std::string(page->name))), kPlainText};
     });
 }
 

@@ -57,7 +57,7 @@ constexpr OptionTable kPlotTables[] = {kPanelOptions, kCurveLists, kFigureSizeOp
 
 constexpr std::array kCurvesArguments = {ArgumentEntry{
     "x, y, \"name\", ...", ValueKind::kVector,
-    about("curves and their names for the legend; the name may be left out, and x, too, which is then 1, 2, 3, ...")}};
+    about("curves and their names for the legend; the name may be left out, and x, too, which then counts from 1")}};
 constexpr std::array kFigureNumberArguments = {
     ArgumentEntry{"n", ValueKind::kCount, about("number of the next figure, instead of a description")}};
 constexpr std::array kSubplotArguments = {

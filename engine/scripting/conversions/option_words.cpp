@@ -73,13 +73,6 @@ Message with_script_options(const Message& message) {
     return Message::stored(message.id(), message.many(), std::move(arguments));
 }
 
-std::string with_other_case(std::string name) {
-    if (name.empty()) return name;
-    const auto first = static_cast<unsigned char>(name[0]);
-    name[0] = static_cast<char>(std::isupper(first) ? std::tolower(first) : std::toupper(first));
-    return name;
-}
-
 Message unknown_option(const std::string& name, const std::vector<std::string>& known) {
     const auto near = nearest_word(name, known);
     return near ? Message("option '{}' is unknown; did you mean '{}'?", name, *near)

@@ -16,9 +16,6 @@ Message with_script_options(const Message& message);
 /// The names of numerics' options that have one in scripts.
 std::vector<std::string> translated_options();
 
-/// The name with its first letter in the other case: MATLAB's options are a mixture, Lambda and lambda.
-std::string with_other_case(std::string name);
-
 /// About an option that is none of these.
 Message unknown_option(const std::string& name, const std::vector<std::string>& known);
 /// "zoh", "foh"

@@ -68,6 +68,9 @@ struct ArgumentEntry {
     MessageId<> description;
 };
 
+/// The name with its first letter in the other case: MATLAB's options are a mixture, Lambda and lambda.
+std::string with_other_case(std::string name);
+
 /// The default as scripts write it; empty where there is none.
 std::string initial_text(const OptionEntry& option);
 

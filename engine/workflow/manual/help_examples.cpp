@@ -29,7 +29,8 @@ Cell cell_of(Cell::Kind kind, const std::string& id, const std::string& content)
 PercentScript page_in_cells(const HelpPage& page) {
     PercentScript script;
     script.file = std::string(page.name) + ".md";
-    const std::string text(page.text), begin = "\n```lua\n", end = "\n```\n";
+    const std::string text = page_text(page, find_function(std::string(page.name))), begin = "\n```lua\n",
+                      end = "\n```\n";
     const std::size_t code = is_function(page.name) ? text.find(begin) : std::string::npos;
     if (code == std::string::npos) {
         script.cells = {cell_of(Cell::Kind::kText, "text", text)};

@@ -82,7 +82,7 @@ TEST(integrated_input, what_the_integrator_held_before_the_record_is_estimated) 
 }
 
 TEST(integrated_input, has_no_operating_point) {  // oracle: definition
-    FitOptions options;
+    FitOptions options = FitOptions().from_rest();
     options.offset = Offset::kRemove;
     EXPECT_THAT(thrown_message([&] { options_with_integrator(options); }),
                 testing::HasSubstr("`offset` \"remove\" does not go with `integration`"));
