@@ -6,9 +6,8 @@
 #include <cmath>
 #include <string>
 
-#include "numerics/estimators/coe.h"
+#include "base/reader.h"
 #include "numerics/estimators/oe.h"
-#include "numerics/estimators/procsrivc.h"
 #include "numerics/estimators/srivc.h"
 #include "support/transfer_cases.h"
 

@@ -161,13 +161,15 @@ double correlation_of_neighbours(const Vector& errors, const TransferOutput& mod
     return squares > 0 ? std::clamp(products / squares, 0.0, kLargestCorrelation) : 0;
 }
 
-Explanation explanation_of(const IdData& record, const Fit& fit) {
-    const TransferOutput model(fit.structure, fit.start, record, 0, shortest_record(record));
+/// Without the first seconds, which do not count.
+Explanation explanation_of(const IdData& record, const Fit& fit, double unheard) {
+    TransferOutput model(fit.structure, fit.start, record, 0, shortest_record(record));
+    model.leave_out(unheard);
     const Vector errors = model.target() - model.output_at(search_point(fit, model, model.seconds()));
     const bool finite = errors.allFinite();
     const double r = finite ? correlation_of_neighbours(errors, model) : 0;
-    return {finite ? std::max(errors.squaredNorm(), kLeastSquares) : kInfinity, output_variations(record)[0],
-            static_cast<double>(record.sample_count()) * (1 - r) / (1 + r), model.parameter_count()};
+    return {finite ? std::max(errors.squaredNorm(), kLeastSquares) : kInfinity, counted_variations(model)[0],
+            static_cast<double>(model.sample_count()) * (1 - r) / (1 + r), model.parameter_count()};
 }
 
 /// One output, its fit, and how others are found.
@@ -176,15 +178,19 @@ struct Question {
     const Fit& given;
     const FitOptions& options;
 
+    Explanation explanation(const Fit& fit) const {
+        return explanation_of(record, fit, unheard_beginning(given, record));
+    }
+
     /// The search that a user's structure leads to; nothing where the data do not allow it.
     std::optional<Fit> fit_of(const TransferStructure& structure) const {
-        FitOptions how = options.started(given.start);
+        FitOptions how = options;
         how.goes_on = false;  // what settles that late is told apart from the present fit by chance alone
         how.integration = false;
         how.fixed.clear();
         how.output_weights.resize(0);
         try {
-            Fit fit = search_transfer("missed_structure", record, structure, how);
+            Fit fit = search_with_chosen_start("missed_structure", record, structure, how);
             if (fit.termination != Termination::kCancelled) return fit;
         } catch (const InvalidArgument&) {
             return std::nullopt;
@@ -198,9 +204,9 @@ struct Question {
 bool is_direct(const Question& asked, const Explanation& direct) {
     const TransferStructure& structure = asked.given.structure;
     const auto zeros = asked.fit_of(changed(structure, 0, [](int n, int m) { return std::max(m, n - 1); }));
-    if (zeros && !gains(explanation_of(asked.record, *zeros), direct)) return false;
+    if (zeros && !gains(asked.explanation(*zeros), direct)) return false;
     const auto pole = asked.fit_of(changed(structure, 1, [](int, int m) { return m + 1; }));
-    if (!pole || is_worth_telling(explanation_of(asked.record, *pole).fit(), direct.fit())) return true;
+    if (!pole || is_worth_telling(asked.explanation(*pole).fit(), direct.fit())) return true;
     double fastest = 0;
     for (const TransferFunction& G : pole->models) fastest = std::max(fastest, G.poles().cwiseAbs().maxCoeff());
     return fastest * asked.record.mean_step() > kFastestPole;
@@ -242,13 +248,13 @@ std::optional<MissedStructure> missed_by_output(const IdData& data, const Fit& g
     const IdData beginning = shorter ? beginning_of(data, kFitted) : IdData();
     const IdData& record = shorter ? beginning : data;
     const Question asked{record, given, options};
-    const Explanation present = explanation_of(record, given);
+    const Explanation present = asked.explanation(given);
     std::optional<MissedStructure> best;
     double most = 0;
     for (const auto& [code, structure] : candidates(data, asked)) {
         const std::optional<Fit> fit = asked.fit_of(structure);
         if (!fit) continue;
-        const Explanation found = explanation_of(record, *fit);
+        const Explanation found = asked.explanation(*fit);
         const double evidence = evidence_for(present, found);
         if (!gains(present, found) || !(evidence > most)) continue;
         if (code == MissedCode::kFeedthrough && !is_direct(asked, found)) continue;

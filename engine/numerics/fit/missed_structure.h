@@ -29,11 +29,12 @@ struct MissedStructure {
 ///
 /// A feedthrough is fitted where a LOOK AHEAD on the first 3000 samples at most promises it: J'J and J'e of the
 /// sensitivities at the fit, extended by the further coefficients of B, tell what one Gauss-Newton step gains. A pole
-/// and a delay are fitted where the errors follow the input. Each is fitted under the start condition of the fit (of
-/// records above 100,000 samples, to their beginning). A gain counts when it lowers BIC by more than 10, very strong
-/// evidence (Kass and Raftery 1995), with as many samples as white errors of the same power at low frequencies would
-/// have: N (1 - r)/(1 + r), r the errors' correlation from one sample to the next; and when it is half a point of fit,
-/// or a fifth of what the fit lacks. A feedthrough must gain over n - 1 zeros, and one more pole must not do as well.
+/// and a delay are fitted where the errors follow the input. Each is fitted by the options of the fit, which choose
+/// its start again where they leave it open (of records above 100,000 samples, to their beginning). A gain counts when
+/// it lowers BIC by more than 10, very strong evidence (Kass and Raftery 1995), with as many samples as white errors of
+/// the same power at low frequencies would have: N (1 - r)/(1 + r), r the errors' correlation from one sample to the
+/// next; and when it is half a point of fit, or a fifth of what the fit lacks. A feedthrough must gain over n - 1
+/// zeros, and one more pole must not do as well.
 ///
 /// `data` and `options`: as the search was given them, with integrated inputs where it had an integrator
 /// (options.integration; no feedthrough is looked for then). Nothing for cancelled fits, those with an operating point

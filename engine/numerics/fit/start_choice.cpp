@@ -24,6 +24,7 @@ constexpr Index kLookAheadSamples = 3000;  // samples
 constexpr double kLostFit = 20;            // per cent, of a difference equation: too far away to look ahead from
 constexpr double kStartRidge = 1e-9;       // of a sum of squares of sensitivities
 constexpr double kStartEvidence = 2;       // of BIC
+constexpr double kWorthATry = 100;         // of BIC, with all samples: then a fit decides what follows from its errors
 constexpr double kLargestNeighbours = 0.999;
 constexpr double kLowerStart = 1e-3;                                             // of the loss
 constexpr double kStartRounding = 1e3 * std::numeric_limits<double>::epsilon();  // of the output: what is no error
@@ -126,11 +127,13 @@ class StartLookAhead {
         return counts(before, after, all, static_cast<Index>(constants.size() + motions.size()));
     }
 
-    /// The errors that the step leaves are looked at only where it gains enough were they white.
+    /// The errors that the step leaves are looked at only where it gains enough were they white, but not very much: far
+    /// from the best fit one step leaves errors that say little.
     bool counts(double before, double after, const Columns& places, Index values) const {
         const double samples = whole_ * static_cast<double>(model_.errors.size());
         const double least = whole_ * model_.least;
-        if (!(start_evidence(before, after, least, samples, values) > kStartEvidence)) return false;
+        const double at_most = start_evidence(before, after, least, samples, values);
+        if (!(at_most > kStartEvidence) || at_most > kWorthATry) return at_most > kWorthATry;
         const Vector left =
             model_.errors - model_.J(Eigen::all, places) * step(places).cwiseQuotient(scale_(places)).matrix();
         const double r = neighbours_correlation(left, model_.lengths);
@@ -195,17 +198,29 @@ bool is_from_rest(const Fit& fit) {
     return fit.start.state == InitialState::kZero && !fit.start.offset;
 }
 
+/// The errors of a fit without those of the first seconds, which do not count.
+struct CountedErrors {
+    CountedErrors(const IdData& data, const Fit& fit, double unheard)
+        : model(fit.structure, fit.start, data, 0, shortest_record(data)) {
+        model.leave_out(unheard);
+        errors = model.target() - model.output_at(search_point(fit, model, model.seconds()));
+    }
+    TransferOutput model;
+    Vector errors;
+};
+
 /// Whether BIC still prefers the fit with another start when errors that follow each other count as fewer.
 bool convinces(const IdData& data, const Fit& from_rest, const Fit& other) {
     if (other.structure.outputs > 1) return true;
-    const TransferOutput model(other.structure, other.start, data, 0, shortest_record(data));
-    const Vector errors = model.target() - model.output_at(search_point(other, model, model.seconds()));
-    if (!errors.allFinite() || !std::isfinite(from_rest.loss)) return !std::isfinite(from_rest.loss);
-    const double N = static_cast<double>(errors.size());
-    const double r = neighbours_correlation(errors, lengths_of(model));
-    const Index values = model.parameter_count() - other.structure.parameter_count();
-    return start_evidence(from_rest.loss * N, errors.squaredNorm(), least_squares_of(model.target()),
-                          independent_samples(N, r), values) > kStartEvidence;
+    const double unheard = unheard_beginning(other, data);
+    const CountedErrors rest(data, from_rest, unheard), found(data, other, unheard);
+    if (!found.errors.allFinite()) return false;
+    if (!rest.errors.allFinite()) return true;
+    const double r = neighbours_correlation(found.errors, lengths_of(found.model));
+    const Index values = found.model.parameter_count() - rest.model.parameter_count();
+    return start_evidence(rest.errors.squaredNorm(), found.errors.squaredNorm(), least_squares_of(found.model.target()),
+                          independent_samples(static_cast<double>(found.model.sample_count()), r),
+                          values) > kStartEvidence;
 }
 
 }  // namespace

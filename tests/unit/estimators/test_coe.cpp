@@ -148,7 +148,7 @@ TEST(coe, initial_state_and_offset_are_recovered_and_chosen) {
     const Fit chosen = srivc(cut, kCourse, options);
     EXPECT_EQ(chosen.start.state, InitialState::kEstimate) << message_text(chosen.full_message());
     EXPECT_TRUE(chosen.start.offset);
-    EXPECT_GT(chosen.fit_percent[0], srivc(cut, kCourse, {}).fit_percent[0] + 5);
+    EXPECT_GT(chosen.fit_percent[0], srivc(cut, kCourse, FitOptions{}.from_rest()).fit_percent[0] + 5);
 }
 
 TEST(coe, free_delay_without_noise_is_exact) {  // oracle: the simulated system
@@ -192,7 +192,7 @@ TEST(coe, running_experiment) {  // oracle: the simulated system, cut from a run
     EXPECT_EQ(chosen.start.state, InitialState::kEstimate) << message_text(chosen.full_message());
     EXPECT_TRUE(chosen.start.offset);
     expect_near_truth(chosen, values({0.4, 3, 2}), 4);
-    const auto wrong = coe(noisy_data.range(first, last), kCourse);
+    const auto wrong = coe(noisy_data.range(first, last), kCourse, FitOptions{}.from_rest());
     EXPECT_LT(wrong.fit_percent[0] + 20, chosen.fit_percent[0]);
 }
 
@@ -209,7 +209,7 @@ TEST(coe, rest_is_recognised) {  // oracle: the simulated system, from rest with
 TEST(coe, operating_point_can_be_removed) {  // oracle: the simulated system, about an operating point
     const Vector u = prbs(8, 5);
     const Vector x = lsim(TransferFunction(values({2}), values({1, 4, 3})), u, 0.05);
-    FitOptions options = exact();
+    FitOptions options = exact().from_rest();
     const auto expected = coe(record(x.array() - x.mean(), u.array() - u.mean(), 0.05), kCourse, options);
     options.offset = Offset::kRemove;
     const auto found = coe(record(x.array() + 40, u.array() + 7, 0.05), kCourse, options);
@@ -251,7 +251,7 @@ TEST(coe, refuses_bad_input_in_words) {  // oracle: the sentence names what is w
     EXPECT_THAT(refusal(still, kCourse), HasSubstr("never changes"));
     EXPECT_THAT(refusal(data, TransferStructure::single(2, 0, 20)), HasSubstr("not shorter than the record"));
     EXPECT_THAT(refusal(data, TransferStructure::grid(1, 2, Denominators::kCommon, {2}, {0}, {0.0})),
-                HasSubstr("2 input(s)"));
+                HasSubstr("2 inputs"));
     FitOptions options;
     options.tolerance = 0;
     EXPECT_THAT(refusal(data, kCourse, options), HasSubstr("`tolerance`"));

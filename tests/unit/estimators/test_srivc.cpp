@@ -161,13 +161,16 @@ TEST(srivc, tells_of_delays_that_held_inputs_cannot_show) {
 
 TEST(srivc, passes_suffice_for_fixed_delays_from_rest_with_one_denominator) {  // oracle: the rule of srivc.h
     const TransferStructure plain = TransferStructure::single(2, 0);
-    EXPECT_TRUE(srivc_passes_suffice(plain, {}));
-    EXPECT_TRUE(srivc_passes_suffice(TransferStructure::grid(1, 2, Denominators::kPerOutput, {2}, {0}, {0, 0}), {}));
-    EXPECT_FALSE(srivc_passes_suffice(TransferStructure::grid(1, 2, Denominators::kPerChannel, {2}, {0}, {0, 0}), {}));
+    const FitOptions rest = FitOptions{}.from_rest();
+    EXPECT_TRUE(srivc_passes_suffice(plain, rest));
+    EXPECT_FALSE(srivc_passes_suffice(plain, {}));
+    EXPECT_TRUE(srivc_passes_suffice(TransferStructure::grid(1, 2, Denominators::kPerOutput, {2}, {0}, {0, 0}), rest));
+    EXPECT_FALSE(
+        srivc_passes_suffice(TransferStructure::grid(1, 2, Denominators::kPerChannel, {2}, {0}, {0, 0}), rest));
     TransferStructure delayed = plain;
     delayed.free_delays = true;
-    EXPECT_FALSE(srivc_passes_suffice(delayed, {}));
-    FitOptions moving, offset, held;
+    EXPECT_FALSE(srivc_passes_suffice(delayed, rest));
+    FitOptions moving = rest, offset = rest, held = rest;
     moving.initial_state = InitialState::kEstimate;
     offset.offset = Offset::kEstimate;
     held.fixed = {{"a1", 3}};

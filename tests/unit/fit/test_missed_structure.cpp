@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "base/number_text.h"
+#include "base/reader.h"
 #include "numerics/estimators/coe.h"
 #include "numerics/estimators/srivc.h"
 #include "numerics/linalg/polynomial.h"
