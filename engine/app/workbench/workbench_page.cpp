@@ -19,6 +19,7 @@
 #include "platform/error.h"
 #include "platform/memory.h"
 #include "platform/system_call.h"
+#include "scripting/interpreter/catalogue.h"
 #include "scripting/runtime/help.h"
 #include "workflow/lesson_catalogue.h"
 #include "workflow/recording.h"

@@ -109,10 +109,10 @@ TEST(oe, operating_point_is_removed) {  // oracle: the same record without it
     Experiment& experiment = data.experiments[0];
     experiment.u.array() -= experiment.u.mean();
     experiment.y.array() -= experiment.y.mean();
-    const auto centred = oe(data, c.orders, tight().from_rest());
+    FitOptions options = tight().from_rest();
+    const auto centred = oe(data, c.orders, options);
     experiment.u.array() += 5;
     experiment.y.array() += 40;
-    FitOptions options = tight().from_rest();
     options.offset = Offset::kRemove;
     const auto result = oe(data, c.orders, options);
     EXPECT_LT(worst_relative(result.theta, centred.theta), 1e-8);
