@@ -42,7 +42,7 @@ std::string example_of(std::string_view page) {
 }
 
 TEST_P(reference_pages, has_the_form_of_a_page) {
-    const std::string text(GetParam().text);
+    const std::string text = page_text(GetParam(), entry());
     EXPECT_THAT(text, StartsWith("# " + std::string(GetParam().name) + "\n"));
     if (entry() == nullptr) {
         EXPECT_THAT(
@@ -108,7 +108,7 @@ TEST(reference_pages_of_models, tell_where_several_inputs_are_refused) {  // ora
     for (const HelpPage& page : help_pages()) {
         if (told.find("refuses: " + std::string(page.name) + ";") == std::string::npos) continue;
         ++refusing;
-        EXPECT_THAT(std::string(page.text), HasSubstr("several inputs")) << page.name;
+        EXPECT_THAT(page_text(page, find_function(std::string(page.name))), HasSubstr("several inputs")) << page.name;
     }
     EXPECT_GT(refusing, 15) << told;
 }

@@ -43,7 +43,7 @@ TEST(type_stubs, use_the_documented_tags_and_name_the_parameters_in_order) {
     EXPECT_THAT(stubs, StartsWith("---@meta\n"));
     const std::regex tag("^---@(meta|class|field|param|return|overload)\\b.*");
     const std::regex parameter("---@param (\\.\\.\\.|[A-Za-z_]\\w*)([?]?) (any|table|dynlab\\.\\w+\\.options)");
-    const std::regex field("---@field [A-Za-z_]\\w*\\? any.*");
+    const std::regex field("---@field [A-Za-z_]\\w*\\? (any|number|integer|boolean|string) .+");
     std::string named;
     for (const std::string& line : lines_of(stubs)) {
         EXPECT_EQ(line.starts_with("---@"), std::regex_match(line, tag)) << line;
