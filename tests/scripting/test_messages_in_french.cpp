@@ -233,8 +233,7 @@ advice(iddata(d.y, u, nil, {SamplingInstants = late}))
 }
 
 TEST(messages_in_french, are_as_written_by_hand) {
-    EXPECT_THAT(told_in("fr", kRecord + "print(fit(d, G0)) resid(d, G0)"),
-                HasSubstr("L'erreur de sortie"));
+    EXPECT_THAT(told_in("fr", kRecord + "print(fit(d, G0)) resid(d, G0)"), HasSubstr("L'erreur de sortie"));
     const std::string order = told_in("fr", kRecord + "srivcstruc(d, {poles = {1, 2}, zeros = {0, 1}})");
     EXPECT_THAT(order, testing::AllOf(HasSubstr("Structure recommandée : 2 pôles et "), HasSubstr(" (R_T^2 = 0,9")));
     EXPECT_THAT(order, HasSubstr("pôles zéros"));

@@ -20,8 +20,8 @@ struct Sign {
     Message remedy;
 };
 const std::vector<Sign>& signs() {
-    static const Message fill = Message("Report the value, table or figure in {} and make the PDF with dynlab report.",
-                              "analysis.lua");
+    static const Message fill =
+        Message("Report the value, table or figure in {} and make the PDF with dynlab report.", "analysis.lua");
     using Line = const std::string&;
     static const std::vector<Sign> all = {
         {"{.value}", "slot-unfilled",

@@ -117,7 +117,8 @@ TEST(narx, tells_when_a_run_is_lost) {  // oracle: y(k) = 1.5 y(k-1) + u grows b
     while (std::abs(x) <= bound) x = 1.5 * x + 1, ++k;
     EXPECT_EQ(*run.lost_at, k);
     EXPECT_TRUE(run.output.bottomRows(100 - k).array().isNaN().all());
-    EXPECT_THAT(message_text(divergence_text(inputs_alone(Matrix::Ones(100, 1), 0.1, Hold::kZoh), 0, 32)), HasSubstr("t = 3.2 s"));
+    EXPECT_THAT(message_text(divergence_text(inputs_alone(Matrix::Ones(100, 1), 0.1, Hold::kZoh), 0, 32)),
+                HasSubstr("t = 3.2 s"));
 }
 
 TEST(narx, joins_experiments_and_inputs) {  // oracle: the equation put in
