@@ -482,7 +482,8 @@ guess("fit about 7 V", 80, "%")
 -- %% id=heat_first
 -- BEGIN SOLUTION
 local function start(data) return detrend(data, "start") end
-local G1 = tfsrivc(start(low), 2, 0, {TdMax = 20, InitialState = "none", Offset = "estimate"})
+local G1 = tfsrivc(start(low), 2, 0,
+                   {TdMax = 20, InitialState = "none", Offset = "estimate"})
 print(G1)
 outcome("fit about 7 V", fit(start(high), G1))
 -- END SOLUTION
@@ -524,7 +525,8 @@ local function watts(data)            -- power goes with the square of the volta
                   {InputName = "heater", InputUnit = "W",
                    OutputName = "air", OutputUnit = "°C"})
 end
-local G2 = tfsrivc(start(watts(low)), 2, 0, {TdMax = 20, InitialState = "none", Offset = "estimate"})
+local G2 = tfsrivc(start(watts(low)), 2, 0,
+                   {TdMax = 20, InitialState = "none", Offset = "estimate"})
 
 local measured = start(high).y        -- both models on the record about 7 V
 local function simulated(G, data)

@@ -426,8 +426,12 @@ local orders = {1, 2, 0}
 local ways = {
     {"LSSVF", function(data) return lssvf(data, {2, 1, 0}, lambda).param end},
     {"SRIVC", function(data) return srivc(data, orders, from_rest).param end},
-    {"RIVC, 2 and 2", function(data) return rivc(data, {1, 2, 2, 2, 0}, from_rest).param end},
-    {"RIVC, 1 and 1", function(data) return rivc(data, {1, 1, 1, 2, 0}, from_rest).param end},
+    {"RIVC, 2 and 2", function(data)
+        return rivc(data, {1, 2, 2, 2, 0}, from_rest).param
+    end},
+    {"RIVC, 1 and 1", function(data)
+        return rivc(data, {1, 1, 1, 2, 0}, from_rest).param
+    end},
     {"own, order 4", function(_, record)
         return own_instruments(record, lambda)
     end},
