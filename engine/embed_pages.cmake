@@ -14,14 +14,10 @@ endforeach()
 file(WRITE ${OUTPUT} "#include \"${HEADER}\"
 
 namespace dynlab::inline ${LAYER} {
-namespace {
-
-constexpr ${TYPE} kPages[] = {
-${entries}};
-
-}  // namespace
 
 std::span<const ${TYPE}> ${FUNCTION}() {
+    static const ${TYPE} kPages[] = {  // longer texts than a compiler counts for a constant
+${entries}    };
     return kPages;
 }
 

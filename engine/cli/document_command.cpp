@@ -5,9 +5,10 @@
 
 #include <iostream>
 
+#include "base/reader.h"
 #include "cli/commands.h"
+#include "cli/say.h"
 #include "platform/terminal/activity_line.h"
-#include "platform/terminal/terminal_text.h"
 
 namespace dynlab::inline cli {
 namespace {
@@ -42,8 +43,8 @@ void show(const ReportResult& result) {
 
 ReportResult make_showing_activity(ReportRequest& request) {
     ActivityLine activity;
-    request.step = [&activity](const std::string& step) { activity.begin_step(step); };
-    request.enter_cell = [&activity](const std::string& cell) { activity.begin_part(cell); };
+    request.step = [&activity](const Message& step) { activity.begin_step(message_text(step)); };
+    request.enter_cell = [&activity](const Message& cell) { activity.begin_part(message_text(cell)); };
     if (request.print)
         request.print = [&activity, print = std::move(request.print)](const std::string& text) {
             activity.print(text, print);
@@ -56,16 +57,13 @@ ReportResult make_showing_activity(ReportRequest& request) {
 int make_document(ReportRequest request, bool show_timings) {
     const ReportResult result = make_showing_activity(request);
     const std::string file = std::filesystem::absolute(request.output).lexically_normal().string();
-    const char* const state = result.up_to_date      ? " (up to date)"
-                              : result.error         ? " (up to the error)"
-                              : !result.gaps.empty() ? " (a draft: ?? stands where something is missing)"
-                                                     : "";
-    if (result.error) std::cerr << "dynlab: " << terminal_text(*result.error) << std::endl;
-    if (!result.gaps.empty())
-        std::cerr << "dynlab: " << terminal_text(fmt::format("{}", fmt::join(result.gaps, "\n"))) << '\n';
-    for (const std::string& sentence : result.unplaced)
-        std::cerr << "dynlab: note: " << terminal_text(sentence) << '\n';
-    std::cout << file << state << '\n';
+    if (result.error) complain(*result.error);
+    if (!result.gaps.empty()) complain(Message("{}", MessageList{result.gaps, Join::kLines}));
+    for (const UnplacedEntries& entries : result.unplaced) note(entries.message());
+    say(result.up_to_date      ? Message("{} (up to date)", file)
+        : result.error         ? Message("{} (up to the error)", file)
+        : !result.gaps.empty() ? Message("{} (a draft: ?? stands where something is missing)", file)
+                               : Message("{}", file));
     if (show_timings) show(result);
     return result.error || !result.gaps.empty() ? kFailed : kDone;
 }

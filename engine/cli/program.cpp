@@ -13,6 +13,8 @@
 #include <iostream>
 #include <optional>
 
+#include "base/error.h"
+#include "cli/say.h"
 #include "cli/usage_error.h"
 #include "platform/error.h"
 #include "platform/files/file_error.h"
@@ -46,38 +48,36 @@ constexpr const char* kFooter =
     "130 interrupted.";
 
 /// Where what was printed has not been taken by whatever standard output is.
-std::optional<std::string> complaint_about_output() {
+std::optional<Message> complaint_about_output() {
     std::cout.flush();
     if (std::fflush(stdout) == 0 && std::cout && std::ferror(stdout) == 0) return {};
     // The write that failed may lie far back, and its reason is lost: another one fails for the same.
     const bool taken = retry_interrupted([] { return ::write(STDOUT_FILENO, "\n", 1); }) == 1;
-    return "cannot write what was printed" + (taken ? "" : ": " + system_reason(errno));
+    return taken ? Message("cannot write what was printed")
+                 : Message("cannot write what was printed: {}", system_reason(errno));
 }
 
 /// Runs the chosen command and turns what it throws into one line on standard error and an exit code.
 int run_action(const Action& action) {
     const InterruptScope interrupts(InterruptScope::Unheard::kEnds);
-    const auto say = [](const std::string& sentence, int code) {
-        std::fflush(stdout);
-        std::cerr << "dynlab: " << terminal_text(sentence) << std::endl;
-        return code;
-    };
-    const auto complain = [&say](const std::exception& error, int code) { return say(error.what(), code); };
     try {
         const int code = action();
-        const std::optional<std::string> complaint = complaint_about_output();
-        return complaint ? say(*complaint, kFailed) : code;
+        const std::optional<Message> complaint = complaint_about_output();
+        if (!complaint) return code;
+        complain(*complaint);
     } catch (const Interrupted& error) {
-        const int code = complain(error, kInterrupted);
+        complain(message_of(error));
         pass_on_termination();
-        return code;
+        return kInterrupted;
     } catch (const MissingProgram& error) {
-        return complain(error, kMissingProgram);
+        complain(message_of(error));
+        return kMissingProgram;
     } catch (const std::filesystem::filesystem_error& error) {
-        return say(file_error_sentence(error), kFailed);
+        complain(file_error_sentence(error));
     } catch (const std::exception& error) {
-        return complain(error, kFailed);
+        complain(message_of(error));
     }
+    return kFailed;
 }
 
 }  // namespace

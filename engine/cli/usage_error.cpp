@@ -1,10 +1,13 @@
 #include "cli/usage_error.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <re2/re2.h>
 
 #include <vector>
 
+#include "base/message.h"
+#include "base/reader.h"
 #include "platform/spelling.h"
 #include "platform/terminal/terminal_text.h"
 
@@ -57,26 +60,31 @@ std::vector<std::string> option_names(const CLI::App* of) {
     return names;
 }
 
-std::string guess(const std::string& word, const std::vector<std::string>& names) {
-    const auto near = nearest_word(word, names);
-    return near ? fmt::format("; did you mean '{}'?", *near) : "";
+Message unknown_option(const std::string& command, const std::string& option, const std::vector<std::string>& names) {
+    const auto near = nearest_word(option, names);
+    return near ? Message("{} has no option '{}'; did you mean '{}'?", command, option, *near)
+                : Message("{} has no option '{}'", command, option);
 }
 
-/// What is told of words that no command and no option takes, the first of them above all.
-std::string unknown_words(const CLI::App* command, const std::vector<std::string>& words, bool required) {
+Message unknown_command(const CLI::App* command, const std::string& word, const std::vector<std::string>& names) {
+    const auto near = nearest_word(word, names);
+    if (command->get_parent() == nullptr)
+        return near ? Message("there is no command '{}'; did you mean '{}'?", word, *near)
+                    : Message("there is no command '{}'", word);
+    return near ? Message("{} has no command '{}'; did you mean '{}'?", whole_name(command), word, *near)
+                : Message("{} has no command '{}'", whole_name(command), word);
+}
+
+/// What is said of words that no command and no option takes, the first of them above all.
+Message unknown_words(const CLI::App* command, const std::vector<std::string>& words, bool required) {
     const std::string option = words.front().substr(0, words.front().find('='));
     if (option.size() > 1 && option.starts_with('-'))
-        return fmt::format("{} has no option '{}'{}", whole_name(command), option,
-                           guess(option, option_names(command)));
+        return unknown_option(whole_name(command), option, option_names(command));
     const std::vector<std::string> names = command_names(command);
     if (words.front().ends_with(".lua") && command->get_parent() == nullptr)
-        return "a script is run by its command: dynlab run " + shell_word(words.front());
-    if (!names.empty())
-        return fmt::format(
-            "{} '{}'{}",
-            command->get_parent() == nullptr ? "there is no command" : whole_name(command) + " has no command",
-            words.front(), guess(words.front(), names));
-    return required ? "" : fmt::format("nothing is known of {} here", fmt::join(words, " "));
+        return Message("a script is run by its command: dynlab run {}", shell_word(words.front()));
+    if (!names.empty()) return unknown_command(command, words.front(), names);
+    return required ? Message() : Message("nothing is known of {} here", fmt::format("{}", fmt::join(words, " ")));
 }
 
 }  // namespace
@@ -85,12 +93,12 @@ std::string usage_message(const CLI::App* app, const CLI::Error& error) {
     // The parser gives unknown words backwards, and asks for what it misses before it tells of a word that was
     // misspelt.
     const bool required = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
-    std::string message;
+    Message message;
     if (const std::vector<std::string> words = app->remaining(true);
         !words.empty() && (required || dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr))
         message = unknown_words(reached_command(app), words, required);
-    if (message.empty()) message = in_our_words(error.what());
-    return fmt::format("dynlab: {}\nRun with {} for more information.\n", terminal_text(message),
+    if (message.empty()) message = Message::verbatim(in_our_words(error.what()));
+    return fmt::format("dynlab: {}\nRun with {} for more information.\n", terminal_text(message_text(message)),
                        app->get_help_ptr()->get_name());
 }
 

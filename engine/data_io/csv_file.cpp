@@ -15,7 +15,6 @@
 #include "data_io/tables/text_decoding.h"
 #include "data_io/tables/unit_text.h"
 #include "data_io/variable.h"
-#include "numerics/number_text.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 
@@ -30,6 +29,8 @@ std::size_t bytes_besides(std::string_view text) {
     constexpr std::size_t kShort = 15, kBlock = 16;
     return text.size() > kShort ? text.size() + kBlock : 0;
 }
+
+constexpr std::size_t kMostTold = 8;
 
 class CsvReader {
   public:
@@ -55,22 +56,17 @@ class CsvReader {
         std::size_t missing = 0, first_missing_line = 0;
     };
 
-    [[noreturn]] void fail(const std::string& what) const {
-        throw EnvironmentError(fmt::format("{}: {}", file_.string(), what));
-    }
-    [[noreturn]] void fail_in_line(std::size_t line, const std::string& what) const {
-        throw EnvironmentError(fmt::format("{}, line {}: {}", file_.string(), line, what));
-    }
-    [[noreturn]] void fail_in_column(std::size_t line, std::size_t column, const std::string& what) const {
-        throw EnvironmentError(
-            fmt::format("{}, line {}, column {}: {}", file_.string(), line, table_.names[column], what));
-    }
-    void note(std::string sentence) { table_.notes.push_back(std::move(sentence)); }
+    void note(Message sentence) { table_.notes.push_back(std::move(sentence)); }
     /// The first of them, as nobody reads hundreds.
-    static std::string listed(const std::vector<std::string>& told) {
-        constexpr std::size_t kMostTold = 8;
-        if (told.size() <= kMostTold) return fmt::format("{}", fmt::join(told, ", "));
-        return fmt::format("{}, ...", fmt::join(told.begin(), told.begin() + kMostTold, ", "));
+    static MessageList first_of(MessageList list) {
+        if (list.items.size() <= kMostTold) return list;
+        list.items.resize(kMostTold);
+        list.items.push_back(Message::verbatim("..."));
+        return list;
+    }
+    static MessageList first_of(const std::vector<std::string>& texts) {
+        const auto count = static_cast<std::ptrdiff_t>(std::min(texts.size(), kMostTold + 1));
+        return first_of(listed({texts.begin(), texts.begin() + count}));
     }
 
     std::string_view rest_of_line() const { return text_.substr(at_, text_.find('\n', at_) - at_); }
@@ -82,7 +78,9 @@ class CsvReader {
 
     void skip_lines() {
         for (std::size_t i = 0; i < options_.skip; ++i) {
-            if (at_end()) fail(fmt::format("{} cannot be skipped, it has only {}", counted(options_.skip, "line"), i));
+            if (at_end())
+                throw EnvironmentError("{}: {} cannot be skipped, it has only {}", file_.string(),
+                                       plural(static_cast<std::int64_t>(options_.skip), "{} line", "{} lines"), i);
             skip_line();
         }
     }
@@ -119,9 +117,9 @@ class CsvReader {
             const std::string_view given = value;
             if (value.size() > 2 && value.substr(value.size() - 2) == " s") value.remove_suffix(2);
             if (parse_number(value, true, Ts) != NumberStatus::kNumber || Ts <= 0)
-                fail_in_line(line_, fmt::format("the sampling time Ts must be a positive number of seconds, given "
-                                                "\"{}\"",
-                                                given));
+                throw EnvironmentError(
+                    "{}, line {}: the sampling time Ts must be a positive number of seconds, given \"{}\"",
+                    file_.string(), line_, given);
             table_.Ts = Ts;
         } else {
             table_.remarks[std::string(key)] = value;
@@ -135,8 +133,9 @@ class CsvReader {
         std::vector<std::string> units(columns());
         if (!options_.names.empty()) {
             if (options_.names.size() != columns())
-                fail(fmt::format("option names has {}, but the table has {}", counted(options_.names.size(), "name"),
-                                 counted(columns(), "column")));
+                throw EnvironmentError("{}: option names has {}, but the table has {}", file_.string(),
+                                       plural(std::ssize(options_.names), "{} name", "{} names"),
+                                       plural(static_cast<std::int64_t>(columns()), "{} column", "{} columns"));
             table_.names = options_.names;
         } else {
             take_units_of_headers(headers, units);
@@ -166,29 +165,29 @@ class CsvReader {
         table_.names = headers;
         std::map<std::string, int> times;
         for (const std::string& header : headers) ++times[split_unit(header).name];
-        std::vector<std::string> told;
+        MessageList told;
         for (std::size_t j = 0; j < columns(); ++j) {
             const auto [name, unit] = split_unit(headers[j]);
             if (unit.empty() || times[name] > 1) continue;  // y (m) and y (V) are told apart by their units
             table_.names[j] = name, units[j] = unit;
-            told.push_back(fmt::format("{} in {}", name, unit));
+            told.items.push_back(Message("{} in {}", name, unit));
         }
-        if (!told.empty()) note(fmt::format("units from the headers: {}", listed(told)));
+        if (!told.items.empty()) note(Message("units from the headers: {}", first_of(told)));
     }
 
     void name_the_nameless() {
-        std::vector<std::string> told;
+        MessageList told;
         const bool all = layout_.names.empty();
         for (std::size_t j = 0; j < columns(); ++j) {
             if (!table_.names[j].empty()) continue;
             table_.names[j] = all ? fmt::format("c{}", j + 1) : j == 0 ? "index" : fmt::format("column_{}", j + 1);
-            told.push_back(all ? table_.names[j] : fmt::format("column {} is called {}", j + 1, table_.names[j]));
+            told.items.push_back(all ? Message::verbatim(table_.names[j])
+                                     : Message("column {} is called {}", j + 1, table_.names[j]));
         }
-        if (told.empty()) return;
-        note(all ? fmt::format("there is no line of names, so the columns are called {}; {{names = {{...}}}} gives "
-                               "them names",
-                               listed(told))
-                 : fmt::format("the header has no name for it: {}", listed(told)));
+        if (told.items.empty()) return;
+        note(all ? Message("there is no line of names, so the columns are called {}; {names = {...}} gives them names",
+                           first_of(told))
+                 : Message("the header has no name for it: {}", first_of(told)));
     }
 
     void number_equal_names() {
@@ -202,28 +201,30 @@ class CsvReader {
             name = fmt::format("{}_{}", name, number);
             told.push_back(name);
         }
-        if (!told.empty()) note(fmt::format("columns of equal names are numbered: {}", listed(told)));
+        if (!told.empty()) note(Message("columns of equal names are numbered: {}", first_of(told)));
     }
 
     void state_unit(const std::string& name, const std::string& unit, const std::set<std::string>& known) {
         const auto header = table_.headers.find(name);
         const std::string& column = header == table_.headers.end() ? name : header->second;
         if (!known.contains(column))
-            fail(fmt::format("a unit is given for {}, but there is no such column; the columns are {}", name,
-                             listed(table_.names)));
+            throw EnvironmentError("{}: a unit is given for {}, but there is no such column; the columns are {}",
+                                   file_.string(), name, first_of(table_.names));
         table_.units[column] = unit;
     }
 
     void tell_layout() {
-        if (layout_.passed_over > 0)
-            note(fmt::format("the table begins in line {}; {} above it {} passed over", layout_.table_line,
-                             layout_.passed_over == 1 ? "a line" : fmt::format("{} lines", layout_.passed_over),
-                             layout_.passed_over == 1 ? "is" : "are"));
-        if (layout_.named_by_comment) note("the names of the columns are those of the comment above the numbers");
+        if (layout_.passed_over == 1)
+            note(Message("the table begins in line {}; a line above it is passed over", layout_.table_line));
+        else if (layout_.passed_over > 1)
+            note(Message("the table begins in line {}; {} lines above it are passed over", layout_.table_line,
+                         layout_.passed_over));
+        if (layout_.named_by_comment)
+            note(Message("the names of the columns are those of the comment above the numbers"));
         if (layout_.units_line > 0) {
-            std::vector<std::string> told;
-            for (const auto& [name, unit] : table_.units) told.push_back(fmt::format("{} in {}", name, unit));
-            note(fmt::format("line {} is taken for units: {}", layout_.units_line, listed(told)));
+            MessageList told;
+            for (const auto& [name, unit] : table_.units) told.items.push_back(Message("{} in {}", name, unit));
+            note(Message("line {} is taken for units: {}", layout_.units_line, first_of(told)));
         }
     }
 
@@ -242,15 +243,14 @@ class CsvReader {
             Vector& numbers = columns[j].numbers;
             numbers.conservativeResize(columns[j].count);  // reallocates, without a copy of large columns
             if (table_.names[j] == "Ts" && is_one_number(columns[j])) {
-                note("the only number in column Ts, in its first row, is the sampling time");
+                note(Message("the only number in column Ts, in its first row, is the sampling time"));
                 numbers.conservativeResize(1), columns[j].missing = 0;
             }
             table_.columns.push_back(std::move(numbers));
             if (layout_.is_text[j]) table_.texts[table_.names[j]] = std::move(columns[j].texts);
         }
         tell_missing(columns, rows_read);
-        if (!first_comma_.empty())
-            note(fmt::format("numbers are written with a decimal comma, such as {}", first_comma_));
+        if (!first_comma_.empty()) note(Message("numbers are written with a decimal comma, such as {}", first_comma_));
     }
 
     /// Benchmark records give the sampling time as a column of one number.
@@ -271,21 +271,25 @@ class CsvReader {
             ++cells;
         } while (!scanner.record_ended());
         if (cells == columns.size() || (cells > columns.size() && rest_is_empty)) return;
-        fail_in_line(scanner.line(),
-                     fmt::format("wanted {} as in the header line, given {}", counted(columns.size(), "cell"), cells));
+        throw EnvironmentError("{}, line {}: wanted {} as in the header line, given {}", file_.string(), scanner.line(),
+                               plural(std::ssize(columns), "{} cell", "{} cells"), cells);
     }
 
     /// Refuses a table before it takes more memory than a file of that size may.
     void take_memory(std::size_t bytes, const CellScanner& scanner) {
         if ((memory_ += bytes) <= memory_for_reading(text_.size())) return;
-        fail_in_line(scanner.line(), "the table has too many cells: " + memory_refusal(text_.size()));
+        const ReadingMegabytes megabytes = megabytes_for_reading(text_.size());
+        throw EnvironmentError(
+            "{}, line {}: the table has too many cells: reading it takes more than {} MB of memory, too much for a "
+            "file of {} MB",
+            file_.string(), scanner.line(), megabytes.most, megabytes.of_file);
     }
 
     void take_cell(Column& column, std::size_t index, std::string_view cell, const CellScanner& scanner) {
         const bool decimal_comma = layout_.separator != ',' || scanner.cell_was_quoted();
         if (layout_.is_text[index]) {
             if (column.texts.empty() && looks_grouped(cell))
-                fail_in_column(scanner.line(), index, number_complaint(cell, decimal_comma));
+                refuse_cell({file_, scanner.line(), table_.names[index]}, cell, decimal_comma);
             take_memory(kBytesOfText + bytes_besides(cell), scanner);
             column.texts.emplace_back(cell);
             return;
@@ -297,7 +301,7 @@ class CsvReader {
             number = std::numeric_limits<double>::quiet_NaN();
             if (column.missing++ == 0) column.first_missing_line = scanner.line();
         } else if (status != NumberStatus::kNumber) {
-            fail_in_column(scanner.line(), index, number_complaint(cell, decimal_comma));
+            refuse_cell({file_, scanner.line(), table_.names[index]}, cell, decimal_comma);
         } else if (decimal_comma && first_comma_.empty() && cell.find(',') != std::string_view::npos) {
             first_comma_ = cell;
         }
@@ -306,13 +310,13 @@ class CsvReader {
     }
 
     void tell_missing(const std::vector<Column>& columns, std::size_t rows) {
-        std::vector<std::string> told;
+        MessageList told;
         for (std::size_t j = 0; j < columns.size(); ++j)
             if (columns[j].missing > 0)
-                told.push_back(fmt::format("{} of {} in {} (first in line {})", columns[j].missing, rows,
-                                           table_.names[j], columns[j].first_missing_line));
-        if (!told.empty())
-            note(fmt::format("numbers are missing, NaN stands for them and fillmissing fills them: {}", listed(told)));
+                told.items.push_back(Message("{} of {} in {} (first in line {})", columns[j].missing, rows,
+                                             table_.names[j], columns[j].first_missing_line));
+        if (!told.items.empty())
+            note(Message("numbers are missing, NaN stands for them and fillmissing fills them: {}", first_of(told)));
     }
 
     const std::filesystem::path& file_;
@@ -329,13 +333,8 @@ class CsvReader {
 }  // namespace
 
 CsvTable read_csv_text(const std::filesystem::path& file, std::string bytes, const ImportOptions& options) {
-    std::vector<std::string> notes;
-    std::string text;
-    try {
-        text = decoded_text(std::move(bytes), notes);
-    } catch (const EnvironmentError& error) {
-        throw EnvironmentError(fmt::format("{}: {}", file.string(), error.what()));
-    }
+    std::vector<Message> notes;
+    const std::string text = decoded_text(file, std::move(bytes), notes);
     CsvTable table = CsvReader(file, text, options).read();
     table.notes.insert(table.notes.begin(), notes.begin(), notes.end());
     return table;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "data_io/tables/import_options.h"
 #include "numerics/linalg/types.h"
 
@@ -22,7 +23,7 @@ struct CsvTable {
     std::optional<double> Ts;                               ///< seconds
     std::map<std::string, std::string> remarks;             ///< the other key: value lines
     std::map<std::string, std::string> headers = {};        ///< as the file has them -> name, where they differ
-    std::vector<std::string> notes = {};                    ///< sentences on what was guessed and may be wrong
+    std::vector<Message> notes = {};                        ///< sentences on what was guessed and may be wrong
 };
 
 /// Reads a separated text as people's programs write it: comma, semicolon, tab, bar or blanks between cells; RFC 4180

@@ -27,18 +27,17 @@ std::size_t checked_rows(const CsvTable& table) {
     std::set<std::string_view> known;
     for (std::size_t i = 0; i < table.names.size(); ++i) {
         if (!known.insert(table.names[i]).second) {
-            throw InvalidArgument(
-                fmt::format("two columns are named {}; every column needs a name of its own", table.names[i]));
+            throw InvalidArgument("two columns are named {}; every column needs a name of its own", table.names[i]);
         }
         const auto text = table.texts.find(table.names[i]);
         if (text == table.texts.end() && i >= table.columns.size()) {
-            throw InvalidArgument(fmt::format("column {} has a name but no data", table.names[i]));
+            throw InvalidArgument("column {} has a name but no data", table.names[i]);
         }
         const std::size_t here =
             text != table.texts.end() ? text->second.size() : static_cast<std::size_t>(table.columns[i].size());
         if (i > 0 && here != rows) {
-            throw InvalidArgument(fmt::format("columns of a table must have equal lengths: {} has {} rows, {} has {}",
-                                              table.names[0], rows, table.names[i], here));
+            throw InvalidArgument("columns of a table must have equal lengths: {} has {} rows, {} has {}",
+                                  table.names[0], rows, table.names[i], here);
         }
         rows = here;
     }
@@ -48,7 +47,7 @@ std::size_t checked_rows(const CsvTable& table) {
 
 void append_number(std::string& out, double number, int digits, const std::string& column, std::size_t row) {
     if (!std::isfinite(number)) {
-        throw InvalidArgument(fmt::format("column {} holds a value that is not finite in row {}", column, row + 1));
+        throw InvalidArgument("column {} holds a value that is not finite in row {}", column, row + 1);
     }
     char text[64];
     const auto end = std::to_chars(text, text + sizeof text, number, std::chars_format::general, digits).ptr;
@@ -65,7 +64,7 @@ void append_comments(std::string& out, const CsvTable& table) {
 
 void write_csv_file(const std::filesystem::path& file, const CsvTable& table, int digits) {
     if (digits < 1 || digits > 17) {
-        throw InvalidArgument(fmt::format("a table is written with 1 to 17 significant digits, not {}", digits));
+        throw InvalidArgument("a table is written with 1 to 17 significant digits, not {}", digits);
     }
     const std::size_t rows = checked_rows(table);
     std::string out;

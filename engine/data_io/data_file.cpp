@@ -1,7 +1,5 @@
 #include "data_io/data_file.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 
@@ -20,6 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 4> kTableEndings = {".csv", ".tsv", ".txt", ".dat"};
 constexpr std::string_view kMatEnding = ".mat", kJsonEnding = ".json", kWorkbookEnding = ".xlsx";
+constexpr int kInstantDigits = 15;       // of messages: neighbours may differ late
 constexpr double kStepTolerance = 1e-3;  // relative; instants are often rounded when they are written
 
 bool is_table(const std::string& ending) {
@@ -68,8 +67,8 @@ void refuse_table_options(const fs::path& file, const ImportOptions& options) {
                         : !options.sheet.empty() ? "sheet"
                                                  : nullptr;
     if (given != nullptr)
-        throw EnvironmentError(fmt::format("{}: option {} is for tables, not for {} files", file.string(), given,
-                                           file.extension().string()));
+        throw EnvironmentError("{}: option {} is for tables, not for {} files", file.string(), given,
+                               file.extension().string());
 }
 
 LoadedData variables_of(const fs::path& file, bool guarded, const ImportOptions& options) {
@@ -79,32 +78,28 @@ LoadedData variables_of(const fs::path& file, bool guarded, const ImportOptions&
         data.variables = read_json_file(file);
     else
         data.variables = read_mat_file(file, guarded, &data.notes);
-    for (std::string& note : data.notes) note += ": left out";
+    for (Message& note : data.notes) note = Message("{}: left out", note);
     for (const auto& [name, unit] : options.units) {
         if (data.variables.count(name) == 0)
-            throw EnvironmentError(
-                fmt::format("{}: a unit is given for {}, but there is no such variable", file.string(), name));
+            throw EnvironmentError("{}: a unit is given for {}, but there is no such variable", file.string(), name);
         data.units[name] = unit;
     }
     return data;
 }
 
 LoadedData from_workbook(const fs::path& file, ImportOptions options) {
-    if (options.delimiter)
-        throw EnvironmentError(fmt::format("{}: option delimiter is for tables in text files", file.string()));
+    if (options.delimiter) throw EnvironmentError("{}: option delimiter is for tables in text files", file.string());
     SheetText sheet = read_sheet(file, options.sheet);
     options.delimiter = ',';
     LoadedData data = from_table(read_csv_text(file, std::move(sheet.csv), options));
     if (options.sheet.empty() && sheet.sheets.size() > 1)
-        data.notes.insert(data.notes.begin(),
-                          fmt::format("of its sheets {} the first is read; option sheet names another",
-                                      fmt::join(sheet.sheets, ", ")));
+        data.notes.insert(data.notes.begin(), Message("of its sheets {} the first is read; option sheet names another",
+                                                      listed(sheet.sheets)));
     return data;
 }
 
 LoadedData from_text(const fs::path& file, const ImportOptions& options) {
-    if (!options.sheet.empty())
-        throw EnvironmentError(fmt::format("{}: option sheet is for workbooks (.xlsx)", file.string()));
+    if (!options.sheet.empty()) throw EnvironmentError("{}: option sheet is for workbooks (.xlsx)", file.string());
     return from_table(read_csv_file(file, options));
 }
 
@@ -113,18 +108,21 @@ void take_time(LoadedData& data, const std::string& given) {
     const std::string& name = header == data.headers.end() ? given : header->second;
     const auto found = data.variables.find(name);
     const Vector* instants = found == data.variables.end() ? nullptr : std::get_if<Vector>(&found->second.value);
-    const auto fail = [&](const std::string& what) {
-        throw EnvironmentError(fmt::format("{}: the time '{}' {}", data.file.string(), given, what));
-    };
-    if (instants == nullptr || instants->size() < 2) fail("is not a column of numbers");
+    const std::string file = data.file.string();
+    if (instants == nullptr || instants->size() < 2)
+        throw EnvironmentError("{}: the time '{}' is not a column of numbers", file, given);
     const auto unit = data.units.find(name);
     const double seconds = unit == data.units.end() ? 1 : seconds_of(unit->second).value_or(0);
-    if (seconds == 0) fail(fmt::format("has the unit {}, which is none of time", unit->second));
+    if (seconds == 0)
+        throw EnvironmentError("{}: the time '{}' has the unit {}, which is none of time", file, given, unit->second);
     const InstantSpacing spacing = spacing_of(*instants);
     if (spacing.disorder)
-        fail(fmt::format("must increase, but sample {} is {} and the next {}", *spacing.disorder + 1,
-                         (*instants)[*spacing.disorder], (*instants)[*spacing.disorder + 1]));
-    if (name != "t" && data.variables.count("t") > 0) fail("would take the place of the column t: rename one by names");
+        throw EnvironmentError("{}: the time '{}' must increase, but sample {} is {} and the next {}", file, given,
+                               *spacing.disorder + 1, significant((*instants)[*spacing.disorder], kInstantDigits),
+                               significant((*instants)[*spacing.disorder + 1], kInstantDigits));
+    if (name != "t" && data.variables.count("t") > 0)
+        throw EnvironmentError("{}: the time '{}' would take the place of the column t: rename one by names", file,
+                               given);
     const Vector t = *instants * seconds;
     data.variables["t"] = {t};
     data.units["t"] = "s";
@@ -159,8 +157,8 @@ LoadedData read_data_file(const fs::path& file, bool guarded, const ImportOption
     else if (ending == kWorkbookEnding)
         data = from_workbook(file, options);
     else
-        throw EnvironmentError(fmt::format("{} is of no kind that can be read: those are .mat, .xlsx, {}, .json",
-                                           file.string(), fmt::join(kTableEndings, ", ")));
+        throw EnvironmentError("{} is of no kind that can be read: those are .mat, .xlsx, {}, .json", file.string(),
+                               listed({kTableEndings.begin(), kTableEndings.end()}));
     data.file = file;
     if (!options.time.empty()) take_time(data, options.time);
     return data;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "data_io/tables/import_options.h"
 #include "data_io/variable.h"
 
@@ -20,7 +21,7 @@ struct LoadedData {
         {};                                 ///< of a table's file, where a column has another name -> its name
     std::vector<std::string> columns = {};  ///< of a table, in the file's order
     Index rows = 0;                         ///< of a table
-    std::vector<std::string> notes = {};    ///< sentences that the user should see: what was left out, what was guessed
+    std::vector<Message> notes = {};        ///< sentences that the user should see: what was left out, what was guessed
 };
 
 /// Whether the name's ending is one of those that read_data_file() knows.

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <optional>
 #include <sstream>
+#include <variant>
 
 #include "data_io/packaged_record.h"
 #include "platform/error.h"
@@ -72,8 +73,8 @@ std::vector<std::string> course_files(const fs::path& data_set) {
     for (const std::string& name : names)
         if (fs::path(name).has_parent_path())
             throw EnvironmentError(
-                fmt::format("{}: after \"{}\" stand names of files in that folder, but the path \"{}\" was given",
-                            (data_set / kSourceFile).string(), kCourseFileKey, name));
+                "{}: after \"{}\" stand names of files in that folder, but the path \"{}\" was given",
+                (data_set / kSourceFile).string(), kCourseFileKey, name);
     return names;
 }
 
@@ -142,16 +143,19 @@ std::string full_path(const fs::path& folder) {
 }
 
 [[noreturn]] void fail_unknown(const std::string& name, const fs::path& script_folder) {
-    std::vector<std::string> known = dataset_names();
-    std::string message = fmt::format("there is no data set \"{}\"", name);
-    if (const auto nearest = nearest_word(fs::path(name).stem().string(), known)) {
-        message += fmt::format("; did you mean \"{}\"? The data sets are {}", *nearest, fmt::join(known, ", "));
-    } else {
-        message += known.empty() ? "; no data sets are installed"
-                                 : fmt::format("; the data sets are {}", fmt::join(known, ", "));
-    }
-    throw EnvironmentError(
-        fmt::format("{}; files of your own are looked for in {}", message, full_path(script_folder)));
+    const std::vector<std::string> known = dataset_names();
+    const std::string folder = full_path(script_folder);
+    if (known.empty())
+        throw EnvironmentError(
+            "there is no data set \"{}\"; no data sets are installed; files of your own are looked for in {}", name,
+            folder);
+    if (const auto nearest = nearest_word(fs::path(name).stem().string(), known))
+        throw EnvironmentError(
+            "there is no data set \"{}\"; did you mean \"{}\"? The data sets are {}; files of your own are looked for "
+            "in {}",
+            name, *nearest, listed(known), folder);
+    throw EnvironmentError("there is no data set \"{}\"; the data sets are {}; files of your own are looked for in {}",
+                           name, listed(known), folder);
 }
 
 /// A data set of the installed data, by its name, a course file's, or a path that ends in one of its files.
@@ -163,7 +167,7 @@ Source find_source(const std::string& name_or_path, const fs::path& script_folde
     const fs::path path = name_or_path;
     if (path.has_parent_path()) {
         const fs::path file = script_folder / path;
-        if (!is_file(file)) throw EnvironmentError(fmt::format("there is no file {}", full_path(file)));
+        if (!is_file(file)) throw EnvironmentError("there is no file {}", full_path(file));
         return {file};
     }
     if (const auto file = file_beside(script_folder, name_or_path)) return {*file};
@@ -178,14 +182,26 @@ Source find_source(const std::string& name_or_path, const fs::path& script_folde
 Source find_graded_source(const std::string& name_or_path, const fs::path& script_folder) {
     if (const auto source = installed_source(name_or_path)) return *source;
     Source source = find_source(name_or_path, script_folder);
-    if (!lies_in(script_folder, source.file))
-        throw EnvironmentError(
-            fmt::format("{} {}; where scripts are graded, files of {} itself and installed data are read",
-                        source.file.string(), kLeadsOutside, full_path(script_folder)));
+    if (!lies_in(script_folder, source.file)) throw EnvironmentError(refusal_outside(source.file.string()));
     return source;
 }
 
 }  // namespace
+
+Message refusal_outside(const std::string& file) {
+    return Message(
+        "\"{}\" leads outside the folder; where scripts are graded, only the course's data and files of the folder "
+        "itself can be loaded",
+        file);
+}
+
+bool is_refusal_outside(const Message& message) {
+    static const std::string id = refusal_outside("").id();
+    return message.id() == id || std::ranges::any_of(message.arguments(), [](const MessageArgument& argument) {
+               const auto* const list = std::get_if<MessageList>(&argument);
+               return list != nullptr && std::ranges::any_of(list->items, is_refusal_outside);
+           });
+}
 
 LoadedData load_data(const std::string& name_or_path, const fs::path& script_folder, bool graded,
                      const ImportOptions& options) {

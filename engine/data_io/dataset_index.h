@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "data_io/data_file.h"
 
 namespace dynlab::inline data_io {
@@ -26,8 +27,10 @@ LoadedData load_data(const std::string& name_or_path, const std::filesystem::pat
 /// Tells of a data set in its folder: origin, signals, units.
 inline constexpr char kSourceFile[] = "SOURCE.md";
 
-/// How a refusal to read files of others begins, behind their name.
-inline constexpr char kLeadsOutside[] = "leads outside the folder";
+/// The refusal to read files of others where scripts are graded.
+Message refusal_outside(const std::string& file);
+/// Whether a message is that refusal or quotes it.
+bool is_refusal_outside(const Message& message);
 
 /// Names of the data sets in the installed data/, sorted.
 std::vector<std::string> dataset_names();

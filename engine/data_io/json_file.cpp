@@ -1,7 +1,5 @@
 #include "data_io/json_file.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -31,7 +29,7 @@ class ReadingMemory {
         : file_(file), file_bytes_(file_bytes), taken_(file_bytes) {}
     void take(std::size_t bytes) {
         if ((taken_ += bytes) > memory_for_reading(file_bytes_))
-            throw EnvironmentError(fmt::format("{}: {}", file_.string(), memory_refusal(file_bytes_)));
+            throw EnvironmentError(refusal_for_memory(file_, file_bytes_));
     }
     void give_back(std::size_t bytes) { taken_ -= bytes; }
 
@@ -148,7 +146,7 @@ class VariableBuilder final : public nlohmann::json_sax<Json> {
     bool key(string_t& name) override {
         memory_.take(kMemberBytes + bytes_of(name));
         const auto [member, is_new] = open_.back().table->try_emplace(name);
-        if (!is_new) throw EnvironmentError(fmt::format("{}: the name \"{}\" occurs twice", file_.string(), name));
+        if (!is_new) throw EnvironmentError("{}: the name \"{}\" occurs twice", file_.string(), name);
         open_.back().member = &member->second;
         return true;
     }
@@ -169,7 +167,7 @@ class VariableBuilder final : public nlohmann::json_sax<Json> {
         return add(std::move(list));
     }
     bool parse_error(std::size_t, const std::string&, const Json::exception& problem) override {
-        throw EnvironmentError(fmt::format("{} is no JSON: {}", file_.string(), place_of(problem.what())));
+        throw EnvironmentError("{} is no JSON: {}", file_.string(), place_of(problem.what()));
     }
 
   private:
@@ -180,11 +178,11 @@ class VariableBuilder final : public nlohmann::json_sax<Json> {
     };
 
     [[noreturn]] void refuse_outermost() const {
-        throw EnvironmentError(file_.string() + ": the outermost value must be an object, {\"name\": value, ...}");
+        throw EnvironmentError("{}: the outermost value must be an object, {\"name\": value, ...}", file_.string());
     }
     Open& begin() {
         if (open_.size() >= kDeepestJson)
-            throw EnvironmentError(fmt::format("{}: more than {} levels", file_.string(), kDeepestJson));
+            throw EnvironmentError("{}: more than {} levels", file_.string(), kDeepestJson);
         return open_.emplace_back();
     }
     bool add(Variable&& value) {
@@ -259,7 +257,7 @@ Json json_of_variable(const Variable& variable) {
 VariableTable read_json_file(const fs::path& file) {
     std::error_code error;
     if (fs::file_size(file, error) > kMostJsonBytes && !error)
-        throw EnvironmentError(file.string() + ": JSON files of more than 64 MB are not read");
+        throw EnvironmentError("{}: JSON files of more than 64 MB are not read", file.string());
     const std::string text = read_file(file);
     VariableBuilder builder(file, text.size());
     Json::sax_parse(text, &builder);

@@ -1,6 +1,5 @@
 #include "data_io/mat_compression.h"
 
-#include <fmt/format.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -132,7 +131,7 @@ std::filesystem::path with_quick_compression(const std::filesystem::path& file) 
     packed.write(content.data(), kFileHeader);
     for (const Piece& piece : pieces) write_piece(packed, piece);
     packed.close();
-    if (!packed) throw EnvironmentError(fmt::format("cannot write {}: {}", target.string(), system_reason(errno)));
+    if (!packed) throw EnvironmentError("cannot write {}: {}", target.string(), system_reason(errno));
     return target;
 }
 

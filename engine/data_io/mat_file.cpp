@@ -1,7 +1,5 @@
 #include "data_io/mat_file.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <new>
 
@@ -11,6 +9,7 @@
 #include "data_io/reading_memory.h"
 #include "data_io/values/cbor_values.h"
 #include "data_io/values/described.h"
+#include "data_io/values/message_values.h"
 #include "platform/atomic_file.h"
 #include "platform/confinement.h"
 #include "platform/error.h"
@@ -43,12 +42,9 @@ class MatioComplaints {
     static inline std::string first_;
 };
 
-[[noreturn]] void fail_damaged(const fs::path& file, const std::string& how) {
-    throw EnvironmentError(fmt::format("{} is damaged: {}", file.string(), how));
-}
-
-[[noreturn]] void fail_too_large(const fs::path& file, std::size_t bytes) {
-    throw EnvironmentError(fmt::format("{}: {}", file.string(), memory_refusal(bytes)));
+/// By another's words.
+[[noreturn]] void fail_damaged(const fs::path& file, const Message& how) {
+    throw EnvironmentError("{} is damaged: {}", file.string(), how);
 }
 
 std::string without_line_end(std::string text) {
@@ -56,20 +52,27 @@ std::string without_line_end(std::string text) {
     return text;
 }
 
-/// libmatio does not find the names of tables and other objects, so messages tell their place instead.
-std::string variable_name(const matvar_t& variable, std::size_t number, const std::string& last_name) {
-    if (variable.class_type != MAT_C_OPAQUE) return variable.name ? variable.name : "";
-    return fmt::format("number {}{}", number, last_name.empty() ? "" : " (after " + last_name + ")");
+/// libmatio does not find the names of tables and other objects, so the message gives their place instead.
+Message refusal_of_object(std::size_t number, const std::string& last_name) {
+    if (last_name.empty())
+        return Message(
+            "variable number {} is an object, a table or a string array, which cannot be read; save its parts as plain "
+            "arrays",
+            number);
+    return Message(
+        "variable number {} (after {}) is an object, a table or a string array, which cannot be read; save its parts "
+        "as plain arrays",
+        number, last_name);
 }
 
 /// The next header; nothing at the end. HDF5 finds every variable by itself, so that one which is none (a link to
 /// another file) is passed over.
-MatVariable next_variable(mat_t* mat, bool is_hdf5, MatioComplaints& complaints, std::vector<std::string>& left_out) {
+MatVariable next_variable(mat_t* mat, bool is_hdf5, MatioComplaints& complaints, std::vector<Message>& left_out) {
     constexpr int kMostLost = 64;  // in a row; libmatio may complain of the last one for ever
     for (int lost = 0; lost < kMostLost; ++lost) {
         MatVariable variable(Mat_VarReadNextInfo(mat));
         if (variable || !is_hdf5 || complaints.first().empty()) return variable;
-        const std::string how = "what lies in other files or is damaged cannot be read";
+        const Message how = Message("what lies in other files or is damaged cannot be read");
         if (left_out.empty() || left_out.back() != how) left_out.push_back(how);
         complaints.forget();
     }
@@ -79,10 +82,11 @@ MatVariable next_variable(mat_t* mat, bool is_hdf5, MatioComplaints& complaints,
 /// What a file holds, as it comes from a guarded copy.
 struct MatContent {
     VariableTable variables;
-    std::vector<std::string> left_out;
+    std::vector<Message> left_out;
+    Message refusal = {};  ///< why nothing was read
 };
 
-DYNLAB_DESCRIBE(MatContent, variables, left_out)
+DYNLAB_DESCRIBE(MatContent, variables, left_out, refusal)
 
 /// A guarded copy gives up opening files (a box sees no others anyway). libmatio has
 /// opened the one it reads, and HDF5 would follow links of a v7.3 file to others.
@@ -90,7 +94,7 @@ MatContent read_variables(const fs::path& file) {
     const MatLayout layout = check_mat_layout(file);
     MatioComplaints complaints;
     const MatFile mat(Mat_Open(file.c_str(), MAT_ACC_RDONLY));
-    if (!mat) fail_damaged(file, "it cannot be opened as a MATLAB file");
+    if (!mat) throw EnvironmentError("{} is damaged: it cannot be opened as a MATLAB file", file.string());
     const bool is_hdf5 = layout.version == MatVersion::k73;
     const std::size_t bytes = fs::file_size(file);
     if (is_hdf5 && is_guarded_copy()) confine_to_memory();
@@ -98,29 +102,38 @@ MatContent read_variables(const fs::path& file) {
     std::size_t count = 0;
     std::string last_name;
     while (const MatVariable variable{next_variable(mat.get(), is_hdf5, complaints, content.left_out)}) {
-        const std::string name = variable_name(*variable, ++count, last_name);
+        ++count;
+        if (variable->class_type == MAT_C_OPAQUE) {
+            if (is_hdf5) complaints.forget();
+            content.left_out.push_back(refusal_of_object(count, last_name));
+            continue;
+        }
+        const std::string name = variable->name ? variable->name : "";
         if (name.empty()) continue;  // MATLAB keeps the private data of objects in a nameless variable
         try {
             check_mat_header(*variable, name, bytes, is_hdf5);
             const bool whole = Mat_VarReadDataAll(mat.get(), variable.get()) == 0 && complaints.first().empty();
             if (!whole && !is_hdf5) break;  // what follows would be read from a wrong place
-            if (!whole) throw EnvironmentError(fmt::format("variable {} cannot be read", name));
+            if (!whole) throw EnvironmentError("variable {} cannot be read", name);
             content.variables[name] = from_mat(*variable, name);
             last_name = name;
         } catch (const EnvironmentError& error) {
             if (is_hdf5) complaints.forget();
-            content.left_out.emplace_back(error.what());
+            content.left_out.push_back(error.message());
         }
     }
     if (content.left_out.empty() && !complaints.first().empty())
-        fail_damaged(file, without_line_end(complaints.first()));
+        fail_damaged(file, Message::verbatim(without_line_end(complaints.first())));
     if (layout.variables > count) {
-        const std::string how = fmt::format("only {} of its {} variables can be read", count, layout.variables);
-        if (content.left_out.empty()) fail_damaged(file, how);
-        content.left_out.push_back(how + ", because of that one");  // libmatio loses its way behind some of them
+        if (content.left_out.empty())
+            throw EnvironmentError("{} is damaged: only {} of its {} variables can be read", file.string(), count,
+                                   layout.variables);
+        // libmatio loses its way behind some of them.
+        content.left_out.push_back(
+            Message("only {} of its {} variables can be read, because of that one", count, layout.variables));
     }
     if (content.variables.empty() && !content.left_out.empty())
-        throw EnvironmentError(fmt::format("{}: {}", file.string(), fmt::join(content.left_out, "; ")));
+        throw EnvironmentError("{}: {}", file.string(), MessageList{content.left_out, Join::kSemicolon});
     return content;
 }
 
@@ -132,20 +145,30 @@ MatContent read_guarded(const fs::path& file) {
     const auto read = [&file, bytes] {
         try {
             return cbor_of(read_variables(file));
+        } catch (const EnvironmentError& error) {
+            return cbor_of(MatContent{{}, {}, error.message()});
         } catch (const std::bad_alloc&) {
-            fail_too_large(file, bytes);
+            return cbor_of(MatContent{{}, {}, refusal_for_memory(file, bytes)});
         }
     };
     const ChildResult result = run_guarded(read, limits);
-    if (result.timed_out) fail_damaged(file, "reading it " + limits.time.told(result.time_limit()));
-    if (result.output_exceeded) fail_too_large(file, bytes);
+    if (result.time_limit() == TimeLimit::kProcessor)
+        throw EnvironmentError("{} is damaged: reading it used more than {} s of processor time", file.string(),
+                               limits.time.seconds(TimeLimit::kProcessor));
+    if (result.timed_out)
+        throw EnvironmentError("{} is damaged: reading it had not ended after {} s", file.string(),
+                               limits.time.seconds(TimeLimit::kClock));
+    if (result.output_exceeded) throw EnvironmentError(refusal_for_memory(file, bytes));
     if (result.exit_code == 1 && !result.error_output.empty()) throw EnvironmentError(result.error_output);
-    if (result.exit_code != 0) fail_damaged(file, "reading it ends in a crash");
+    if (result.exit_code != 0) throw EnvironmentError("{} is damaged: reading it ends in a crash", file.string());
+    MatContent content;
     try {
-        return from_cbor<MatContent>(result.output);
+        content = from_cbor<MatContent>(result.output);
     } catch (const ValueError& error) {
-        fail_damaged(file, error.what());
+        fail_damaged(file, error.message());
     }
+    if (!content.refusal.empty()) throw EnvironmentError(content.refusal);
+    return content;
 }
 
 /// Numbers of a real array or of all those in a struct; 0 of anything else.
@@ -169,7 +192,7 @@ bool holds_all(const fs::path& draft, std::size_t variables) {
 
 }  // namespace
 
-VariableTable read_mat_file(const fs::path& file, bool guarded, std::vector<std::string>* left_out) {
+VariableTable read_mat_file(const fs::path& file, bool guarded, std::vector<Message>* left_out) {
     MatContent content = guarded ? read_guarded(file) : read_variables(file);
     if (left_out != nullptr) *left_out = std::move(content.left_out);
     return std::move(content.variables);
@@ -189,8 +212,8 @@ void write_mat_file(const fs::path& file, const VariableTable& variables, int di
     }
     written = written && Mat_Close(mat.release()) == 0 && complaints.first().empty();
     if (!written || !holds_all(draft, variables.size())) {
-        throw EnvironmentError(fmt::format("cannot write {}: no room for its draft in {}", file.string(),
-                                           folder.path().parent_path().string()));
+        throw EnvironmentError("cannot write {}: no room for its draft in {}", file.string(),
+                               folder.path().parent_path().string());
     }
     place_file_atomically(with_quick_compression(draft), file);
 }

@@ -1,6 +1,8 @@
 #pragma once
 #include <filesystem>
+#include <vector>
 
+#include "base/message.h"
 #include "data_io/variable.h"
 
 namespace dynlab::inline data_io {
@@ -18,7 +20,7 @@ namespace dynlab::inline data_io {
 /// v7.3 file (HDF5) links to outside of itself is left out. Works from any program. Only files that ship with dynlab
 /// need no guard. Not to be called from several threads at once (libmatio and HDF5 keep global state).
 VariableTable read_mat_file(const std::filesystem::path& file, bool guarded = true,
-                            std::vector<std::string>* left_out = nullptr);
+                            std::vector<Message>* left_out = nullptr);
 
 /// Writes MAT v5 (compressed; arrays of more than half a million numbers quickly, or not at all where it would save
 /// next to nothing, as with noise), whole or not at all, the same bytes for the same variables. Vectors are written as

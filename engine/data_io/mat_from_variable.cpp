@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -22,9 +20,9 @@ void check_name(const std::string& name) {
         return is_letter(c) || std::isdigit(static_cast<unsigned char>(c)) || c == '_';
     };
     if (name.empty() || name.size() > kLongest || !is_letter(name[0]) || !std::ranges::all_of(name, is_allowed)) {
-        throw InvalidArgument(fmt::format(
+        throw InvalidArgument(
             "\"{}\" cannot name a MATLAB variable: wanted a letter, then letters, digits and _, at most {} in all",
-            name, kLongest));
+            name, kLongest);
     }
 }
 

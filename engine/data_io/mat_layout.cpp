@@ -8,7 +8,6 @@
 #include <fstream>
 #include <optional>
 
-#include "numerics/number_text.h"
 #include "platform/error.h"
 #include "platform/file_blocks.h"
 
@@ -34,20 +33,23 @@ class MatFileSkeleton {
     }
 
     MatLayout layout() {
-        if (size_ == 0) fail("is empty");
+        if (size_ == 0) throw EnvironmentError("{} is empty", file_.string());
         if (const auto swapped = byte_order_5()) return {version_5_or_73(*swapped), variables_};
         if (const auto swapped = byte_order_4()) {
             walk_4(*swapped);
             return {MatVersion::k4, variables_};
         }
-        fail("is not a MATLAB file (MAT versions 4, 5, 7 and 7.3 can be read)");
+        throw EnvironmentError("{} is not a MATLAB file (MAT versions 4, 5, 7 and 7.3 can be read)", file_.string());
     }
 
   private:
-    [[noreturn]] void fail(const std::string& what) const { throw EnvironmentError(file_.string() + " " + what); }
     [[noreturn]] void fail_cut_off(std::uint64_t start) const {
-        fail(fmt::format("is cut off: variable {} begins at byte {} and does not end within the {} bytes of the file",
-                         variables_ + 1, start, size_));
+        throw EnvironmentError(
+            "{} is cut off: variable {} begins at byte {} and does not end within the {} bytes of the file",
+            file_.string(), variables_ + 1, start, size_);
+    }
+    [[noreturn]] void fail_without_variable(std::uint64_t at) const {
+        throw EnvironmentError("{} is damaged: no variable begins at byte {}", file_.string(), at);
     }
 
     template <class T>
@@ -79,10 +81,15 @@ class MatFileSkeleton {
             walk_5(swapped);
             return MatVersion::k5;
         }
-        if (version != 0x0200) fail(fmt::format("is of the unknown MAT version {:#06x}", version));
+        if (version != 0x0200)
+            throw EnvironmentError("{} is of the unknown MAT version {}", file_.string(),
+                                   fmt::format("{:#06x}", version));
         constexpr std::array<char, 8> kHdf5Signature = {'\x89', 'H', 'D', 'F', '\r', '\n', '\x1a', '\n'};
-        if (size_ < kHdf5Start + 8) fail(fmt::format("is cut off: it has only {}", counted(size_, "byte")));
-        if (read_at<std::array<char, 8>>(kHdf5Start) != kHdf5Signature) fail("is damaged: its HDF5 part is missing");
+        if (size_ < kHdf5Start + 8)
+            throw EnvironmentError("{} is cut off: it has only {}", file_.string(),
+                                   plural(static_cast<std::int64_t>(size_), "{} byte", "{} bytes"));
+        if (read_at<std::array<char, 8>>(kHdf5Start) != kHdf5Signature)
+            throw EnvironmentError("{} is damaged: its HDF5 part is missing", file_.string());
         return MatVersion::k73;
     }
 
@@ -90,9 +97,7 @@ class MatFileSkeleton {
         for (std::uint64_t at = kHeader5; at < size_; ++variables_) {
             if (size_ - at < kTag5) fail_cut_off(at);
             const std::uint32_t type = word_at(at, swapped), bytes = word_at(at + 4, swapped);
-            if (type != kMatrix && type != kCompressed) {
-                fail(fmt::format("is damaged: no variable begins at byte {}", at));
-            }
+            if (type != kMatrix && type != kCompressed) fail_without_variable(at);
             if (bytes > size_ - at - kTag5) fail_cut_off(at);
             at += kTag5 + bytes;
         }
@@ -126,7 +131,7 @@ class MatFileSkeleton {
         for (std::uint64_t at = 0; at < size_; ++variables_) {
             if (size_ - at < kHeader4) fail_cut_off(at);
             const Header4 header = header_4(at, swapped);
-            if (!is_possible_4(header)) fail(fmt::format("is damaged: no variable begins at byte {}", at));
+            if (!is_possible_4(header)) fail_without_variable(at);
             std::uint64_t left = size_ - at - kHeader4;
             if (header.name_length > left) fail_cut_off(at);
             left -= header.name_length;

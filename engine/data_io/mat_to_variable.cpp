@@ -18,22 +18,25 @@ constexpr double kLargestDeflateRatio = 1032;
 /// Of a value: as a number, and as the one that is made from it or goes to the process that asked.
 constexpr double kBytesOfValue = 2 * sizeof(double);
 
-[[noreturn]] void fail(const std::string& name, const std::string& what) {
-    throw EnvironmentError(fmt::format("variable {} {}", name, what));
-}
-
 void refuse_unsupported(const matvar_t& variable, const std::string& name, int depth) {
-    if (depth > kDeepest) fail(name, fmt::format("has more than {} levels of structs and cells", kDeepest));
+    if (depth > kDeepest)
+        throw EnvironmentError("variable {} has more than {} levels of structs and cells", name, kDeepest);
     switch (variable.class_type) {
         case MAT_C_OBJECT:
         case MAT_C_OPAQUE:
-            fail(name, "is an object, a table or a string array, which cannot be read; save its parts as plain arrays");
+            throw EnvironmentError(
+                "variable {} is an object, a table or a string array, which cannot be read; save its parts as plain "
+                "arrays",
+                name);
         case MAT_C_FUNCTION:
-            fail(name, "is a function handle, which cannot be read");
+            throw EnvironmentError("variable {} is a function handle, which cannot be read", name);
         case MAT_C_SPARSE:
-            fail(name, "is a sparse matrix, which cannot be read; save full(" + name + ") instead");
+            throw EnvironmentError("variable {} is a sparse matrix, which cannot be read; save full({}) instead", name,
+                                   name);
         case MAT_C_EMPTY:  // as a part it is [], on its own a class libmatio does not know
-            if (depth == 0) fail(name, "is of a class that cannot be read; save its parts as plain arrays");
+            if (depth == 0)
+                throw EnvironmentError("variable {} is of a class that cannot be read; save its parts as plain arrays",
+                                       name);
             return;
         default:
             return;
@@ -67,9 +70,11 @@ std::u32string units_of(const matvar_t& variable) {
 
 /// Rows of a MATLAB char array (rows x columns, stored column by column) as UTF-8. Throws EnvironmentError when
 /// there are fewer characters than the size says.
-std::vector<std::string> text_rows(const matvar_t& variable, std::size_t rows, std::size_t columns) {
+std::vector<std::string> text_rows(const matvar_t& variable, const std::string& name, std::size_t rows,
+                                   std::size_t columns) {
     const std::u32string units = units_of(variable);
-    if (units.size() < rows * columns) throw EnvironmentError("has fewer characters than its size says");
+    if (units.size() < rows * columns)
+        throw EnvironmentError("variable {} is damaged: it has fewer characters than its size says", name);
     std::vector<std::string> texts(rows);
     for (std::size_t row = 0; row < rows; ++row) {
         std::u16string text;
@@ -102,9 +107,14 @@ void check_header(const matvar_t& variable, const std::string& name, std::size_t
         values *= static_cast<double>(variable.dims[i]);
     }
     if (!is_empty && !links && values > kLargestDeflateRatio * static_cast<double>(file_bytes))
-        fail(name, fmt::format("is damaged: it claims {:g} values, more than a file of its size has", values));
-    if (!is_empty && kBytesOfValue * values > static_cast<double>(memory_for_reading(file_bytes)))
-        fail(name, fmt::format("has {:g} values: {}", values, memory_refusal(file_bytes)));
+        throw EnvironmentError("variable {} is damaged: it claims {} values, more than a file of its size has", name,
+                               significant(values, 6));
+    if (!is_empty && kBytesOfValue * values > static_cast<double>(memory_for_reading(file_bytes))) {
+        const ReadingMegabytes megabytes = megabytes_for_reading(file_bytes);
+        throw EnvironmentError(
+            "variable {} has {} values: reading it takes more than {} MB of memory, too much for a file of {} MB", name,
+            significant(values, 6), megabytes.most, megabytes.of_file);
+    }
     for (const matvar_t* part : parts_of(variable)) {
         if (part) check_header(*part, part->name ? name + "." + part->name : name + "{}", file_bytes, links, depth + 1);
     }
@@ -133,20 +143,24 @@ class Converter {
     }
 
   private:
-    [[noreturn]] void fail(const std::string& what) const { dynlab::fail(name_, what); }
+    [[noreturn]] void fail_without_values() const {
+        throw EnvironmentError("variable {} is damaged: its values are missing", name_);
+    }
 
     void find_size() {
         if (variable_.class_type == MAT_C_EMPTY) return;
-        if (variable_.rank < 1 || !variable_.dims) fail("has no size");
+        if (variable_.rank < 1 || !variable_.dims) throw EnvironmentError("variable {} has no size", name_);
         for (int i = 2; i < variable_.rank; ++i) {
             if (variable_.dims[i] != 1) {
-                fail(fmt::format("has {} dimensions; only vectors and matrices can be read", variable_.rank));
+                throw EnvironmentError("variable {} has {} dimensions; only vectors and matrices can be read", name_,
+                                       variable_.rank);
             }
         }
         rows_ = variable_.dims[0];
         columns_ = variable_.rank > 1 ? variable_.dims[1] : 1;
         constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max();
-        if (rows_ > kMost || columns_ > kMost || (rows_ > 0 && columns_ > kMost / rows_)) fail("is too large");
+        if (rows_ > kMost || columns_ > kMost || (rows_ > 0 && columns_ > kMost / rows_))
+            throw EnvironmentError("variable {} is too large", name_);
     }
 
     std::size_t count() const { return rows_ * columns_; }
@@ -155,7 +169,7 @@ class Converter {
     /// Calls `use` with a typed pointer to the first of count() stored numbers.
     template <class Use>
     void with_numbers(const void* data, Use use) const {
-        if (!data) fail("is damaged: its values are missing");
+        if (!data) fail_without_values();
         switch (variable_.data_type) {
             case MAT_T_DOUBLE:
                 return use(static_cast<const double*>(data));
@@ -178,7 +192,7 @@ class Converter {
             case MAT_T_UINT64:
                 return use(static_cast<const std::uint64_t*>(data));
             default:
-                fail("is of a class that cannot be read");
+                throw EnvironmentError("variable {} is of a class that cannot be read", name_);
         }
     }
 
@@ -191,7 +205,7 @@ class Converter {
     void fill(double* numbers, const void* data) const {
         if (count() == 0) return;
         if (variable_.nbytes / Mat_SizeOf(variable_.data_type) < count()) {
-            fail("is damaged: it has fewer values than its size says");
+            throw EnvironmentError("variable {} is damaged: it has fewer values than its size says", name_);
         }
         with_numbers(data, [&](const auto* stored) {
             for (std::size_t i = 0; i < count(); ++i) numbers[i] = static_cast<double>(stored[i]);
@@ -213,7 +227,7 @@ class Converter {
 
     Variable complex_numbers() const {
         const auto* parts = static_cast<const mat_complex_split_t*>(variable_.data);
-        if (!parts && count() > 0) fail("is damaged: its values are missing");
+        if (!parts && count() > 0) fail_without_values();
         Eigen::MatrixXcd matrix(static_cast<Index>(rows_), static_cast<Index>(columns_));
         if (count() > 0) {
             matrix.real() = matrix_of(parts->Re);
@@ -228,12 +242,7 @@ class Converter {
 
     Variable text() const {
         if (count() == 0) return {std::string()};
-        std::vector<std::string> rows;
-        try {
-            rows = text_rows(variable_, rows_, columns_);
-        } catch (const EnvironmentError& error) {
-            fail(std::string("is damaged: it ") + error.what());
-        }
+        std::vector<std::string> rows = text_rows(variable_, name_, rows_, columns_);
         if (rows.size() == 1) return {rows.front()};
         auto list = std::make_shared<VariableList>();
         for (std::string& row : rows) {
@@ -257,7 +266,8 @@ class Converter {
         for (std::size_t i = 0; i < count(); ++i) {
             auto table = std::make_shared<VariableTable>();
             for (std::size_t field = 0; field < fields; ++field) {
-                if (!names || !names[field]) fail("is damaged: a field has no name");
+                if (!names || !names[field])
+                    throw EnvironmentError("variable {} is damaged: a field has no name", name_);
                 (*table)[names[field]] = element(parts[i * fields + field], name_ + "." + names[field]);
             }
             list->push_back({std::move(table)});
@@ -281,7 +291,7 @@ class Converter {
         const std::size_t wanted = count() * each;
         if (wanted == 0) return;
         if (!variable_.data || variable_.nbytes / sizeof(matvar_t*) < wanted) {
-            fail("is damaged: it has fewer parts than its size says");
+            throw EnvironmentError("variable {} is damaged: it has fewer parts than its size says", name_);
         }
     }
 

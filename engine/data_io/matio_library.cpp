@@ -1,7 +1,6 @@
 // libmatio brings some forty libraries with it (HDF5, and through it those of the network), whose loading took half of
 // the program's start. So it is loaded with the first MATLAB file: the functions below stand for the library's own.
 #include <dlfcn.h>
-#include <fmt/format.h>
 #include <matio.h>
 
 #include "data_io/mat_variable.h"
@@ -15,8 +14,8 @@ void* matio_function(const char* name) {
     void* const function = library != nullptr ? ::dlsym(library, name) : nullptr;
     if (function == nullptr) {
         const char* reason = ::dlerror();
-        throw EnvironmentError(fmt::format("MATLAB files need libmatio, which cannot be loaded: {}",
-                                           reason != nullptr ? reason : "it lacks " + std::string(name)));
+        throw EnvironmentError("MATLAB files need libmatio, which cannot be loaded: {}",
+                               reason != nullptr ? Message::verbatim(reason) : Message("it lacks {}", name));
     }
     return function;
 }

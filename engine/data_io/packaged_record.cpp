@@ -1,7 +1,5 @@
 #include "data_io/packaged_record.h"
 
-#include <fmt/format.h>
-
 #include <boost/iostreams/filter/gzip.hpp>
 #include <boost/iostreams/filtering_stream.hpp>
 #include <fstream>
@@ -22,20 +20,21 @@ bool is_there(const fs::path& file) {
 [[noreturn]] void refuse_missing(const PackagedRecord& record) {
     if (is_there(fs::path("/var/lib/dpkg/info") / (record.package + ".list")))
         throw EnvironmentError(
-            fmt::format("the package {} is installed, but without its file {}: this system leaves out documentation "
-                        "(/etc/dpkg/dpkg.cfg.d says so); allow it there, then sudo apt-get install --reinstall {}",
-                        record.package, record.file.string(), record.package));
+            "the package {} is installed, but without its file {}: this system leaves out documentation "
+            "(/etc/dpkg/dpkg.cfg.d says so); allow it there, then sudo apt-get install --reinstall {}",
+            record.package, record.file.string(), record.package);
     throw EnvironmentError(
-        fmt::format("this record comes with the Debian package {}, which is not installed: sudo apt-get install {}",
-                    record.package, record.package));
+        "this record comes with the Debian package {}, which is not installed: sudo apt-get install {}", record.package,
+        record.package);
 }
 
-Vector next_values(std::istream& text, const PackagedRecord& record, const char* what) {
+/// As many numbers as the record has samples; what they are is for messages.
+Vector next_values(std::istream& text, const PackagedRecord& record, const Message& what) {
     Vector values(record.samples);
     for (Index k = 0; k < record.samples; ++k)
         if (!(text >> values[k]))
-            throw EnvironmentError(fmt::format("{} ends or holds text at {} {} of {}: reinstall the package {}",
-                                               record.file.string(), what, k + 1, record.samples, record.package));
+            throw EnvironmentError("{} ends or holds text at {} {} of {}: reinstall the package {}",
+                                   record.file.string(), what, k + 1, record.samples, record.package);
     return values;
 }
 
@@ -49,8 +48,8 @@ VariableTable read_packaged_record(const PackagedRecord& record) {
     text.push(packed);
     for (int line = 0; line < 2; ++line) text.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
     VariableTable variables;
-    variables["u"] = {next_values(text, record, "input")};
-    variables["y"] = {next_values(text, record, "output")};
+    variables["u"] = {next_values(text, record, Message("input"))};
+    variables["y"] = {next_values(text, record, Message("output"))};
     variables["Ts"] = {record.Ts};
     return variables;
 }

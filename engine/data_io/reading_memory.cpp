@@ -1,13 +1,11 @@
 #include "data_io/reading_memory.h"
 
-#include <fmt/format.h>
-
 namespace dynlab::inline data_io {
 
-std::string memory_refusal(std::size_t file_bytes) {
-    constexpr std::size_t kMegabyte = std::size_t{1} << 20;
-    return fmt::format("reading it takes more than {} MB of memory, too much for a file of {} MB",
-                       memory_for_reading(file_bytes) / kMegabyte, (file_bytes + kMegabyte - 1) / kMegabyte);
+Message refusal_for_memory(const std::filesystem::path& file, std::size_t file_bytes) {
+    const ReadingMegabytes megabytes = megabytes_for_reading(file_bytes);
+    return Message("{}: reading it takes more than {} MB of memory, too much for a file of {} MB", file.string(),
+                   megabytes.most, megabytes.of_file);
 }
 
 std::size_t bytes_of_file(const std::filesystem::path& file) {

@@ -1,7 +1,8 @@
 #pragma once
 #include <cstddef>
 #include <filesystem>
-#include <string>
+
+#include "base/message.h"
 
 namespace dynlab::inline data_io {
 
@@ -12,8 +13,17 @@ constexpr std::size_t memory_for_reading(std::size_t file_bytes) {
     return file_bytes > kSmallest / kTimes ? kTimes * file_bytes : kSmallest;
 }
 
-/// "reading it takes more than 512 MB of memory, too much for a file of 2 MB"
-std::string memory_refusal(std::size_t file_bytes);
+/// For messages about it.
+struct ReadingMegabytes {
+    std::size_t most, of_file;
+};
+constexpr ReadingMegabytes megabytes_for_reading(std::size_t file_bytes) {
+    constexpr std::size_t kMegabyte = std::size_t{1} << 20;
+    return {memory_for_reading(file_bytes) / kMegabyte, (file_bytes + kMegabyte - 1) / kMegabyte};
+}
+
+/// "record.mat: reading it takes more than 512 MB of memory, too much for a file of 2 MB"
+Message refusal_for_memory(const std::filesystem::path& file, std::size_t file_bytes);
 
 /// 0 for one that is not there; who reads it says so.
 std::size_t bytes_of_file(const std::filesystem::path& file);

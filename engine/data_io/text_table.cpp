@@ -1,13 +1,10 @@
 #include "data_io/text_table.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <set>
 
 #include "data_io/tables/number_cell.h"
-#include "numerics/number_text.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/text/foreign_text.h"
@@ -44,28 +41,29 @@ class Reader {
                 continue;
             }
             if (row.size() > table.names.size())
-                fail(line, fmt::format("{}, but the header has {}", counted(row.size(), "cell"),
-                                       counted(table.names.size(), "column")));
+                throw EnvironmentError("{}, line {}: {}, but the header has {}", file_.string(), line,
+                                       plural(std::ssize(row), "{} cell", "{} cells"),
+                                       plural(std::ssize(table.names), "{} column", "{} columns"));
             row.resize(table.names.size());
             if (table.rows.size() >= kMostTableCells / row.size())
-                fail(line, fmt::format("the table has more than {} cells", kMostTableCells));
+                throw EnvironmentError("{}, line {}: the table has more than {} cells", file_.string(), line,
+                                       kMostTableCells);
             table.rows.push_back(row);
             table.lines.push_back(line);
         }
-        if (table.names.empty()) fail(1, "the file is empty; its first line must name the columns");
+        if (table.names.empty())
+            throw EnvironmentError("{}, line 1: the file is empty; its first line must name the columns",
+                                   file_.string());
         return table;
     }
 
   private:
-    [[noreturn]] void fail(int line, const std::string& what) const {
-        throw EnvironmentError(fmt::format("{}, line {}: {}", file_.string(), line, what));
-    }
-
     void take_header(TextTable& table, const std::vector<std::string>& row, int line) const {
         std::set<std::string> known;
         for (const std::string& cell : row) {
             std::string name = in_small_letters(cell);
-            if (!known.insert(name).second) fail(line, fmt::format("there are two columns \"{}\"", name));
+            if (!known.insert(name).second)
+                throw EnvironmentError("{}, line {}: there are two columns \"{}\"", file_.string(), line, name);
             table.names.push_back(std::move(name));
         }
     }
@@ -86,7 +84,8 @@ class Reader {
         if (quoted) {
             at_ = begin + 1;
             while (true) {
-                if (at_ >= text_.size()) fail(line, "a quotation mark is not closed");
+                if (at_ >= text_.size())
+                    throw EnvironmentError("{}, line {}: a quotation mark is not closed", file_.string(), line);
                 const char c = text_[at_++];
                 if (c == '\n') ++line_;
                 if (c != '"') {
@@ -172,7 +171,7 @@ std::optional<std::size_t> TextTable::column(std::string_view name) const {
 TextTable read_text_table(const std::filesystem::path& file) {
     std::string text = read_text(file);
     if (text.find('\0') != std::string::npos)
-        throw EnvironmentError(fmt::format("{}: this is not UTF-8 text; save it as CSV in UTF-8", file.string()));
+        throw EnvironmentError("{}: this is not UTF-8 text; save it as CSV in UTF-8", file.string());
     const bool converted = !is_utf8(text);
     if (converted) text = utf8_of_windows_1252(text);
     TextTable table = Reader(file, text).read();

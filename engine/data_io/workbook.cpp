@@ -2,7 +2,6 @@
 
 #include <archive.h>
 #include <archive_entry.h>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
@@ -15,6 +14,7 @@
 #include "data_io/reading_memory.h"
 #include "data_io/values/cbor_values.h"
 #include "data_io/values/described.h"
+#include "data_io/values/message_values.h"
 #include "platform/atomic_file.h"
 #include "platform/confinement.h"
 #include "platform/error.h"
@@ -32,45 +32,57 @@ constexpr std::size_t kSmallestSheet = std::size_t{64} << 20;  // as text; where
 constexpr int kMostParts = 10000;
 constexpr std::size_t kMostRows = 1048576, kMostSheetColumns = 16384;  // of the format
 
-[[noreturn]] void fail_workbook(const std::string& what) {
-    throw EnvironmentError(what);
-}
+/// A sheet as it comes from a guarded copy.
+struct SheetOutcome {
+    SheetText sheet;
+    Message refusal = {};  ///< why nothing was read
+};
 
-/// The parts of the workbook that matter, by path.
-using WorkbookParts = std::map<std::string, std::string>;
+DYNLAB_DESCRIBE(SheetOutcome, sheet, refusal)
+
+/// The parts of the workbook that matter.
+struct WorkbookParts {
+    std::string file;  ///< for messages
+    std::map<std::string, std::string> by_path = {};
+};
+
+[[noreturn]] void fail_as_no_archive(const std::string& file) {
+    throw EnvironmentError("{} is no workbook (.xlsx): it is no zip archive", file);
+}
 
 bool is_wanted(std::string_view path) {
     return path.ends_with(".xml") || path.ends_with(".rels");
 }
 
-WorkbookParts unpacked(const std::string& bytes) {
+WorkbookParts unpacked(const std::string& file, const std::string& bytes) {
     const Utf8Locale names_are_utf8;
     const std::unique_ptr<archive, int (*)(archive*)> zip(::archive_read_new(), ::archive_read_free);
     if (!zip || ::archive_read_support_format_zip(zip.get()) != ARCHIVE_OK ||
         ::archive_read_open_memory(zip.get(), bytes.data(), bytes.size()) != ARCHIVE_OK)
-        fail_workbook("is no workbook (.xlsx): it is no zip archive");
-    WorkbookParts parts;
+        fail_as_no_archive(file);
+    WorkbookParts parts{file};
     const std::size_t most = memory_for_reading(bytes.size()) / 2;
     std::size_t total = 0;
     archive_entry* entry = nullptr;
     int result = ARCHIVE_OK;
     for (int count = 0; (result = ::archive_read_next_header(zip.get(), &entry)) == ARCHIVE_OK; ++count) {
-        if (count == kMostParts) fail_workbook(fmt::format("has more than {} parts", kMostParts));
+        if (count == kMostParts) throw EnvironmentError("{} has more than {} parts", file, kMostParts);
         const char* path = ::archive_entry_pathname(entry);
         if (path == nullptr || !is_wanted(path)) continue;
-        std::string& part = parts[path];
+        std::string& part = parts.by_path[path];
         part.clear();
         char block[65536];
         la_ssize_t size = 0;
         while ((size = ::archive_read_data(zip.get(), block, sizeof block)) > 0) {
             total += static_cast<std::size_t>(size);
-            if (total > most) fail_workbook(fmt::format("unpacks to more than {} MB", most >> 20));
+            if (total > most) throw EnvironmentError("{} unpacks to more than {} MB", file, most >> 20);
             part.append(block, static_cast<std::size_t>(size));
         }
-        if (size < 0) fail_workbook("is damaged: a part of it cannot be unpacked");
+        if (size < 0) throw EnvironmentError("{} is damaged: a part of it cannot be unpacked", file);
     }
-    if (result != ARCHIVE_EOF && parts.empty()) fail_workbook("is no workbook (.xlsx): it is no zip archive");
-    if (result != ARCHIVE_EOF) fail_workbook("is damaged: it is cut off, or no zip archive throughout");
+    if (result != ARCHIVE_EOF && parts.by_path.empty()) fail_as_no_archive(file);
+    if (result != ARCHIVE_EOF)
+        throw EnvironmentError("{} is damaged: it is cut off, or no zip archive throughout", file);
     return parts;
 }
 
@@ -87,29 +99,36 @@ std::string attribute_of(const pugi::xml_node& node, std::string_view name) {
     return node.find_attribute([name](const pugi::xml_attribute& a) { return local_name(a.name()) == name; }).value();
 }
 
-std::string taken(WorkbookParts& parts, const std::string& path) {
-    const auto part = parts.extract(path);
-    if (part.empty()) fail_workbook(fmt::format("is no workbook, or damaged: it has no part {}", path));
-    return std::move(part.mapped());
+/// One of them, taken out.
+struct WorkbookPart {
+    std::string file, path;  ///< for messages
+    std::string text;
+};
+
+WorkbookPart taken(WorkbookParts& parts, const std::string& path) {
+    const auto part = parts.by_path.extract(path);
+    if (part.empty()) throw EnvironmentError("{} is no workbook, or damaged: it has no part {}", parts.file, path);
+    return {parts.file, path, std::move(part.mapped())};
 }
 
 constexpr unsigned kParsing = pugi::parse_cdata | pugi::parse_escapes | pugi::parse_eol | pugi::parse_ws_pcdata_single;
 
 /// pugixml knows XML's own five entities and character references; it reads no document type. `text` begins at byte
 /// `at` of the part.
-pugi::xml_document parsed(std::string_view text, const std::string& path, unsigned options = kParsing,
+pugi::xml_document parsed(const WorkbookPart& part, std::string_view text, unsigned options = kParsing,
                           std::size_t at = 0) {
     pugi::xml_document document;
     const auto result = document.load_buffer(text.data(), text.size(), options);
     if (result.status == pugi::status_out_of_memory) throw std::bad_alloc();
     if (!result)
-        fail_workbook(fmt::format("is damaged: {} at byte {} of its part {}", result.description(),
-                                  at + static_cast<std::size_t>(result.offset), path));
+        throw EnvironmentError("{} is damaged: {} at byte {} of its part {}", part.file, result.description(),
+                               at + static_cast<std::size_t>(result.offset), part.path);
     return document;
 }
 
 pugi::xml_document part_document(WorkbookParts& parts, const std::string& path) {
-    return parsed(taken(parts, path), path);
+    const WorkbookPart part = taken(parts, path);
+    return parsed(part, part.text);
 }
 
 /// Behind the next end tag of that name, whatever its namespace's prefix; npos where there is none.
@@ -140,8 +159,8 @@ std::optional<std::pair<std::size_t, std::size_t>> content_of(std::string_view t
 /// Calls `use` with each element `name` of the element `list`. It parses a piece at a time, as the tree of a whole
 /// sheet takes several times the memory of the sheet.
 template <class Use>
-void for_each_element(std::string_view text, const std::string& path, std::string_view list, std::string_view name,
-                      Use use) {
+void for_each_element(const WorkbookPart& part, std::string_view list, std::string_view name, Use use) {
+    const std::string_view text = part.text;
     constexpr std::size_t kPiece = std::size_t{1} << 18;
     const auto use_children = [&](const pugi::xml_node& parent) {
         for (const pugi::xml_node& child : parent.children())
@@ -149,7 +168,7 @@ void for_each_element(std::string_view text, const std::string& path, std::strin
     };
     const auto content = content_of(text, list);
     if (!content) {  // it is empty, or written in another way than programs do
-        const pugi::xml_document document = parsed(text, path);
+        const pugi::xml_document document = parsed(part, text);
         const pugi::xml_node root = document.document_element();
         use_children(local_name(root.name()) == list ? root : child_of(root, list));
         return;
@@ -157,7 +176,7 @@ void for_each_element(std::string_view text, const std::string& path, std::strin
     const auto [begin, end] = *content;
     for (std::size_t at = begin, next = 0; at < end; at = next) {
         next = std::min(behind_end_tag(text, name, std::min(at + kPiece, end)), end);
-        use_children(parsed(text.substr(at, next - at), path, kParsing | pugi::parse_fragment, at));
+        use_children(parsed(part, text.substr(at, next - at), kParsing | pugi::parse_fragment, at));
     }
 }
 
@@ -180,9 +199,9 @@ std::string item_text(const pugi::xml_node& item) {
 
 std::vector<std::string> shared_texts(WorkbookParts& parts) {
     std::vector<std::string> texts;
-    if (parts.count("xl/sharedStrings.xml") == 0) return texts;
     const std::string path = "xl/sharedStrings.xml";
-    for_each_element(taken(parts, path), path, "sst", "si",
+    if (!parts.by_path.contains(path)) return texts;
+    for_each_element(taken(parts, path), "sst", "si",
                      [&](const pugi::xml_node& item) { texts.push_back(item_text(item)); });
     return texts;
 }
@@ -204,21 +223,23 @@ std::string number_or_text(const std::string& value) {
 
 class SheetReader {
   public:
-    SheetReader(std::vector<std::string> texts, std::size_t most_bytes)
-        : texts_(std::move(texts)), most_bytes_(most_bytes) {}
+    SheetReader(const std::string& file, std::vector<std::string> texts, std::size_t most_bytes)
+        : file_(file), texts_(std::move(texts)), most_bytes_(most_bytes) {}
 
     void add_row(const pugi::xml_node& row) {
         const std::string stated = attribute_of(row, "r");
         const std::size_t before = rows_.empty() ? 0 : rows_.back().number;
         const std::size_t number = stated.empty() ? before + 1 : whole_number(stated);
-        if (number <= before || number > kMostRows) fail_workbook("is damaged: its rows are not in order");
+        if (number <= before || number > kMostRows)
+            throw EnvironmentError("{} is damaged: its rows are not in order", file_);
         std::map<std::size_t, std::string> cells;  // by column, from 0
         std::size_t next = 0;
         for (const pugi::xml_node& cell : row.children()) {
             if (local_name(cell.name()) != "c") continue;
             const std::string place = attribute_of(cell, "r");
             const std::size_t column = place.empty() ? next : column_of(place);
-            if (column >= kMostSheetColumns) fail_workbook("is damaged: a cell lies beyond the last column");
+            if (column >= kMostSheetColumns)
+                throw EnvironmentError("{} is damaged: a cell lies beyond the last column", file_);
             std::string text = cell_text(cell);
             if (!text.empty()) cells[column] = std::move(text);
             next = column + 1;
@@ -257,22 +278,22 @@ class SheetReader {
     };
 
     [[noreturn]] void fail_large() const {
-        fail_workbook(fmt::format("has a sheet of more than {} MB", most_bytes_ >> 20));
+        throw EnvironmentError("{} has a sheet of more than {} MB", file_, most_bytes_ >> 20);
     }
 
-    static std::size_t whole_number(const std::string& text) {
+    std::size_t whole_number(const std::string& text) const {
         if (const auto number = read_number<std::size_t>(text)) return *number;
-        fail_workbook(fmt::format("is damaged: wanted a whole number, given \"{}\"", text.substr(0, 20)));
+        throw EnvironmentError("{} is damaged: wanted a whole number, given \"{}\"", file_, text.substr(0, 20));
     }
 
     /// 0 for A5, 26 for AA5.
-    static std::size_t column_of(const std::string& place) {
+    std::size_t column_of(const std::string& place) const {
         std::size_t column = 0;
         for (const char c : place) {
             if (c < 'A' || c > 'Z' || column > kMostSheetColumns) break;
             column = column * 26 + static_cast<std::size_t>(c - 'A' + 1);
         }
-        if (column == 0) fail_workbook(fmt::format("is damaged: \"{}\" is no cell", place.substr(0, 20)));
+        if (column == 0) throw EnvironmentError("{} is damaged: \"{}\" is no cell", file_, place.substr(0, 20));
         return column - 1;
     }
 
@@ -282,20 +303,22 @@ class SheetReader {
         const std::string value = child_of(cell, "v").text().get();
         if (type == "s") {
             const std::size_t index = whole_number(value);
-            if (index >= texts_.size()) fail_workbook("is damaged: a cell has a text that is not there");
+            if (index >= texts_.size())
+                throw EnvironmentError("{} is damaged: a cell has a text that is not there", file_);
             return texts_[index].empty() ? "" : in_quotes(texts_[index]);
         }
         if (type == "str" || type == "e" || type == "d") return value.empty() ? "" : in_quotes(value);
         return number_or_text(value);
     }
 
+    const std::string& file_;
     std::vector<std::string> texts_;
     std::size_t most_bytes_, bytes_ = 0;  ///< of the sheet as text
     std::vector<Row> rows_;
 };
 
-SheetText sheet_of(const std::string& bytes, const std::string& wanted) {
-    WorkbookParts parts = unpacked(bytes);
+SheetText sheet_of(const std::string& file, const std::string& bytes, const std::string& wanted) {
+    WorkbookParts parts = unpacked(file, bytes);
     const pugi::xml_document workbook = part_document(parts, "xl/workbook.xml");
     const pugi::xml_document relations = part_document(parts, "xl/_rels/workbook.xml.rels");
     SheetText text;
@@ -305,14 +328,13 @@ SheetText sheet_of(const std::string& bytes, const std::string& wanted) {
         if (relation.empty() && (wanted.empty() || text.sheets.back() == wanted)) relation = attribute_of(sheet, "id");
     }
     if (relation.empty())
-        fail_workbook(fmt::format("has no sheet \"{}\"; it has {}", wanted, fmt::join(text.sheets, ", ")));
+        throw EnvironmentError("{} has no sheet \"{}\"; it has {}", file, wanted, listed(text.sheets));
     std::string path;
     for (const pugi::xml_node& entry : relations.document_element().children())
         if (attribute_of(entry, "Id") == relation) path = part_path(attribute_of(entry, "Target"));
-    SheetReader reader(shared_texts(parts), std::max(kSmallestSheet, bytes.size()));
-    for_each_element(taken(parts, path), path, "sheetData", "row",
-                     [&](const pugi::xml_node& row) { reader.add_row(row); });
-    parts.clear();
+    SheetReader reader(file, shared_texts(parts), std::max(kSmallestSheet, bytes.size()));
+    for_each_element(taken(parts, path), "sheetData", "row", [&](const pugi::xml_node& row) { reader.add_row(row); });
+    parts.by_path.clear();
     text.csv = reader.csv();
     return text;
 }
@@ -326,23 +348,32 @@ SheetText read_sheet(const std::filesystem::path& file, const std::string& sheet
     limits.memory_bytes = limits.output_bytes = memory_for_reading(bytes);
     const std::string name = file.string();
     const auto read = [&file, &sheet, &name, bytes] {
-        const std::string content = read_file(file);
-        if (is_guarded_copy()) confine_to_memory();
         try {
-            return cbor_of(sheet_of(content, sheet));
+            const std::string content = read_file(file);
+            if (is_guarded_copy()) confine_to_memory();
+            return cbor_of(SheetOutcome{sheet_of(name, content, sheet)});
         } catch (const EnvironmentError& error) {
-            throw EnvironmentError(fmt::format("{} {}", name, error.what()));
+            return cbor_of(SheetOutcome{{}, error.message()});
         } catch (const std::bad_alloc&) {
-            throw EnvironmentError(fmt::format("{}: {}; save the sheet as CSV", name, memory_refusal(bytes)));
+            const ReadingMegabytes megabytes = megabytes_for_reading(bytes);
+            return cbor_of(SheetOutcome{{},
+                                        Message("{}: reading it takes more than {} MB of memory, too much for a file "
+                                                "of {} MB; save the sheet as CSV",
+                                                name, megabytes.most, megabytes.of_file)});
         }
     };
     const ChildResult result = run_guarded(read, limits);
     if (result.timed_out)
-        throw EnvironmentError(fmt::format("{}: reading it {}", name, limits.time.told(result.time_limit())));
+        throw result.time_limit() == TimeLimit::kProcessor
+            ? EnvironmentError("{}: reading it used more than {} s of processor time", name,
+                               limits.time.seconds(TimeLimit::kProcessor))
+            : EnvironmentError("{}: reading it had not ended after {} s", name, limits.time.seconds(TimeLimit::kClock));
     if (result.exit_code == 1 && !result.error_output.empty()) throw EnvironmentError(result.error_output);
     if (result.exit_code != 0 || result.output_exceeded)
-        throw EnvironmentError(name + " is damaged: reading it ends in a crash");
-    return from_cbor<SheetText>(result.output);
+        throw EnvironmentError("{} is damaged: reading it ends in a crash", name);
+    SheetOutcome outcome = from_cbor<SheetOutcome>(result.output);
+    if (!outcome.refusal.empty()) throw EnvironmentError(outcome.refusal);
+    return std::move(outcome.sheet);
 }
 
 }  // namespace dynlab::inline data_io

@@ -9,19 +9,19 @@ namespace dynlab::inline documents {
 /// Collects what is wrong with a document, so that its author sees everything at once.
 class Complaints {
   public:
-    void add(const SourceLine& where, const std::string& sentence);
+    void add(const Place& where, const Message& sentence);
     void add_all(const Complaints& others);
-    bool empty() const { return sentences_.empty(); }
-    const std::vector<std::string>& sentences() const { return sentences_; }
+    bool empty() const { return messages_.empty(); }
+    const std::vector<Message>& messages() const { return messages_; }  ///< each with its place
     void throw_if_any() const;  ///< DocumentError with the first ten, one a line
 
   private:
-    std::vector<std::string> sentences_;
+    std::vector<Message> messages_;
 };
 
 /// The origin of the `occurrence`-th line (1-based) of `markdown` that contains `text`, the last such line when
 /// there are fewer; `fallback` without line when there is none.
-SourceLine find_in(const MarkdownText& markdown, const std::string& text, const std::filesystem::path& fallback,
-                   int occurrence = 1);
+Place find_in(const MarkdownText& markdown, const std::string& text, const std::filesystem::path& fallback,
+              int occurrence = 1);
 
 }  // namespace dynlab::inline documents

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "base/languages.h"
 #include "documents/bibliography.h"
-#include "documents/characters.h"
 #include "documents/complaints.h"
 #include "documents/error.h"
 #include "documents/html/web_page.h"
@@ -15,6 +15,7 @@
 #include "documents/pictures.h"
 #include "documents/template_file.h"
 #include "documents/text_lines.h"
+#include "documents/words/characters.h"
 #include "platform/atomic_file.h"
 #include "platform/program_lookup.h"
 #include "platform/stopwatch.h"
@@ -26,17 +27,17 @@ namespace {
 namespace fs = std::filesystem;
 /// The place in the source that LaTeX's complaint is about: formulas and words reach LaTeX as they were written, so
 /// the longest end of the text before the error that occurs in the source shows the line.
-SourceLine origin_of_refusal(const LatexRefusal& refusal, const MarkdownText& markdown, const fs::path& file) {
+Place origin_of_refusal(const LatexRefusal& refusal, const MarkdownText& markdown, const fs::path& file) {
     const std::string before = trimmed(refusal.text_before);
     constexpr std::size_t kLongest = 60, kShortest = 5;
     for (std::size_t length = std::min(kLongest, before.size()); length >= kShortest; --length) {
-        const SourceLine found = find_in(markdown, before.substr(before.size() - length), file);
+        const Place found = find_in(markdown, before.substr(before.size() - length), file);
         if (found.line > 0) return found;
     }
     return {file, 0};
 }
 
-/// " in section "Results"": the last heading above a line of the LaTeX text; on slides, the title of the slide.
+/// The last heading above a line of the LaTeX text; on slides, the title of the slide. Empty where there is none.
 std::string section_of(const std::string& body, int line) {
     static const RE2 slide(R"(\\begin\{frame\}(?:\[[^\]]*\])?\{(.*)\})", RE2::Latin1);
     std::string heading;
@@ -50,7 +51,17 @@ std::string section_of(const std::string& body, int line) {
         RE2::FullMatch(text, slide, &heading);
         if (is_heading) heading = text.substr(open + 1, close - open - 1);
     }
-    return heading.empty() ? "" : " in section \"" + heading + "\"";
+    return heading;
+}
+
+/// `before`: the text up to where LaTeX stopped.
+Message refusal_message(const Message& reason, const std::string& section, const std::string& before) {
+    if (section.empty())
+        return before.empty() ? Message("LaTeX cannot set this document: {}", reason)
+                              : Message("LaTeX cannot set this document: {} after \"{}\"", reason, before);
+    return before.empty()
+               ? Message("LaTeX cannot set this document in section \"{}\": {}", section, reason)
+               : Message("LaTeX cannot set this document in section \"{}\": {} after \"{}\"", section, reason, before);
 }
 
 void begin_with_error(const std::string& message, const fs::path& file, MarkdownText& text) {
@@ -58,7 +69,7 @@ void begin_with_error(const std::string& message, const fs::path& file, Markdown
     begun.append(error_block(message), file, 0);
     begun.text += text.text;
     begun.origin.insert(begun.origin.end(), text.origin.begin(), text.origin.end());
-    for (SourceLine& line : begun.origin) line.line = std::max(line.line, 1);
+    for (Place& line : begun.origin) line.line = std::max(line.line, 1);
     text = std::move(begun);
 }
 
@@ -136,27 +147,37 @@ class DocumentBuilder {
         }
         for (const auto& [key, value] : text_.metadata)
             if (const auto sentence = printable.complaint(value))
-                complaints.add({source_.template_file, 0}, "in " + key + ": " + *sentence);
+                complaints.add({source_.template_file}, Message("in {}: {}", key, *sentence));
         check_record(printable, complaints);
     }
 
     /// Only what a slot shows: other entries never reach the document.
     void check_record(const PrintableCharacters& printable, Complaints& complaints) const {
-        const auto check = [&](const std::string& slot, const std::string& what, const std::string& text) {
-            const SourceLine where = find_in(text_.markdown, slot, source_.template_file);
+        const auto check = [&](const std::string& slot, const std::string& text, const auto& message) {
+            const Place where = find_in(text_.markdown, slot, source_.template_file);
             const auto sentence = where.line > 0 ? printable.complaint(text) : std::nullopt;
-            if (sentence) complaints.add(where, "in the " + what + " the script reported: " + *sentence);
+            if (sentence) complaints.add(where, message(*sentence));
         };
-        for (const auto& [name, value] : record_->values) check("`" + name + "`", "value \"" + name + "\"", value.text);
-        for (const auto& [name, text] : record_->texts) check("name=" + name, "text \"" + name + "\"", text.markdown);
+        for (const auto& [name, value] : record_->values)
+            check("`" + name + "`", value.text, [&](const Message& what) {
+                return Message("in the value \"{}\" the script reported: {}", name, what);
+            });
+        for (const auto& [name, text] : record_->texts)
+            check("name=" + name, text.markdown, [&](const Message& what) {
+                return Message("in the text \"{}\" the script reported: {}", name, what);
+            });
         for (const auto& [name, figure] : record_->figures)
-            check("figure:" + name, "caption of figure \"" + name + "\"", figure.caption);
+            check("figure:" + name, figure.caption, [&](const Message& what) {
+                return Message("in the caption of figure \"{}\" the script reported: {}", name, what);
+            });
         for (const auto& [name, table] : record_->tables) {
             std::string cells;
             for (const std::string& cell : table.header) cells += cell + " ";
             for (const auto& row : table.rows)
                 for (const std::string& cell : row) cells += cell + " ";
-            check("name=" + name, "table \"" + name + "\"", cells);
+            check("name=" + name, cells, [&](const Message& what) {
+                return Message("in the table \"{}\" the script reported: {}", name, what);
+            });
         }
     }
 
@@ -184,15 +205,11 @@ class DocumentBuilder {
             return run_latex({body, layout, work_.path(), identity, options_.use_cache, options_.latex_format,
                               options_.timings, options_.begun_format});
         } catch (const LatexRefusal& refusal) {
-            const SourceLine where = origin_of_refusal(refusal, text_.markdown, source_.template_file);
-            const std::string line = where.line > 0 ? ":" + std::to_string(where.line) : "";
-            std::string message = where.file.string() + line + ": LaTeX cannot set this document" +
-                                  section_of(body, refusal.line) + ": " + refusal.what();
+            const Place where = origin_of_refusal(refusal, text_.markdown, source_.template_file);
             const std::string& before = refusal.text_before;
-            if (!trimmed(before).empty())
-                message += " after \"" +
-                           trimmed(before.substr(before.size() - std::min<std::size_t>(before.size(), 50))) + "\"";
-            throw DocumentError(message);
+            const std::string end = before.substr(before.size() - std::min<std::size_t>(before.size(), 50));
+            throw DocumentError(where, refusal_message(refusal.message(), section_of(body, refusal.line),
+                                                       trimmed(before).empty() ? "" : trimmed(end)));
         }
     }
 
@@ -213,12 +230,12 @@ PreparedText prepared_text(const DocumentSource& source) {
     const TemplateFile file = read_template(source.template_file);
     PreparedText text{with_cells(file, source.cells), file.metadata, document_rules(file), "en"};
     for (const auto& [key, value] : source.metadata) {
-        check_metadata(key, value, source.template_file.string() + ": ");
+        check_metadata(key, value, {source.template_file});
         text.metadata[key] = value;
     }
     if (text.metadata.count("lang") && !text.metadata.at("lang").empty()) text.language = text.metadata.at("lang");
     if (source.record && source.record->error && !shows_cells(file))
-        begin_with_error(told_error(source.record->error->message, text.language), source.template_file, text.markdown);
+        begin_with_error(source.record->error->text({catalog_of(text.language)}), source.template_file, text.markdown);
     return text;
 }
 
@@ -240,7 +257,7 @@ DocumentFormat document_format(const fs::path& file) {
     if (extension == ".pdf") return DocumentFormat::kPdf;
     if (extension == ".html") return DocumentFormat::kHtml;
     if (extension == ".md") return DocumentFormat::kMarkdown;
-    throw DocumentError(file.string() + ": a document's name ends in .pdf, .html or .md");
+    throw DocumentError(Place{file}, Message("a document's name ends in .pdf, .html or .md"));
 }
 
 void DocumentMaker::make(const DocumentSource& source, const fs::path& output, DocumentFormat format,

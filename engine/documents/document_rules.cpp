@@ -9,7 +9,7 @@ namespace {
 
 constexpr const char* kRuleKeys[] = {"sections", "pages", "appendix_pages", "least_pages", "layout"};
 
-SectionRule section_rule(const std::string& line, const std::string& where) {
+SectionRule section_rule(const std::string& line, const Place& where) {
     std::vector<std::string> parts;
     for (std::size_t begin = 0; begin <= line.size();) {
         const std::size_t end = std::min(line.find('|', begin), line.size());
@@ -18,21 +18,23 @@ SectionRule section_rule(const std::string& line, const std::string& where) {
     }
     const bool optional = parts.size() == 3 && parts[2] == "optional";
     if ((parts.size() != 2 && !optional) || parts[0].empty() || parts[1].empty())
-        throw DocumentError(where + "section \"" + line +
-                            "\" must be \"English title | French title\", with \"| optional\" behind when it may be "
-                            "missing");
+        throw DocumentError(
+            where,
+            Message("section \"{}\" must be \"English title | French title\", with \"| optional\" behind when it "
+                    "may be missing",
+                    line));
     return {parts[0], parts[1], optional};
 }
 
-int page_count(const std::string& key, const std::string& value, const std::string& where) {
+int page_count(const std::string& key, const std::string& value, const Place& where) {
     const int count = read_number<int>(value).value_or(0);
     if (count >= 1) return count;
-    throw DocumentError(where + key + " must be a number of pages such as 6, not \"" + value + "\"");
+    throw DocumentError(where, Message("{} must be a number of pages such as 6, not \"{}\"", key, value));
 }
 
-bool is_slides(const std::string& value, const std::string& where) {
+bool is_slides(const std::string& value, const Place& where) {
     if (value != "pages" && value != "slides")
-        throw DocumentError(where + "layout is pages or slides, not \"" + value + "\"");
+        throw DocumentError(where, Message("layout is pages or slides, not \"{}\"", value));
     return value == "slides";
 }
 
@@ -44,8 +46,7 @@ bool is_document_rule(const std::string& key) {
     return false;
 }
 
-void read_document_rule(const std::string& key, const std::string& value, const std::string& where,
-                        DocumentRules& rules) {
+void read_document_rule(const std::string& key, const std::string& value, const Place& where, DocumentRules& rules) {
     if (key == "pages") rules.pages = page_count(key, value, where);
     if (key == "appendix_pages") rules.appendix_pages = page_count(key, value, where);
     if (key == "least_pages") rules.least_pages = page_count(key, value, where);
@@ -57,7 +58,7 @@ void read_document_rule(const std::string& key, const std::string& value, const 
 
 DocumentRules document_rules(const TemplateFile& source) {
     DocumentRules rules;
-    for (const auto& [key, value] : source.metadata) read_document_rule(key, value, source.file.string() + ": ", rules);
+    for (const auto& [key, value] : source.metadata) read_document_rule(key, value, {source.file}, rules);
     return rules;
 }
 

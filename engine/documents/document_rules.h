@@ -38,10 +38,9 @@ struct DocumentRules {
 
 bool is_document_rule(const std::string& key);  ///< sections, pages, ..., layout
 
-/// Throws DocumentError, its message begun with `where`, for a line of `sections` without both titles, or a number of
-/// pages that is not whole and positive, or another layout.
-void read_document_rule(const std::string& key, const std::string& value, const std::string& where,
-                        DocumentRules& rules);
+/// Throws DocumentError at `where` for a line of `sections` without both titles, or a number of pages that is not whole
+/// and positive, or another layout.
+void read_document_rule(const std::string& key, const std::string& value, const Place& where, DocumentRules& rules);
 
 DocumentRules document_rules(const TemplateFile& source);
 

@@ -1,23 +1,34 @@
 #pragma once
-#include <algorithm>
+#include <filesystem>
 #include <stdexcept>
-#include <string>
 #include <utility>
+
+#include "base/error.h"
 
 namespace dynlab::inline documents {
 
-/// A script or document cannot be made. The message starts with "file:line: " where a line is known. Exit
+/// A line of a file that a message is about; line 0 where the message is about the whole file.
+struct Place {
+    std::filesystem::path file;
+    int line = 0;
+};
+
+/// "file:line: sentence", or "file: sentence".
+Message placed(const Place& place, const Message& sentence);
+
+/// A script or document cannot be made. The message of an error with a place begins with it, "file:line: ". Exit
 /// code 1.
-class DocumentError : public std::runtime_error {
+class DocumentError : public ErrorOf<std::runtime_error> {
   public:
-    explicit DocumentError(std::string sentence) : std::runtime_error(without_zero_bytes(std::move(sentence))) {}
+    explicit DocumentError(const Message& message);
+    DocumentError(Place place, const Message& sentence);
+
+    const Place& place() const { return place_; }          ///< without file where no place is known
+    const Message& sentence() const { return sentence_; }  ///< the message without its place
 
   private:
-    /// A sentence may quote a line with a zero byte, at which what() would end.
-    static std::string without_zero_bytes(std::string sentence) {
-        std::replace(sentence.begin(), sentence.end(), '\0', '?');
-        return sentence;
-    }
+    Place place_;
+    Message sentence_;
 };
 
 }  // namespace dynlab::inline documents

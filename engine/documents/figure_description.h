@@ -1,10 +1,11 @@
 #pragma once
 #include "data_io/values/array_descriptions.h"
+#include "data_io/values/message_values.h"
 #include "figures/figure.h"
 
 namespace dynlab::inline documents {
 
-/// Figures as data_io/values/described.h stores them.
+/// Figures as data_io/values/described.h stores them, their texts as messages.
 
 constexpr std::array<const char*, 7> names_of(CurveStyle) {
     return {"line", "points", "line_points", "stairs", "stems", "bars", "band"};

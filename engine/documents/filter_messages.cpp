@@ -35,13 +35,48 @@ std::vector<std::string> names_of(const RunRecord& record, const std::string& ki
     return names_of(record.texts);
 }
 
-std::string suggestion(const std::string& name, const std::vector<std::string>& candidates) {
-    const auto near = nearest_word(name, candidates);
-    return near ? "; did you mean \"" + *near + "\"?" : "";
+Message noun_of(const std::string& kind) {
+    if (kind == "value") return Message("value");
+    if (kind == "table") return Message("table");
+    if (kind == "figure") return Message("figure");
+    return Message("text");
 }
 
-std::string quoted(const std::string& text) {
-    return "\"" + text + "\"";
+/// What an attribute is not possible on; `name`: the class of a block.
+Message element_named(const std::string& kind, const std::string& name) {
+    if (kind == "picture") return Message("a picture");
+    if (kind == "heading") return Message("a heading");
+    if (kind == "block") return Message("a block of class {}", name);
+    if (kind == "code") return Message("code");
+    if (kind == "code-block") return Message("a code block");
+    return kind == "link" ? Message("a link") : Message("a span");
+}
+
+/// What report_templates/filters/diagram.lua reports.
+Message wrong_in_diagram(const std::string& code, const std::string& first, const std::string& second) {
+    if (code == "list")
+        return Message("a block diagram is a list of nodes and arrows, then at most one line with its caption");
+    if (code == "node") return Message("a node is written NAME = KIND COLUMN ROW: label");
+    if (code == "kind") return Message("the kind \"{}\" is not known; there are block, sum, signal and branch", first);
+    if (code == "place") return Message("column and row are whole numbers from 1 to {}", first);
+    if (code == "node-twice") return Message("the node {} is there twice", first);
+    if (code == "most-nodes") return Message("a diagram has at most {} nodes", first);
+    if (code == "sign") return Message("between two nodes stands ->, -| or |-, not {}", first);
+    if (code == "no-node") return Message("there is no node {} above this line", first);
+    if (code == "arrow") return Message("an arrow goes from a node to a node, as in u -> G");
+    if (code == "not-straight")
+        return Message("{} and {} stand neither in one row nor in one column; write -| or |-", first, second);
+    return Message("names, numbers and arrows come first, then a colon and the label");
+}
+
+/// What report_templates/filters/choice.lua reports.
+Message wrong_in_choice(const std::string& code) {
+    if (code == "list")
+        return Message("a choice is a question and then a list of options, - [x] the right and - [ ] the wrong ones");
+    if (code == "option")
+        return Message(
+            "each option begins with [x] or [ ], and a paragraph of its own, indented, says why it is right or wrong");
+    return Message("a choice has two options or more, and a right one among them");
 }
 
 /// Turns the filter's codes into sentences. Fields: [0] the sign, [1] code, [2] text to look for, [3...] details.
@@ -49,130 +84,164 @@ class Sentences {
   public:
     Sentences(const MarkdownText& markdown, const RunRecord& record) : markdown_(markdown), record_(record) {}
 
-    std::string of(const std::vector<std::string>& fields) const {
+    Message of(const std::vector<std::string>& fields) const {
         const auto detail = [&](std::size_t i) { return i + 3 < fields.size() ? fields[i + 3] : std::string(); };
         const std::string& code = fields[1];
         const std::string first = detail(0), second = detail(1), third = detail(2);
         if (code == "no-entry") return no_entry(first, second);
         if (code == "wrong-kind")
-            return quoted(second) + " is a " + third + " in the run's record, but this slot wants a " + first +
-                   "; use the slot for a " + third + " or report.value, report.table, report.figure, report.text alike";
+            return Message(
+                "\"{}\" is a {} in the run's record, but this slot wants a {}; use the slot for a {} or report.value, "
+                "report.table, report.figure, report.text alike",
+                second, noun_of(third), noun_of(first), noun_of(third));
         if (code == "dangling") return dangling(first);
-        if (code == "duplicate-label") return "the label " + quoted(first) + " is used twice; give each its own name";
+        if (code == "duplicate-label") return Message("the label \"{}\" is used twice; give each its own name", first);
         if (code == "label-kind")
-            return "the label " + quoted(first) + " must start with \"" + second + ":\" here, as in {#" + second +
-                   ":name}";
+            return Message("the label \"{}\" must start with \"{}\" here, as in {#{}:name}", first, second + ":",
+                           second);
         if (code == "reference-kind")
-            return "the cross reference @" + first + " must start with @fig:, @tbl:, @eq: or @sec:";
+            return Message("the cross reference @{} must start with @fig:, @tbl:, @eq: or @sec:", first);
         if (code == "no-bibliography")
-            return "@" + first +
-                   " cites literature, but there is no \"bibliography: references.bib\" in the header; name one, or "
-                   "write \\@" +
-                   first + " for the text itself";
-        if (code == "unknown-citation")
-            return "the bibliography has no entry " + quoted(first) + suggestion(first, split_at(second, ' '));
-        if (code == "diagram") return "in this block diagram " + quoted(fields[2]) + ": " + first;
-        if (code == "unknown-drawing")
-            return "there is no drawing " + quoted(first) + suggestion(first, split_at(second, ' ')) + "; there are " +
-                   replaced(second, " ", ", ");
-        if (code == "drawing-content")
-            return "the drawing " + quoted(first) + " may hold nothing but one line with its caption";
-        if (code == "choice") return "in the question " + quoted(fields[2]) + ": " + first;
-        if (code == "unknown-measure")
-            return "there is no measure " + quoted(first) + suggestion(first, split_at(second, ' ')) +
-                   "; dynlab help measures lists them";
-        if (code == "bibliography") return "the bibliography cannot be read: " + first;
-        if (code == "latex")
-            return "the LaTeX command " + first +
-                   " would be printed as it stands; formulas stand between dollar signs, text is written in Markdown "
-                   "(::: pagebreak, {#fig:name} and @fig:name, *italic*, **bold**)";
-        if (code == "figure-not-alone")
-            return "the figure " + quoted(first) + " must stand alone, with an empty line before and after it";
-        if (code == "table-content")
-            return "the table block " + quoted(first) + " may hold nothing but one line with its caption";
-        if (code == "table-width")
-            return "the table " + quoted(first) + " with its " + second +
-                   " columns is too wide for the page; report fewer columns or shorter cells";
-        if (code == "nested-text")
-            return "the text " + quoted(first) +
-                   " contains a text slot; a text written by a script cannot show another";
+            return Message(
+                "@{} cites literature, but there is no \"bibliography: references.bib\" in the header; name one, or "
+                "write \\@{} for the text itself",
+                first, first);
+        if (code == "bibliography") return Message("the bibliography cannot be read: {}", first);
+        if (code == "unknown-citation") {
+            const auto near = nearest_word(first, split_at(second, ' '));
+            return near ? Message("the bibliography has no entry \"{}\"; did you mean \"{}\"?", first, *near)
+                        : Message("the bibliography has no entry \"{}\"", first);
+        }
         if (code == "mathematics") return refused_in_formula(first, second, third);
-        if (code == "raw") return "HTML such as " + first + " is not possible in documents; use Markdown instead";
+        if (code == "latex")
+            return Message(
+                "the LaTeX command {} would be printed as it stands; formulas stand between dollar signs, text is "
+                "written in Markdown {}",
+                first, "(::: pagebreak, {#fig:name} and @fig:name, *italic*, **bold**)");
+        if (code == "raw") return Message("HTML such as {} is not possible in documents; use Markdown instead", first);
         if (code == "raw-attribute")
-            return "raw output marked " + first + " is not possible in documents; use Markdown instead";
+            return Message("raw output marked {} is not possible in documents; use Markdown instead", first);
         if (code == "link")
-            return "the link " + quoted(first) + " must start with https://, http://, mailto: or # (a section's name)";
-        if (code == "attribute") return "the attribute " + quoted(first) + " is not possible on " + second;
-        if (code == "width")
-            return "the width " + quoted(first) + " must be a percentage, cm or mm, such as 60% or 8cm";
-        if (code == "column-width")
-            return "a column needs its width in percent, as in ::: {.column width=60%}, not " + quoted(first);
-        if (code == "not-a-column")
-            return "a block ::: columns holds nothing but blocks ::: {.column width=50%}, which occur nowhere else";
-        return unknown_class(code, first, second);
+            return Message("the link \"{}\" must start with https://, http://, mailto: or # (a section's name)", first);
+        if (code == "attribute")
+            return Message("the attribute \"{}\" is not possible on {}", first, element_named(second, third));
+        return of_block(code, fields[2], first, second, third);
     }
 
   private:
-    std::string no_entry(const std::string& kind, const std::string& name) const {
+    static Message of_block(const std::string& code, const std::string& needle, const std::string& first,
+                            const std::string& second, const std::string& third) {
+        if (code == "diagram")
+            return Message("in this block diagram \"{}\": {}", needle, wrong_in_diagram(first, second, third));
+        if (code == "choice") return Message("in the question \"{}\": {}", needle, wrong_in_choice(first));
+        if (code == "unknown-drawing") {
+            const std::vector<std::string> known = split_at(second, ' ');
+            const auto near = nearest_word(first, known);
+            return near ? Message("there is no drawing \"{}\"; did you mean \"{}\"?; there are {}", first, *near,
+                                  listed(known))
+                        : Message("there is no drawing \"{}\"; there are {}", first, listed(known));
+        }
+        if (code == "drawing-content")
+            return Message("the drawing \"{}\" may hold nothing but one line with its caption", first);
+        if (code == "unknown-measure") {
+            const auto near = nearest_word(first, split_at(second, ' '));
+            return near ? Message("there is no measure \"{}\"; did you mean \"{}\"?; dynlab help measures lists them",
+                                  first, *near)
+                        : Message("there is no measure \"{}\"; dynlab help measures lists them", first);
+        }
+        if (code == "figure-not-alone")
+            return Message("the figure \"{}\" must stand alone, with an empty line before and after it", first);
+        if (code == "table-content")
+            return Message("the table block \"{}\" may hold nothing but one line with its caption", first);
+        if (code == "table-width")
+            return Message(
+                "the table \"{}\" with its {} columns is too wide for the page; report fewer columns or shorter cells",
+                first, second);
+        if (code == "nested-text")
+            return Message("the text \"{}\" contains a text slot; a text written by a script cannot show another",
+                           first);
+        if (code == "width")
+            return Message("the width \"{}\" must be a percentage, cm or mm, such as 60% or 8cm", first);
+        if (code == "column-width")
+            return Message("a column needs its width in percent, as in ::: {.column width=60%}, not \"{}\"", first);
+        if (code == "not-a-column")
+            return Message(
+                "a block ::: columns holds nothing but blocks ::: {.column width=50%}, which occur nowhere else");
+        return unknown_class(code, first, second);
+    }
+
+    Message no_entry(const std::string& kind, const std::string& name) const {
         const std::vector<std::string> names = names_of(record_, kind);
-        std::string sentence = "the script reported no " + kind + " " + quoted(name);
-        if (const auto near = nearest_word(name, names)) return sentence + "; did you mean " + quoted(*near) + "?";
-        if (names.empty()) return sentence + " (it reported no " + kind + " at all)";
-        sentence += "; it reported";
-        for (const std::string& known : names) sentence += (known == names.front() ? " " : ", ") + known;
-        return sentence;
+        const Message noun = noun_of(kind);
+        if (const auto near = nearest_word(name, names))
+            return Message("the script reported no {} \"{}\"; did you mean \"{}\"?", noun, name, *near);
+        if (names.empty())
+            return Message("the script reported no {} \"{}\" (it reported no {} at all)", noun, name, noun);
+        return Message("the script reported no {} \"{}\"; it reported {}", noun, name, listed(names));
     }
 
     /// `known`: the names of all commands that are allowed, with spaces between them.
-    static std::string refused_in_formula(const std::string& kind, const std::string& written,
-                                          const std::string& known) {
+    static Message refused_in_formula(const std::string& kind, const std::string& written, const std::string& known) {
         if (kind == "comment")
-            return "a percent sign in a formula is written \\%, as % would hide the rest of the line";
+            return Message("a percent sign in a formula is written \\%, as % would hide the rest of the line");
         if (kind == "environment")
-            return "the environment " + written +
-                   " is not allowed in formulas; there are matrix (with b, p, v, V), array, cases, aligned, gathered, "
-                   "split and the others of amsmath";
+            return Message(
+                "the environment {} is not allowed in formulas; there are matrix (with b, p, v, V), array, cases, "
+                "aligned, gathered, split and the others of amsmath",
+                written);
         static const std::set<std::string> numbering = {"\\label", "\\ref",   "\\eqref",   "\\pageref",
                                                         "\\tag",   "\\notag", "\\nonumber"};
-        const std::string refusal = "the command " + written + " is not allowed in formulas";
-        if (numbering.contains(written)) return refusal + ": number a formula with {#eq:name} after it";
-        const auto near = nearest_word(written.substr(1), split_at(known, ' '));
-        return refusal + ", which reach no files and make no macros: only commands that set mathematics are" +
-               (near ? "; did you mean \\" + *near + "?" : "");
+        if (numbering.contains(written))
+            return Message("the command {} is not allowed in formulas: number a formula with {#eq:name} after it",
+                           written);
+        if (const auto near = nearest_word(written.substr(1), split_at(known, ' ')))
+            return Message(
+                "the command {} is not allowed in formulas, which reach no files and make no macros: only commands "
+                "that set mathematics are; did you mean {}?",
+                written, "\\" + *near);
+        return Message(
+            "the command {} is not allowed in formulas, which reach no files and make no macros: only commands that "
+            "set mathematics are",
+            written);
     }
 
-    std::string dangling(const std::string& label) const {
+    Message dangling(const std::string& label) const {
         std::vector<std::string> labels;
         for (std::size_t at = markdown_.text.find("{#"); at != std::string::npos;
              at = markdown_.text.find("{#", at + 1)) {
             const std::size_t end = markdown_.text.find_first_of("} \n", at);
             labels.push_back(markdown_.text.substr(at + 2, end == std::string::npos ? end : end - at - 2));
         }
-        const std::string nothing = "the cross reference @" + label + " points to nothing: ";
         if (std::find(labels.begin(), labels.end(), label) != labels.end())
-            return nothing + "{#" + label + "} names nothing that is shown";
-        return nothing + "there is no {#" + label + "}" + suggestion(label, labels);
+            return Message("the cross reference @{} points to nothing: {#{}} names nothing that is shown", label,
+                           label);
+        if (const auto near = nearest_word(label, labels))
+            return Message("the cross reference @{} points to nothing: there is no {#{}}; did you mean \"{}\"?", label,
+                           label, *near);
+        return Message("the cross reference @{} points to nothing: there is no {#{}}", label, label);
     }
 
-    static std::string unknown_class(const std::string& code, const std::string& name, const std::string& text) {
+    static Message unknown_class(const std::string& code, const std::string& name, const std::string& text) {
         if (code == "division-class") {
             if (name.empty())
-                return "a ::: block needs a class: table, text, note, warning, exercise, columns, column, "
-                       "block-diagram, choice, drawing, references, measures or pagebreak";
-            return "the block class " + quoted(name) + " is not known" +
-                   suggestion(name,
-                              {"table", "text", "note", "warning", "exercise", "columns", "column", "block-diagram",
-                               "choice", "drawing", "references", "measures", "pagebreak", "cells"}) +
-                   "; known are table, text, cells, note, warning, exercise, columns, column, block-diagram, "
-                   "choice, drawing, references, measures, pagebreak";
+                return Message(
+                    "a ::: block needs a class: table, text, note, warning, exercise, columns, column, block-diagram, "
+                    "choice, drawing, references, measures or pagebreak");
+            static const std::vector<std::string> kKnown = {
+                "table",  "text",          "cells",  "note",    "warning",    "exercise", "columns",
+                "column", "block-diagram", "choice", "drawing", "references", "measures", "pagebreak"};
+            const auto near = nearest_word(name, kKnown);
+            return near ? Message("the block class \"{}\" is not known; did you mean \"{}\"?; known are {}", name,
+                                  *near, listed(kKnown))
+                        : Message("the block class \"{}\" is not known; known are {}", name, listed(kKnown));
         }
         if (code == "code-class")
-            return "the slot `" + text + "`{." + name + "} has an unknown class; values are written `" + text +
-                   "`{.value}";
-        if (code == "block-class") return "the class " + quoted(name) + " of a code block is not a known language";
+            return Message("the slot `{}`{.{}} has an unknown class; values are written `{}`{.value}", text, name,
+                           text);
+        if (code == "block-class") return Message("the class \"{}\" of a code block is not a known language", name);
         if (code == "span-class")
-            return "the class " + quoted(name) + " of a bracketed text is not known; write the text without it";
-        return "the document filter reports " + code + " " + name;
+            return Message("the class \"{}\" of a bracketed text is not known; write the text without it", name);
+        return Message("the document filter reports {} {}", code, name);
     }
 
     const MarkdownText& markdown_;
@@ -180,9 +249,9 @@ class Sentences {
 };
 
 /// A line of Pandoc's own, such as "[WARNING] Could not convert TeX math ...": something would be missing.
-void add_pandoc_warning(const std::string& line, const SourceLine& where, Complaints& complaints) {
+void add_pandoc_warning(const std::string& line, const Place& where, Complaints& complaints) {
     const std::string sign = "[WARNING] ";
-    complaints.add(where, "Pandoc reports: " + (line.starts_with(sign) ? line.substr(sign.size()) : line));
+    complaints.add(where, Message("Pandoc reports: {}", line.starts_with(sign) ? line.substr(sign.size()) : line));
 }
 
 /// The formula named in "Could not convert TeX math FORMULA, rendering as TeX:".

@@ -11,7 +11,6 @@
 #include "data_io/values/cbor_values.h"
 #include "documents/text_lines.h"
 #include "documents/work_file.h"
-#include "numerics/number_text.h"
 #include "platform/cache.h"
 #include "platform/child_process.h"
 
@@ -82,10 +81,11 @@ LatexRefusal refusal_in(const std::string& log, int lines_before_body) {
         // Code on slides is set from a file of its own, whose lines are not those of the body.
         line = ending == "tex" ? line - lines_before_body : 0;
     } else if (!RE2::FindAndConsume(&rest, unplaced, &message)) {
-        return LatexRefusal("pdflatex stopped without a message", 0, "");
+        return LatexRefusal(Message("pdflatex stopped without a message"), 0, "");
     }
     RE2::PartialMatch(rest, context, &before);
-    return LatexRefusal(trimmed(message), line, before.starts_with("...") ? before.substr(3) : before);
+    return LatexRefusal(Message::verbatim(trimmed(message)), line,
+                        before.starts_with("...") ? before.substr(3) : before);
 }
 
 /// Complaints that LaTeX itself passes over, though something is missing on the page.
@@ -95,7 +95,7 @@ void check_nothing_dropped(const std::string& log) {
         RE2::Latin1);
     std::string complaint, line;
     if (RE2::PartialMatch(log, dropped, &complaint, &line))
-        throw LatexRefusal(trimmed(complaint), line.empty() ? 0 : std::stoi(line), "");
+        throw LatexRefusal(Message::verbatim(trimmed(complaint)), line.empty() ? 0 : std::stoi(line), "");
 }
 
 /// Slides whose content is higher than they are: it would run over their lower edge.
@@ -103,19 +103,19 @@ void check_nothing_overflows(const std::string& log, int lines_before_body) {
     static const RE2 overfull(R"(\nOverfull \\vbox \(([0-9.]+)pt too high\) detected at line (\d+))", RE2::Latin1),
         page(R"(\n\[(\d+))", RE2::Latin1);
     constexpr double kPointsPerMm = 72.27 / 25.4, kUnseen = 0.5;  // mm
-    std::string slides, number;
+    MessageList slides;
+    std::string number;
     double points = 0;
     int first = 0, line = 0;
     for (re2::StringPiece rest = log; RE2::FindAndConsume(&rest, overfull, &points, &line);) {
         const double excess = points / kPointsPerMm;
         if (excess < kUnseen || !RE2::PartialMatch(rest, page, &number)) continue;
-        if (slides.empty()) first = line - lines_before_body;
-        slides += (slides.empty() ? "slide " : ", slide ") + number + " is too full by " +
-                  number_text(std::ceil(excess)) + " mm";
+        if (slides.items.empty()) first = line - lines_before_body;
+        slides.items.push_back(Message("slide {} is too full by {} mm", number, std::ceil(excess)));
     }
-    if (!slides.empty())
-        throw LatexRefusal(slides + "; shorten the text, make a figure less high, or part the slide into two", first,
-                           "");
+    if (!slides.items.empty())
+        throw LatexRefusal(Message("{}; shorten the text, make a figure less high, or part the slide into two", slides),
+                           first, "");
 }
 
 class LatexRun {
@@ -190,10 +190,10 @@ class LatexRun {
         const auto start = std::chrono::steady_clock::now();
         const ChildResult run = run_child(command(draft), "texlive-latex-base");
         note("latex pass " + std::to_string(pass), start);
-        if (run.timed_out) throw LatexRefusal("pdflatex did not finish within two minutes", 0, "");
+        if (run.timed_out) throw LatexRefusal(Message("pdflatex did not finish within two minutes"), 0, "");
         if (run.exit_code == 128 + SIGXFSZ)
-            throw LatexRefusal("pdflatex wrote a file of more than 64 MB; use smaller pictures", 0, "");
-        if (run.output_exceeded) throw LatexRefusal("pdflatex wrote messages without end", 0, "");
+            throw LatexRefusal(Message("pdflatex wrote a file of more than 64 MB; use smaller pictures"), 0, "");
+        if (run.output_exceeded) throw LatexRefusal(Message("pdflatex wrote messages without end"), 0, "");
         const std::string log = "\n" + run.output;
         if (run.exit_code != 0) {
             check_missing_packages(log);

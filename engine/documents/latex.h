@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/error.h"
 #include "documents/latex_format.h"
 
 namespace dynlab::inline documents {
@@ -22,9 +23,9 @@ struct LatexJob {
 
 /// LaTeX refused the document: its first real complaint, the line of the body (1-based, 0 unknown) and the text of
 /// that line up to where it stopped.
-struct LatexRefusal : std::runtime_error {
-    LatexRefusal(const std::string& message, int body_line, std::string before)
-        : std::runtime_error(message), line(body_line), text_before(std::move(before)) {}
+struct LatexRefusal : ErrorOf<std::runtime_error> {
+    LatexRefusal(const Message& message, int body_line, std::string before)
+        : ErrorOf(message), line(body_line), text_before(std::move(before)) {}
     int line;
     std::string text_before;
 };

@@ -8,6 +8,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "base/catalog.h"
+#include "base/languages.h"
 #include "documents/text_lines.h"
 #include "documents/work_file.h"
 #include "platform/atomic_file.h"
@@ -26,7 +28,9 @@ using namespace std::chrono_literals;
 /// The files that make a preamble: the names they are written under, and their texts.
 std::vector<std::pair<std::string, std::string>> preamble_files(const LatexLayout& layout) {
     const fs::path folder = layout.shared_templates / "latex";
-    const std::string language = layout.language == "fr" ? "french" : "english";
+    const Catalog* const catalog = catalog_of(layout.language);
+    const std::string_view other = catalog ? catalog->translation(marked("babel", "english"), "babel") : "";
+    const std::string language(other.empty() ? "english" : other);
     return {{"preamble.tex", read_file(folder / (layout.slides ? "slides_preamble.tex" : "preamble.tex"))},
             {"shared.tex", replaced(read_file(folder / "shared.tex"), "LANGUAGE", language)},
             {"characters.tex", read_file(folder / "characters.tex")}};
@@ -78,9 +82,11 @@ void finish_format(ChildProcess& tex, const fs::path& folder) {
     if (run.exit_code == 0 && fs::exists(format)) return unpack_format(format);
     check_missing_packages(run.output);
     static const RE2 kError("(?m)^! (.*)", RE2::Latin1);
-    std::string reason = "pdflatex ended with code " + std::to_string(run.exit_code);
-    RE2::PartialMatch(run.output, kError, &reason);
-    throw EnvironmentError("the layout of documents (report_templates/latex) cannot be prepared: " + reason);
+    std::string complaint;
+    const Message reason = RE2::PartialMatch(run.output, kError, &complaint)
+                               ? Message::verbatim(complaint)
+                               : Message("pdflatex ended with code {}", run.exit_code);
+    throw EnvironmentError("the layout of documents (report_templates/latex) cannot be prepared: {}", reason);
 }
 
 }  // namespace
@@ -93,10 +99,12 @@ void check_missing_packages(const std::string& log) {
     static const RE2 kNoFrench(R"(Unknown option [`'"]french['"]|[fF]ile [`'"]?french\.ldf)", RE2::Latin1),
         kNoFile(R"(File [`']([^']+\.(?:sty|cls|def|fd))' not found)", RE2::Latin1);
     if (RE2::PartialMatch(log, kNoFrench))
-        throw MissingProgram("the French language of LaTeX (babel's french.ldf)", "texlive-lang-french");
+        throw MissingProgram(
+            Message("the French language of LaTeX (babel's french.ldf) is not installed: sudo apt install {}",
+                    "texlive-lang-french"));
     if (std::string file; RE2::PartialMatch(log, kNoFile, &file))
-        throw MissingProgram("the LaTeX file " + file,
-                             "texlive-latex-recommended texlive-fonts-recommended texlive-pictures lmodern");
+        throw MissingProgram(Message("the LaTeX file {} is not installed: sudo apt install {}", file,
+                                     "texlive-latex-recommended texlive-fonts-recommended texlive-pictures lmodern"));
 }
 
 CachedLatexFormat::CachedLatexFormat(const LatexLayout& layout) {

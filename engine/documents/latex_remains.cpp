@@ -50,11 +50,12 @@ void find_latex_brackets(const MarkdownText& markdown, Complaints& complaints) {
         const std::string prose = prose_of(line);
         if (RE2::PartialMatch(prose, round))
             complaints.add(markdown.origin_of(number),
-                           "\\(...\\) is LaTeX and would be printed as plain text; write a formula as $...$");
+                           Message("\\(...\\) is LaTeX and would be printed as plain text; write a formula as $...$"));
         if (RE2::PartialMatch(prose, square))
-            complaints.add(markdown.origin_of(number),
-                           "\\[...\\] is LaTeX and would be printed as plain text; write a formula on lines of its own "
-                           "as $$...$$");
+            complaints.add(
+                markdown.origin_of(number),
+                Message("\\[...\\] is LaTeX and would be printed as plain text; write a formula on lines of its "
+                        "own as $$...$$"));
     }
 }
 

@@ -183,7 +183,7 @@ Complaints costly_text_of(const PandocJob& job) {
     Complaints found;
     CostlyText costly;
     if (const auto line = costly.line_of(job.markdown.text)) {
-        found.add(job.markdown.origin_of(*line), CostlyText::kSentence);
+        found.add(job.markdown.origin_of(*line), CostlyText::complaint());
         return found;
     }
     std::vector<std::pair<std::string, std::string_view>> texts;
@@ -192,7 +192,7 @@ Complaints costly_text_of(const PandocJob& job) {
     for (const auto& [key, text] : job.metadata) texts.emplace_back(key, text);
     for (const auto& [name, text] : texts)
         if (costly.line_of(text)) {
-            found.add({job.template_file, 0}, name + ": " + CostlyText::kSentence);
+            found.add({job.template_file}, Message("{}: {}", name, CostlyText::complaint()));
             break;
         }
     return found;
@@ -218,11 +218,13 @@ PandocResult run_pandoc(const PandocJob& job, Complaints& complaints) {
     write_work_file(job.work_folder / "slots.lua", slots_file(job));
     ChildResult run = finished_pandoc(job);
     if (run.timed_out)
-        throw DocumentError(job.template_file.string() + ": Pandoc did not finish this document within " +
-                            std::to_string(kMostTime.count()) +
-                            " s of processor time, or ten times as long by the clock");
+        throw DocumentError(
+            Place{job.template_file},
+            Message(
+                "Pandoc did not finish this document within {} s of processor time, or ten times as long by the clock",
+                kMostTime.count()));
     if (run.output_exceeded)
-        throw DocumentError(job.template_file.string() + ": Pandoc wrote more than a document can hold");
+        throw DocumentError(Place{job.template_file}, Message("Pandoc wrote more than a document can hold"));
     Complaints found;
     PandocResult result;
     FilterMessages messages =
@@ -231,7 +233,7 @@ PandocResult run_pandoc(const PandocJob& job, Complaints& complaints) {
     result.chunks = std::move(messages.chunks);
     result.gaps = std::move(messages.gaps);
     if (run.exit_code != 0 && found.empty())
-        found.add({job.template_file, 0}, "Pandoc stopped with exit code " + std::to_string(run.exit_code));
+        found.add({job.template_file}, Message("Pandoc stopped with exit code {}", run.exit_code));
     if (found.empty() || (job.chunks && run.exit_code == 0)) result.text = std::move(run.output);
     complaints.add_all(found);
     return result;

@@ -36,8 +36,8 @@ class CellReader {
     }
 
   private:
-    [[noreturn]] void fail(std::size_t index, const std::string& what) const {
-        throw DocumentError(file_.string() + ":" + std::to_string(index + 1) + ": " + what);
+    [[noreturn]] void fail(std::size_t index, const Message& what) const {
+        throw DocumentError(Place{file_, static_cast<int>(index) + 1}, what);
     }
 
     void read_marker(Cell& cell, std::size_t index) const {
@@ -50,7 +50,8 @@ class CellReader {
             }
             const std::size_t equals = word.find('=');
             if (equals == std::string::npos || equals + 1 == word.size())
-                fail(index, "cell option \"" + word + "\" is not of the form key=value (or [markdown] in first place)");
+                fail(index,
+                     Message("cell option \"{}\" is not of the form key=value (or [markdown] in first place)", word));
             read_option(cell, index, word.substr(0, equals), word.substr(equals + 1));
         }
     }
@@ -58,17 +59,17 @@ class CellReader {
     void read_option(Cell& cell, std::size_t index, const std::string& key, const std::string& value) const {
         if (std::find(kCellOptions.begin(), kCellOptions.end(), key) == kCellOptions.end()) {
             const auto near = nearest_word(key, kCellOptions);
-            fail(index, "unknown cell option \"" + key + "\"; " +
-                            (near ? "did you mean \"" + *near + "\"?" : "known are id, echo, output"));
+            fail(index, near ? Message("unknown cell option \"{}\"; did you mean \"{}\"?", key, *near)
+                             : Message("unknown cell option \"{}\"; known are {}", key, listed(kCellOptions)));
         }
         if (key == "id") {
-            if (!is_name(value)) fail(index, "cell id \"" + value + "\" may have letters, digits, _ and - only");
+            if (!is_name(value)) fail(index, Message("cell id \"{}\" may have letters, digits, _ and - only", value));
             cell.id = value;
             return;
         }
         if (value != "true" && value != "false")
-            fail(index, "cell option " + key + " is true or false, not \"" + value + "\"");
-        if (!cell.options.emplace(key, value).second) fail(index, "cell option " + key + " occurs twice");
+            fail(index, Message("cell option {} is true or false, not \"{}\"", key, value));
+        if (!cell.options.emplace(key, value).second) fail(index, Message("cell option {} occurs twice", key));
     }
 
     /// Takes lines [start, end) as the content of `cell`, blank lines at both ends left out.
@@ -81,7 +82,7 @@ class CellReader {
         for (std::size_t i = start; i < end; ++i) cell.content += content_line(cell, i) + "\n";
         if (cell.id.empty()) cell.id = "cell-" + std::to_string(cells_.size() + 1);
         if (!ids_.insert(cell.id).second)
-            fail(start == 0 ? 0 : start - 1, "another cell has the id \"" + cell.id + "\" already");
+            fail(start == 0 ? 0 : start - 1, Message("another cell has the id \"{}\" already", cell.id));
         cells_.push_back(std::move(cell));
     }
 
@@ -89,9 +90,10 @@ class CellReader {
         const std::string& line = lines_[index];
         if (cell.kind == Cell::Kind::kCode || is_blank(line)) return line;
         if (!line.starts_with("--"))
-            fail(index, "\"" + trimmed(line) +
-                            "\" stands in a text cell, whose lines start with \"-- \"; a code cell " +
-                            "starts with a line \"-- %%\"");
+            fail(index,
+                 Message("\"{}\" stands in a text cell, whose lines start with \"-- \"; a code cell starts with a "
+                         "line \"-- %%\"",
+                         trimmed(line)));
         return line.substr(line.starts_with("-- ") ? 3 : 2);
     }
 

@@ -44,20 +44,23 @@ std::vector<PlacedPicture> find_picture_files(const std::vector<UsedPicture>& pi
     for (const UsedPicture& picture : pictures) {
         if (picture.is_figure) continue;
         const fs::path path = without_percent_signs(picture.name);
-        SourceLine where = find_in(markdown, picture.name, template_file);
+        Place where = find_in(markdown, picture.name, template_file);
         if (where.line == 0) where = find_in(markdown, path.string(), template_file);
         const fs::path folder = folder_around(where.file), file = folder / path;
-        const std::string shown = "the picture \"" + path.string() + "\" ";
+        const std::string shown = path.string();
         if (picture.name.find("://") != std::string::npos || picture.name.starts_with("data:"))
-            complaints.add(where, shown + "must be a file beside this one, not an address");
+            complaints.add(where, Message("the picture \"{}\" must be a file beside this one, not an address", shown));
         else if (path.is_absolute() || !is_inside(file, folder))
-            complaints.add(where, shown + "lies outside the folder of this file; copy it into the folder");
+            complaints.add(
+                where,
+                Message("the picture \"{}\" lies outside the folder of this file; copy it into the folder", shown));
         else if (!fs::is_regular_file(file))
-            complaints.add(where, shown + "does not exist in " + fs::absolute(folder).lexically_normal().string());
+            complaints.add(where, Message("the picture \"{}\" does not exist in {}", shown,
+                                          fs::absolute(folder).lexically_normal().string()));
         else if (!format_holds(format, ending_of(path)))
-            complaints.add(where,
-                           shown + "is of a kind this output cannot hold; " +
-                               (format == DocumentFormat::kPdf ? "use .pdf, .png or .jpg" : "use .svg, .png or .jpg"));
+            complaints.add(
+                where, Message("the picture \"{}\" is of a kind this output cannot hold; use {}, .png or .jpg", shown,
+                               format == DocumentFormat::kPdf ? ".pdf" : ".svg"));
         else
             found.push_back({file, prefix + std::to_string(picture.number) + ending_of(path), {}});
     }
@@ -73,12 +76,13 @@ std::vector<PlacedPicture> find_figures(const std::vector<UsedPicture>& pictures
         const fs::path& file = record.figures.at(picture.name).file;
         if (file.empty() || !fs::is_regular_file(file))
             complaints.add(find_in(markdown, "figure:" + picture.name, template_file),
-                           "the figure \"" + picture.name + "\" was not drawn" +
-                               (file.empty() ? "" : ": " + file.filename().string() + " does not exist"));
+                           file.empty() ? Message("the figure \"{}\" was not drawn", picture.name)
+                                        : Message("the figure \"{}\" was not drawn: {} does not exist", picture.name,
+                                                  file.filename().string()));
         else if (file.extension() != "." + figure_extension(format))
             complaints.add(find_in(markdown, "figure:" + picture.name, template_file),
-                           "the figure \"" + picture.name + "\" was drawn as " + file.extension().string() +
-                               ", but this document wants ." + figure_extension(format));
+                           Message("the figure \"{}\" was drawn as {}, but this document wants {}", picture.name,
+                                   file.extension().string(), "." + figure_extension(format)));
         else
             found.push_back({file, prefix + std::to_string(picture.number) + "." + figure_extension(format),
                              record.figures.at(picture.name).plot});

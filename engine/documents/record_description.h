@@ -1,5 +1,6 @@
 #pragma once
 #include "data_io/values/described.h"
+#include "data_io/values/message_values.h"
 #include "documents/percent_script.h"
 #include "documents/run_record.h"
 
@@ -29,8 +30,8 @@ DYNLAB_DESCRIBE(RecordedCall, what, file, line)
 
 template <Is<RecordedError> T, class V>
 void describe(T& object, V& member) {
-    auto& [message, line, calls] = object;
-    member("message", message), member("line", line), member.unless_empty("calls", calls);
+    auto& [message, file, line, calls] = object;
+    member("message", message), member("file", file), member("line", line), member.unless_empty("calls", calls);
 }
 
 template <Is<RunRecord> T, class V>

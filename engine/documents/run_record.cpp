@@ -1,5 +1,8 @@
 #include "documents/run_record.h"
 
+#include <fmt/format.h>
+
+#include "base/reader.h"
 #include "data_io/values/json_values.h"
 #include "documents/record_description.h"
 
@@ -31,6 +34,11 @@ RunRecord readable_record(const RunRecord& record) {
 }
 
 }  // namespace
+
+std::string RecordedError::text(const Reader& reader) const {
+    const std::string what = message_text(message, reader);
+    return line > 0 ? fmt::format("{}:{}: {}", file, line, what) : what;
+}
 
 void write_whole_value(ValueWriter& writer, const RecordedAnswer& answer) {
     if (!writer.keeps_all()) return writer.json_text(answer.json);

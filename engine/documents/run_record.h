@@ -8,6 +8,9 @@
 #include <variant>
 #include <vector>
 
+#include "base/message.h"
+#include "base/reader.h"
+
 namespace dynlab::inline figures {
 struct Figure;
 }
@@ -62,15 +65,22 @@ struct RecordedSlider {
 
 /// A call on the way to an error.
 struct RecordedCall {
-    std::string what;  ///< "called gain(x = 2)"
+    Message what;      ///< "called gain(x = 2)"
     std::string file;  ///< where that stands, without folders
     int line = 0;
 };
 
+/// Its options have the names that scripts use, whoever reads it.
 struct RecordedError {
-    std::string message;                   ///< the whole readable sentence, with file and line
-    int line = 0;                          ///< of the script; 0 when unknown
+    Message message;                       ///< without its place
+    std::string file = {};                 ///< where it happened, without folders; empty when unknown
+    int line = 0;                          ///< of that file
     std::vector<RecordedCall> calls = {};  ///< of the script's own functions, the innermost first
+
+    /// As Lua has it: "lesson.lua:3: there is no function or variable 'y'".
+    std::string text(const Reader& reader = {}) const;
+    /// The line, where it is one of that script; else 0.
+    int line_in(const std::string& script) const { return file == script ? line : 0; }
 };
 
 /// `answer`: what a script hands in under a name.

@@ -1,10 +1,9 @@
 #include "documents/script_header.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <set>
 
+#include "base/languages.h"
 #include "documents/bibliography.h"
 #include "documents/error.h"
 #include "documents/text_lines.h"
@@ -26,7 +25,7 @@ class HeaderReader {
         number_ = number;
         if (is_blank(line)) return;
         const std::size_t colon = line.find(':');
-        if (colon == std::string::npos) fail("\"" + trimmed(line) + "\" is not of the form \"key: value\"");
+        if (colon == std::string::npos) fail(Message("\"{}\" is not of the form \"key: value\"", trimmed(line)));
         const std::string key = trimmed(line.substr(0, colon)), value = unquoted(trimmed(line.substr(colon + 1)));
         const bool nested = line[0] == ' ' || line[0] == '\t';
         if (nested)
@@ -36,49 +35,51 @@ class HeaderReader {
     }
 
   private:
-    [[noreturn]] void fail(const std::string& what) const {
-        throw DocumentError(file_.string() + ":" + std::to_string(number_) + ": script header: " + what);
+    [[noreturn]] void fail(const Message& what) const {
+        throw DocumentError(Place{file_, number_}, Message("script header: {}", what));
     }
 
     std::string unquoted(const std::string& value) const {
         if (value.empty() || (value[0] != '"' && value[0] != '\'')) return value;
-        if (value.size() < 2 || value.back() != value[0]) fail("the quotation mark of " + value + " is not closed");
+        if (value.size() < 2 || value.back() != value[0])
+            fail(Message("the quotation mark of {} is not closed", value));
         return value.substr(1, value.size() - 2);
     }
 
     void read_answer(const std::string& name, const std::string& kind) {
-        if (!in_answers_) fail("\"" + name + "\" is indented, but only names below \"answers:\" are");
-        if (!is_name(name)) fail("\"" + name + "\" cannot be the name of an answer");
-        if (kind.empty()) fail("answer \"" + name + "\" needs a kind, such as \"" + name + ": number\"");
+        if (!in_answers_) fail(Message("\"{}\" is indented, but only names below \"answers:\" are", name));
+        if (!is_name(name)) fail(Message("\"{}\" cannot be the name of an answer", name));
+        if (kind.empty()) fail(Message("answer \"{}\" needs a kind, such as \"{}: number\"", name, name));
         if (std::find(answer_kinds().begin(), answer_kinds().end(), kind) == answer_kinds().end())
-            fail("answer \"" + name + "\" is of the unknown kind \"" + kind + "\"; known are " +
-                 fmt::format("{}", fmt::join(answer_kinds(), ", ")));
-        if (!declared_.insert(name).second) fail("answer \"" + name + "\" is declared twice");
+            fail(Message("answer \"{}\" is of the unknown kind \"{}\"; known are {}", name, kind,
+                         listed(answer_kinds())));
+        if (!declared_.insert(name).second) fail(Message("answer \"{}\" is declared twice", name));
         header_.answers.push_back({name, kind});
     }
 
     void read_key(const std::string& key, const std::string& value) {
         for (const std::string& known : seen_)
-            if (known == key) fail("key \"" + key + "\" occurs twice");
+            if (known == key) fail(Message("key \"{}\" occurs twice", key));
         seen_.push_back(key);
         in_answers_ = key == "answers";
         if (in_answers_) {
-            if (!value.empty()) fail("\"answers:\" is followed by lines \"  name: kind\", not by a value");
+            if (!value.empty()) fail(Message("\"answers:\" is followed by lines \"  name: kind\", not by a value"));
             return;
         }
         std::string* const text = text_field(key);
         if (!text && key != "seed") unknown(key);
-        if (value.empty()) fail("key \"" + key + "\" has no value");
+        if (value.empty()) fail(Message("key \"{}\" has no value", key));
         if (!text)
             header_.seed = seed_of(value);
         else
             *text = value;
-        if (key == "language" && value != "en" && value != "fr")
-            fail("language \"" + value + "\" is not known; write en or fr");
+        if (key == "language" && !is_language(value))
+            fail(Message("language \"{}\" is not known; write {}", value, listed(languages(), Join::kOr)));
         if (key == "bibliography")
-            check_bibliography_name(value, file_.string() + ":" + std::to_string(number_) + ": script header: ");
+            if (const Message fault = fault_of_bibliography_name(value); !fault.empty()) fail(fault);
         if (key == "template" && !is_name(value))
-            fail("template \"" + value + "\" must be the name of a template, such as lesson, without folder or .md");
+            fail(Message("template \"{}\" must be the name of a template, such as lesson, without folder or .md",
+                         value));
     }
 
     std::string* text_field(const std::string& key) {
@@ -93,15 +94,13 @@ class HeaderReader {
 
     std::uint32_t seed_of(const std::string& value) const {
         if (const auto seed = read_number<std::uint32_t>(value)) return *seed;
-        fail("seed \"" + value + "\" must be a whole number from 0 to 4294967295");
+        fail(Message("seed \"{}\" must be a whole number from 0 to 4294967295", value));
     }
 
     [[noreturn]] void unknown(const std::string& key) const {
-        std::string message = "unknown key \"" + key + "\"";
-        if (const auto near = nearest_word(key, kHeaderKeys)) fail(message + "; did you mean \"" + *near + "\"?");
-        message += "; known are";
-        for (const std::string& known : kHeaderKeys) message += (known == kHeaderKeys.front() ? " " : ", ") + known;
-        fail(message);
+        const auto near = nearest_word(key, kHeaderKeys);
+        fail(near ? Message("unknown key \"{}\"; did you mean \"{}\"?", key, *near)
+                  : Message("unknown key \"{}\"; known are {}", key, listed(kHeaderKeys)));
     }
 
     const std::filesystem::path& file_;
@@ -131,26 +130,27 @@ std::size_t read_script_header(const std::vector<std::string>& lines, const std:
     const std::size_t first = !lines.empty() && lines[0].starts_with("#!") ? 1 : 0;
     if (lines.size() <= first || !is_fence(lines[first])) return 0;
     HeaderReader reader(file, header);
-    std::vector<std::string> mistakes;  // told together, a line each
+    MessageList mistakes{{}, Join::kLines};  // reported together
     for (std::size_t i = first + 1; i < lines.size(); ++i) {
         const int number = static_cast<int>(i) + 1;
         if (is_fence(lines[i])) {
-            if (!mistakes.empty()) throw DocumentError(fmt::format("{}", fmt::join(mistakes, "\n")));
+            if (!mistakes.items.empty()) throw DocumentError(Message("{}", mistakes));
             return i + 1;
         }
         if (!lines[i].starts_with("--"))
-            throw DocumentError(file.string() + ":" + std::to_string(number) +
-                                ": the script header is not closed: a line \"-- ---\" is missing before this line");
+            throw DocumentError(
+                Place{file, number},
+                Message("the script header is not closed: a line \"-- ---\" is missing before this line"));
         std::string content = lines[i].substr(2);
         if (content.starts_with(' ')) content.erase(0, 1);
         try {
             reader.read_line(content, number);
         } catch (const DocumentError& error) {
-            if (mistakes.size() < kMostMistakes) mistakes.emplace_back(error.what());
+            if (mistakes.items.size() < kMostMistakes) mistakes.items.push_back(error.message());
         }
     }
-    throw DocumentError(file.string() + ":" + std::to_string(first + 1) +
-                        ": the script header is not closed: a line \"-- ---\" is missing after it");
+    throw DocumentError(Place{file, static_cast<int>(first) + 1},
+                        Message("the script header is not closed: a line \"-- ---\" is missing after it"));
 }
 
 }  // namespace dynlab::inline documents

@@ -2,6 +2,8 @@
 
 #include <optional>
 
+#include "base/languages.h"
+#include "base/reader.h"
 #include "documents/error.h"
 #include "documents/percent_script.h"
 #include "documents/text_lines.h"
@@ -46,14 +48,17 @@ SolutionLine solution_line(std::string_view line, const std::filesystem::path& f
     const std::string lower = in_small_letters(*comment);
     for (const char* marker : {"begin solution", "end solution", "begin the solution", "end of solution"})
         if (lower.starts_with(marker) && lower.size() <= std::string_view(marker).size() + 2)
-            throw DocumentError(file.string() + ":" + std::to_string(number) + ": \"" + trimmed(line) +
-                                "\" is not a solution marker; write \"-- BEGIN SOLUTION\" or \"-- END SOLUTION\"");
+            throw DocumentError(
+                Place{file, number},
+                Message("\"{}\" is not a solution marker; write \"-- BEGIN SOLUTION\" or \"-- END SOLUTION\"",
+                        trimmed(line)));
     return SolutionLine::kNone;
 }
 
 AnswerMarks answer_marks(std::string_view language) {
-    if (language == "fr") return {"-- VOTRE CODE ICI", "-- *Votre réponse :*"};
-    return {"-- YOUR CODE HERE", "-- *Your answer:*"};
+    const Reader reader{catalog_of(language)};
+    return {"-- " + message_text(Message("YOUR CODE HERE"), reader),
+            "-- *" + message_text(Message("Your answer:"), reader) + "*"};
 }
 
 std::string without_solutions(const std::string& source, const std::filesystem::path& name, std::string_view language) {
@@ -63,20 +68,18 @@ std::string without_solutions(const std::string& source, const std::filesystem::
     bool in_text = false, hidden = false;
     bool asked = false;  // the mark of code was the last that was said
     int number = 0;
-    const auto fail = [&](int line, const std::string& what) {
-        throw DocumentError(name.string() + ":" + std::to_string(line) + ": " + what);
-    };
+    const auto fail = [&](int line, const Message& what) { throw DocumentError(Place{name, line}, what); };
     for (std::string_view line : lines_with_ends(source)) {
         ++number;
         if (is_cell_marker(line)) {
-            if (begun) fail(begun, "this solution is not closed with \"-- END SOLUTION\" in its cell");
+            if (begun) fail(begun, Message("this solution is not closed with \"-- END SOLUTION\" in its cell"));
             in_text = is_text_cell_marker(line);
             asked = asked && !in_text;
             hidden = line.find("echo=false") != std::string_view::npos;
         }
         switch (solution_line(line, name, number)) {
             case SolutionLine::kBegin:
-                if (begun) fail(number, "a solution begins inside the solution of line " + std::to_string(begun));
+                if (begun) fail(number, Message("a solution begins inside the solution of line {}", begun));
                 begun = number;
                 if (hidden || (asked && !in_text)) break;
                 asked = !in_text;
@@ -85,11 +88,11 @@ std::string without_solutions(const std::string& source, const std::filesystem::
                 result += end_of(line);
                 break;
             case SolutionLine::kEnd:
-                if (!begun) fail(number, "\"-- END SOLUTION\" without a \"-- BEGIN SOLUTION\" in its cell");
+                if (!begun) fail(number, Message("\"-- END SOLUTION\" without a \"-- BEGIN SOLUTION\" in its cell"));
                 begun = 0;
                 break;
             case SolutionLine::kStarter:
-                if (!begun) fail(number, "\"-- STARTER:\" stands outside a solution");
+                if (!begun) fail(number, Message("\"-- STARTER:\" stands outside a solution"));
                 asked = false;
                 result += starter_text(line, in_text);
                 break;
@@ -99,7 +102,7 @@ std::string without_solutions(const std::string& source, const std::filesystem::
                 result += line;
         }
     }
-    if (begun) fail(begun, "this solution is not closed with \"-- END SOLUTION\" in its cell");
+    if (begun) fail(begun, Message("this solution is not closed with \"-- END SOLUTION\" in its cell"));
     return result;
 }
 

@@ -23,7 +23,7 @@ SolutionLine solution_line(std::string_view line, const std::filesystem::path& f
 
 /// The lines that ask for an answer, in French for "fr".
 struct AnswerMarks {
-    std::string_view code, text;
+    std::string code, text;
 };
 AnswerMarks answer_marks(std::string_view language);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/languages.h"
 #include "documents/bibliography.h"
 #include "documents/document_rules.h"
 #include "documents/error.h"
@@ -17,20 +18,16 @@ const std::vector<std::string> kAllowedKeys = {
     "title",    "subtitle", "date",           "lang",        "abstract", "toc",         "numbersections",
     "sections", "pages",    "appendix_pages", "least_pages", "layout",   "bibliography"};
 
-std::string location_of_line(const std::filesystem::path& file, std::size_t index) {
-    return file.string() + ":" + std::to_string(index + 1) + ": ";
-}
-
-std::string scalar(const std::string& value, const std::string& where) {
+std::string scalar(const std::string& value, const Place& where) {
     if (value.empty()) return value;
     const char first = value[0];
     if (first == '"' || first == '\'') {
         if (value.size() < 2 || value.back() != first)
-            throw DocumentError(where + "the quotation mark of " + value + " is not closed");
+            throw DocumentError(where, Message("the quotation mark of {} is not closed", value));
         return value.substr(1, value.size() - 2);
     }
     if (std::string("[{&*!%@").find(first) != std::string::npos)
-        throw DocumentError(where + "the value " + value + " must be plain text; put it between quotation marks");
+        throw DocumentError(where, Message("the value {} must be plain text; put it between quotation marks", value));
     const std::size_t comment = value.find(" #");
     return trimmed(value.substr(0, comment));
 }
@@ -45,9 +42,9 @@ void read_metadata(const std::vector<std::string>& lines, std::size_t end, Templ
         const std::string& line = lines[i];
         if (is_blank(line) || line[0] == '#') continue;
         const std::size_t colon = line.find(':');
-        const std::string where = location_of_line(result.file, i);
+        const Place where{result.file, static_cast<int>(i) + 1};
         if (colon == std::string::npos || line[0] == ' ' || line[0] == '-')
-            throw DocumentError(where + "\"" + trimmed(line) + "\" is not of the form \"key: value\"");
+            throw DocumentError(where, Message("\"{}\" is not of the form \"key: value\"", trimmed(line)));
         const std::string key = trimmed(line.substr(0, colon));
         std::string value = trimmed(line.substr(colon + 1));
         if (is_block_sign(value)) {
@@ -59,14 +56,14 @@ void read_metadata(const std::vector<std::string>& lines, std::size_t end, Templ
         }
         check_metadata(key, value, where);
         if (!result.metadata.emplace(key, value).second)
-            throw DocumentError(where + "key \"" + key + "\" occurs twice");
+            throw DocumentError(where, Message("key \"{}\" occurs twice", key));
     }
 }
 
 std::size_t end_of_metadata(const std::vector<std::string>& lines, const std::filesystem::path& file) {
     for (std::size_t i = 1; i < lines.size(); ++i)
         if (trimmed(lines[i]) == "---" || trimmed(lines[i]) == "...") return i;
-    throw DocumentError(location_of_line(file, 0) + "the header is not closed: a line \"---\" is missing after it");
+    throw DocumentError({file, 1}, Message("the header is not closed: a line \"---\" is missing after it"));
 }
 
 bool opens_cells(const std::string& line) {
@@ -76,23 +73,24 @@ bool opens_cells(const std::string& line) {
 
 }  // namespace
 
-void check_metadata(const std::string& key, const std::string& value, const std::string& where) {
+void check_metadata(const std::string& key, const std::string& value, const Place& where) {
     if (std::ranges::find(kAllowedKeys, key) == kAllowedKeys.end()) {
         if (key == "author" || key == "authors")
             throw DocumentError(
-                where + "documents name no author, because reports are reviewed anonymously; remove \"" + key + "\"");
-        std::string message = where + "metadata key \"" + key + "\" is not allowed; ";
+                where,
+                Message("documents name no author, because reports are reviewed anonymously; remove \"{}\"", key));
         if (const auto near = nearest_word(key, kAllowedKeys))
-            throw DocumentError(message + "did you mean \"" + *near + "\"?");
-        throw DocumentError(message +
-                            "allowed are title, subtitle, date, lang, abstract, toc, numbersections, sections, "
-                            "pages, appendix_pages, least_pages, layout, bibliography");
+            throw DocumentError(where, Message("metadata key \"{}\" is not allowed; did you mean \"{}\"?", key, *near));
+        throw DocumentError(where,
+                            Message("metadata key \"{}\" is not allowed; allowed are {}", key, listed(kAllowedKeys)));
     }
-    if (key == "lang" && value != "en" && value != "fr")
-        throw DocumentError(where + "lang \"" + value + "\" is not known; write en or fr");
+    if (key == "lang" && !is_language(value))
+        throw DocumentError(where,
+                            Message("lang \"{}\" is not known; write {}", value, listed(languages(), Join::kOr)));
     if ((key == "toc" || key == "numbersections") && value != "true" && value != "false")
-        throw DocumentError(where + key + " is true or false, not \"" + value + "\"");
-    if (key == "bibliography") check_bibliography_name(value, where);
+        throw DocumentError(where, Message("{} is true or false, not \"{}\"", key, value));
+    if (key == "bibliography")
+        if (const Message fault = fault_of_bibliography_name(value); !fault.empty()) throw DocumentError(where, fault);
     DocumentRules rules;
     read_document_rule(key, value, where, rules);
 }
@@ -122,23 +120,21 @@ MarkdownText with_cells(const TemplateFile& source, const MarkdownText& cells) {
     const std::vector<std::string> lines = lines_of(source.body.text);
     MarkdownText result;
     FencedCode fence;
-    bool placed = false;
-    const auto fail = [&](std::size_t i, const std::string& what) {
-        throw DocumentError(location_of_line(source.file, static_cast<std::size_t>(source.body.origin[i].line) - 1) +
-                            what);
-    };
+    bool is_placed = false;
+    const auto place = [&](std::size_t i) { return Place{source.file, source.body.origin[i].line}; };
     for (std::size_t i = 0; i < lines.size(); ++i) {
-        const SourceLine from = source.body.origin[i];
+        const Place from = source.body.origin[i];
         if (fence.holds(lines[i]) || !opens_cells(lines[i])) {
             result.append(lines[i] + "\n", from.file, from.line);
             continue;
         }
-        if (placed) fail(i, "the block ::: {.cells} occurs twice");
-        placed = true;
+        if (is_placed) throw DocumentError(place(i), Message("the block ::: {.cells} occurs twice"));
+        is_placed = true;
         std::size_t end = i + 1;
         while (end < lines.size() && is_blank(lines[end])) ++end;
         if (end == lines.size() || !trimmed(lines[end]).starts_with(":::"))
-            fail(i, "the block ::: {.cells} must be empty and closed with a line \":::\"");
+            throw DocumentError(place(i),
+                                Message("the block ::: {.cells} must be empty and closed with a line \":::\""));
         result.append("\n", from.file, from.line);
         result.text += cells.text;
         result.origin.insert(result.origin.end(), cells.origin.begin(), cells.origin.end());

@@ -19,8 +19,8 @@ struct TemplateFile {
 TemplateFile read_template(const std::filesystem::path& file);
 
 /// Throws DocumentError for a key a document may not set, or a value it cannot have (lang other than en and fr, toc
-/// and numbersections other than true and false, rules that document_rules.h refuses); `where` starts the message.
-void check_metadata(const std::string& key, const std::string& value, const std::string& where);
+/// and numbersections other than true and false, rules that document_rules.h refuses).
+void check_metadata(const std::string& key, const std::string& value, const Place& where);
 
 /// Whether the body has a block `::: {.cells}`.
 bool shows_cells(const TemplateFile& source);

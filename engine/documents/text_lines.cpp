@@ -12,9 +12,8 @@ std::string text_of_source(const std::filesystem::path& file) {
     std::error_code unknown;
     const std::uintmax_t bytes = std::filesystem::file_size(file, unknown);
     if (!unknown && bytes > kMostSourceBytes)
-        throw DocumentError(file.string() + ": a script or template has at most " +
-                            std::to_string(kMostSourceBytes >> 20) + " MB, this file has " +
-                            std::to_string((bytes + (1 << 20) - 1) >> 20) + " MB");
+        throw DocumentError(Place{file}, Message("a script or template has at most {} MB, this file has {} MB",
+                                                 kMostSourceBytes >> 20, (bytes + (1 << 20) - 1) >> 20));
     return read_text(file);
 }
 

@@ -1,7 +1,7 @@
 #include "documents/unplaced_entries.h"
 
 #include <algorithm>
-#include <functional>
+#include <utility>
 
 namespace dynlab::inline documents {
 namespace {
@@ -35,40 +35,70 @@ std::vector<std::string> names_not_shown(const Entries& entries, const Shown& sh
     return names;
 }
 
-/// "the figure 'a' is reported, but has no place in the text".
-std::string complaint(const char* kind, const std::vector<std::string>& names) {
-    const bool one = names.size() == 1;
-    std::string list;
-    for (const std::string& name : names) list += (list.empty() ? "'" : ", '") + name + "'";
-    return std::string("the ") + kind + (one ? " " : "s ") + list + (one ? " is" : " are") + " reported, but " +
-           (one ? "has" : "have") + " no place in the text; write ";
-}
-
 }  // namespace
 
-std::vector<std::string> unplaced_entries(const RunRecord& record, const std::string& markdown) {
-    std::vector<std::string> sentences;
-    const auto tell = [&](const char* kind, const std::vector<std::string>& names,
-                          const std::function<std::string(const std::string&)>& line) {
-        if (!names.empty()) sentences.push_back(complaint(kind, names) + line(names.front()));
+MessageList UnplacedEntries::quoted_names() const {
+    std::vector<std::string> quoted;
+    for (const std::string& name : names) quoted.push_back("'" + name + "'");
+    return listed(quoted);
+}
+
+std::string UnplacedEntries::slot() const {
+    const std::string& name = names.front();
+    if (kind == Kind::kFigure) return "![](figure:" + name + "){#fig:" + name + "}";
+    if (kind == Kind::kValue) return "`" + name + "`{.value}";
+    return std::string("::: {.") + (kind == Kind::kTable ? "table" : "text") + " name=" + name + "}";
+}
+
+Message UnplacedEntries::message() const {
+    const bool one = names.size() == 1;
+    const MessageList all = quoted_names();
+    const std::string& first = names.front();
+    switch (kind) {
+        case Kind::kTable:
+            return one ? Message(
+                             "the table {} is reported, but has no place in the text; write ::: {.table name={}} above "
+                             "and ::: below its caption",
+                             all, first)
+                       : Message(
+                             "the tables {} are reported, but have no place in the text; write ::: {.table name={}} "
+                             "above and ::: below its caption",
+                             all, first);
+        case Kind::kText:
+            return one ? Message(
+                             "the text {} is reported, but has no place in the text; write ::: {.text name={}} and ::: "
+                             "below",
+                             all, first)
+                       : Message(
+                             "the texts {} are reported, but have no place in the text; write ::: {.text name={}} and "
+                             "::: below",
+                             all, first);
+        case Kind::kValue:
+            return one ? Message("the value {} is reported, but has no place in the text; write {}", all, slot())
+                       : Message("the values {} are reported, but have no place in the text; write {}", all, slot());
+        case Kind::kFigure:
+            break;
+    }
+    return one ? Message("the figure {} is reported, but has no place in the text; write {}", all, slot())
+               : Message("the figures {} are reported, but have no place in the text; write {}", all, slot());
+}
+
+std::vector<UnplacedEntries> unplaced_entries(const RunRecord& record, const std::string& markdown) {
+    using Kind = UnplacedEntries::Kind;
+    std::vector<UnplacedEntries> found;
+    const auto add = [&found](Kind kind, std::vector<std::string> names) {
+        if (!names.empty()) found.push_back({kind, std::move(names)});
     };
-    tell("figure",
-         names_not_shown(record.figures,
-                         [&](const std::string& name) {
-                             return is_captured(record, name) || holds_word(markdown, "(figure:" + name);
-                         }),
-         [](const std::string& name) { return "![](figure:" + name + "){#fig:" + name + "}"; });
-    tell("table",
-         names_not_shown(record.tables, [&](const std::string& name) { return is_named_block(markdown, name); }),
-         [](const std::string& name) { return "::: {.table name=" + name + "} above and ::: below its caption"; });
-    tell("text", names_not_shown(record.texts, [&](const std::string& name) { return is_named_block(markdown, name); }),
-         [](const std::string& name) { return "::: {.text name=" + name + "} and ::: below"; });
-    tell("value",
-         names_not_shown(
-             record.values,
-             [&](const std::string& name) { return markdown.find("`" + name + "`{.value") != std::string::npos; }),
-         [](const std::string& name) { return "`" + name + "`{.value}"; });
-    return sentences;
+    add(Kind::kFigure, names_not_shown(record.figures, [&](const std::string& name) {
+            return is_captured(record, name) || holds_word(markdown, "(figure:" + name);
+        }));
+    const auto has_block = [&](const std::string& name) { return is_named_block(markdown, name); };
+    add(Kind::kTable, names_not_shown(record.tables, has_block));
+    add(Kind::kText, names_not_shown(record.texts, has_block));
+    add(Kind::kValue, names_not_shown(record.values, [&](const std::string& name) {
+            return markdown.find("`" + name + "`{.value") != std::string::npos;
+        }));
+    return found;
 }
 
 }  // namespace dynlab::inline documents

@@ -2,12 +2,23 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "documents/run_record.h"
 
 namespace dynlab::inline documents {
 
-/// What a script reported by name and no slot of the document shows, a sentence each with the line to write.
+/// Entries of one kind that a script reported and no slot of the document shows.
+struct UnplacedEntries {
+    enum class Kind { kFigure, kTable, kText, kValue };
+    Kind kind = Kind::kFigure;
+    std::vector<std::string> names;  ///< at least one
+
+    MessageList quoted_names() const;
+    std::string slot() const;  ///< for the first; of tables and texts, the line that begins the block
+    Message message() const;   ///< with the line to write for the first
+};
+
 /// `markdown`: all text of the document, template and text cells.
-std::vector<std::string> unplaced_entries(const RunRecord& record, const std::string& markdown);
+std::vector<UnplacedEntries> unplaced_entries(const RunRecord& record, const std::string& markdown);
 
 }  // namespace dynlab::inline documents

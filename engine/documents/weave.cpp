@@ -1,16 +1,14 @@
 #include "documents/weave.h"
 
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cctype>
 #include <string_view>
 
+#include "base/languages.h"
 #include "documents/solutions.h"
 #include "documents/text_lines.h"
-#include "documents/words/sentence_catalogue.h"
 #include "figures/figure.h"
-#include "figures/french_texts.h"
+#include "figures/readable_figure.h"
 
 namespace dynlab::inline documents {
 namespace {
@@ -35,11 +33,6 @@ std::string fenced(const std::string& text, const std::string& block_class) {
     return fence + "{." + block_class + "}\n" + text + (text.ends_with('\n') ? "" : "\n") + fence + "\n\n";
 }
 
-std::string stopped_here(const std::string& language) {
-    return language == "fr" ? "\nLe script s'est arrêté ici ; rien de ce qui suit n'a été exécuté."
-                            : "\nThe script stopped here; nothing below was run.";
-}
-
 /// Text as Markdown that prints it: every mark escaped that could mean something. Brackets get their numbers, since
 /// \[V\] looks like a formula of LaTeX (latex_remains.h).
 std::string literal(const std::string& text) {
@@ -55,12 +48,22 @@ std::string literal(const std::string& text) {
     return markdown;
 }
 
+/// "y (m), u (V) over time (s)": time is a sentence of its own, as other languages have an article there.
+Message over_axis(const MessageList& drawn, const std::string& over, const Reader& reader) {
+    if (over.empty()) return Message("{}", drawn);
+    const std::string time = message_text(Message("time"), reader);
+    if (over.starts_with(time)) return Message("{} over time{}", drawn, over.substr(time.size()));
+    return Message("{} over {}", drawn, over);
+}
+
 class Weaver {
   public:
     Weaver(const PercentScript& script, const RunRecord& record) : script_(script), record_(record) {}
 
     MarkdownText weave() {
-        const Cell* const failed = record_.error ? script_.cell_at_line(std::max(record_.error->line, 1)) : nullptr;
+        const Cell* const failed =
+            record_.error ? script_.cell_at_line(std::max(record_.error->line_in(script_.file.filename().string()), 1))
+                          : nullptr;
         for (const Cell& cell : script_.cells) {
             if (cell.kind == Cell::Kind::kText) {
                 add_lines(cell);
@@ -69,9 +72,10 @@ class Weaver {
                 if (!option_is_off(cell, "echo")) add_code(cell);
                 if (!option_is_off(cell, "output")) add_outputs(cell);
             }
-            if (&cell == failed) add_error(stopped_here(script_.header.language), cell.last_line());
+            if (&cell == failed)
+                add_error(Message("The script stopped here; nothing below was run."), cell.last_line());
         }
-        if (record_.error && !failed) add_error("", 1);
+        if (record_.error && !failed) add_error({}, 1);
         return std::move(text_);
     }
 
@@ -104,8 +108,11 @@ class Weaver {
         for (const std::string& line : lines_of(fenced(text, block_class))) add(line, number);
     }
 
-    void add_error(const std::string& more, int number) {
-        add_block(told_error(record_.error->message, script_.header.language) + more, "error", number);
+    void add_error(const Message& more, int number) {
+        const Reader reader{catalog_of(script_.header.language)};
+        std::string text = record_.error->text(reader);
+        if (!more.empty()) text += "\n" + message_text(more, reader);
+        add_block(text, "error", number);
     }
 
     void add_outputs(const Cell& cell) {
@@ -122,10 +129,10 @@ class Weaver {
         const auto figure = record_.figures.find(name);
         std::string caption;
         if (figure != record_.figures.end() && figure->second.caption.empty()) {
-            const bool french = script_.header.language == "fr";
+            const Reader reader{catalog_of(script_.header.language)};
             const RecordedFigure& made = figure->second;
-            caption = made.axes.empty() && made.figure ? words_of_axes(*made.figure, french) : made.axes;
-            if (caption.empty()) caption = fmt::format("{} `{}`", french ? "De la cellule" : "From the cell", cell.id);
+            caption = made.axes.empty() && made.figure ? words_of_axes(*made.figure, reader) : made.axes;
+            if (caption.empty()) caption = message_text(Message("From the cell `{}`", cell.id), reader);
         }
         add(fmt::format("![{}](figure:{}){{#fig:{}}}", caption, name, name), cell.last_line());
         add("", cell.last_line());
@@ -138,26 +145,22 @@ class Weaver {
 
 }  // namespace
 
-std::string words_of_axes(const Figure& figure, bool french) {
-    Figure labels;
+std::string words_of_axes(const Figure& figure, const Reader& reader) {
+    Figure axes;
     for (const Panel& panel : figure.panels) {
-        Panel& own = labels.panels.emplace_back();
+        Panel& own = axes.panels.emplace_back();
         own.x_label = panel.x_label;
         own.y_label = panel.y_label;
     }
-    if (french) labels = in_french(labels);
     std::vector<std::string> drawn;
     std::string over;
-    for (const Panel& panel : labels.panels) {
-        if (!panel.y_label.empty() && std::find(drawn.begin(), drawn.end(), literal(panel.y_label)) == drawn.end())
-            drawn.push_back(literal(panel.y_label));
-        if (!panel.x_label.empty()) over = literal(panel.x_label);
+    for (const Panel& panel : readable(axes, reader).panels) {
+        const std::string label = literal(message_text(panel.y_label));
+        if (!label.empty() && std::find(drawn.begin(), drawn.end(), label) == drawn.end()) drawn.push_back(label);
+        if (!panel.x_label.empty()) over = literal(message_text(panel.x_label));
     }
     if (drawn.empty()) return {};
-    std::string words = fmt::format("{}", fmt::join(drawn, ", "));
-    if (!over.empty())
-        words +=
-            french ? (over.starts_with("temps") ? " en fonction du " : " en fonction de ") + over : " over " + over;
+    std::string words = message_text(over_axis(listed(drawn), over, reader), reader);
     const auto small = [&](std::size_t i) {
         return i < words.size() && std::islower(static_cast<unsigned char>(words[i]));
     };
@@ -172,17 +175,13 @@ void MarkdownText::append(const std::string& lines, const std::filesystem::path&
     }
 }
 
-SourceLine MarkdownText::origin_of(int line) const {
+Place MarkdownText::origin_of(int line) const {
     if (line < 1 || line > static_cast<int>(origin.size())) return {};
     return origin[static_cast<std::size_t>(line) - 1];
 }
 
 std::string error_block(const std::string& message) {
     return fenced(message, "error");
-}
-
-std::string told_error(const std::string& message, const std::string& language) {
-    return language == "fr" ? shared_french_sentences().translated(message) : message;
 }
 
 MarkdownText weave_cells(const PercentScript& script, const RunRecord& record) {

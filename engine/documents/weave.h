@@ -1,38 +1,31 @@
 #pragma once
 #include <string>
 
+#include "base/reader.h"
+#include "documents/error.h"
 #include "documents/percent_script.h"
 #include "documents/run_record.h"
 
 namespace dynlab::inline documents {
 
-/// Where a line of assembled Markdown came from, for messages.
-struct SourceLine {
-    std::filesystem::path file;
-    int line = 0;
-};
-
 /// Markdown with the origin of every line.
 struct MarkdownText {
     std::string text;
-    std::vector<SourceLine> origin;  ///< one per line of text
+    std::vector<Place> origin;  ///< one per line of text
 
     void append(const std::string& lines, const std::filesystem::path& file, int first_line);
-    SourceLine origin_of(int line) const;  ///< 1-based
+    Place origin_of(int line) const;  ///< 1-based
 };
 
 /// The script's cells in reading order: text, code, printed output, captured figures. Solution markers are
 /// left out; a recorded error appears at its cell.
 MarkdownText weave_cells(const PercentScript& script, const RunRecord& record);
 
-/// What the axes of a figure say, as Markdown in English or French, for a caption where nobody gave one: "y (m), u (V)
-/// over time (s)"; empty where they say nothing.
-std::string words_of_axes(const Figure& figure, bool french);
+/// What the axes of a figure say, as Markdown for the reader, for a caption where nobody gave one: "y (m), u (V) over
+/// time (s)"; empty where they say nothing.
+std::string words_of_axes(const Figure& figure, const Reader& reader);
 
 /// A block that shows an error's message.
 std::string error_block(const std::string& message);
-
-/// The message of a script in the language of its document, "en" or "fr".
-std::string told_error(const std::string& message, const std::string& language);
 
 }  // namespace dynlab::inline documents

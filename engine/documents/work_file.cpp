@@ -12,7 +12,7 @@ void write_work_file(const std::filesystem::path& file, std::string_view content
     std::ofstream stream(file, std::ios::binary);
     stream.write(content.data(), static_cast<std::streamsize>(content.size()));
     stream.close();
-    if (!stream) throw EnvironmentError("cannot write the working file " + file.string() + ": " + system_reason(errno));
+    if (!stream) throw EnvironmentError("cannot write the working file {}: {}", file.string(), system_reason(errno));
 }
 
 std::string read_work_file(const std::filesystem::path& file) {

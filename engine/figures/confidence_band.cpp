@@ -1,7 +1,5 @@
 #include "figures/confidence_band.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,8 +9,8 @@
 
 namespace dynlab::inline figures {
 
-std::string confidence_text(double level) {
-    return fmt::format("{:.4g} % confidence", 100 * level);
+Message confidence_text(double level) {
+    return Message("{} % confidence", significant(100 * level, 4));
 }
 
 void add_confidence_band(Panel& panel, std::size_t line, const Vector& half_width, double level) {

@@ -1,13 +1,11 @@
 #pragma once
-#include <string>
-
 #include "figures/figure.h"
 #include "figures/named_model.h"
 
 namespace dynlab::inline figures {
 
 /// "99 % confidence"
-std::string confidence_text(double level);
+Message confidence_text(double level);
 
 /// Adds the band value +- half width around the curve `line` of a panel, in its colour. The first band of a panel is
 /// named in the legend. Samples without a finite width become gaps.

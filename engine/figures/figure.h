@@ -4,13 +4,19 @@
 #include <utility>
 #include <vector>
 
+#include "base/message.h"
 #include "figures/moving_rig.h"
 #include "numerics/linalg/types.h"
 
 namespace dynlab::inline figures {
 
 /// A picture as plain data: rows x columns of panels, each with curves and marks. Nothing here knows how it
-/// is drawn.
+/// is drawn. Its texts are messages, those of an author verbatim; readable_figure.h makes text of them.
+
+/// Text of an axis: "time (s)", or the quantity alone where the unit is empty.
+inline Message axis_label(const Message& quantity, const std::string& unit) {
+    return unit.empty() ? quantity : Message("{} ({})", quantity, unit);
+}
 
 enum class CurveStyle { kLine, kPoints, kLinePoints, kStairs, kStems, kBars, kBand };
 
@@ -18,7 +24,7 @@ struct Curve {
     Vector x, y;
     Vector y_upper;  ///< kBand only: the band lies between y and y_upper
     CurveStyle style = CurveStyle::kLine;
-    std::string label;          ///< legend entry; none when empty
+    Message label;              ///< legend entry; none when empty
     std::optional<int> colour;  ///< index into the house palette, 0-based; the curve's own index unless given
     std::optional<int> dash;    ///< 0 solid, 1 dashed, 2 dotted, 3 dash-dot; chosen with the colour unless given
     double line_width = 0.9;    ///< points
@@ -29,7 +35,7 @@ struct Curve {
 struct ReferenceLine {
     bool horizontal = true;
     double at = 0;
-    std::string label;  ///< written beside the line when not empty
+    Message label;  ///< written beside the line when not empty
     int dash = 1;
 };
 
@@ -45,14 +51,14 @@ struct SliderScale {
 /// A marked reading point with its text, placed so that it stays inside the panel.
 struct Annotation {
     double x = 0, y = 0;
-    std::string text;
+    Message text;
     bool marker = true;
     std::vector<SliderScale> scales = {};  ///< at most one a coordinate; on a page the mark is a handle then
 };
 
 struct Arrow {
     double x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-    std::string text;  ///< at its middle
+    Message text;  ///< at its middle
     bool both_heads = false;
 };
 
@@ -61,7 +67,7 @@ struct Arrow {
 enum class LegendPlace { kAutomatic, kAbove, kRight, kNone, kDirect };
 
 struct Panel {
-    std::string title, x_label, y_label;
+    Message title, x_label, y_label;
     bool log_x = false, log_y = false;
     std::optional<std::pair<double, double>> x_range, y_range;
     std::optional<double> x_tick_step;  ///< distance of the numbers on x, e.g. 1 for orders; chosen unless given
@@ -77,7 +83,7 @@ struct Panel {
 struct Figure {
     int rows = 1, columns = 1;
     std::vector<Panel> panels;            ///< row by row, at most rows * columns
-    std::string title;                    ///< above all panels; documents use captions instead
+    Message title;                        ///< above all panels; documents use captions instead
     double width_cm = 14, height_cm = 0;  ///< height 0: chosen from the rows
     std::optional<Motion> motion;         ///< what pages show moving above it
 

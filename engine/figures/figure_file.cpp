@@ -21,8 +21,8 @@ FigureFormat figure_format(const std::filesystem::path& file) {
     if (extension == ".pdf") return FigureFormat::kPdf;
     if (extension == ".svg") return FigureFormat::kSvg;
     if (extension == ".png") return FigureFormat::kPng;
-    throw InvalidArgument(fmt::format("a figure is saved as .pdf, .svg or .png, but the file is called \"{}\"",
-                                      file.filename().string()));
+    throw InvalidArgument("a figure is saved as .pdf, .svg or .png, but the file is called \"{}\"",
+                          file.filename().string());
 }
 
 bool is_complete(const std::filesystem::path& file, FigureFormat format) {
@@ -81,7 +81,7 @@ void finish_svg(const std::filesystem::path& svg) {
     const std::string changed = with_fallback_fonts(without_empty_groups(read_file(svg)));
     std::ofstream out(svg, std::ios::binary | std::ios::trunc);
     if (!(out << changed << std::flush))
-        throw EnvironmentError(fmt::format("cannot write \"{}\": {}", svg.string(), system_reason(errno)));
+        throw EnvironmentError("cannot write \"{}\": {}", svg.string(), system_reason(errno));
 }
 
 void blank_creation_date(const std::filesystem::path& pdf) {
@@ -92,16 +92,15 @@ void blank_creation_date(const std::filesystem::path& pdf) {
     std::fstream file(pdf, std::ios::binary | std::ios::in | std::ios::out);
     file.seekp(static_cast<std::streamoff>(start));
     if (!(file << std::string(end + 1 - start, ' ') << std::flush))
-        throw EnvironmentError(fmt::format("cannot write \"{}\": {}", pdf.string(), system_reason(errno)));
+        throw EnvironmentError("cannot write \"{}\": {}", pdf.string(), system_reason(errno));
 }
 
 TemporaryFile make_temporary_beside(const std::filesystem::path& target) {
     const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
     TemporaryFile made = make_temporary_file(folder, target.filename().string(), 0666);
     if (!made.file)
-        throw EnvironmentError(fmt::format("cannot write the figure \"{}\" into the folder \"{}\": {}",
-                                           target.filename().string(), target.parent_path().string(),
-                                           system_reason(errno)));
+        throw EnvironmentError("cannot write the figure \"{}\" into the folder \"{}\": {}", target.filename().string(),
+                               target.parent_path().string(), system_reason(errno));
     return made;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/reader.h"
 #include "figures/label_placement.h"
 #include "figures/panel_axes.h"
 #include "figures/style.h"
@@ -38,7 +39,8 @@ std::vector<LegendEntry> legend_entries(const Panel& panel, double room) {
     std::vector<LegendEntry> entries;
     for (std::size_t i = 0; i < panel.curves.size(); ++i)
         if (!panel.curves[i].label.empty()) {
-            const FittedText text = fit_line(panel.curves[i].label, room - kLegendSample - kGap, kTextSize);
+            const FittedText text =
+                fit_line(message_text(panel.curves[i].label), room - kLegendSample - kGap, kTextSize);
             entries.push_back({i, text.lines.front(), text.size, 0, 0});
         }
     return entries;
@@ -99,8 +101,8 @@ class LayoutWork {
         const Panel& panel = figure_.panels[i];
         PanelLayout& out = panels_[i];
         choose_axes(panel, out.box.width(), out.box.height(), out.x, out.y);
-        const auto fitted = [](const std::string& text, double length, double size) {
-            return text.empty() ? FittedText{{}, size} : fit_text(text, length, size);
+        const auto fitted = [](const Message& text, double length, double size) {
+            return text.empty() ? FittedText{{}, size} : fit_text(message_text(text), length, size);
         };
         out.title.text = fitted(panel.title, out.box.width(), kTitleSize);
         out.x_label.text = fitted(panel.x_label, out.box.width(), kTextSize);

@@ -19,6 +19,7 @@ constexpr double kScriptSize = 0.8;  // gnuplot's size of raised and lowered tex
 char32_t printable(char32_t c) {
     if (c < 0x20 || (c >= 0x7F && c < 0xA0) || c == 0x2028 || c == 0x2029) return U' ';
     if (c == kNoCharacter) return U'?';
+    if (c == 0xA0 || c == 0x202F) return U' ';  // fit_text has not broken the line there
     if (c == U'\'') return U'’';  // as LaTeX prints it; and no text holds the quote that ends gnuplot's strings
     const bool directs_text = (c >= 0x202A && c <= 0x202E) || (c >= 0x2066 && c <= 0x2069);
     if (directs_text || c == 0xFEFF || (c & 0xFFFE) == 0xFFFE) return U' ';  // not allowed in SVG, or reorders the rest

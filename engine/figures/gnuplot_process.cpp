@@ -81,8 +81,7 @@ void GnuplotProcess::start(const std::string& program) {
                                     pointers_to(environment).data());
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&files);
-    if (failure != 0)
-        throw EnvironmentError(fmt::format("cannot start gnuplot (\"{}\"): {}", program, system_reason(failure)));
+    if (failure != 0) throw EnvironmentError("cannot start gnuplot (\"{}\"): {}", program, system_reason(failure));
     ends_ = EndsWithProgram::of_group(pid_);
     commands_ = std::move(commands.write_end);
     complaints_ = std::move(complaints.read_end);
@@ -104,7 +103,7 @@ void GnuplotProcess::collect() {
 
 std::FILE* GnuplotProcess::take_input() {
     std::FILE* input = fdopen(commands_.get(), "w");
-    if (input == nullptr) throw EnvironmentError(fmt::format("cannot start gnuplot: {}", system_reason(errno)));
+    if (input == nullptr) throw EnvironmentError("cannot start gnuplot: {}", system_reason(errno));
     commands_.release();
     return input;
 }

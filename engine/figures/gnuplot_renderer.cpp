@@ -60,11 +60,12 @@ std::optional<std::string> first_error(const std::string& complaints) {
     return {};
 }
 
+/// The last line; empty where there is none.
 std::string last_words(const std::string& complaints) {
     const std::size_t end = complaints.find_last_not_of(" \n");
-    if (end == std::string::npos) return "it said nothing";
+    if (end == std::string::npos) return "";
     const std::size_t line = complaints.rfind('\n', end);
-    return fmt::format("its last words were \"{}\"", complaints.substr(line + 1, end - line));
+    return complaints.substr(line + 1, end - line);
 }
 
 /// Which gnuplot draws: its file's name, size and date.
@@ -85,8 +86,8 @@ class GnuplotRenderer::Work {
     explicit Work(const Cache* cache) : cache_(cache && cache->lasting() ? cache : nullptr) {}
     ~Work() { give_up(); }
 
-    void draw(const Figure& figure, const fs::path& target, FigureFormat format, bool decimal_comma) {
-        const std::string script = gnuplot_script(figure, format, decimal_comma);
+    void draw(const Figure& figure, const fs::path& target, FigureFormat format, const Reader& reader) {
+        const std::string script = gnuplot_script(figure, format, reader);
         TemporaryFile made = make_temporary_beside(target);
         Pending next{0, format, std::move(made.path), target, std::move(made.file), {}, {}};
         next.ends = EndsWithProgram(next.temporary);
@@ -101,7 +102,7 @@ class GnuplotRenderer::Work {
     }
 
     void finish() {
-        std::optional<std::string> first_complaint;
+        std::optional<Message> first_complaint;
         try {
             for (; !pending_.empty(); pending_.pop_front()) {
                 const auto complaint = complete(pending_.front());
@@ -165,9 +166,14 @@ class GnuplotRenderer::Work {
     [[noreturn]] void fail_as_ended(const fs::path& target) const {
         const std::string complaints = running_->child.last_complaints();
         if (const auto error = first_error(complaints))
-            throw FigureError(fmt::format("gnuplot could not draw \"{}\": {}", target.string(), *error));
-        throw FigureError(fmt::format("gnuplot ended or no longer answered while it drew \"{}\"; {}", target.string(),
-                                      last_words(complaints)));
+            throw FigureError(Message("gnuplot could not draw \"{}\": {}", target.string(), *error));
+        const std::string last = last_words(complaints);
+        if (last.empty())
+            throw FigureError(
+                Message("gnuplot ended or no longer answered while it drew \"{}\"; it said nothing", target.string()));
+        throw FigureError(
+            Message("gnuplot ended or no longer answered while it drew \"{}\"; its last words were \"{}\"",
+                    target.string(), last));
     }
 
     void send(const std::string& script, const fs::path& target) {
@@ -179,11 +185,12 @@ class GnuplotRenderer::Work {
     }
 
     /// Waits until gnuplot has drawn a figure; returns what went wrong.
-    std::optional<std::string> wait_for(const Pending& figure) {
+    std::optional<Message> wait_for(const Pending& figure) {
         const std::optional<std::string> complaints = running_->child.wait_for_report(figure.number);
         if (!complaints) fail_as_ended(figure.target);
-        if (const auto error = first_error(*complaints)) return error;
-        if (!is_complete(figure.temporary, figure.format)) return "the file is not complete (is the disk full?)";
+        if (const auto error = first_error(*complaints)) return Message::verbatim(*error);
+        if (!is_complete(figure.temporary, figure.format))
+            return Message("the file is not complete (is the disk full?)");
         if (figure.format == FigureFormat::kPdf) blank_creation_date(figure.temporary);
         if (figure.format == FigureFormat::kSvg) finish_svg(figure.temporary);
         ++use_.made;
@@ -192,19 +199,18 @@ class GnuplotRenderer::Work {
     }
 
     /// Puts a figure in place, once it is drawn; returns what went wrong.
-    std::optional<std::string> complete(const Pending& figure) {
+    std::optional<Message> complete(const Pending& figure) {
         if (figure.number > 0) {
             if (const auto error = wait_for(figure)) {
                 remove(figure);
-                return fmt::format("gnuplot could not draw \"{}\": {}", figure.target.string(), *error);
+                return Message("gnuplot could not draw \"{}\": {}", figure.target.string(), *error);
             }
         }
         std::error_code failure;
         fs::rename(figure.temporary, figure.target, failure);
         if (!failure) return {};
         remove(figure);
-        return fmt::format("cannot write the figure \"{}\": {}", figure.target.string(),
-                           system_reason(failure.value()));
+        return Message("cannot write the figure \"{}\": {}", figure.target.string(), system_reason(failure.value()));
     }
 
     const Cache* cache_;
@@ -217,13 +223,13 @@ class GnuplotRenderer::Work {
 GnuplotRenderer::GnuplotRenderer(const Cache* cache) : work_(std::make_unique<Work>(cache)) {}
 GnuplotRenderer::~GnuplotRenderer() = default;
 
-void GnuplotRenderer::draw(const Figure& figure, const fs::path& file, FigureFormat format, bool decimal_comma) {
+void GnuplotRenderer::draw(const Figure& figure, const fs::path& file, FigureFormat format, const Reader& reader) {
     figure.validate();
     const fs::path target = fs::absolute(file);
     for (const char c : target.native())
         if (static_cast<unsigned char>(c) < 0x20)
             throw InvalidArgument("the name of a figure's file must not contain line breaks or control characters");
-    work_->draw(figure, target, format, decimal_comma);
+    work_->draw(figure, target, format, reader);
 }
 
 void GnuplotRenderer::finish() {

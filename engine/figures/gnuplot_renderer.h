@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "base/reader.h"
 #include "platform/cache.h"
 #include "platform/error.h"
 
@@ -29,8 +30,8 @@ class GnuplotRenderer {
     ~GnuplotRenderer();  ///< ends the process; files not finished are removed
 
     /// Queues `figure` for `file`; returns at once. Throws MissingProgram when gnuplot is not installed.
-    /// With `decimal_comma` the numbers beside the axes are written as French writes them.
-    void draw(const Figure& figure, const std::filesystem::path& file, FigureFormat format, bool decimal_comma = false);
+    /// Texts and numbers are the reader's.
+    void draw(const Figure& figure, const std::filesystem::path& file, FigureFormat format, const Reader& reader = {});
     /// Waits until all queued files are whole. Throws FigureError with gnuplot's first complaint.
     void finish();
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <iterator>
 
-#include "figures/french_texts.h"
 #include "figures/label_placement.h"
+#include "figures/readable_figure.h"
 #include "figures/style.h"
 
 namespace dynlab::inline figures {
@@ -286,21 +286,22 @@ std::string terminal(FigureFormat format, double width_cm, double height_cm) {
 
 }  // namespace
 
-std::string gnuplot_script(const Figure& figure, FigureFormat format, bool decimal_comma) {
-    const FigureLayout page = lay_out(figure);
+std::string gnuplot_script(const Figure& figure, FigureFormat format, const Reader& reader) {
+    const Figure shown = readable(figure, reader);
+    const FigureLayout page = lay_out(shown);
     std::string out = "reset\nset encoding utf8\n";
     out += "set terminal " + terminal(format, page.width, page.height) + "\n";
     out += "set output output_file\n";
     out += "set multiplot\nunset key\nset clip two\n";
-    for (std::size_t i = 0; i < figure.panels.size(); ++i)
-        PanelScript(figure.panels[i], page.panels[i], page, decimal_comma, out).write(i == 0);
+    for (std::size_t i = 0; i < shown.panels.size(); ++i)
+        PanelScript(shown.panels[i], page.panels[i], page, has_decimal_comma(reader), out).write(i == 0);
     out += "unset multiplot\nset output\n";
     return out;
 }
 
-std::string gnuplot_file(const Figure& figure, FigureFormat format, const std::string& output, bool decimal_comma) {
+std::string gnuplot_file(const Figure& figure, FigureFormat format, const std::string& output, const Reader& reader) {
     return fmt::format("# Drawn by: gnuplot FILE, where FILE is this one; the data are in it.\noutput_file = {}\n{}",
-                       gnuplot_quoted(output), gnuplot_script(figure, format, decimal_comma));
+                       gnuplot_quoted(output), gnuplot_script(figure, format, reader));
 }
 
 }  // namespace dynlab::inline figures

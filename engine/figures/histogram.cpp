@@ -1,7 +1,5 @@
 #include "figures/histogram.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -17,7 +15,7 @@ void check_finite(const VectorView& values) {
     constexpr double kLargest = 1e300;  // differences of such values are numbers still
     for (Index i = 0; i < values.size(); ++i)
         if (!(std::abs(values[i]) <= kLargest))
-            throw InvalidArgument(fmt::format("a histogram needs finite values, but value {} is {}", i + 1, values[i]));
+            throw InvalidArgument("a histogram needs finite values, but value {} is {}", i + 1, values[i]);
 }
 
 void check_sample(const VectorView& values) {
@@ -40,9 +38,9 @@ Index freedman_diaconis_bins(const VectorView& values) {
 
 HistogramBins histogram_bins(const VectorView& values, Index bins) {
     check_sample(values);
-    if (bins < 1) throw InvalidArgument(fmt::format("a histogram needs at least one bin, not {}", bins));
+    if (bins < 1) throw InvalidArgument("a histogram needs at least one bin, not {}", bins);
     if (bins > kMostWanted)
-        throw InvalidArgument(fmt::format("a histogram has at most {} bins, but {} were wanted", kMostWanted, bins));
+        throw InvalidArgument("a histogram has at most {} bins, but {} were wanted", kMostWanted, bins);
     double low = values.minCoeff(), high = values.maxCoeff();
     if (!(low < high)) {
         const double room = low == 0 ? 0.5 : std::max(0.05 * std::abs(low), 1e-290);
@@ -53,8 +51,7 @@ HistogramBins histogram_bins(const VectorView& values, Index bins) {
 
 HistogramBins histogram_bins(const VectorView& values, const Vector& edges) {
     check_finite(values);
-    if (edges.size() < 2)
-        throw InvalidArgument(fmt::format("a histogram needs two edges or more, not {}", edges.size()));
+    if (edges.size() < 2) throw InvalidArgument("a histogram needs two edges or more, not {}", edges.size());
     const Index bins = edges.size() - 1;
     HistogramBins result{edges, Vector::Zero(bins)};
     for (const double value : values) {

@@ -1,6 +1,5 @@
 #pragma once
 #include <optional>
-#include <string>
 
 #include "figures/figure.h"
 
@@ -24,7 +23,7 @@ struct HistogramOptions {
     Index bins = 0;               ///< after Freedman and Diaconis when 0
     std::optional<Vector> edges;  ///< of the bins, of equal width; bins is of no account then
     std::optional<double> truth;  ///< marked by a line
-    std::string label, x_label, y_label = "count", truth_label = "true value";
+    Message label, x_label, y_label = Message("count"), truth_label = Message("true value");
 };
 
 /// Throws InvalidArgument for no values without edges, and for values that are not finite.

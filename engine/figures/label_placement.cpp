@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/reader.h"
 #include "figures/style.h"
 
 namespace dynlab::inline figures {
@@ -52,11 +53,13 @@ class Occupancy {
     std::size_t cell_index(int column, int row) const { return static_cast<std::size_t>(row * columns_ + column); }
     static std::pair<int, int> cells(double low, double high, int count) {
         const auto cell = [count](double value) {
-            return static_cast<int>(std::clamp(std::floor(value / kCell), -1.0, static_cast<double>(count)));
+            const double place = std::floor(value / kCell);
+            return place > -1 ? static_cast<int>(std::min<double>(place, count)) : -1;  // also where it is no number
         };
         return {std::max(cell(low), 0), std::min(cell(high), count - 1)};
     }
-    /// Shortens a segment to the frame (Liang and Barsky 1984); false when it lies outside.
+    /// Shortens a segment to the frame (Liang and Barsky 1984); false when it lies outside, and where its ends are so
+    /// far apart that their difference is no number.
     bool clip(PagePoint& a, PagePoint& b) const {
         const double dx = b.x - a.x, dy = b.y - a.y;
         double from = 0, to = 1;
@@ -71,7 +74,7 @@ class Occupancy {
         const PagePoint start = a;
         a = {start.x + from * dx, start.y + from * dy};
         b = {start.x + to * dx, start.y + to * dy};
-        return true;
+        return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(b.x) && std::isfinite(b.y);
     }
 
     int columns_, rows_;
@@ -194,7 +197,8 @@ class Placement {
 
     void place_mark_text(const Annotation& mark) {
         const PagePoint p = at(mark.x, mark.y);
-        const double half_width = 0.5 * text_width(mark.text, style::kTextSize);
+        const std::string text = message_text(mark.text);
+        const double half_width = 0.5 * text_width(text, style::kTextSize);
         std::vector<Candidate> candidates;
         for (const double distance : {0.12, 0.3, 0.6, 1.0, 1.5})
             for (const int dx : {1, -1, 0})
@@ -204,8 +208,8 @@ class Placement {
                     candidates.push_back({p.x + dx * (half_width + slant * distance),
                                           p.y + dy * (kHalfHeight + slant * distance), 6 * (distance - 0.12)});
                 }
-        const PagePoint middle = choose(mark.text, candidates);
-        PlacedLabel label{mark.text, middle.x, middle.y, {}, {}};
+        const PagePoint middle = choose(text, candidates);
+        PlacedLabel label{text, middle.x, middle.y, {}, {}};
         const PagePoint nearest{std::clamp(p.x, middle.x - half_width, middle.x + half_width),
                                 std::clamp(p.y, middle.y - kHalfHeight, middle.y + kHalfHeight)};
         if (std::hypot(nearest.x - p.x, nearest.y - p.y) > 0.4) {
@@ -216,10 +220,11 @@ class Placement {
     }
 
     void place_arrow_text(const Arrow& arrow) {
+        const std::string text = message_text(arrow.text);
         const PagePoint a = at(arrow.x0, arrow.y0), b = at(arrow.x1, arrow.y1);
         const double length = std::max(std::hypot(b.x - a.x, b.y - a.y), 1e-6);
         const double nx = -(b.y - a.y) / length, ny = (b.x - a.x) / length;
-        const double half_width = 0.5 * text_width(arrow.text, style::kTextSize) + 0.06;
+        const double half_width = 0.5 * text_width(text, style::kTextSize) + 0.06;
         const double away = std::abs(nx) * half_width + std::abs(ny) * (kHalfHeight + 0.03);
         std::vector<Candidate> candidates;
         for (const double along : {0.5, 0.4, 0.6, 0.25, 0.75, 0.1, 0.9})
@@ -234,13 +239,14 @@ class Placement {
                          reach = std::abs(ny) * half_width + std::abs(nx) * kHalfHeight + 0.08;
             candidates.push_back({tip.x + sign * ny * reach, tip.y - sign * nx * reach, 6});
         }
-        const PagePoint middle = choose(arrow.text, candidates);
-        labels_.push_back({arrow.text, middle.x, middle.y, {}, {}});
+        const PagePoint middle = choose(text, candidates);
+        labels_.push_back({text, middle.x, middle.y, {}, {}});
     }
 
     void place_reference_label(const ReferenceLine& line) {
         const auto [from, to] = ends_of(line);
-        const double half_width = 0.5 * text_width(line.label, style::kTextSize) + 0.06;
+        const std::string text = message_text(line.label);
+        const double half_width = 0.5 * text_width(text, style::kTextSize) + 0.06;
         std::vector<Candidate> candidates;
         for (int k = 0; k <= 8; ++k) {  // from the far end of the line to its beginning
             const double along = 1 - k / 8.0, penalty = std::min(k, 8 - k) + 0.1 * k;
@@ -255,14 +261,15 @@ class Placement {
                             {from.x + side * (half_width + gap), kHalfHeight + along * (to.y - 2 * kHalfHeight), cost});
                 }
         }
-        const PagePoint middle = choose(line.label, candidates);
-        labels_.push_back({line.label, middle.x, middle.y, {}, {}});
+        const PagePoint middle = choose(text, candidates);
+        labels_.push_back({text, middle.x, middle.y, {}, {}});
     }
 
     /// The name of a curve at one of its points, rather near its end; false where there is no room.
     bool place_name(std::size_t curve) {
         const std::vector<PagePoint>& line = visible_[curve];
-        const double half_width = 0.5 * text_width(panel_.curves[curve].label, style::kTextSize);
+        const std::string name = message_text(panel_.curves[curve].label);
+        const double half_width = 0.5 * text_width(name, style::kTextSize);
         Rectangle best{};
         double least = -1;
         for (std::size_t k = 0; k < line.size(); k += std::max<std::size_t>(1, line.size() / 60))
@@ -278,8 +285,7 @@ class Placement {
                 }
         if (least < 0) return false;
         taken_.add_box(best, 6);
-        labels_.push_back(
-            {panel_.curves[curve].label, 0.5 * (best.left + best.right), 0.5 * (best.bottom + best.top), {}, {}});
+        labels_.push_back({name, 0.5 * (best.left + best.right), 0.5 * (best.bottom + best.top), {}, {}});
         return true;
     }
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <optional>
-#include <string>
 
+#include "base/message.h"
 #include "numerics/models/frequency_data.h"
 #include "numerics/models/transfer_function.h"
 #include "numerics/validation/uncertainty.h"
@@ -23,7 +23,7 @@ struct MeasuredSamples {
 
 /// A model with the name that the legend shows (no entry when empty).
 struct NamedModel {
-    std::string name;
+    Message name;
     TransferFunction G;
     std::optional<ModelConfidence> confidence = {};  ///< for bands and ellipses
     /// Of an input that is held between samples: frequency responses of a continuous-time model are those that such
@@ -33,7 +33,7 @@ struct NamedModel {
 
 /// A measured response with the name that the legend shows, and the probability that its bands hold the truth.
 struct NamedResponse {
-    std::string name;
+    Message name;
     FrequencyData data;
     double level = 0.99;
 };

@@ -17,7 +17,7 @@ struct StepConstruction {
     double step_time = 0;
     double initial = 0, final = 0;  ///< output levels
     std::vector<Reading> readings;
-    std::string x_label = "Time (s)", y_label;
+    Message x_label = axis_label(Message("time"), "s"), y_label;
 };
 
 /// Levels, and for each reading its construction: the 5 % band with the response time T_r, the first overshoot D_1 with

@@ -1,7 +1,5 @@
 #include "platform/box.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "platform/program_lookup.h"
@@ -45,10 +43,10 @@ std::string isolation_name(Isolation level) {
     return level == Isolation::kFull ? "full" : "process";
 }
 
-std::optional<std::string> obstacle_to(Isolation level) {
+std::optional<Message> obstacle_to(Isolation level) {
     if (level == Isolation::kProcess) return {};
     if (!find_program(kBubblewrap))
-        return "full isolation needs bubblewrap: sudo apt install bubblewrap (or ask for --isolation process)";
+        return Message("full isolation needs bubblewrap: sudo apt install bubblewrap (or ask for --isolation process)");
     Words words = bare_box();
     words.push_back("/usr/bin/true");
     ChildOptions child;
@@ -57,7 +55,7 @@ std::optional<std::string> obstacle_to(Isolation level) {
     const ChildResult tried = run_child(child, kPackage);
     if (tried.exit_code == 0) return {};
     const std::string reason = tried.error_output.substr(0, tried.error_output.find('\n'));
-    return fmt::format(
+    return Message(
         "full isolation cannot be had: bubblewrap says \"{}\"; allow user namespaces (sysctl "
         "kernel.unprivileged_userns_clone=1) or ask for --isolation process",
         reason);

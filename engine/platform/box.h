@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/message.h"
 #include "platform/child_process.h"
 #include "platform/time_limits.h"
 
@@ -21,7 +22,7 @@ enum class Isolation { kFull, kProcess };
 std::string isolation_name(Isolation level);  ///< "full", "process"
 
 /// Why this machine cannot have the level, and what to do about it, in one line; nothing where it can.
-std::optional<std::string> obstacle_to(Isolation level);
+std::optional<Message> obstacle_to(Isolation level);
 /// The strongest level that this machine can have; found out once.
 Isolation strongest_isolation();
 

@@ -58,7 +58,7 @@ std::optional<fs::path> lasting_root() {
 fs::path new_folder(const fs::path& root, const std::string& beginning) {
     std::string pattern = root / (beginning + "XXXXXX");
     if (!::mkdtemp(pattern.data())) {
-        throw EnvironmentError("cannot make a folder in " + root.string() + ": " + system_reason(errno));
+        throw EnvironmentError("cannot make a folder in {}: {}", root.string(), system_reason(errno));
     }
     return pattern;
 }
@@ -119,7 +119,7 @@ fs::path write_unfinished(const fs::path& root, std::string_view bytes) {
     const std::string reason = system_reason(errno);
     std::error_code ignored;
     if (fd) fs::remove(file, ignored);
-    throw EnvironmentError("cannot write " + file + ": " + reason);
+    throw EnvironmentError("cannot write {}: {}", file, reason);
 }
 
 struct Entry {
@@ -230,7 +230,7 @@ fs::path Cache::commit(const fs::path& prepared, const std::string& name) const 
     if (error && fs::is_directory(folder)) {
         fs::remove_all(prepared, error);
     } else if (error) {
-        throw EnvironmentError("cannot keep " + folder.string() + ": " + error.message());
+        throw EnvironmentError("cannot keep {}: {}", folder.string(), error.message());
     }
     mark_as_used(folder);
     add_growth(bytes_in(folder));

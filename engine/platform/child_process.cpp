@@ -50,7 +50,7 @@ FileDescriptor input_file(const std::string& input) {
     if (input.empty()) return FileDescriptor(::open("/dev/null", O_RDONLY | O_CLOEXEC));
     FileDescriptor file(::memfd_create("dynlab-input", MFD_CLOEXEC));
     if (!file || !write_all(file.get(), input.data(), input.size()) || ::lseek(file.get(), 0, SEEK_SET) != 0) {
-        throw EnvironmentError("cannot hand input to a child process: " + system_reason(errno));
+        throw EnvironmentError("cannot hand input to a child process: {}", system_reason(errno));
     }
     return file;
 }
@@ -59,7 +59,7 @@ FileDescriptor input_file(const std::string& input) {
 std::pair<FileDescriptor, FileDescriptor> input_socket() {
     int ends[2];
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
-        throw EnvironmentError("cannot hand input to a child process: " + system_reason(errno));
+        throw EnvironmentError("cannot hand input to a child process: {}", system_reason(errno));
     return {FileDescriptor(ends[0]), FileDescriptor(ends[1])};
 }
 
@@ -106,7 +106,7 @@ std::unique_ptr<ProcessGroup> start(const ChildOptions& options, const std::stri
     Pipe output, error_output, failure;
     const pid_t parent = ::getpid();
     const pid_t child = ::fork();
-    if (child < 0) throw EnvironmentError("cannot start " + launch.program + ": " + system_reason(errno));
+    if (child < 0) throw EnvironmentError("cannot start {}: {}", launch.program, system_reason(errno));
     if (child == 0) {
         become_program(launch, parent, output.write_end.get(), error_output.write_end.get(), failure.write_end.get());
     }
@@ -117,8 +117,8 @@ std::unique_ptr<ProcessGroup> start(const ChildOptions& options, const std::stri
     failure.write_end.close();
     int reason = 0;
     if (retry_interrupted([&] { return ::read(failure.read_end.get(), &reason, sizeof reason); }) > 0) {
-        throw EnvironmentError("cannot start " + launch.program + ": " + system_reason(reason) +
-                               (launch.folder.empty() ? "" : " (in " + launch.folder + ")"));
+        if (launch.folder.empty()) throw EnvironmentError("cannot start {}: {}", launch.program, system_reason(reason));
+        throw EnvironmentError("cannot start {}: {} (in {})", launch.program, system_reason(reason), launch.folder);
     }
     if (given_later != nullptr) *given_later = std::move(launch.given_later);
     return group;

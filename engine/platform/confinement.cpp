@@ -22,11 +22,11 @@ bool confined = false;
 void limit(int resource, rlim_t most) {
     const rlimit both{most, most};
     if (::setrlimit(static_cast<__rlimit_resource>(resource), &both) != 0)
-        throw EnvironmentError("cannot limit what a script may take: " + system_reason(errno));
+        throw EnvironmentError("cannot limit what a script may take: {}", system_reason(errno));
 }
 
 void expect_rule_added(int result) {
-    if (result < 0) throw EnvironmentError("cannot filter the system calls of a script: " + system_reason(-result));
+    if (result < 0) throw EnvironmentError("cannot filter the system calls of a script: {}", system_reason(-result));
 }
 
 void refuse_calls(scmp_filter_ctx filter, std::initializer_list<int> calls) {
@@ -107,12 +107,12 @@ void confine_process(const ProcessLimits& limits) {
 
 void hide_memory() {
     if (::prctl(PR_SET_DUMPABLE, 0, 0, 0, 0) != 0)
-        throw EnvironmentError("cannot hide the memory of a process: " + system_reason(errno));
+        throw EnvironmentError("cannot hide the memory of a process: {}", system_reason(errno));
 }
 
 void refuse_harmful_calls() {
     if (::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0)
-        throw EnvironmentError("cannot give up privileges: " + system_reason(errno));
+        throw EnvironmentError("cannot give up privileges: {}", system_reason(errno));
     filter_system_calls();
     confined = true;
 }

@@ -2,28 +2,30 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/error.h"
+
 namespace dynlab::inline platform {
 
 /// A program that dynlab calls is not installed. The message ends with the apt command that installs it. Exit
 /// code 3.
-class MissingProgram : public std::runtime_error {
+class MissingProgram : public ErrorOf<std::runtime_error> {
   public:
     MissingProgram(const std::string& program, const std::string& package)
-        : std::runtime_error(program + " is not installed: sudo apt install " + package) {}
-    explicit MissingProgram(const std::string& sentence) : std::runtime_error(sentence) {}  ///< as another dynlab said
+        : ErrorOf("{} is not installed: sudo apt install {}", program, package) {}
+    explicit MissingProgram(const Message& message) : ErrorOf(message) {}  ///< as another dynlab reported
 };
 
 /// Something outside failed: a file, a folder, a child process. The message names it and says what was tried
 /// and why it failed.
-class EnvironmentError : public std::runtime_error {
+class EnvironmentError : public ErrorOf<std::runtime_error> {
   public:
-    using std::runtime_error::runtime_error;
+    using ErrorOf::ErrorOf;
 };
 
 /// The user pressed Ctrl-C. Exit code 130.
-class Interrupted : public std::runtime_error {
+class Interrupted : public ErrorOf<std::runtime_error> {
   public:
-    Interrupted() : std::runtime_error("interrupted") {}
+    Interrupted() : ErrorOf("interrupted") {}
 };
 
 }  // namespace dynlab::inline platform

@@ -10,7 +10,7 @@
 namespace dynlab::inline platform {
 
 void fail_to_read(const std::filesystem::path& file, int error_number) {
-    throw EnvironmentError("cannot read " + file.string() + ": " + system_reason(error_number));
+    throw EnvironmentError("cannot read {}: {}", file.string(), system_reason(error_number));
 }
 
 FileDescriptor open_to_read(const std::filesystem::path& file) {

@@ -70,7 +70,7 @@ ChildResult run_guarded(const std::function<std::string()>& work, const GuardLim
     const std::uint64_t memory_bytes = mapped_bytes() + limits.memory_bytes;
     const pid_t parent = ::getpid();
     const pid_t child = ::fork();
-    if (child < 0) throw EnvironmentError("cannot start a guarded process: " + system_reason(errno));
+    if (child < 0) throw EnvironmentError("cannot start a guarded process: {}", system_reason(errno));
     if (child == 0) {
         if (!become_group_leader(parent) || !keep_only(output.write_end.get(), error_output.write_end.get())) {
             ::_exit(127);

@@ -53,9 +53,10 @@ fs::path shared_folder_of(const fs::path& program) {
     for (fs::path folder = program.parent_path(); folder.has_relative_path(); folder = folder.parent_path()) {
         if (is_source_tree(folder)) return folder;
     }
-    throw EnvironmentError("the data sets and lessons were not found: neither in " + installed.string() +
-                           " nor in a folder above " + program.string() +
-                           "; set DYNLAB_HOME to the folder that holds data, lessons and report_templates");
+    throw EnvironmentError(
+        "the data sets and lessons were not found: neither in {} nor in a folder above {}; set DYNLAB_HOME to the "
+        "folder that holds data, lessons and report_templates",
+        installed.string(), program.string());
 }
 
 fs::path running_program() {
@@ -81,7 +82,7 @@ namespace {
 fs::path installed_folder() {
     if (const char* home = std::getenv("DYNLAB_HOME"); home && *home) {
         if (is_folder(fs::path(home) / "data")) return home;
-        throw EnvironmentError("DYNLAB_HOME is " + std::string(home) + ", but there is no folder data in it");
+        throw EnvironmentError("DYNLAB_HOME is {}, but there is no folder data in it", home);
     }
     return shared_folder_of(running_program());
 }

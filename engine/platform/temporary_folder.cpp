@@ -49,7 +49,7 @@ FoldersInUse& folders_in_use() {
 }
 
 [[noreturn]] void fail_to_make_folder(const fs::path& parent) {
-    throw EnvironmentError("cannot make a temporary folder in " + parent.string() + ": " + system_reason(errno));
+    throw EnvironmentError("cannot make a temporary folder in {}: {}", parent.string(), system_reason(errno));
 }
 
 }  // namespace

@@ -41,11 +41,8 @@ void append_children(pid_t process, std::vector<pid_t>& children) {
 
 }  // namespace
 
-std::string TimeLimits::told(TimeLimit reached) const {
-    const auto seconds = [](std::chrono::milliseconds time) { return static_cast<double>(time.count()) / 1000; };
-    if (reached == TimeLimit::kProcessor)
-        return fmt::format("used more than {} s of processor time", seconds(processor));
-    return fmt::format("had not ended after {} s", seconds(clock()));
+double TimeLimits::seconds(TimeLimit reached) const {
+    return std::chrono::duration<double>(reached == TimeLimit::kProcessor ? processor : clock()).count();
 }
 
 std::chrono::nanoseconds processor_time() {

@@ -3,7 +3,6 @@
 
 #include <atomic>
 #include <chrono>
-#include <string>
 
 namespace dynlab::inline platform {
 
@@ -16,8 +15,8 @@ struct TimeLimits {
     int clock_multiple = 5;
 
     std::chrono::milliseconds clock() const { return clock_multiple * processor; }
-    /// Of work that reached a limit: "used more than 60 s of processor time", "had not ended after 300 s".
-    std::string told(TimeLimit reached) const;
+    /// For the messages about work that reached a limit.
+    double seconds(TimeLimit reached) const;
 };
 
 std::chrono::nanoseconds processor_time();  ///< of this process, all threads

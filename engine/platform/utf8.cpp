@@ -36,7 +36,7 @@ const UNormalizer2* compatibility_forms() {
         udata_setFileAccess(UDATA_NO_FILES, &status);  // ICU's own data, none that lie in the working folder
         const UNormalizer2* const nfkd = unorm2_getNFKDInstance(&status);
         if (U_FAILURE(status))
-            throw EnvironmentError(std::string("ICU, the Unicode library, cannot be used: ") + u_errorName(status));
+            throw EnvironmentError("ICU, the Unicode library, cannot be used: {}", u_errorName(status));
         return nfkd;
     }();
     return forms;

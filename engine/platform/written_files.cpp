@@ -1,7 +1,6 @@
 #include "platform/written_files.h"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <sys/file.h>
 
 #include <cstdlib>
@@ -66,20 +65,29 @@ void WrittenFiles::take(const fs::path& file) {
     if (fs::exists(file)) {
         const std::string known = known_content(taken.path_hash), content = sha256_of_file(file);
         const bool ours = known == kAtWork || known == content;
-        if (!ours && others_ == Others::kKept)
-            throw EnvironmentError(
-                fmt::format("'{}' is there already and {}; save under another name, move it away, or let it be "
-                            "replaced (dynlab run --force)",
-                            file.filename().string(), reason_to_keep(known)));
+        if (!ours && others_ == Others::kKept) refuse(file, known);
         if (!ours) taken.others_content = content;
     }
     note(taken.path_hash + ' ' + kAtWork + '\n');
     taken_[file] = std::move(taken);
 }
 
-std::string WrittenFiles::reason_to_keep(const std::string& known) const {
-    if (ledger_.empty()) return "it is not known who wrote it (neither HOME nor XDG_STATE_HOME is set)";
-    return known.empty() || known == kNotOurs ? "no run of dynlab wrote it" : "was changed since dynlab wrote it";
+void WrittenFiles::refuse(const fs::path& file, const std::string& known) const {
+    const std::string name = file.filename().string();
+    if (ledger_.empty())
+        throw EnvironmentError(
+            "'{}' is there already and it is not known who wrote it (neither HOME nor XDG_STATE_HOME is set); save "
+            "under another name, move it away, or let it be replaced (dynlab run --force)",
+            name);
+    if (known.empty() || known == kNotOurs)
+        throw EnvironmentError(
+            "'{}' is there already and no run of dynlab wrote it; save under another name, move it away, or let it be "
+            "replaced (dynlab run --force)",
+            name);
+    throw EnvironmentError(
+        "'{}' is there already and was changed since dynlab wrote it; save under another name, move it away, or let "
+        "it be replaced (dynlab run --force)",
+        name);
 }
 
 std::string WrittenFiles::known_content(const std::string& path_hash) const {

@@ -35,7 +35,7 @@ class WrittenFiles {
         std::string path_hash;
         std::string others_content;  ///< SHA-256 of a file of somebody else that may be replaced; empty for none
     };
-    std::string reason_to_keep(const std::string& known) const;
+    [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& known) const;
     std::map<std::filesystem::path, Taken> taken_;
 };
 

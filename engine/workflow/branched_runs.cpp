@@ -4,12 +4,12 @@
 
 #include <algorithm>
 
+#include "base/languages.h"
 #include "data_io/values/cbor_values.h"
 #include "documents/figure_description.h"
 #include "documents/html/plot_data.h"
 #include "documents/record_description.h"
 #include "documents/weave.h"
-#include "figures/french_texts.h"
 #include "platform/error.h"
 #include "platform/interrupt.h"
 #include "platform/process_group.h"
@@ -81,7 +81,7 @@ class BranchingRun {
         try {
             record = received_record(own.read_end.get());
         } catch (const EnvironmentError&) {
-            record.error = RecordedError{"the script ended the process that ran it"};
+            record.error = RecordedError{Message("the script ended the process that ran it")};
         }
         copy.wait();
         return cbor_of(record);
@@ -92,12 +92,12 @@ class BranchingRun {
         RunRecord record;
         for (auto part = first; part != parts_.end() && !record.error; ++part)
             record = world_.runtime.run_part(request_.script, *part);
-        const bool french = request_.script.header.language == "fr";
+        const Reader reader{catalog_of(request_.script.header.language)};
         for (auto& [name, figure] : record.figures) {
             const auto was = before_.find(name);
             const bool unchanged = was != before_.end() && was->second == cbor_of(*figure.figure);
-            if (!unchanged) figure.plot = plot_data(french ? in_french(*figure.figure) : *figure.figure, french);
-            figure.axes = words_of_axes(*figure.figure, french);
+            if (!unchanged) figure.plot = plot_data(*figure.figure, reader);
+            figure.axes = words_of_axes(*figure.figure, reader);
         }
         return record;
     }

@@ -132,7 +132,7 @@ std::vector<std::string> cells_of(std::string_view line) {
 
 /// How a function is called, without what it gives and further forms.
 std::string called(const FunctionEntry& entry) {
-    const std::string signature = entry.signature;
+    const std::string signature = signature_text(entry);
     return trimmed(signature.substr(0, std::min(signature.find("->"), signature.find(';'))));
 }
 
@@ -174,7 +174,7 @@ std::string cheat_sheet_latex() {
 
 void make_cheat_sheet(const std::filesystem::path& output) {
     if (output.extension() != ".pdf")
-        throw EnvironmentError("the sheet is a PDF: give a file such as cheat.pdf, not " + output.string());
+        throw EnvironmentError("the sheet is a PDF: give a file such as cheat.pdf, not {}", output.string());
     const TemporaryFolder work;
     LatexJob job;
     job.body = cheat_sheet_latex();

@@ -51,19 +51,19 @@ std::vector<Demonstration> demonstrations() {
 
 Demonstration find_demonstration(const std::string& name) {
     std::vector<std::string> names;
-    std::string list;
     for (const Demonstration& demonstration : demonstrations()) {
         if (demonstration.name == name) return demonstration;
         names.push_back(demonstration.name);
-        list += (list.empty() ? "" : ", ") + demonstration.name;
     }
-    const auto near = nearest_word(name, names);
-    throw EnvironmentError("there is no demonstration '" + name + "'; " +
-                           (near ? "did you mean '" + *near + "'?" : "there are " + list));
+    if (const auto near = nearest_word(name, names))
+        throw EnvironmentError("there is no demonstration '{}'; did you mean '{}'?", name, *near);
+    throw EnvironmentError("there is no demonstration '{}'; there are {}", name, listed(names));
 }
 
 std::vector<std::string> pages_of(const PercentScript& script, const RunRecord& record) {
-    const Cell* const failed = record.error ? script.cell_at_line(std::max(record.error->line, 1)) : nullptr;
+    const Cell* const failed =
+        record.error ? script.cell_at_line(std::max(record.error->line_in(script.file.filename().string()), 1))
+                     : nullptr;
     std::vector<std::string> pages;
     std::string page;
     for (const Cell& cell : script.cells) {

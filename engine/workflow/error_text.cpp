@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "base/reader.h"
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"
 #include "platform/files/inside_folder.h"
@@ -31,22 +32,26 @@ std::string place_text(const std::string& file, int line, const PercentScript& s
     return fmt::format("{}:{}: ", (script.file.parent_path() / file).string(), line);
 }
 
-std::string source_line(const std::string& file, int line, const PercentScript& script) {
+void add_source_line(MessageList& lines, const std::string& file, int line, const PercentScript& script) {
     const std::string text = trimmed(line_of(source_of(file, script), line));
-    return text.empty() ? "" : fmt::format("\n    {}", text);
+    if (!text.empty()) lines.items.push_back(Message::verbatim("    " + text));
 }
 
 }  // namespace
 
+Message error_message(const RecordedError& error, const PercentScript& script) {
+    if (error.line == 0) return error.message;
+    MessageList lines{{Message("{}{}", place_text(error.file, error.line, script), error.message)}, Join::kLines};
+    add_source_line(lines, error.file, error.line, script);
+    for (const RecordedCall& call : error.calls) {
+        lines.items.push_back(Message("{}{}", "  " + place_text(call.file, call.line, script), call.what));
+        add_source_line(lines, call.file, call.line, script);
+    }
+    return Message("{}", lines);
+}
+
 std::string error_text(const RecordedError& error, const PercentScript& script) {
-    const LocatedMessage message = take_apart(error.message);
-    if (message.line == 0) return error.message;
-    std::string text = place_text(message.file, message.line, script) + message.text;
-    text += source_line(message.file, message.line, script);
-    for (const RecordedCall& call : error.calls)
-        text +=
-            "\n  " + place_text(call.file, call.line, script) + call.what + source_line(call.file, call.line, script);
-    return text;
+    return message_text(error_message(error, script));
 }
 
 }  // namespace dynlab::inline workflow

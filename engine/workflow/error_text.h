@@ -9,6 +9,7 @@ namespace dynlab::inline workflow {
 /// An error of a script as a terminal shows it: the sentence behind `path:line:`, the path as the script's was given,
 /// so that editors find the place; below it the line itself; then the calls that led there, each with its place and
 /// its line. Lines of files that the script required are read from its folder; one that is not there is left out.
-std::string error_text(const RecordedError& error, const PercentScript& script);
+Message error_message(const RecordedError& error, const PercentScript& script);
+std::string error_text(const RecordedError& error, const PercentScript& script);  ///< in English
 
 }  // namespace dynlab::inline workflow

@@ -30,32 +30,30 @@ class HintsReader {
     }
 
   private:
-    [[noreturn]] void fail(const std::string& what) const {
-        throw DocumentError(file_.string() + ":" + std::to_string(number_) + ": " + what);
-    }
+    [[noreturn]] void fail(const Message& what) const { throw DocumentError(Place{file_, number_}, what); }
 
     void read_heading(const std::string& line) {
         const std::string begin = "# Question ";
         const auto question =
             line.starts_with(begin) ? read_number<int>(trimmed(line.substr(begin.size()))) : std::nullopt;
-        if (!question) fail("a heading of hints is \"# Question 4\", not \"" + trimmed(line) + "\"");
+        if (!question) fail(Message("a heading of hints is \"# Question 4\", not \"{}\"", trimmed(line)));
         const auto [place, is_new] = hints_.try_emplace(*question);
-        if (!is_new) fail("question " + std::to_string(*question) + " has hints already");
+        if (!is_new) fail(Message("question {} has hints already", *question));
         stages_ = &place->second;
     }
 
     void read_stage(const std::string& line) {
-        if (!stages_) fail("hints stand below a heading such as \"# Question 4\"");
+        if (!stages_) fail(Message("hints stand below a heading such as \"# Question 4\""));
         const std::size_t point = line.find(". ");
         const std::size_t next = stages_->size() + 1;
         if (point == std::string::npos || read_number<int>(line.substr(0, point)) != static_cast<int>(next))
-            fail("here hint " + std::to_string(next) + " should begin, with \"" + std::to_string(next) +
-                 ". \", not \"" + trimmed(line).substr(0, 30) + "\" (further lines of a hint are indented)");
+            fail(Message("here hint {} should begin, with \"{}. \", not \"{}\" (further lines of a hint are indented)",
+                         next, next, trimmed(line).substr(0, 30)));
         stages_->push_back(trimmed(line.substr(point + 2)));
     }
 
     void read_more(const std::string& line) {
-        if (!stages_ || stages_->empty()) fail("this line is indented, but no hint begins before it");
+        if (!stages_ || stages_->empty()) fail(Message("this line is indented, but no hint begins before it"));
         stages_->back() += " " + trimmed(line);
     }
 

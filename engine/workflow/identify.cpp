@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/reader.h"
 #include "documents/lua_text.h"
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 #include "workflow/recording.h"
 
 namespace dynlab::inline workflow {
@@ -126,10 +126,13 @@ constexpr const char* kNoValidation = R"( No
 -- validation record was given: a record that the model has not seen would say more.)";
 
 std::string structure_of(const IdentifyRequest& request) {
-    std::string delay = ", an estimated delay";
-    if (request.delay) delay = *request.delay > 0 ? fmt::format(", a delay of {} s", *request.delay) : "";
-    if (!request.poles) return request.delay ? "No delay." : "An estimated delay.";
-    return fmt::format("{}, {}{}.", counted(*request.poles, "pole"), counted(request.zeros.value_or(0), "zero"), delay);
+    if (!request.poles) return message_text(request.delay ? Message("No delay.") : Message("An estimated delay."));
+    const Message poles = plural(*request.poles, "{} pole", "{} poles"),
+                  zeros = plural(request.zeros.value_or(0), "{} zero", "{} zeros");
+    if (!request.delay) return message_text(Message("{}, {}, an estimated delay.", poles, zeros));
+    return message_text(*request.delay > 0
+                            ? Message("{}, {}, a delay of {} s.", poles, zeros, fmt::format("{}", *request.delay))
+                            : Message("{}, {}.", poles, zeros));
 }
 
 std::string search_of(const IdentifyRequest& request, const std::string& suffix) {
@@ -179,18 +182,18 @@ void IdentifyRequest::validate() const {
     if (inputs.empty()) throw InvalidArgument("at least one input is needed");
     for (auto input = inputs.begin(); input != inputs.end(); ++input)
         if (std::find(inputs.begin(), input, *input) != input)
-            throw InvalidArgument(fmt::format("the input '{}' is given twice", *input));
+            throw InvalidArgument("the input '{}' is given twice", *input);
     for (auto output = outputs.begin(); output != outputs.end(); ++output) {
         if (std::find(inputs.begin(), inputs.end(), *output) != inputs.end())
-            throw InvalidArgument(fmt::format("'{}' cannot be both input and output", *output));
+            throw InvalidArgument("'{}' cannot be both input and output", *output);
         if (std::find(outputs.begin(), output, *output) != output)
-            throw InvalidArgument(fmt::format("the output '{}' is given twice", *output));
+            throw InvalidArgument("the output '{}' is given twice", *output);
     }
-    if (poles && *poles < 1)
-        throw InvalidArgument(fmt::format("the number of poles must be at least 1, not {}", *poles));
-    if (zeros && (*zeros < 0 || (poles && *zeros > *poles)))
-        throw InvalidArgument(fmt::format("the number of zeros must be from 0 to that of the poles{}; it is {}",
-                                          poles ? fmt::format(", {}", *poles) : "", *zeros));
+    if (poles && *poles < 1) throw InvalidArgument("the number of poles must be at least 1, not {}", *poles);
+    if (zeros && poles && (*zeros < 0 || *zeros > *poles))
+        throw InvalidArgument("the number of zeros must be from 0 to that of the poles, {}; it is {}", *poles, *zeros);
+    if (zeros && *zeros < 0)
+        throw InvalidArgument("the number of zeros must be from 0 to that of the poles; it is {}", *zeros);
     if (!poles && inputs.size() > 1)
         throw InvalidArgument("the number of poles is found for one input only; with several give the number");
     if (!poles && zeros && *zeros > 3)
@@ -199,10 +202,9 @@ void IdentifyRequest::validate() const {
         throw InvalidArgument(
             "the number of poles is found for no delay or an estimated one; give the number, or the delay auto");
     if (delay && !(std::isfinite(*delay) && *delay >= 0))
-        throw InvalidArgument(fmt::format("the delay must be at least 0 s, not {}", *delay));
+        throw InvalidArgument("the delay must be at least 0 s, not {}", *delay);
     if (Ts && !time.empty()) throw InvalidArgument("give either Ts or the column of the time, not both");
-    if (Ts && !(std::isfinite(*Ts) && *Ts > 0))
-        throw InvalidArgument(fmt::format("Ts must be greater than 0 s, not {}", *Ts));
+    if (Ts && !(std::isfinite(*Ts) && *Ts > 0)) throw InvalidArgument("Ts must be greater than 0 s, not {}", *Ts);
 }
 
 std::string identification_script(const IdentifyRequest& request) {

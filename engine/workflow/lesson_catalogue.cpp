@@ -18,10 +18,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string joined_slugs(const std::vector<Lesson>& found) {
-    std::string list;
-    for (const Lesson& lesson : found) list += (list.empty() ? "" : ", ") + lesson.slug;
-    return list;
+std::vector<std::string> slugs_of(const std::vector<Lesson>& found) {
+    std::vector<std::string> slugs;
+    for (const Lesson& lesson : found) slugs.push_back(lesson.slug);
+    return slugs;
 }
 
 /// The folders here that hold work, as `dynlab new` makes them, under the names that people give.
@@ -33,18 +33,25 @@ std::vector<std::string> folders_of_work() {
     return names;
 }
 
-/// Begins the sentence that `name` is no lesson: what it is instead, or what was meant.
-std::string no_lesson(const std::string& name, const std::vector<Lesson>& all) {
+/// `name` is no lesson: what it is instead, or what was meant.
+Message no_lesson(const std::string& name, const std::vector<Lesson>& all) {
+    const MessageList slugs = listed(slugs_of(all));
     std::error_code none;
     if (!name.empty() && fs::is_directory(name, none)) {
-        const bool work = fs::is_regular_file(fs::path(name) / "analysis.lua", none);
-        return "the folder '" + name + "' holds no lesson.lua" +
-               (work ? "" : " and no analysis.lua" + nearly_called(name, "analysis.lua")) + "; ";
+        if (fs::is_regular_file(fs::path(name) / "analysis.lua", none))
+            return Message("the folder '{}' holds no lesson.lua; the lessons are {}", name, slugs);
+        const Message near = nearly_called(name, "analysis.lua");
+        return near.empty()
+                   ? Message("the folder '{}' holds no lesson.lua and no analysis.lua; the lessons are {}", name, slugs)
+                   : Message("the folder '{}' holds no lesson.lua and no analysis.lua, {}; the lessons are {}", name,
+                             near, slugs);
     }
     std::vector<std::string> names = folders_of_work();
     for (const Lesson& lesson : all) names.push_back(lesson.slug);
     const auto near = nearest_word(name, names);
-    return "there is no lesson or folder '" + name + "'; " + (near ? "did you mean '" + *near + "'? " : "");
+    return near
+               ? Message("there is no lesson or folder '{}'; did you mean '{}'? the lessons are {}", name, *near, slugs)
+               : Message("there is no lesson or folder '{}'; the lessons are {}", name, slugs);
 }
 
 /// What the header says below the title, or nothing: "Lesson 3.2 - ...".
@@ -84,7 +91,7 @@ std::vector<Lesson> lessons() {
     std::istringstream list(own ? own : "");
     for (std::string folder; std::getline(list, folder, ':');) {
         if (folder.empty()) continue;
-        if (!fs::is_directory(folder)) throw EnvironmentError("DYNLAB_LESSONS: there is no folder '" + folder + "'");
+        if (!fs::is_directory(folder)) throw EnvironmentError("DYNLAB_LESSONS: there is no folder '{}'", folder);
         folders.emplace_back(folder);
     }
     if (const auto course = own_course(); course && fs::is_directory(*course / "lessons"))
@@ -113,9 +120,9 @@ Lesson find_lesson(const std::string& name) {
     if (fitting.empty()) fitting = holding;
     if (fitting.size() == 1) return fitting.front();
     if (const auto own = name.empty() ? std::nullopt : lesson_in(name)) return *own;
-    if (fitting.empty()) throw EnvironmentError(no_lesson(name, all) + "the lessons are " + joined_slugs(all));
-    throw EnvironmentError("'" + name + "' fits several lessons (" + joined_slugs(fitting) +
-                           "); give enough of the name to tell them apart");
+    if (fitting.empty()) throw EnvironmentError(no_lesson(name, all));
+    throw EnvironmentError("'{}' fits several lessons ({}); give enough of the name to tell them apart", name,
+                           listed(slugs_of(fitting)));
 }
 
 }  // namespace dynlab::inline workflow

@@ -22,6 +22,10 @@ struct Lesson {
     std::filesystem::path self_check(const std::string& language = "en") const {
         return folder / (language == "en" ? "self_check.md" : "self_check." + language + ".md");
     }
+    /// What the authors of checks.lua wrote, in another language: a catalog (base/catalog.h); may be absent.
+    std::filesystem::path checks_in(const std::string& language) const {
+        return folder / ("checks." + language + ".po");
+    }
     /// Title and text cells in another language; no such file for lessons in English alone.
     std::filesystem::path tasks(const std::string& language) const { return folder / ("tasks." + language + ".lua"); }
     /// Questions that a talk on the lesson may meet, with model answers: for instructors only; may be absent.

@@ -71,8 +71,8 @@ std::vector<std::string> simulated_data_of(const Lesson& lesson) {
     if (const auto known = cache.recall(name)) return words_of(*known);
     const RunRecord record = run_of_solution(script);
     if (record.error)
-        throw EnvironmentError(fmt::format("which data lesson {} loads is not known, for its worked solution stops: {}",
-                                           lesson.slug, record.error->message));
+        throw EnvironmentError("which data lesson {} loads is not known, for its worked solution stops: {}",
+                               lesson.slug, record.error->text());
     const std::vector<std::string> names = simulated_data_of(record);
     cache.remember(name, fmt::format("{}\n", fmt::join(names, "\n")));
     return names;

@@ -9,7 +9,6 @@
 
 #include "data_io/dataset_index.h"
 #include "figures/plots/id_plot.h"
-#include "numerics/number_text.h"
 #include "platform/terminal/terminal_text.h"
 #include "platform/utf8.h"
 
@@ -17,10 +16,6 @@ namespace dynlab::inline workflow {
 namespace {
 
 using TextRows = std::vector<std::vector<std::string>>;
-
-std::string short_number(double number) {
-    return std::isfinite(number) ? fmt::format("{:.6g}", number) : "";
-}
 
 /// Rows with their cells below each other.
 std::string aligned(const TextRows& rows) {
@@ -40,10 +35,6 @@ std::string aligned(const TextRows& rows) {
     return text;
 }
 
-std::string counted_things(std::size_t number, const char* what) {
-    return fmt::format("{} {}{}", number, what, number == 1 ? "" : "s");
-}
-
 /// A vector of the file, or a column of a matrix in it.
 struct LookedSignal {
     std::string name, unit;
@@ -52,7 +43,7 @@ struct LookedSignal {
 
 class DataLooker {
   public:
-    explicit DataLooker(LoadedData data) : data_(std::move(data)) {
+    DataLooker(LoadedData data, const Reader& reader) : data_(std::move(data)), reader_(reader) {
         names_ = data_.columns;
         std::set<std::string> known(names_.begin(), names_.end());
         for (const auto& [name, variable] : data_.variables)
@@ -71,6 +62,13 @@ class DataLooker {
     }
 
   private:
+    std::string text(const Message& message) const { return message_text(message, reader_); }
+
+    std::string short_number(double number) const {
+        constexpr int kDigits = 6;
+        return std::isfinite(number) ? number_text(significant(number, kDigits), reader_) : "";
+    }
+
     std::string unit_of(const std::string& name) const {
         const auto unit = data_.units.find(name);
         return unit == data_.units.end() ? "" : unit->second;
@@ -96,20 +94,22 @@ class DataLooker {
     std::string title() const {
         const std::string file = data_.file.filename().string();
         if (data_.columns.empty())
-            return fmt::format("{}: {}\n", file, counted_things(data_.variables.size(), "variable"));
-        return fmt::format("{}: a table of {} and {}\n", file, counted_things(data_.columns.size(), "column"),
-                           counted_things(static_cast<std::size_t>(data_.rows), "row"));
+            return text(Message("{}: {}", file, plural(data_.variables.size(), "{} variable", "{} variables"))) + "\n";
+        return text(Message("{}: a table of {} and {}", file, plural(data_.columns.size(), "{} column", "{} columns"),
+                            plural(data_.rows, "{} row", "{} rows"))) +
+               "\n";
     }
 
     std::string notes() const {
-        std::string text;
-        for (const std::string& note : data_.notes) text += fmt::format("- {}\n", note);
-        return text;
+        std::string lines;
+        for (const Message& note : data_.notes) lines += fmt::format("- {}\n", text(note));
+        return lines;
     }
 
     std::string columns() const {
-        TextRows rows = {
-            {data_.columns.empty() ? "variable" : "column", "unit", "holds", "missing", "smallest", "largest", "mean"}};
+        TextRows rows = {{text(data_.columns.empty() ? Message("variable") : Message("column")), text(Message("unit")),
+                          text(Message("holds")), text(Message("missing")), text(Message("smallest")),
+                          text(Message("largest")), text(Message("mean"))}};
         for (const std::string& name : names_) add_rows(rows, name, data_.variables.at(name));
         return "\n" + aligned(rows);
     }
@@ -123,26 +123,28 @@ class DataLooker {
     std::vector<std::string> row_of(const std::string& name, const Variable& variable) const {
         std::vector<std::string> row = {name, unit_of(name)};
         if (const auto* number = std::get_if<double>(&variable.value)) {
-            row.push_back("the number " + short_number(*number));
+            row.push_back(text(Message("the number {}", short_number(*number))));
         } else if (const auto* vector = std::get_if<Vector>(&variable.value)) {
-            row.push_back(counted(vector->size(), "number"));
+            row.push_back(text(plural(vector->size(), "{} number", "{} numbers")));
             add_range(row, *vector);
         } else if (const auto* matrix = std::get_if<Matrix>(&variable.value)) {
-            row.push_back(fmt::format("{} x {} numbers", matrix->rows(), matrix->cols()));
+            row.push_back(text(Message("{} x {} numbers", matrix->rows(), matrix->cols())));
             add_range(row, matrix->reshaped());
         } else if (const auto* list = std::get_if<std::shared_ptr<VariableList>>(&variable.value)) {
-            row.push_back(fmt::format("{} {}", (*list)->size(), data_.columns.empty() ? "entries" : "texts"));
+            row.push_back(text(data_.columns.empty() ? Message("{} entries", (*list)->size())
+                                                     : Message("{} texts", (*list)->size())));
         } else if (std::holds_alternative<std::shared_ptr<VariableTable>>(variable.value)) {
-            row.emplace_back("a struct");
-        } else if (const auto* text = std::get_if<std::string>(&variable.value)) {
-            row.push_back(fmt::format("the text \"{}\"", *text));
+            row.push_back(text(Message("a struct")));
+        } else if (const auto* words = std::get_if<std::string>(&variable.value)) {
+            row.push_back(text(Message("the text \"{}\"", *words)));
         } else {
-            row.emplace_back(std::holds_alternative<bool>(variable.value) ? "true or false" : "complex numbers");
+            row.push_back(text(std::holds_alternative<bool>(variable.value) ? Message("true or false")
+                                                                            : Message("complex numbers")));
         }
         return row;
     }
 
-    static void add_range(std::vector<std::string>& row, const Vector& numbers) {
+    void add_range(std::vector<std::string>& row, const Vector& numbers) const {
         double least = INFINITY, most = -INFINITY, sum = 0;
         Index count = 0;
         for (const double number : numbers) {
@@ -158,34 +160,48 @@ class DataLooker {
 
     const Vector& instants() const { return std::get<Vector>(data_.variables.at(time_->name).value); }
 
+    std::string seconds(double value) const { return short_number(value * time_->seconds) + " s"; }
+
     std::string sampling() const {
         const auto stated = data_.variables.find("Ts");
         const double* Ts = stated == data_.variables.end() ? nullptr : std::get_if<double>(&stated->second.value);
-        std::string text =
-            Ts == nullptr ? "" : fmt::format("\nsampling time: {} s, as the file states it\n", short_number(*Ts));
-        if (signals_.empty()) return text;
-        if (!time_ || samples_ < 2)
-            return Ts != nullptr ? text
-                                 : "\nsampling time: unknown; no column is called t or time or has a unit of time\n";
+        std::string lines;
+        if (Ts != nullptr) lines = line(Message("sampling time: {} s, as the file states it", short_number(*Ts)));
+        if (signals_.empty()) return lines;
+        if (time_ && samples_ >= 2) return lines + line(time()) + gaps();
+        return Ts != nullptr
+                   ? lines
+                   : line(Message("sampling time: unknown; no column is called t or time or has a unit of time"));
+    }
+
+    std::string line(const Message& message) const { return "\n" + text(message) + "\n"; }
+
+    Message time() const {
         const Vector& t = instants();
         const InstantSpacing spacing = spacing_of(t);
         if (spacing.disorder)
-            return text + fmt::format("\ntime: column {} does not increase: sample {} is {} and the next {}\n",
-                                      time_->name, *spacing.disorder + 1, t[*spacing.disorder],
-                                      t[*spacing.disorder + 1]);
-        const auto seconds = [this](double value) { return short_number(value * time_->seconds) + " s"; };
-        text += fmt::format("\ntime: column {}, from {} to {}, {} {}\n", time_->name, seconds(t[0]),
-                            seconds(t[samples_ - 1]), spacing.even ? "every" : "in uneven steps, median",
-                            seconds(spacing.step));
+            return Message("time: column {} does not increase: sample {} is {} and the next {}", time_->name,
+                           *spacing.disorder + 1, significant(t[*spacing.disorder], kDigitsOfInstants),
+                           significant(t[*spacing.disorder + 1], kDigitsOfInstants));
+        const std::string begin = seconds(t[0]), end = seconds(t[samples_ - 1]), step = seconds(spacing.step);
+        return spacing.even ? Message("time: column {}, from {} to {}, every {}", time_->name, begin, end, step)
+                            : Message("time: column {}, from {} to {}, in uneven steps, median {}", time_->name, begin,
+                                      end, step);
+    }
+
+    std::string gaps() const {
+        const Vector& t = instants();
+        const InstantSpacing spacing = spacing_of(t);
+        if (spacing.disorder || spacing.gaps.empty()) return "";
         constexpr std::size_t kMostGaps = 5;
-        if (!spacing.gaps.empty()) text += fmt::format("gaps: {}", spacing.gaps.size());
+        MessageList first{{}, Join::kSemicolon};
         for (std::size_t i = 0; i < std::min(kMostGaps, spacing.gaps.size()); ++i) {
             const Index at = spacing.gaps[i];
-            text += fmt::format("{} {} after {} s", i == 0 ? "," : ";", seconds(t[at + 1] - t[at]),
-                                short_number(t[at] * time_->seconds));
+            first.items.push_back(
+                Message("{} after {} s", seconds(t[at + 1] - t[at]), short_number(t[at] * time_->seconds)));
         }
-        if (spacing.gaps.size() > kMostGaps) text += "; ...";
-        return spacing.gaps.empty() ? text : text + "\n";
+        if (spacing.gaps.size() > kMostGaps) first.items.push_back(Message::verbatim("..."));
+        return text(Message("gaps: {}, {}", spacing.gaps.size(), first)) + "\n";
     }
 
     std::string first_rows() const {
@@ -208,7 +224,7 @@ class DataLooker {
         }
         if (data_.columns.size() > kMostColumns)
             for (auto& row : table) row.emplace_back("...");
-        return "\nfirst rows:\n" + aligned(table);
+        return line(Message("first rows:")) + aligned(table);
     }
 
     /// Long records are drawn by the least and the largest of each of many short stretches.
@@ -244,7 +260,7 @@ class DataLooker {
             const bool drawable = signal.numbers.size() == samples_ && signal.numbers.array().isFinite().any();
             if (!drawable || (timed && signal.name == time_->name)) continue;
             Panel panel;
-            panel.y_label = axis_label(signal.name, signal.unit);
+            panel.y_label = axis_label(Message::verbatim(signal.name), signal.unit);
             panel.legend = LegendPlace::kNone;
             panel.x_range = {x[0], x[samples_ - 1]};
             panel.curves.push_back(thinned(x, signal.numbers));
@@ -253,12 +269,14 @@ class DataLooker {
         }
         if (figure.panels.empty()) return nullptr;
         figure.rows = static_cast<int>(figure.panels.size());
-        figure.panels.back().x_label = timed ? axis_label(time_->name, "s") : "sample";
+        figure.panels.back().x_label = timed ? axis_label(Message::verbatim(time_->name), "s") : Message("sample");
         return std::make_shared<const Figure>(std::move(figure));
     }
 
     static constexpr Index kMostPanels = 8;
+    static constexpr int kDigitsOfInstants = 10;  ///< instants that differ look different
     LoadedData data_;
+    Reader reader_;
     std::vector<std::string> names_;  ///< in the file's order, or alphabetically
     std::vector<LookedSignal> signals_;
     Index samples_ = 0;
@@ -267,8 +285,8 @@ class DataLooker {
 
 }  // namespace
 
-DataLook look_at_data(const std::string& name, const ImportOptions& options) {
-    return DataLooker(load_data(name, ".", false, options)).look();
+DataLook look_at_data(const std::string& name, const ImportOptions& options, const Reader& reader) {
+    return DataLooker(load_data(name, ".", false, options), reader).look();
 }
 
 }  // namespace dynlab::inline workflow

@@ -2,6 +2,7 @@
 #include <memory>
 #include <string>
 
+#include "base/reader.h"
 #include "data_io/tables/import_options.h"
 
 namespace dynlab::inline figures {
@@ -18,6 +19,6 @@ struct DataLook {
 };
 
 /// `name`: a data file or a data set. Throws EnvironmentError as load_data().
-DataLook look_at_data(const std::string& name, const ImportOptions& options);
+DataLook look_at_data(const std::string& name, const ImportOptions& options, const Reader& reader = {});
 
 }  // namespace dynlab::inline workflow

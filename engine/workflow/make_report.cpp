@@ -8,7 +8,6 @@
 #include "documents/solutions.h"
 #include "documents/template_file.h"
 #include "documents/text_lines.h"
-#include "documents/unplaced_entries.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/program_lookup.h"
@@ -42,22 +41,27 @@ std::uint32_t seed_of_group(const fs::path& folder, std::uint32_t otherwise) {
         const toml::table group = toml::parse_file(file.string());
         const std::int64_t seed = group["seed"].value_or<std::int64_t>(otherwise);
         if (seed < 0 || seed > std::int64_t{UINT32_MAX}) {
-            throw DocumentError(file.string() + ": seed must be a whole number from 0 to 4294967295, not " +
-                                std::to_string(seed));
+            throw DocumentError(Place{file}, Message("seed must be a whole number from 0 to 4294967295, not {}", seed));
         }
         return static_cast<std::uint32_t>(seed);
     } catch (const toml::parse_error& error) {
-        throw DocumentError(file.string() + ":" + std::to_string(error.source().begin.line) + ": " +
-                            std::string(error.description()));
+        throw DocumentError(Place{file, static_cast<int>(error.source().begin.line)},
+                            Message::verbatim(std::string(error.description())));
     }
 }
 
 ReportRequest report_of_folder(const fs::path& folder, const fs::path& output) {
     for (const char* needed : {"analysis.lua", "report.md"}) {
         if (!fs::is_regular_file(folder / needed)) {
-            const std::string near = nearly_called(folder, needed);
-            throw EnvironmentError(folder.string() + " has no " + needed + near +
-                                   "; a report needs analysis.lua and report.md (dynlab new LESSON DIR makes them)");
+            const Message near = nearly_called(folder, needed);
+            throw EnvironmentError(
+                near.empty()
+                    ? Message("{} has no {}; a report needs analysis.lua and report.md (dynlab new LESSON DIR makes "
+                              "them)",
+                              folder.string(), needed)
+                    : Message("{} has no {}, {}; a report needs analysis.lua and report.md (dynlab new LESSON DIR "
+                              "makes them)",
+                              folder.string(), needed, near));
         }
     }
     ReportRequest request;
@@ -89,8 +93,8 @@ ReportRequest report_of_lesson(const Lesson& lesson, const fs::path& output, con
         request.template_file = report;
         request.metadata.clear();
     } else if (!language.empty()) {
-        throw EnvironmentError("lesson " + lesson.slug + " has no report in the language \"" + language + "\" (" +
-                               report.filename().string() + ")");
+        throw EnvironmentError("lesson {} has no report in the language \"{}\" ({})", lesson.slug, language,
+                               report.filename().string());
     }
     return request;
 }
@@ -130,13 +134,13 @@ bool has_text(const PercentScript& script) {
 
 }  // namespace
 
-std::vector<std::string> entries_without_place(const PercentScript& script, const RunRecord& record) {
+std::vector<UnplacedEntries> entries_without_place(const PercentScript& script, const RunRecord& record) {
     const fs::path report = script.file.parent_path() / "report.md";
     if (record.error || script.file.filename() == "lesson.lua") return {};
     const MarkdownText cells = weave_cells(script, record);
     if (script.file.filename() == "analysis.lua" && fs::is_regular_file(report))
         return unplaced_entries(record, text_of_document(report, cells));
-    return has_text(script) ? unplaced_entries(record, cells.text) : std::vector<std::string>();
+    return has_text(script) ? unplaced_entries(record, cells.text) : std::vector<UnplacedEntries>();
 }
 
 ReportRequest report_of_script(const PercentScript& script, const fs::path& output) {
@@ -145,8 +149,8 @@ ReportRequest report_of_script(const PercentScript& script, const fs::path& outp
     const ScriptHeader& header = request.script.header;
     request.template_file = template_named(header.template_name);
     if (!fs::is_regular_file(request.template_file)) {
-        throw DocumentError(script.file.string() + ": there is no template '" + header.template_name + "' in " +
-                            request.template_file.parent_path().string());
+        throw DocumentError(Place{script.file}, Message("there is no template '{}' in {}", header.template_name,
+                                                        request.template_file.parent_path().string()));
     }
     // A template to be written in shows nothing of a script alone.
     if (!shows_cells(read_template(request.template_file))) request.template_file = template_named("lesson");
@@ -162,14 +166,14 @@ ReportRequest report_of(const std::string& subject, const fs::path& output, cons
     const fs::path folder = subject;
     if (fs::is_regular_file(folder)) {
         if (!language.empty())
-            throw EnvironmentError("the language of " + subject + " stands in its header, behind \"language:\"");
+            throw EnvironmentError("the language of {} stands in its header, behind \"language:\"", subject);
         return report_of_script(read_script_or_notebook(folder),
                                 output.empty() ? fs::path(folder).replace_extension(".pdf") : output);
     }
     if (!fs::is_directory(folder) || (lesson_in(folder) && !fs::exists(folder / "analysis.lua")))
         return report_of_lesson(find_lesson(subject), output, language);
     if (!language.empty())
-        throw EnvironmentError("the language of " + subject + " stands in its report.md, behind \"lang:\"");
+        throw EnvironmentError("the language of {} stands in its report.md, behind \"lang:\"", subject);
     return report_of_folder(subject, output);
 }
 
@@ -181,7 +185,7 @@ DocumentSource document_source(const ReportRequest& request, const RunRecord& re
     if (request.shows == ReportRequest::Shows::kCells) source.cells = weave_cells(request.script, record);
     if (request.shows == ReportRequest::Shows::kText) source.cells = weave_cells(text_of(request.script), record);
     source.cells.text += request.last_section.text;
-    const std::vector<SourceLine>& further = request.last_section.origin;
+    const std::vector<Place>& further = request.last_section.origin;
     source.cells.origin.insert(source.cells.origin.end(), further.begin(), further.end());
     return source;
 }
@@ -190,8 +194,8 @@ ReportRequest sheet_of(const std::string& name, const fs::path& output, const st
     const Lesson lesson = find_lesson(name);
     const PercentScript master = lesson_script(lesson, language);
     if (!language.empty() && master.header.language != language)
-        throw EnvironmentError("lesson " + lesson.slug + " has no tasks in the language \"" + language + "\" (" +
-                               lesson.tasks(language).filename().string() + ")");
+        throw EnvironmentError("lesson {} has no tasks in the language \"{}\" ({})", lesson.slug, language,
+                               lesson.tasks(language).filename().string());
     const PercentScript tasks = parse_percent_script(
         without_solutions(master.source, lesson.script(), master.header.language), lesson.script());
     ReportRequest request = report_of_script(tasks, output.empty() ? fs::path(lesson.slug + "_sheet.pdf") : output);
@@ -211,7 +215,7 @@ ReportRequest talk_sheet_of(const std::string& name, bool with_answers, const fs
     const Lesson lesson = find_lesson(name);
     const fs::path file = lesson.talk_questions();
     if (!fs::is_regular_file(file))
-        throw EnvironmentError("lesson " + lesson.slug + " has no questions for a talk (" + file.string() + ")");
+        throw EnvironmentError("lesson {} has no questions for a talk ({})", lesson.slug, file.string());
     const PercentScript master = read_percent_script(lesson.script());
     ReportRequest request = report_of_script(master, output.empty() ? fs::path(lesson.slug + "_talk.pdf") : output);
     request.metadata["title"] = "Questions after the talk";
@@ -231,7 +235,7 @@ ReportRequest talk_sheet_of(const std::string& name, bool with_answers, const fs
 }
 
 ReportResult make_report(const ReportRequest& request) {
-    const auto begin = [&](const char* step) {
+    const auto begin = [&](const Message& step) {
         if (request.step) request.step(step);
     };
     ReportResult result;
@@ -257,7 +261,7 @@ ReportResult make_report(const ReportRequest& request) {
         record = *std::move(known);
         watch.note("recall the run");
     } else {
-        begin("running the script");
+        begin(Message("running the script"));
         if (format == DocumentFormat::kPdf) latex_format.emplace(latex_layout(template_of(request)));
         RunRequest run{.script = request.script,
                        .seed = request.seed,
@@ -270,14 +274,14 @@ ReportResult make_report(const ReportRequest& request) {
         record = run_script(run, renderer);
         result.cells = cells_in_order(request.script, record.timings);
         result.long_calls = calls.use();
-        if (record.error) result.error = error_text(*record.error, request.script);
+        if (record.error) result.error = error_message(*record.error, request.script);
         if (record.error && request.print) throw DocumentError(*result.error);
         draw_figures(record, renderer, workplace.path(), figure_format_for(format), request.script.header.language);
         if (!request.record.empty()) write_file_atomically(request.record, to_json(record));
         watch.note(kRunStep);
     }
 
-    begin("making the document");
+    begin(Message("making the document"));
     const DocumentSource source = document_source(request, record);
     if (!record.error && !request.of_lesson)
         result.unplaced = unplaced_entries(record, text_of_document(request.template_file, source.cells));
@@ -295,7 +299,7 @@ ReportResult make_report(const ReportRequest& request) {
             result.figures = renderer.use();
             runs.remember(record);
         });
-        result.gaps = gaps.sentences();
+        result.gaps = gaps.messages();
         record.files_read.insert(record.files_read.end(), pictures.begin(), pictures.end());
         if (format == DocumentFormat::kHtml) {
             const auto read = add_slider_places(request, record, calls, workplace.path());
@@ -303,7 +307,8 @@ ReportResult make_report(const ReportRequest& request) {
         }
     } catch (const DocumentError& complaint) {
         if (!result.error) throw;
-        throw DocumentError(*result.error + "\nThe report up to there cannot be made: " + complaint.what());
+        throw DocumentError(
+            Message("{}\nThe report up to there cannot be made: {}", *result.error, complaint.message()));
     }
     if (!result.error && result.gaps.empty()) reports.remember(record);
     return result;

@@ -9,6 +9,7 @@
 
 #include "documents/document.h"
 #include "documents/percent_script.h"
+#include "documents/unplaced_entries.h"
 #include "platform/cache.h"
 #include "workflow/lesson_catalogue.h"
 
@@ -30,8 +31,8 @@ struct ReportRequest {
     std::map<std::string, double> slider_values;  ///< instead of what the script gives its sliders
     bool of_lesson = false;       ///< its text is not the user's to mend: nothing is told of what has no place in it
     bool stay_in_folder = false;  ///< the script reads files of its folder and the installed data only
-    std::function<void(const std::string&)> step;        ///< called with each step as it begins; may be empty
-    std::function<void(const std::string&)> enter_cell;  ///< called with each cell of the script as it begins
+    std::function<void(const Message&)> step;        ///< called with each step as it begins; may be empty
+    std::function<void(const Message&)> enter_cell;  ///< called with each cell of the script as it begins
     std::function<void(const std::string&)> print;  ///< sees what the script prints; such a report is always made anew,
                                                     ///< and not at all where the script fails
 };
@@ -43,10 +44,10 @@ DocumentSource document_source(const ReportRequest& request, const RunRecord& re
 inline constexpr const char* kRunStep = "run the script";
 
 struct ReportResult {
-    bool up_to_date = false;           ///< nothing had changed, nothing was made
-    std::optional<std::string> error;  ///< the script stopped with it; the report says so
-    std::vector<std::string> gaps;     ///< sentences about what points to nothing: the report is a draft, with ?? there
-    std::vector<std::string> unplaced;                    ///< sentences about what was reported and is not shown
+    bool up_to_date = false;       ///< nothing had changed, nothing was made
+    std::optional<Message> error;  ///< the script stopped with it; the report says so
+    std::vector<Message> gaps;     ///< what points to nothing, with its place: the report is a draft, with ?? there
+    std::vector<UnplacedEntries> unplaced;                ///< what was reported and is not shown
     std::vector<std::pair<std::string, double>> timings;  ///< seconds of each step
     std::vector<std::pair<std::string, double>> cells;    ///< seconds of each code cell, when the script was run
     std::optional<CacheUse> long_calls, figures;          ///< of the script, when it was run
@@ -76,10 +77,9 @@ ReportRequest model_answers_of(const Lesson& lesson, const std::filesystem::path
 /// The report of any script, with the template its header names, or that of lessons when it has no place for cells.
 ReportRequest report_of_script(const PercentScript& script, const std::filesystem::path& output);
 
-/// What the run of a script reported and its report would not show, a sentence each with the line to write: the text is
-/// report.md beside analysis.lua, that of the cells for any other script with text. Nothing of a run that failed and
-/// of a lesson's master.
-std::vector<std::string> entries_without_place(const PercentScript& script, const RunRecord& record);
+/// What the run of a script reported and its report would not show: the text is report.md beside analysis.lua, that of
+/// the cells for any other script with text. Nothing of a run that failed and of a lesson's master.
+std::vector<UnplacedEntries> entries_without_place(const PercentScript& script, const RunRecord& record);
 
 /// Runs the script and makes the document; `output` appears whole or stays as it was. With unchanged inputs (script,
 /// template, data, seed, program) and an untouched output nothing is done; with unchanged code and data the script is

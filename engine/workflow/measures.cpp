@@ -9,8 +9,9 @@
 namespace dynlab::inline workflow {
 
 std::map<std::string, std::string> measures_for_documents(const std::string& language) {
-    const std::string source = language == "fr" ? read_text(shared_folder() / "report_templates/measures.fr.md")
-                                                : std::string(find_help_page("measures")->text);
+    const std::filesystem::path own = shared_folder() / "report_templates" / ("measures." + language + ".md");
+    const std::string source =
+        std::filesystem::is_regular_file(own) ? read_text(own) : std::string(find_help_page("measures")->text);
     std::map<std::string, std::string> measures;
     std::string* current = nullptr;
     for (const std::string& line : lines_of(source)) {

@@ -18,7 +18,7 @@ void end_worker_threads() {
 ProcessCopy::ProcessCopy() {
     end_worker_threads();
     process_ = fork_bound_copy();
-    if (process_ < 0) throw EnvironmentError("cannot start a process for the script: " + system_reason(errno));
+    if (process_ < 0) throw EnvironmentError("cannot start a process for the script: {}", system_reason(errno));
 }
 
 ProcessCopy::~ProcessCopy() {

@@ -7,13 +7,14 @@
 
 #include "data_io/tables/unit_text.h"
 #include "documents/lua_text.h"
-#include "numerics/number_text.h"
 #include "platform/error.h"
 #include "platform/spelling.h"
 #include "scripting/source/lua_tokens.h"
 
 namespace dynlab::inline workflow {
 namespace {
+
+constexpr int kDigitsOfInstants = 10;  ///< instants that differ look different
 
 /// One text, or a list of several.
 std::string lua_texts(const std::vector<std::string>& texts) {
@@ -40,13 +41,17 @@ Recording::Recording(const std::string& name, const std::vector<std::string>& in
                      const std::vector<std::string>& outputs, std::optional<double> Ts, const std::string& time)
     : name_(name), inputs_(inputs), loaded_(load_data(name, ".")) {
     const Index samples = signal(inputs.front()).numbers.size();
-    for (const auto& [kind, names] : {std::pair("input", &inputs), std::pair("output", &outputs)})
-        for (const std::string& other : *names) {
-            const Index others = signal(other).numbers.size();
-            if (others != samples)
-                throw EnvironmentError(fmt::format("{}: the {} '{}' has {}, but the input '{}' has {}", name_, kind,
-                                                   other, counted(others, "sample"), inputs.front(), samples));
-        }
+    const auto length = [this](const std::string& signal_name) {
+        return plural(signal(signal_name).numbers.size(), "{} sample", "{} samples");
+    };
+    for (const std::string& other : inputs)
+        if (signal(other).numbers.size() != samples)
+            throw EnvironmentError("{}: the input '{}' has {}, but the input '{}' has {}", name_, other, length(other),
+                                   inputs.front(), samples);
+    for (const std::string& other : outputs)
+        if (signal(other).numbers.size() != samples)
+            throw EnvironmentError("{}: the output '{}' has {}, but the input '{}' has {}", name_, other, length(other),
+                                   inputs.front(), samples);
     find_sampling(Ts, time);
 }
 
@@ -62,8 +67,9 @@ void Recording::find_sampling(std::optional<double> given, const std::string& ti
     } else {
         const Signal instants = signal(time);
         if (instants.numbers.size() != samples)
-            throw EnvironmentError(fmt::format("{}: the time '{}' has {}, but the input '{}' has {}", name_, time,
-                                               counted(instants.numbers.size(), "sample"), inputs_.front(), samples));
+            throw EnvironmentError("{}: the time '{}' has {}, but the input '{}' has {}", name_, time,
+                                   plural(instants.numbers.size(), "{} sample", "{} samples"), inputs_.front(),
+                                   samples);
         const auto unit = loaded_.units.find(instants.name);
         time_ = {instants.name, unit == loaded_.units.end() ? 1 : seconds_of(unit->second).value_or(1)};
     }
@@ -74,19 +80,19 @@ void Recording::find_sampling(std::optional<double> given, const std::string& ti
         time_.reset();
         sampling_ = "{0}.Ts";
     } else if (sampling_.empty()) {
-        throw UnknownSampling(
-            name_ + " states no sampling time and has no column t or time, nor one whose header has a unit of time");
+        throw UnknownSampling(Message(
+            "{} states no sampling time and has no column t or time, nor one whose header has a unit of time", name_));
     }
 }
 
 void Recording::look_at_instants() {
     const Vector t = signal(time_->name).numbers;
-    if (t.size() < 2) throw EnvironmentError(name_ + " has fewer than two samples");
+    if (t.size() < 2) throw EnvironmentError("{} has fewer than two samples", name_);
     const InstantSpacing spacing = spacing_of(t);
     if (spacing.disorder)
-        throw EnvironmentError(fmt::format("{}: the time '{}' must increase, but sample {} is {} and the next {}",
-                                           name_, time_->name, *spacing.disorder + 1, t[*spacing.disorder],
-                                           t[*spacing.disorder + 1]));
+        throw EnvironmentError("{}: the time '{}' must increase, but sample {} is {} and the next {}", name_,
+                               time_->name, *spacing.disorder + 1, significant(t[*spacing.disorder], kDigitsOfInstants),
+                               significant(t[*spacing.disorder + 1], kDigitsOfInstants));
     even_ = spacing.even;
     sampling_ = even_ ? "({0}_t[#{0}_t] - {0}_t[1])/(#{0}_t - 1)" : "nil";
     if (const auto written = even_ ? short_spacing(t * time_->seconds) : std::nullopt) {
@@ -133,14 +139,14 @@ Recording::Signal Recording::signal(const std::string& name) const {
     if (auto column = matrix_column(name)) return *std::move(column);
     if (auto member = struct_member(name)) return *std::move(member);
     if (signals().empty())
-        throw EnvironmentError(fmt::format(
+        throw EnvironmentError(
             "{} holds no columns of numbers, so no '{}'; what it holds are tables or texts, which a script reads: "
             "load({}).NAME",
-            name_, name, lua_text(name_)));
-    const auto near = nearest_word(name, signals());
-    throw EnvironmentError(fmt::format("{} has no column of numbers '{}'{}; there are {}", name_, name,
-                                       near ? fmt::format(" (did you mean '{}'?)", *near) : "",
-                                       fmt::join(signals(), ", ")));
+            name_, name, lua_text(name_));
+    if (const auto near = nearest_word(name, signals()))
+        throw EnvironmentError("{} has no column of numbers '{}' (did you mean '{}'?); there are {}", name_, name,
+                               *near, listed(signals()));
+    throw EnvironmentError("{} has no column of numbers '{}'; there are {}", name_, name, listed(signals()));
 }
 
 std::optional<Recording::Signal> Recording::matrix_column(const std::string& name) const {

@@ -6,11 +6,11 @@
 #include <cctype>
 #include <map>
 
+#include "base/languages.h"
 #include "documents/error.h"
 #include "documents/html/plot_data.h"
 #include "documents/text_lines.h"
 #include "documents/weave.h"
-#include "figures/french_texts.h"
 #include "platform/written_files.h"
 #include "scripting/memoized_calls/shared_pieces.h"
 #include "workflow/script_world.h"
@@ -48,10 +48,10 @@ std::string last_heading(const std::string& markdown, const std::string& before)
 }
 
 /// What to call each code cell while it runs, by its id.
-std::map<std::string, std::string> cell_titles(const PercentScript& script) {
+std::map<std::string, Message> cell_titles(const PercentScript& script) {
     const auto is_code = [](const Cell& cell) { return cell.kind == Cell::Kind::kCode; };
     const auto total = std::count_if(script.cells.begin(), script.cells.end(), is_code);
-    std::map<std::string, std::string> titles;
+    std::map<std::string, Message> titles;
     std::string heading;
     for (const Cell& cell : script.cells) {
         if (!is_code(cell)) {
@@ -59,9 +59,10 @@ std::map<std::string, std::string> cell_titles(const PercentScript& script) {
             continue;
         }
         const std::string name = cell.id.starts_with("cell-") ? heading : cell.id;
-        titles[cell.id] =
-            total == 1 ? "running the script"
-                       : fmt::format("cell {} of {}{}{}", titles.size() + 1, total, name.empty() ? "" : ", ", name);
+        const std::size_t number = titles.size() + 1;
+        titles[cell.id] = total == 1     ? Message("running the script")
+                          : name.empty() ? Message("cell {} of {}", number, total)
+                                         : Message("cell {} of {}, {}", number, total, name);
     }
     return titles;
 }
@@ -69,10 +70,11 @@ std::map<std::string, std::string> cell_titles(const PercentScript& script) {
 void check_sliders(const RunRequest& request, const RunRecord& record) {
     for (const auto& [name, value] : request.slider_values) {
         if (record.sliders.contains(name)) continue;
-        std::string known;
-        for (const auto& [other, slider] : record.sliders) known += (known.empty() ? "" : ", ") + other;
-        throw DocumentError(fmt::format("{} has no slider \"{}\"; {}", request.script.file.string(), name,
-                                        known.empty() ? "it has none at all" : "it has " + known));
+        std::vector<std::string> known;
+        for (const auto& [other, slider] : record.sliders) known.push_back(other);
+        const std::string script = request.script.file.string();
+        throw DocumentError(known.empty() ? Message("{} has no slider \"{}\"; it has none at all", script, name)
+                                          : Message("{} has no slider \"{}\"; it has {}", script, name, listed(known)));
     }
 }
 
@@ -129,15 +131,14 @@ std::vector<std::string> figures_in_order(const RunRecord& record) {
 
 void draw_figures(RunRecord& record, GnuplotRenderer& renderer, const std::filesystem::path& folder,
                   FigureFormat format, const std::string& language) {
-    const bool french = language == "fr";
+    const Reader reader{catalog_of(language)};
     std::size_t number = 0;
     for (const std::string& name : figures_in_order(record)) {
         RecordedFigure& figure = record.figures.at(name);
         figure.file = folder / (figure_file_stem(name, ++number) + extension(format));
-        const Figure shown = french ? in_french(*figure.figure) : *figure.figure;
-        renderer.draw(shown, figure.file, format, french);
-        if (format == FigureFormat::kSvg) figure.plot = plot_data(shown, french);
-        figure.axes = words_of_axes(*figure.figure, french);
+        renderer.draw(*figure.figure, figure.file, format, reader);
+        if (format == FigureFormat::kSvg) figure.plot = plot_data(*figure.figure, reader);
+        figure.axes = words_of_axes(*figure.figure, reader);
     }
 }
 

@@ -23,12 +23,11 @@ namespace dynlab::inline workflow {
 
 struct RunRequest {
     PercentScript script;
-    std::optional<std::uint32_t> seed;              ///< instead of the script header's
-    std::map<std::string, double> slider_values;    ///< instead of what the script gives its sliders
-    std::filesystem::path out_folder;               ///< where `save` and `save_csv` may write
-    std::function<void(const std::string&)> print;  ///< live output; none when empty
-    std::function<void(const std::string&)>
-        enter_cell;                   ///< called with each cell that begins: "cell 4 of 12, validation"
+    std::optional<std::uint32_t> seed;               ///< instead of the script header's
+    std::map<std::string, double> slider_values;     ///< instead of what the script gives its sliders
+    std::filesystem::path out_folder;                ///< where `save` and `save_csv` may write
+    std::function<void(const std::string&)> print;   ///< live output; none when empty
+    std::function<void(const Message&)> enter_cell;  ///< called with each cell that begins: "cell 4 of 12, validation"
     bool stay_in_folder = false;      ///< files are read from the script's folder and the installed data only
     WrittenFiles* written = nullptr;  ///< says which files the script may replace; all without
     CallCache* call_cache = nullptr;  ///< where results of long calls are kept
@@ -47,8 +46,7 @@ std::string missing_answers(const PercentScript& script, const RunRecord& record
 std::vector<std::string> figures_in_order(const RunRecord& record);
 
 /// Queues every figure of the record for a file of `folder` named after it and numbered in that order, and notes the
-/// file in the record; renderer.finish() makes them whole. In French ("fr") the texts of the standard plots are French
-/// and numbers have commas.
+/// file in the record; renderer.finish() makes them whole. Texts and numbers are those of the language.
 void draw_figures(RunRecord& record, GnuplotRenderer& renderer, const std::filesystem::path& folder,
                   FigureFormat format, const std::string& language);
 

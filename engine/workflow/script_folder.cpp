@@ -54,8 +54,8 @@ void make_script_folder(const fs::path& script, const fs::path& folder) {
     std::set<std::string> names = files_named_in(read.source, beside);
     if (const fs::path literature = bibliography_of(read); !literature.empty()) {
         // A link would bring in a file from elsewhere, and with it what its owner never meant to hand in.
-        if (const std::string fault = why_no_bibliography(literature); !fault.empty())
-            throw DocumentError(literature.string() + ": " + fault);
+        if (const Message fault = why_no_bibliography(literature); !fault.empty())
+            throw DocumentError(Place{literature}, fault);
         names.insert(literature.filename());
     }
     for (const std::string& name : names)

@@ -1,7 +1,5 @@
 #include "workflow/slider_runs.h"
 
-#include <fmt/format.h>
-
 #include <set>
 
 #include "documents/html/slider_page.h"
@@ -28,10 +26,10 @@ std::vector<SliderNumbers> other_places(const SliderGroup& group, const SliderNu
     return all;
 }
 
-std::string joined_names(const SliderGroup& group) {
-    std::string names;
-    for (const PlacedSlider& slider : group.sliders) names += (names.empty() ? "" : ", ") + slider.name;
-    return names;
+MessageList names_of(const SliderGroup& group) {
+    std::vector<std::string> names;
+    for (const PlacedSlider& slider : group.sliders) names.push_back(slider.name);
+    return listed(names);
 }
 
 }  // namespace
@@ -55,8 +53,7 @@ std::vector<std::filesystem::path> add_slider_places(const ReportRequest& reques
         std::size_t number = 0;
         run_from_cell(run, groups[g].cell, places, [&](RunRecord&& there) {
             if (request.step)
-                request.step(
-                    fmt::format("slider {}, place {} of {}", joined_names(groups[g]), ++number, places.size()));
+                request.step(Message("slider {}, place {} of {}", names_of(groups[g]), ++number, places.size()));
             for (auto& [name, figure] : there.figures)
                 if (figure.plot.empty()) figure.plot = record.figures.at(name).plot;
             page.add(g, document_source(request, there));

@@ -49,7 +49,7 @@ VariableTable variables_of_record(const RigValues& record) {
 
 void write_specimen_record(const std::string& data_set, const RigChoice& choice, const fs::path& folder) {
     const Rig* rig = find_rig(data_set);
-    if (!rig) throw InvalidArgument(fmt::format("no rig makes the data set '{}'", data_set));
+    if (!rig) throw InvalidArgument("no rig makes the data set '{}'", data_set);
     write_mat_file(folder / (data_set + ".mat"), variables_of_record(rig->record(choice)), kStoredDigits);
 }
 

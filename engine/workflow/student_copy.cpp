@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 
+#include "base/languages.h"
+#include "base/reader.h"
 #include "documents/error.h"
 #include "documents/solutions.h"
 #include "documents/text_lines.h"
-#include "numerics/number_text.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/files/whole_folder.h"
@@ -18,17 +19,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kGroupFile = R"(# Your group. Nothing in this file is ever printed in a report.
-members = []        # for example ["Ada Lovelace", "Rudolf Kalman"]
-seed = {}            # of the random numbers your group works with
-)";
-constexpr const char* kFrenchGroupFile = R"(# Votre groupe. Rien de ce fichier ne paraît jamais dans un rapport.
-members = []        # par exemple ["Ada Lovelace", "Rudolf Kalman"]
-seed = {}            # la graine des nombres aléatoires de votre groupe
-)";
-
 std::string group_file(std::uint32_t seed, const std::string& language) {
-    return fmt::format(fmt::runtime(language == "fr" ? kFrenchGroupFile : kGroupFile), seed);
+    const Reader reader{catalog_of(language)};
+    return fmt::format("# {}\nmembers = []        # {}\nseed = {}            # {}\n",
+                       message_text(Message("Your group. Nothing in this file is ever printed in a report."), reader),
+                       message_text(Message("for example [\"Ada Lovelace\", \"Rudolf Kalman\"]"), reader), seed,
+                       message_text(Message("of the random numbers your group works with"), reader));
 }
 
 void put(std::string& text, const std::string& slot, const std::string& value) {
@@ -110,8 +106,9 @@ PercentScript lesson_script(const Lesson& lesson, const std::string& language) {
     std::vector<std::string> lines = lines_of(source);
     const std::vector<const Cell*> texts = text_cells(script), translated = text_cells(tasks);
     if (texts.size() != translated.size())
-        throw DocumentError(file.string() + " has " + counted(translated.size(), "cell") + ", but the lesson has " +
-                            counted(texts.size(), "cell") + " of text");
+        throw DocumentError(Message("{} has {}, but the lesson has {} of text", file.string(),
+                                    plural(translated.size(), "{} cell", "{} cells"),
+                                    plural(texts.size(), "{} cell", "{} cells")));
     for (std::size_t i = texts.size(); i-- > 0;) {
         const auto first = lines.begin() + texts[i]->first_line - 1;
         const auto after = lines.erase(first, lines.begin() + texts[i]->last_line());

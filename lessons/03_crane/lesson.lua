@@ -185,7 +185,7 @@ local orders = {{say("output", "sortie"), say("denom.", "dénom."), say("poles o
                  say("zeros", "zéros"), "YIC", "BIC", say("fit (%)", "adéq. (%)"), say("val. (%)", "valid. (%)"),
                  say("remark", "remarque")}}
 for k, case in ipairs(tried) do
-    local V = srivcstruc(case[3], {poles = {1, 4}, zeros = {0, 3}, validate = case[4]})
+    local V = srivcstruc(case[3], {poles = {1, 4}, zeros = {0, 3}, InitialState = "none", Offset = "none", validate = case[4]})
     for _, order in ipairs(shown[k]) do
         for _, row in ipairs(V.rows) do
             if row.poles == order[1] and row.zeros == order[2] then
@@ -199,7 +199,7 @@ for k, case in ipairs(tried) do
     end
 end
 report.table("orders", orders)
-local delayed = tfsrivc(direct(from, from.theta), 3, 1, {TdMax = 0.1, NumTd = 6})
+local delayed = tfsrivc(direct(from, from.theta), 3, 1, {TdMax = 0.1, NumTd = 6, InitialState = "none", Offset = "none"})
 report.value("delay", 1e3*delayed.IODelay, "%.1f")
 report.value("delay_fit", fit(direct(against, against.theta), delayed), "%.2f")
 -- END SOLUTION

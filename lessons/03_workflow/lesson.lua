@@ -469,7 +469,7 @@ advice(low)
 -- ## First round: voltage in, temperature out
 --
 -- **Question 8.** Estimate a model with two poles and a delay on the first record. Because 60 noisy samples do not fix the level, let a constant
--- be estimated as well (`Offset = "estimate"`). How does the model do on the two other records?
+-- be estimated as well (`Offset = "estimate"`); the record begins at rest (`InitialState = "none"`). How does the model do on the two other records?
 --
 -- Guess first: with which fit will it simulate the record about 7 V? `outcome` prints the guess beside what you find.
 
@@ -482,7 +482,8 @@ guess("fit about 7 V", 80, "%")
 -- %% id=heat_first
 -- BEGIN SOLUTION
 local function start(data) return detrend(data, "start") end
-local G1 = tfsrivc(start(low), 2, 0, {TdMax = 20, Offset = "estimate"})
+local G1 = tfsrivc(start(low), 2, 0,
+                   {TdMax = 20, InitialState = "none", Offset = "estimate"})
 print(G1)
 outcome("fit about 7 V", fit(start(high), G1))
 -- END SOLUTION
@@ -502,7 +503,7 @@ report.value("heat1_low", fit(start(low), G1), "%.0f")
 report.value("heat1_val", fit(start(low_val), G1), "%.0f")
 report.value("heat1_high", fit(start(high), G1), "%.0f")
 report.value("heat1_gain", dcgain(G1), "%.2f")
-report.value("heat_high_gain", dcgain(tfsrivc(start(high), 2, 0, {TdMax = 20, Offset = "estimate"})), "%.2f")
+report.value("heat_high_gain", dcgain(tfsrivc(start(high), 2, 0, {TdMax = 20, InitialState = "none", Offset = "estimate"})), "%.2f")
 -- END SOLUTION
 
 -- %% [markdown]
@@ -524,7 +525,8 @@ local function watts(data)            -- power goes with the square of the volta
                   {InputName = "heater", InputUnit = "W",
                    OutputName = "air", OutputUnit = "°C"})
 end
-local G2 = tfsrivc(start(watts(low)), 2, 0, {TdMax = 20, Offset = "estimate"})
+local G2 = tfsrivc(start(watts(low)), 2, 0,
+                   {TdMax = 20, InitialState = "none", Offset = "estimate"})
 
 local measured = start(high).y        -- both models on the record about 7 V
 local function simulated(G, data)
@@ -647,13 +649,13 @@ report.table("heat_edges", edges)
 local f_records = {prepared(watts(low), edge), prepared(watts(low_val), edge), prepared(watts(high), edge)}
 add_round("3, power", "level, drift", G3, f_records)
 local v_records = {prepared(low, edge), prepared(low_val, edge), prepared(high, edge)}
-add_round("3, voltage", "level, drift", tfsrivc(v_records[1], 2, 0, {TdMax = 20}), v_records)
+add_round("3, voltage", "level, drift", tfsrivc(v_records[1], 2, 0, {TdMax = 20, InitialState = "none", Offset = "none"}), v_records)
 report.table("heat_rounds", rounds)
 local high_cells = tested("", f_records[3], G3)
 report.value("heat_high_white", high_cells[3], "%s")
 report.value("heat_first_white", (tested("", f_records[1], G3))[3], "%s")
 report.value("heat_second_white", (tested("", f_records[2], G3))[3], "%s")
-report.value("heat_filter_only", fit(v_records[3], tfsrivc(v_records[1], 2, 0, {TdMax = 20})), "%.0f")
+report.value("heat_filter_only", fit(v_records[3], tfsrivc(v_records[1], 2, 0, {TdMax = 20, InitialState = "none", Offset = "none"})), "%.0f")
 report.value("edge", edge, "%.3f")
 report.value("heat3_val", fit(f_records[2], G3), "%.0f")
 report.value("heat3_high", fit(f_records[3], G3), "%.0f")
@@ -690,6 +692,7 @@ report.value("heat3_high", fit(f_records[3], G3), "%.0f")
 -- BEGIN SOLUTION
 local clean = prepared(watts(low), edge)
 local W = srivcstruc(clean, {poles = {1, 4}, zeros = {0, 1}, TdMax = 20,
+                             InitialState = "none", Offset = "none",
                              validate = prepared(watts(low_val), edge)})
 print(W.recommendation)
 local G3c = procsrivc(clean, "P3D",
@@ -767,13 +770,15 @@ report.figure("dryer_record", idplot(raw:range(1, 251)):set{height = 6.5},
 -- ![The first 20 s of the hair dryer's record: voltage of the thermocouple (above) and of the heating (below)](figure:dryer_record){#fig:dryer_record}
 --
 -- **Question 13.** Prepare the record: one half for estimation, one for validation, both without their means. Is there a dead time?
+-- (By default the estimators choose how a record begins. Here every model starts from rest without an offset, `from_rest`, so that only the structures differ.)
 
 -- %% id=dryer_prepare
 -- BEGIN SOLUTION
 advice(raw)
 local first, second = raw:split(0.5)
 first, second = first:remove_mean(), second:remove_mean()
-local dryer_td, valley, D = delayest(first)
+local from_rest = {InitialState = "none", Offset = "none"}
+local dryer_td, valley, D = delayest(first, from_rest)
 report.figure("dryer_delay", valley:set{height = 5}, "Error for every delay")
 -- END SOLUTION
 
@@ -802,10 +807,11 @@ report.value("dryer_td_samples", D.samples, "%.2f")
 -- %% id=dryer_orders
 -- BEGIN SOLUTION
 local X = srivcstruc(first, {poles = {1, 4}, zeros = {0, 1}, TdMax = 0.5,
+                             InitialState = "none", Offset = "none",
                              validate = second})
 print(X.recommendation)
-local H1 = srivc(first, {1, 1, 3})    -- one pole, three samples of delay
-local H2 = srivc(first, {1, 2, 2})    -- two poles, two samples
+local H1 = srivc(first, {1, 1, 3}, from_rest)    -- one pole, three samples of delay
+local H2 = srivc(first, {1, 2, 2}, from_rest)    -- two poles, two samples
 print(H2.param, H2.robust_std)
 -- END SOLUTION
 
@@ -833,7 +839,7 @@ report.value("dryer_a1_std", H2.robust_std[1], "%.1f")
 report.value("dryer_a2_std", H2.robust_std[2], "%.1f")
 report.value("dryer_b0_std", H2.robust_std[3], "%.1f")
 report.value("dryer_fit", H2.report.fit_percent, "%.2f")
-report.value("dryer_rt2", srivcstruc(first, {{1, 2, 2}}).best.r_squared, "%.4f")
+report.value("dryer_rt2", srivcstruc(first, {{1, 2, 2}}, from_rest).best.r_squared, "%.4f")
 report.value("dryer_val", fit(second, H2), "%.2f")
 report.value("dryer1_a1", H1.den[2], "%.3f")
 report.value("dryer1_b0", H1.num[#H1.num], "%.3f")
@@ -915,7 +921,8 @@ report.value("arx_weight", 100*A2.param[3]/A2.param[4], "%.0f")
 
 -- %% id=dryer_validate
 -- BEGIN SOLUTION
-local H3 = tfsrivc(first, 3, 0, {TdMax = 0.5})
+local H3 = tfsrivc(first, 3, 0, {TdMax = 0.5, InitialState = "none",
+                                Offset = "none"})
 local beside = compare(second:range(1, 250), H2, H1,
                        {labels = {"2 poles", "1 pole"}})
 report.figure("dryer_compare", beside:set{height = 6}, "Second half")
@@ -924,7 +931,7 @@ report.figure("dryer_resid", dryer_residuals, "Residuals, two poles")
 local steps = step(H2, H3, {labels = {"2 poles", "3 poles"}})
 report.figure("dryer_step", steps:set{height = 5, x_range = {0, 1}}, "Step")
 -- two poles again, with an autoregressive model of the noise (a CBJ structure)
-local HN = rivc(first, {1, 0, 1, 2, 2})
+local HN = rivc(first, {1, 0, 1, 2, 2}, from_rest)
 local _, noise_test = resid(second, HN, {prediction = true, quiet = true})
 -- END SOLUTION
 

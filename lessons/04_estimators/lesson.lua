@@ -681,7 +681,9 @@ local discrete = study(sigma, {
         if not pcall(d2c, G) then refused = refused + 1 end
         return sort(pole(G).re)
     end},
-    {"oe", function(d) return d2c(oe(d, {2, 2, 1})) end},
+    {"oe", function(d)
+        return d2c(oe(d, {2, 2, 1}, {InitialState = "none", Offset = "none"}))
+    end},
 })
 print(string.format("d2c refused %d of the %d arx models", refused, discrete.runs))
 

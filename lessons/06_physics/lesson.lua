@@ -72,8 +72,9 @@ local noise = std(crane.validation.theta:range(1, rest))
 outcome(say("left of the angle, in noises", "reste, en bruits"),
         std(left)/noise)
 local swing = plot(angle_val.t, angle_val.y, {colour = 8, ylabel = "angle (rad)"})
+local seconds = say("time (s)", "temps (s)")
 local rest_of_it = plot(angle_val.t, 1e3*left,
-                        {xlabel = "time (s)", ylabel = "left (mrad)"})
+                        {xlabel = seconds, ylabel = "left (mrad)"})
 report.figure("left", subplot(2, 1, {swing, rest_of_it}):set{height = 6},
               "What the linear model leaves")
 -- END SOLUTION
@@ -485,7 +486,7 @@ local picture = compare(validation, tank_model, best_linear, learned,
 local errors = plot(validation.t, validation.y - picture.curves[2].y,
                     validation.t, validation.y - picture.curves[3].y,
                     validation.t, validation.y - picture.curves[4].y,
-                    {xlabel = "time (s)", ylabel = "error (V)",
+                    {xlabel = say("time (s)", "temps (s)"), ylabel = "error (V)",
                      colour = {"blue", "orange", "green"}, dash = {0, 1, 2}})
 report.figure("free_run", subplot(2, 1, {picture, errors}):set{height = 9},
               "Free run, and its errors")

@@ -18,9 +18,10 @@ local function regression(record, instruments)
     return solve(Z:t()*Phi, Z:t()*Y:col(1))
 end
 local wanted, second_order, least_squares = regression(official, 4), regression(official, 2), regression(official)
-local direct = srivc(data, {1, 2, 0})
+local from_rest = {InitialState = "none", Offset = "none"}
+local direct = srivc(data, {1, 2, 0}, from_rest)
 local opened = load("drive").open_loop
-local in_the_open = srivc(iddata(opened.y, opened.u, Ts), {1, 2, 0})
+local in_the_open = srivc(iddata(opened.y, opened.u, Ts), {1, 2, 0}, from_rest)
 
 check { id = "direct", points = 1, about = "The direct route",
     test = function(a) return near(a.G_direct.param, direct.param, {rel = 1e-2}) end,
@@ -91,7 +92,7 @@ local function follows_both(found, wanted)
 end
 local function tracked(found, a, instant) return follows_both(found, at(a, instant)) end
 local before, after = 2600, 4500
-local stands_still = srivc(iddata(load("drifting_process").y, load("drifting_process").u, 1), {1, 1, 0}, {InitialState = "estimate"})
+local stands_still = srivc(iddata(load("drifting_process").y, load("drifting_process").u, 1), {1, 1, 0}, {InitialState = "estimate", Offset = "none"})
 local function follows(name, instant)
     return function(a)
         if #a[name] ~= 2 then return judge("Wanted are two numbers: gain and time constant.") end

@@ -77,7 +77,7 @@ for column, record in ipairs{track, drive.regulation} do
     panels[2 + column] = strip(record, "u", column, "u (V)")
     panels[4 + column] = strip(record, "y", column, "y (rad/s)")
     panels[2 + column].y_range = {-5, 5}
-    panels[4 + column].xlabel = "time (s)"
+    panels[4 + column].xlabel = say("time (s)", "temps (s)")
 end
 panels[1].title, panels[2].title = "tracking", "regulation"
 report.figure("signals", figure{rows = 3, columns = 2, height = 8, panels = panels},
@@ -119,10 +119,12 @@ guess(say("error of the gain", "erreur du gain"), -10, "%")
 -- BEGIN SOLUTION
 local lambda = 10
 local truth = rig_truth("drive")
+-- the records begin at rest; by default SRIVC would look for that itself
+local from_rest = {InitialState = "none", Offset = "none"}
 local routes = {}
 for name, record in pairs{open_loop = opened, tracking = track} do
     routes[name] = {lssvf = lssvf(pair(record), {2, 1, 0}, lambda),
-                    srivc = srivc(pair(record), {1, 2, 0})}
+                    srivc = srivc(pair(record), {1, 2, 0}, from_rest)}
 end
 present(routes.tracking.srivc)
 local function off(G) return 100*(dcgain(G)/dcgain(truth.G) - 1) end
@@ -277,17 +279,17 @@ local G_response = idfrd(truth.G, w)
 local function decibels(magnitude) return 20*log(magnitude)/math.log(10) end
 local function bode_panel(quantity, more)
     local panel = {x_log = true, x_range = {0.3, 100}, curves = {
-        {x = measured.w, y = quantity(measured), label = "measured", colour = 8, line_width = 0.7},
+        {x = measured.w, y = quantity(measured), label = say("measured", "mesuré"), colour = 8, line_width = 0.7},
         {x = w, y = quantity(G_response), label = "G", colour = 2, line_width = 1.4},
         {x = w, y = quantity(inverse), label = "-1/C", colour = 0, dash = 1, line_width = 1.8}}}
     for key, value in pairs(more) do panel[key] = value end
     return panel
 end
 report.figure("regulation", figure{rows = 2, height = 9, panels = {
-    bode_panel(function(F) return decibels(F.magnitude) end, {ylabel = "magnitude (dB)", y_range = {-20, 25}, legend = "above"}),
-    bode_panel(function(F) return F.phase end, {ylabel = "phase (degrees)", y_range = {-180, 0}, legend = "none", xlabel = "frequency (rad/s)"})}},
+    bode_panel(function(F) return decibels(F.magnitude) end, {ylabel = say("magnitude (dB)", "module (dB)"), y_range = {-20, 25}, legend = "above"}),
+    bode_panel(function(F) return F.phase end, {ylabel = "phase (degrees)", y_range = {-180, 0}, legend = "none", xlabel = say("frequency (rad/s)", "fréquence (rad/s)")})}},
     "Frequency responses from voltage to speed")
-local with_noise_model = rivc(pair(drive.regulation), {1, 2, 2, 2, 0})
+local with_noise_model = rivc(pair(drive.regulation), {1, 2, 2, 2, 0}, from_rest)
 report.value("resting_b0", with_noise_model.param[3], "%.0f")
 report.value("resting_b0_error", with_noise_model.std[3], "%.0f")
 report.value("true_b0", true_p[3], "%.0f")
@@ -368,9 +370,9 @@ present(Gcl)
 -- %% id=two_stage
 -- BEGIN SOLUTION
 local function two_stage(record)
-    local S = srivc(pair(record, "r", "u"), {4, 3, 1})
+    local S = srivc(pair(record, "r", "u"), {4, 3, 1}, from_rest)
     local voltage = lsim(S, record.r, Ts)
-    return srivc(iddata(record.y, voltage, Ts), {1, 2, 0})
+    return srivc(iddata(record.y, voltage, Ts), {1, 2, 0}, from_rest)
 end
 local Gtwo = two_stage(track)
 present(Gtwo)
@@ -423,9 +425,13 @@ local repetitions = 40
 local orders = {1, 2, 0}
 local ways = {
     {"LSSVF", function(data) return lssvf(data, {2, 1, 0}, lambda).param end},
-    {"SRIVC", function(data) return srivc(data, orders).param end},
-    {"RIVC, 2 and 2", function(data) return rivc(data, {1, 2, 2, 2, 0}).param end},
-    {"RIVC, 1 and 1", function(data) return rivc(data, {1, 1, 1, 2, 0}).param end},
+    {"SRIVC", function(data) return srivc(data, orders, from_rest).param end},
+    {"RIVC, 2 and 2", function(data)
+        return rivc(data, {1, 2, 2, 2, 0}, from_rest).param
+    end},
+    {"RIVC, 1 and 1", function(data)
+        return rivc(data, {1, 1, 1, 2, 0}, from_rest).param
+    end},
     {"own, order 4", function(_, record)
         return own_instruments(record, lambda)
     end},
@@ -539,7 +545,7 @@ report.figure("heater", idplot(slow),
 
 -- %% id=pieces
 -- BEGIN SOLUTION
-local still = {InitialState = "estimate"}
+local still = {InitialState = "estimate", Offset = "none"}
 local function gain_and_time(G) return dcgain(G), 1/G.den[2] end
 local whole = srivc(slow, {1, 1, 0}, still)
 local pieces = {}
@@ -639,7 +645,7 @@ local function tracked(label, true_value, by_ls, by_iv, more)
 end
 report.figure("tracking", figure{rows = 2, height = 8.5, panels = {
     tracked("gain (K/%)", scale.gain, ls_gain, iv_gain, {legend = "above", y_range = {0.15, 0.5}}),
-    tracked("time constant (s)", scale.time_constant, ls_time, iv_time, {legend = "none", y_range = {0, 80}, xlabel = "time (min)"})}},
+    tracked("time constant (s)", scale.time_constant, ls_time, iv_time, {legend = "none", y_range = {0, 80}, xlabel = say("time (min)", "temps (min)")})}},
     "Gain and time constant of the heater over time")
 -- Three sections: before the cleaning (behind the start), ten minutes from it on, the rest.
 local cleaning = math.floor(scale.cleaning_time)

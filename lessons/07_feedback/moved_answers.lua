@@ -9,11 +9,11 @@ local function estimated(method, near, far)
         return method(record.y*factor)
     end
 end
-move.G_direct = estimated(function(y) return srivc(iddata(y, record.u, 0.01), {1, 2, 0}) end, 1e-3, 0.05)
+move.G_direct = estimated(function(y) return srivc(iddata(y, record.u, 0.01), {1, 2, 0}, {InitialState = "none", Offset = "none"}) end, 1e-3, 0.05)
 move.own_instruments = scaled(1e-3, 0.2)
 local function through_reference(y)
-    local S = srivc(iddata(record.u, record.r, 0.01), {4, 3, 1})
-    return srivc(iddata(y, lsim(S, record.r, 0.01), 0.01), {1, 2, 0})
+    local S = srivc(iddata(record.u, record.r, 0.01), {4, 3, 1}, {InitialState = "none", Offset = "none"})
+    return srivc(iddata(y, lsim(S, record.r, 0.01), 0.01), {1, 2, 0}, {InitialState = "none", Offset = "none"})
 end
 move.G_two_stage = estimated(through_reference, 1e-3, 0.8)
 move.G_final = estimated(through_reference, 1e-3, 0.8)

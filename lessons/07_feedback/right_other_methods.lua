@@ -11,7 +11,7 @@ answer("G_final", rivc(data, {1, 2, 2, 2, 0}))
 local heater = load("drifting_process")
 local slow = iddata(heater.y, heater.u, 1)
 local function about(instant)
-    local G = srivc(slow[{instant - 300, instant + 300}], {1, 1, 0}, {InitialState = "estimate"})
+    local G = srivc(slow[{instant - 300, instant + 300}], {1, 1, 0}, {InitialState = "estimate", Offset = "none"})
     return vector{dcgain(G), 1/G.den[2]}
 end
 answer("before_cleaning", about(2600))

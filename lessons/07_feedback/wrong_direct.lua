@@ -14,7 +14,7 @@ answer("G_final", G)
 local h = load("drifting_process")
 local all = iddata(h.y, h.u, 1)
 for name, from in pairs{before_cleaning = 2300, after_cleaning = 4200} do
-    local piece = srivc(all[{from, from + 600}], {1, 1, 0}, {InitialState = "estimate"})
+    local piece = srivc(all[{from, from + 600}], {1, 1, 0}, {InitialState = "estimate", Offset = "none"})
     answer(name, vector{dcgain(piece), 1/piece.den[2]})
 end
 report.figure("correlation", plot(r.t, r.y), "Speed")

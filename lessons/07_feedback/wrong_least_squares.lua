@@ -13,7 +13,7 @@ answer("G_final", srivc(iddata(record.y, voltage, 0.01), {1, 2, 0}))
 local warm = load("drifting_process")
 local minutes = iddata(warm.y, warm.u, 1)
 local function in_piece(i, j)
-    local M = srivc(minutes[{i, j}], {1, 1, 0}, {InitialState = "estimate"})
+    local M = srivc(minutes[{i, j}], {1, 1, 0}, {InitialState = "estimate", Offset = "none"})
     return vector{dcgain(M), 1/M.den[2]}
 end
 answer("before_cleaning", in_piece(2350, 2850))

@@ -10,7 +10,7 @@ answer("G_final", clivsvf(seen, {2, 1, 0}, 10))
 local drift = load("drifting_process")
 local hot = iddata(drift.y, drift.u, 1)
 local function piece(middle)
-    local M = srivc(hot[{middle - 250, middle + 250}], {1, 1, 0}, {InitialState = "estimate"})
+    local M = srivc(hot[{middle - 250, middle + 250}], {1, 1, 0}, {InitialState = "estimate", Offset = "none"})
     return vector{dcgain(M), 1/M.den[2]}
 end
 answer("before_cleaning", piece(2600))

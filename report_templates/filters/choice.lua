@@ -26,24 +26,24 @@ local function option_of(item)
   return words, mark, pandoc.List { table.unpack(item, 2) }
 end
 
--- The parts of a question, or a sentence that says what is wrong with it.
+-- The parts of a question, or a code that says what is wrong with it; filter_messages.cpp has the sentences.
 function choice.read(division)
   local blocks = division.content
   local list = blocks[#blocks]
   if #blocks < 2 or list.t ~= "BulletList" then
-    return nil, "a choice is a question and then a list of options, - [x] the right and - [ ] the wrong ones"
+    return nil, "list"
   end
   local read = { question = pandoc.List { table.unpack(blocks, 1, #blocks - 1) }, options = {} }
   local right = 0
   for _, item in ipairs(list.content) do
     local words, mark, reason = option_of(item)
     if not words then
-      return nil, "each option begins with [x] or [ ], and a paragraph of its own, indented, says why it is right or wrong"
+      return nil, "option"
     end
     right = right + (mark == "right" and 1 or 0)
     table.insert(read.options, { words = words, right = mark == "right", reason = reason })
   end
-  if right == 0 or #read.options < 2 then return nil, "a choice has two options or more, and a right one among them" end
+  if right == 0 or #read.options < 2 then return nil, "none-right" end
   return read
 end
 

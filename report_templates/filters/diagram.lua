@@ -44,27 +44,27 @@ local function words_and_label(inlines)
   return words, pandoc.List {}
 end
 
--- items: lists of inlines. Returns {nodes =, arrows =, columns =, rows =}; nothing after a complaint, which is told by
--- complain(text to look for, sentence).
+-- items: lists of inlines. Returns {nodes =, arrows =, columns =, rows =}; nothing after a complaint, which is reported
+-- by complain(text to look for, code, ...); filter_messages.cpp has the sentences.
 function diagram.read(items, complain)
   local result = { nodes = {}, order = {}, arrows = {}, columns = 1, rows = 1 }
   local failed = false
-  local function wrong(words, sentence)
+  local function wrong(words, ...)
     failed = true
-    complain(table.concat(words, " "), sentence)
+    complain(table.concat(words, " "), ...)
   end
   local function read_node(words, label)
     local name, kind, column, row = words[1], words[3], math.tointeger(tonumber(words[4])), math.tointeger(tonumber(words[5]))
     if #words ~= 5 or not name:find("^%a[%w_]*$") then
-      return wrong(words, "a node is written NAME = KIND COLUMN ROW: label")
+      return wrong(words, "node")
     elseif not kinds[kind] then
-      return wrong(words, "the kind \"" .. kind .. "\" is not known; there are block, sum, signal and branch")
+      return wrong(words, "kind", kind)
     elseif not column or not row or column < 1 or row < 1 or column > most_columns or row > most_rows then
-      return wrong(words, "column and row are whole numbers from 1 to " .. most_columns)
+      return wrong(words, "place", most_columns)
     elseif result.nodes[name] then
-      return wrong(words, "the node " .. name .. " is there twice")
+      return wrong(words, "node-twice", name)
     elseif #result.order == most_nodes then
-      return wrong(words, "a diagram has at most " .. most_nodes .. " nodes")
+      return wrong(words, "most-nodes", most_nodes)
     end
     result.nodes[name] = { kind = kind, column = column, row = row, label = label }
     result.order[#result.order + 1] = name
@@ -72,16 +72,16 @@ function diagram.read(items, complain)
   end
   local function read_arrows(words, label)
     for i = 2, #words - 1, 2 do
-      if not arrows[words[i]] then return wrong(words, "between two nodes stands ->, -| or |-, not " .. words[i]) end
+      if not arrows[words[i]] then return wrong(words, "sign", words[i]) end
     end
     for i = 1, #words, 2 do
-      if not result.nodes[words[i]] then return wrong(words, "there is no node " .. words[i] .. " above this line") end
+      if not result.nodes[words[i]] then return wrong(words, "no-node", words[i]) end
     end
-    if #words < 3 or #words % 2 == 0 then return wrong(words, "an arrow goes from a node to a node, as in u -> G") end
+    if #words < 3 or #words % 2 == 0 then return wrong(words, "arrow") end
     for i = 1, #words - 2, 2 do
       local from, to = result.nodes[words[i]], result.nodes[words[i + 2]]
       if words[i + 1] == "->" and (from.row == to.row) == (from.column == to.column) then
-        return wrong(words, words[i] .. " and " .. words[i + 2] .. " stand neither in one row nor in one column; write -| or |-")
+        return wrong(words, "not-straight", words[i], words[i + 2])
       end
       result.arrows[#result.arrows + 1] =
         { from = from, to = to, way = words[i + 1], label = i + 2 == #words and label or pandoc.List {} }
@@ -90,7 +90,7 @@ function diagram.read(items, complain)
   for _, inlines in ipairs(items) do
     local words, label, other = words_and_label(inlines)
     if other then
-      wrong({ other }, "names, numbers and arrows come first, then a colon and the label")
+      wrong({ other }, "label-first")
     elseif words[2] == "=" then
       read_node(words, label)
     else

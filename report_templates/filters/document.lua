@@ -129,7 +129,7 @@ local picture_attributes = { width = true }
 
 local function checked_width(image)
   local bad = safety.unknown_attribute(image.attributes, picture_attributes)
-  if bad then report("attribute", bad, bad, "a picture") end
+  if bad then report("attribute", bad, bad, "picture") end
   local width = image.attributes.width
   if width and not width:match("^%d+%.?%d*%%$") and not width:match("^%d+%.?%d*[cm]m$") then
     report("width", width, width)
@@ -252,7 +252,7 @@ end
 
 local function header(element)
   local bad = safety.unknown_attribute(element.attributes, {})
-  if bad then report("attribute", bad, bad, "a heading") end
+  if bad then report("attribute", bad, bad, "heading") end
   local title = slots.section_titles[pandoc.utils.stringify(element.content)]
   if title then element.content = pandoc.List { pandoc.Str(title) } end
   local shown = "“" .. pandoc.utils.stringify(element.content) .. "”"
@@ -328,13 +328,13 @@ local function block_diagram(division)
   local label = label_of(division.identifier, "fig")
   local caption = last and last.content or pandoc.List {}
   if not list or list.t ~= "BulletList" or #division.content > 2 or last and last.t ~= "Para" and last.t ~= "Plain" then
-    report("diagram", "block-diagram", "a block diagram is a list of nodes and arrows, then at most one line with its caption")
+    report("diagram", "block-diagram", "list")
     return {}
   end
   label = take_label(caption, "fig") or label
   local items = pandoc.List {}
   for _, blocks in ipairs(list.content) do items:insert(pandoc.utils.blocks_to_inlines(blocks)) end
-  local drawing = diagram.read(items, function(needle, sentence) report("diagram", needle, sentence) end)
+  local drawing = diagram.read(items, function(needle, ...) report("diagram", needle, ...) end)
   if not drawing then return {} end
   if is_numbered(caption, label) then caption = layout:numbered_caption("fig", number("fig", label), caption) end
   return layout:diagram(drawing, diagram, label, caption), false
@@ -369,7 +369,7 @@ local function division(element)
   end
   local allowed = division_attributes[class] or {}
   local attribute = safety.unknown_attribute(element.attributes, allowed)
-  if attribute then report("attribute", attribute, attribute, "a block of class " .. class) end
+  if attribute then report("attribute", attribute, attribute, "block", class) end
   if class == "table" then return table_slot(element) end
   if class == "references" then return pandoc.Div({}, { id = "refs" }), false end
   if class == "pagebreak" then return layout:page_break() end
@@ -418,7 +418,7 @@ local function check_code_block(element)
   local bad = safety.unknown_code_class(element.classes, true)
   if bad then report("block-class", bad, bad) end
   local attribute = safety.unknown_attribute(element.attributes, {})
-  if attribute then report("attribute", attribute, attribute, "a code block") end
+  if attribute then report("attribute", attribute, attribute, "code-block") end
 end
 
 local function code_block(element) return layout:code_block(element) end
@@ -432,7 +432,7 @@ end
 
 local function span(element)
   local bad = safety.unknown_attribute(element.attributes, {})
-  if bad then report("attribute", bad, bad, "a span") end
+  if bad then report("attribute", bad, bad, "span") end
   if #element.classes > 0 then report("span-class", "." .. element.classes[1], element.classes[1]) end
   return element.content
 end
@@ -440,7 +440,7 @@ end
 local function link(element)
   if not safety.link_allowed(element.target) then report("link", element.target, element.target) end
   local bad = safety.unknown_attribute(element.attributes, {})
-  if bad then report("attribute", bad, bad, "a link") end
+  if bad then report("attribute", bad, bad, "link") end
   element.classes = {}
   return element
 end
@@ -460,7 +460,7 @@ end
 local function string(element)
   local class, attribute = element.text:match("%]{%.([%w_-]+)"), element.text:match("%]{(%a[%w_-]*)=")
   if class then report("span-class", "." .. class, class) end
-  if attribute then report("attribute", attribute, attribute, "a span") end
+  if attribute then report("attribute", attribute, attribute, "span") end
   if element.text:match("^{=%w+}") then report("raw-attribute", element.text, element.text) end
 end
 

@@ -3,7 +3,7 @@
 // stand folded below the question.
 const dynlabChoices = (() => {
   "use strict";
-  const help = () => (document.documentElement.lang.startsWith("fr") ? "Choisissez une réponse." : "Choose an answer.");  // a page may change it
+  const { tr, text } = dynlabWords;
   const chosen = new Map();  // the question's text -> places of the options
 
   function begin(question) {
@@ -13,7 +13,7 @@ const dynlabChoices = (() => {
     const right = question.dataset.right.split(" ").map(Number), key = list.parentElement.textContent.trim();
     const places = chosen.get(key) ?? chosen.set(key, new Set()).get(key);
     question.classList.add("asked");
-    list.setAttribute("aria-label", help());
+    list.setAttribute("aria-label", text(tr("Choose an answer.")));
     [...list.children].forEach((option, i) => {
       const button = document.createElement("button"), verdict = document.createElement("div");
       button.className = "option";

@@ -1,9 +1,7 @@
 // What a document offers on a screen besides its text: contents, light or dark, code to copy, figures to zoom.
 (() => {
   "use strict";
-  const WORDS = document.documentElement.lang.startsWith("fr")
-    ? { contents: "Sommaire", dark: "Sombre", light: "Clair", copy: "Copier", code: "Copier ce code" }
-    : { contents: "Contents", dark: "Dark", light: "Light", copy: "Copy", code: "Copy this code" };
+  const { tr, text } = dynlabWords;
   const main = document.querySelector("main");
   const make = (name, kind, text = "") => Object.assign(document.createElement(name), { className: kind, textContent: text });
 
@@ -17,7 +15,7 @@
   const theme = make("button", "theme");
   function applyTheme() {
     if (darkRules) darkRules.media.mediaText = dark ? "screen" : "not all";
-    theme.textContent = dark ? WORDS.light : WORDS.dark;
+    theme.textContent = text(dark ? tr("Light") : tr("Dark"));
     document.dispatchEvent(new Event("themechange"));
   }
   theme.onclick = () => {
@@ -37,7 +35,7 @@
     const titles = all.filter((title) => level(title) < top + 2);
     if (titles.length < 3 || main.querySelector("nav")) return null;
     const details = make("details", "contents"), nav = make("nav", ""), list = make("ul", "");
-    nav.setAttribute("aria-label", WORDS.contents);
+    nav.setAttribute("aria-label", text(tr("Contents")));
     for (const [number, title] of titles.entries()) {
       title.id ||= `section-${number + 1}`;
       const item = make("li", level(title) > top ? "inner" : ""), link = make("a", "");
@@ -47,7 +45,7 @@
       list.append(item);
     }
     nav.append(list);
-    details.append(make("summary", "", WORDS.contents), nav);
+    details.append(make("summary", "", text(tr("Contents"))), nav);
     const wide = matchMedia("(min-width: 82rem)");
     details.open = wide.matches;
     wide.addEventListener("change", () => { details.open = wide.matches; });
@@ -56,8 +54,8 @@
 
   function addCopyButton(code) {
     const box = make("div", "copied-from");
-    const button = dynlabTables.copyButton("copy", WORDS.copy, () => code.textContent.replace(/\n$/, ""));
-    button.setAttribute("aria-label", WORDS.code);
+    const button = dynlabTables.copyButton("copy", text(tr("Copy")), () => code.textContent.replace(/\n$/, ""));
+    button.setAttribute("aria-label", text(tr("Copy this code")));
     code.before(box);
     box.append(code, button);
   }

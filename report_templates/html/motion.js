@@ -3,13 +3,10 @@
 const dynlabMotion = (() => {
   "use strict";
   const { Painter, palette, clamp } = dynlabDrawing;
-  const LANGUAGES = {
-    fr: { play: "Lecture", pause: "Pause", time: "Instant", speed: "Vitesse", real: "temps réel", times: (part) => `${part} fois plus lent`,
-          measured: "mesuré", simulated: "simulé", stage: "Le montage en mouvement" },
-    en: { play: "Play", pause: "Pause", time: "Instant", speed: "Speed", real: "real time", times: (part) => `${part} times slower`,
-          measured: "measured", simulated: "simulated", stage: "The rig in motion" },
-  };
-  const say = () => LANGUAGES[document.documentElement.lang.startsWith("fr") ? "fr" : "en"];  // a page may change it
+  const { tr, text } = dynlabWords;
+  const WORDS = { play: tr("Play"), pause: tr("Pause"), time: tr("Instant"), speed: tr("Speed"), real: tr("real time"), slower: tr("{} times slower"),
+                  measured: tr("measured"), simulated: tr("simulated"), stage: tr("The rig in motion. {}") };
+  const say = (key, ...values) => text(WORDS[key], ...values);
   const RIM = 0.3, LARGER = 1.5, STEP = 0.02, SLOWER = [2, 5, 10];
 
   const moving = new Set();
@@ -40,7 +37,7 @@ const dynlabMotion = (() => {
       const controls = make("div", "controls");
       this.button = make("button", "", { onclick: () => this.toggle() });
       this.scrubber = make("input", "", { type: "range", min: this.first, max: this.last, step: STEP });
-      this.scrubber.setAttribute("aria-label", say().time);
+      this.scrubber.setAttribute("aria-label", say("time"));
       this.scrubber.oninput = () => { this.pause(); this.show(Number(this.scrubber.value)); };
       this.scrubber.onkeydown = (event) => {
         if (event.key !== " ") return;
@@ -49,9 +46,9 @@ const dynlabMotion = (() => {
       };
       this.time = make("output", "time");
       this.select = make("select");
-      this.select.setAttribute("aria-label", say().speed);
+      this.select.setAttribute("aria-label", say("speed"));
       for (const slower of [1, ...SLOWER])
-        this.select.append(make("option", "", { value: 1 / slower, textContent: slower === 1 ? say().real : say().times(slower) }));
+        this.select.append(make("option", "", { value: 1 / slower, textContent: slower === 1 ? say("real") : say("slower", slower) }));
       this.select.onchange = () => { this.speed = Number(this.select.value); };
       controls.append(this.button, this.scrubber, this.time, this.select);
       this.values = make("div", "values");
@@ -63,7 +60,7 @@ const dynlabMotion = (() => {
     }
 
     get playing() { return moving.has(this); }
-    tellState() { this.button.textContent = this.playing ? say().pause : say().play; }
+    tellState() { this.button.textContent = this.playing ? say("pause") : say("play"); }
     toggle() { if (this.playing) this.pause(); else this.play(); }
     pause() {
       if (!moving.delete(this)) return;
@@ -105,7 +102,7 @@ const dynlabMotion = (() => {
       const colours = palette(), spoken = [this.time.textContent];
       this.values.replaceChildren(...this.signals.map((panel, k) => {
         const line = document.createElement("div"), words = this.actors.map(({ kind, curves }) =>
-          `${say()[kind]} ${panel.y.text(curves[k].at(this.now), comma)}`);
+          `${say(kind)} ${panel.y.text(curves[k].at(this.now), comma)}`);
         spoken.push(`${panel.y.name}: ${words.join(", ")}`);
         line.append(`${panel.y.name}: `);
         this.actors.forEach(({ curves }, i) => {
@@ -117,9 +114,9 @@ const dynlabMotion = (() => {
         return line;
       }));
       if (this.playing) return;  // nobody can listen so fast
-      const text = spoken.join("; ");
-      this.scrubber.setAttribute("aria-valuetext", text);
-      this.stage.setAttribute("aria-label", `${say().stage}. ${text}`);
+      const told = spoken.join("; ");
+      this.scrubber.setAttribute("aria-valuetext", told);
+      this.stage.setAttribute("aria-label", say("stage", told));
     }
 
     /// Where a point of a part stands while the signals have these values.

@@ -3,13 +3,10 @@
 const dynlabPlots = (() => {
   "use strict";
   const { Panel, Painter, clamp } = dynlabDrawing;
-  const LANGUAGES = {
-    fr: { whole: "Figure entière", kind: "figure interactive", curve: "Montrer ou cacher\u202f: ", handle: "poignée, à déplacer par les flèches",
-          help: "Flèches : lire ; + et − : agrandir, réduire ; Maj et flèches : déplacer ; 0 : figure entière ; Échap : fin" },
-    en: { whole: "Whole figure", kind: "interactive figure", curve: "Show or hide: ", handle: "handle, moved by arrows",
-          help: "Arrows: read off; + and −: zoom; Shift and arrows: move; 0: whole figure; Esc: end" },
-  };
-  const say = () => LANGUAGES[document.documentElement.lang.startsWith("fr") ? "fr" : "en"];  // a page may change it
+  const { tr, text } = dynlabWords;
+  const WORDS = { whole: tr("Whole figure"), kind: tr("interactive figure"), curve: tr("Show or hide: {}"), handle: tr("handle, moved by arrows"),
+                  help: tr("Arrows: read off; + and −: zoom; Shift and arrows: move; 0: whole figure; Esc: end") };
+  const say = (key, ...values) => text(WORDS[key], ...values);
 
   const plots = new Set();  // those in the page
   const drawAll = () => { for (const plot of plots) plot.draw(); };
@@ -39,7 +36,7 @@ const dynlabPlots = (() => {
       Object.assign(this, { plot, button });
       button.addEventListener("pointerdown", (event) => this.down(event));
       button.addEventListener("keydown", (event) => this.step(event));
-      button.setAttribute("aria-roledescription", say().handle);
+      button.setAttribute("aria-roledescription", say("handle"));
     }
     take(panel, mark, earlier) {
       Object.assign(this, { panel, mark });
@@ -165,14 +162,14 @@ const dynlabPlots = (() => {
       this.box.tabIndex = 0;
       this.shape();
       this.box.setAttribute("role", "application");
-      this.box.setAttribute("aria-roledescription", say().kind);
-      this.box.setAttribute("aria-label", [this.picture.alt, say().help].filter(Boolean).join(". "));
+      this.box.setAttribute("aria-roledescription", say("kind"));
+      this.box.setAttribute("aria-label", [this.picture.alt, say("help")].filter(Boolean).join(". "));
       this.picture.before(this.box);
       this.canvas = element("canvas", "");
       this.over = element("canvas", "over");
       this.reading = element("output", "reading");
       this.whole = element("button", "whole");
-      this.whole.textContent = say().whole;
+      this.whole.textContent = say("whole");
       this.whole.hidden = this.reading.hidden = true;
       this.whole.onclick = () => { this.reset(); this.box.focus({ preventScroll: true }); };
       this.data = dynlabTables.button(this.box, () => this.readable, this.comma);
@@ -206,7 +203,7 @@ const dynlabPlots = (() => {
       const [width, height] = this.size, curve = panel.curves[index];
       Object.assign(button.style, { left: `${100 * x / width}%`, top: `${100 * (height - y - 0.21) / height}%`,
                                     width: `${100 * length / width}%`, height: `${100 * 0.42 / height}%` });
-      button.setAttribute("aria-label", say().curve + curve.label);
+      button.setAttribute("aria-label", say("curve", curve.label));
       button.setAttribute("aria-pressed", String(curve.shown));
       button.onclick = () => {
         curve.shown = !curve.shown;

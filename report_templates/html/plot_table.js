@@ -4,15 +4,11 @@
 const dynlabTables = (() => {
   "use strict";
   const ROWS = 200;
-  const LANGUAGES = {
-    fr: { data: "Données", table: "Données de la figure", copy: "Copier en CSV", copied: "Copié", lower: "bas", upper: "haut",
-        rows: (shown, all) => shown === all ? `${all} échantillons` : `${shown} des ${all} échantillons`,
-        thinned: (kept, all) => `éclaircis : ${kept} des ${all} échantillons`, seen: (shown) => `, dont ${shown} affichés` },
-    en: { data: "Data", table: "Data of the figure", copy: "Copy as CSV", copied: "Copied", lower: "lower", upper: "upper",
-        rows: (shown, all) => shown === all ? `${all} samples` : `${shown} of ${all} samples`,
-        thinned: (kept, all) => `thinned: ${kept} of ${all} samples`, seen: (shown) => `, ${shown} of them shown` },
-  };
-  const say = () => LANGUAGES[document.documentElement.lang.startsWith("fr") ? "fr" : "en"];  // a page may change it
+  const { tr, trPlural, text } = dynlabWords;
+  const WORDS = { data: tr("Data"), table: tr("Data of the figure: {}"), copy: tr("Copy as CSV"), copied: tr("Copied"), lower: tr("{}, lower"),
+                  upper: tr("{}, upper"), all: trPlural("{} sample", "{} samples"), some: tr("{} of {} samples"),
+                  thinned: tr("thinned: {} of {} samples"), thinnedMore: tr("thinned: {} of {} samples, {} of them shown") };
+  const say = (key, ...values) => text(WORDS[key], ...values);
   const make = (name, kind = "", text = "") => Object.assign(document.createElement(name), { className: kind, textContent: text });
 
   async function copy(text) {
@@ -32,7 +28,7 @@ const dynlabTables = (() => {
     button.type = "button";
     button.onclick = async () => {
       await copy(content());
-      button.textContent = say().copied;
+      button.textContent = say("copied");
       setTimeout(() => { button.textContent = word; }, 1500);
     };
     return button;
@@ -59,8 +55,8 @@ const dynlabTables = (() => {
         }
         const band = curve.style === "band";
         const name = heading(panel.y, curve.label) || "y";
-        table.columns.push({ heading: band ? `${name}, ${say().lower}` : name, values: curve.y });
-        if (band) table.columns.push({ heading: `${name}, ${say().upper}`, values: curve.upper });
+        table.columns.push({ heading: band ? say("lower", name) : name, values: curve.y });
+        if (band) table.columns.push({ heading: say("upper", name), values: curve.upper });
       }
     return found;
   }
@@ -68,7 +64,7 @@ const dynlabTables = (() => {
   const csvText = (text) => /[",\n]/.test(text) ? `"${text.replace(/"/g, '""')}"` : text;
   const plain = (value) => value === null || !Number.isFinite(value) ? "" : String(Number(value.toPrecision(7)));
   function csv({ x, samples, columns }) {
-    const lines = samples > x.length ? [`# ${say().thinned(x.length, samples)}`] : [];
+    const lines = samples > x.length ? [`# ${say("thinned", x.length, samples)}`] : [];
     lines.push(columns.map((column) => csvText(column.heading)).join(","));
     x.forEach((_, i) => lines.push(columns.map((column) => plain(column.values[i])).join(",")));
     return lines.join("\n") + "\n";
@@ -88,24 +84,25 @@ const dynlabTables = (() => {
       });
       body.append(row);
     }
-    const words = samples === x.length ? say().rows(kept.length, x.length)
-      : say().thinned(x.length, samples) + (kept.length === x.length ? "" : say().seen(kept.length));
+    const complete = kept.length === x.length;
+    const words = samples > x.length ? say(complete ? "thinned" : "thinnedMore", x.length, samples, kept.length)
+      : complete ? say("all", x.length) : say("some", kept.length, x.length);
     const caption = make("caption", "", words), top = make("thead");
     top.append(head);
     shown.append(caption, top, body);
     const scroll = make("div", "rows");
     scroll.tabIndex = 0;
     scroll.setAttribute("role", "region");
-    scroll.setAttribute("aria-label", `${say().table}: ${columns.map((column) => column.heading).join(", ")}`);
+    scroll.setAttribute("aria-label", say("table", columns.map((column) => column.heading).join(", ")));
     scroll.append(shown);
-    box.append(copyButton("csv", say().copy, () => csv(table)), scroll);
+    box.append(copyButton("csv", say("copy"), () => csv(table)), scroll);
     return box;
   }
 
   /// The button that opens and closes the tables of a figure, of the panels as they are then; they stand behind `box`.
   /// `renew` of it is called when the panels are others.
   function button(box, panels, comma) {
-    const button = make("button", "data", say().data);
+    const button = make("button", "data", say("data"));
     let shown = null;
     const fill = () => shown.replaceChildren(...tables(panels()).map((table) => element(table, comma)));
     button.type = "button";

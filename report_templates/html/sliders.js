@@ -2,13 +2,9 @@
 // documents/html/slider_page.h. Sliders of one cell are moved together; the others go back to where the page was made.
 const dynlabSliders = (() => {
   "use strict";
-  const french = document.documentElement.lang.startsWith("fr");
-  const BACK = french ? "comme dans le script" : "as in the script";
+  const { tr, text, number } = dynlabWords;
 
-  function number(value, unit) {
-    const text = String(value).replace("-", "−");
-    return (french ? text.replace(".", ",") : text) + (unit ? "\u202f" + unit : "");
-  }
+  const written = (value, unit) => number(String(value).replace("-", "−")) + (unit ? "\u202f" + unit : "");
 
   /// A figure's data with the members that differ (slider_page.cpp).
   function changed(data, difference) {
@@ -69,11 +65,11 @@ const dynlabSliders = (() => {
       input.id = "slider-" + slider.name;
       label.htmlFor = input.id;
       label.textContent = slider.label;
-      back.textContent = BACK;
+      back.textContent = text(tr("as in the script"));
       Object.assign(input, { min: 0, max: slider.values.length - 1, step: 1 });
       const tell = () => {
         input.value = this.places[i];
-        output.textContent = number(slider.values[this.places[i]], slider.unit);
+        output.textContent = written(slider.values[this.places[i]], slider.unit);
         input.setAttribute("aria-valuetext", output.textContent);
         back.hidden = this.places[i] === slider.shown;
       };

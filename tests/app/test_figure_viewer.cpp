@@ -6,6 +6,7 @@
 
 #include <memory>
 
+#include "base/languages.h"
 #include "platform/child_process.h"
 #include "platform/error.h"
 #include "support/browser.h"
@@ -17,7 +18,7 @@ using test::Browser;
 Figure figure_titled(const std::string& title) {
     Figure figure;
     figure.panels.resize(1);
-    figure.panels[0].title = title;
+    figure.panels[0].title = Message::verbatim(title);
     Curve curve;
     curve.x = curve.y = Vector::LinSpaced(5, 0, 1);
     figure.panels[0].curves.push_back(curve);
@@ -71,6 +72,21 @@ TEST(figure_viewer, speaks_the_language_of_the_browser) {
     EXPECT_TRUE(state_is("^1$"));
     viewer.reset();
     EXPECT_TRUE(state_is("^dynlab est terminé.; voici ses dernières figures$"));
+}
+
+/// A page needs nothing of a language but its catalog.
+TEST(figure_viewer, speaks_a_language_that_came_with_a_catalog) {
+    add_language("eo",
+                 "msgctxt \"decimal sign\"\nmsgid \".\"\nmsgstr \",\"\n\nmsgid \"Figures\"\nmsgstr \"Figuroj\"\n\n"
+                 "msgid \"none yet: type, say, {}\"\nmsgstr \"tajpu {1}: ankoraŭ neniu\"\n");
+    FigureViewer viewer;
+    Browser browser;
+    browser.devtools("Network.setUserAgentOverride", R"({"userAgent": "Chromium", "acceptLanguage": "eo-XX"})");
+    browser.open(viewer.address());
+    EXPECT_TRUE(
+        browser.comes("document.getElementById('state').innerText === 'tajpu step(tf({1}, {1, 1})): ankoraŭ neniu'"));
+    EXPECT_EQ(browser.evaluate("return [document.documentElement.lang, document.getElementById('name').innerText]"),
+              "[\"eo\",\"Figuroj\"]");
 }
 
 TEST(figure_viewer, forgets_the_oldest) {

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "course/findings/findings_report.h"
 #include "platform/temporary_folder.h"
 #include "support/environment_variable.h"
 
@@ -26,7 +27,7 @@ class live_page : public testing::Test {
         chunk.pictures.push_back({"@picture@", false, "", file});
         SetDocument set;
         set.chunks = {chunk};
-        set.complaints = {"analysis.lua:3: no such figure"};
+        set.complaints = {Message("analysis.lua:3: no such figure")};
         return set;
     }
     json whole() const { return json::parse(page.whole()); }
@@ -66,79 +67,89 @@ TEST_F(live_page, content_has_what_is_wrong_and_the_pictures_that_are_shown_now)
     EXPECT_TRUE(again.picture(content.pictures.begin()->first));
 }
 
+const Message kWrong = Message("{}{}", "analysis.lua:3: ", Message("there is no function or variable '{}'", "y"));
+constexpr const char* kWrongInEnglish = "analysis.lua:3: there is no function or variable 'y'";
+constexpr const char* kWrongInFrench = "analysis.lua:3: il n'y a ni fonction ni variable «\u00A0y\u00A0»";
+
 /// Findings are made in English, as programs read them.
 TEST_F(live_page, tells_in_the_document_s_language_what_is_wrong_and_found) {
-    const std::string wrong = "analysis.lua:3: there is no function or variable 'y'";
-    const json findings = json::parse(R"({"checked": ["checks of lesson a: 0 of 3 points"], "findings": [{
-        "id": "answer-missing", "severity": "rule", "place": null, "what": "The answer \"gain\" (number) is not given.",
-        "remedy": "Give it: answer(\"gain\", ...)."}]})");
-    page.complain({wrong});
+    CheckResult result;
+    result.checked = {Message("checks of lesson {}: {} of {} points", "a", 0, 3)};
+    result.findings = {{"answer-missing", Severity::kRule, 0, "",
+                        Message("The answer \"{}\" (number) is not given.", "gain"),
+                        Message("Give it: answer(\"{}\", ...).", "gain")}};
+    const json findings = json::parse(findings_as_json(result));
+    page.complain({kWrong});
     page.set_work(findings.dump(), false);
     EXPECT_EQ(whole()["language"], "en");
-    EXPECT_EQ(whole()["complaints"], json({wrong}));
+    EXPECT_EQ(whole()["complaints"], json({kWrongInEnglish}));
     EXPECT_EQ(whole()["findings"], findings);
-    EXPECT_EQ(page.told(wrong), wrong);
+    EXPECT_EQ(page.told(kWrong), kWrongInEnglish);
 
     page.changes();
     page.speak("fr", "");
-    page.complain({wrong});
+    page.complain({kWrong});
     const json changed = json::parse(page.changes().value());
     EXPECT_EQ(changed["language"], "fr");
-    EXPECT_EQ(changed["complaints"], json({"analysis.lua:3: il n'y a ni fonction ni variable «\u00A0y\u00A0»"}));
+    EXPECT_EQ(changed["complaints"], json({kWrongInFrench}));
     EXPECT_EQ(changed["findings"]["checked"], findings["checked"]);
     const json finding = changed["findings"]["findings"][0];
     EXPECT_EQ(finding["what"], "La réponse «\u00A0gain\u00A0» (nombre) n'est pas donnée.");
-    EXPECT_EQ(finding["remedy"], "Donnez-la\u00A0: answer(\"gain\", ...).");
-    EXPECT_EQ(page.told("dynlab: note: " + wrong + "\n/tmp/a.pdf (up to date)"),
-              "dynlab: note: " + changed["complaints"][0].get<std::string>() + "\n/tmp/a.pdf (à jour)");
+    EXPECT_EQ(finding["remedy"], "Donnez-la\u202F: answer(\"gain\", ...).");
+    EXPECT_EQ(page.told(Message("{}", MessageList{{kWrong, Message("{} (up to date)", "/tmp/a.pdf")}, Join::kLines})),
+              std::string(kWrongInFrench) + "\n/tmp/a.pdf (à jour)");
     page.set_work("no JSON", false);
     EXPECT_TRUE(whole()["findings"].is_null());
 }
 
 /// A header that turns to another language takes along what was told before it.
 TEST_F(live_page, tells_again_in_a_new_language_what_was_wrong_before) {
-    const std::string wrong = "analysis.lua:3: there is no function or variable 'y'";
-    const json english = json::array({wrong}),
-               french = json::array({"analysis.lua:3: il n'y a ni fonction ni variable «\u00A0y\u00A0»"});
+    const json english = json::array({kWrongInEnglish}), french = json::array({kWrongInFrench});
     const auto changed = [&] { return json::parse(page.changes().value())["complaints"]; };
-    page.complain({wrong});
+    page.complain({kWrong});
     EXPECT_EQ(changed(), english);
     page.speak("fr", "");
     EXPECT_EQ(changed(), french);
-    page.complain({wrong});
+    page.complain({kWrong});
     EXPECT_FALSE(page.changes()) << "it is the same complaint";
     page.speak("en", "");
     EXPECT_EQ(changed(), english);
     SetDocument set = document("<svg>1</svg>");
-    set.complaints = {wrong};
+    set.complaints = {kWrong};
     page.speak("fr", "");
     page.show(set, script, {});
     EXPECT_EQ(changed(), french);
-    EXPECT_EQ(page.content().complaints, std::vector{wrong}) << "remembered for a page in any language";
+    EXPECT_EQ(page.content().complaints, std::vector{kWrong}) << "remembered for a page in any language";
     page.speak("en", "");
     EXPECT_EQ(changed(), english);
 }
 
-/// A lesson's sentences are read when they are asked for first, and anew for another lesson. Oracle: the files, which
-/// the test changes meanwhile.
+TEST_F(live_page, has_a_paragraph_for_each_line_of_a_complaint) {
+    page.complain({Message("{}", MessageList{{kWrong, Message::verbatim("b")}, Join::kLines}), Message::verbatim("c")});
+    EXPECT_EQ(whole()["complaints"], json({kWrongInEnglish, "b", "c"}));
+}
+
+/// What authors wrote is read when it is needed first, and again for another lesson. Oracle: the files, which the test
+/// changes meanwhile.
 TEST_F(live_page, reads_the_french_of_a_lesson_once) {
     const auto add_lesson = [&](const std::string& slug, const std::string& french) {
         const auto place = folder.path() / "lessons" / slug;
         std::filesystem::create_directories(place);
         std::ofstream(place / "lesson.lua") << "-- ---\n-- title: A lesson\n-- ---\n\nprint(1)\n";
-        std::ofstream(place / "checks.fr.txt") << "quuxes abound here\n  " << french << "\n";
+        std::ofstream(place / "checks.fr.po") << "msgid \"quuxes abound here\"\nmsgstr \"" << french << "\"\n";
     };
     add_lesson("91_first", "c'est deux");
     add_lesson("92_second", "il y en a deux");
+    const Message quuxes = Message::verbatim("quuxes abound here");
     const test::EnvironmentVariable lessons("DYNLAB_LESSONS", folder.path() / "lessons");
     page.speak("fr", "91_first");
-    EXPECT_EQ(page.told("quuxes abound here"), "c'est deux");
+    EXPECT_EQ(page.told(quuxes), "c'est deux");
     add_lesson("91_first", "changed");
-    EXPECT_EQ(page.told("quuxes abound here"), "c'est deux");
+    EXPECT_EQ(page.told(quuxes), "c'est deux");
     page.speak("fr", "92_second");
-    EXPECT_EQ(page.told("quuxes abound here"), "il y en a deux");
+    EXPECT_EQ(page.told(quuxes), "il y en a deux");
     page.speak("fr", "");
-    EXPECT_EQ(page.told("quuxes abound here"), "quuxes abound here");
+    EXPECT_EQ(page.told(quuxes), "quuxes abound here");
 }
 
 }  // namespace test_live_page

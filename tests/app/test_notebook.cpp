@@ -5,8 +5,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/languages.h"
+#include "base/reader.h"
 #include "documents/error.h"
 #include "platform/atomic_file.h"
+#include "support/message_texts.h"
 #include "support/program.h"
 #include "workflow/notebooks/notebook.h"
 
@@ -110,14 +113,20 @@ TEST(notebook, what_a_cell_shows_is_what_is_run) {
 TEST(notebook, places_are_told_as_jupyter_counts_them) {
     const std::string source =
         "-- ---\n-- title: T\n-- ---\n\n-- %% [markdown]\n-- words\n\n-- %%\nx = 1\ny = nil + x\n";
-    EXPECT_EQ(place_in_notebook(source, 2), "cell 1, line 2");
-    EXPECT_EQ(place_in_notebook(source, 6), "cell 2, line 1");
-    EXPECT_EQ(place_in_notebook(source, 10), "cell 3, line 2");
-    EXPECT_EQ(place_in_notebook(source, 8), "");
+    EXPECT_EQ(message_text(place_in_notebook(source, 2)), "cell 1, line 2");
+    EXPECT_EQ(message_text(place_in_notebook(source, 6)), "cell 2, line 1");
+    EXPECT_EQ(message_text(place_in_notebook(source, 10)), "cell 3, line 2");
+    EXPECT_TRUE(place_in_notebook(source, 8).empty());
     EXPECT_EQ(with_places_in_notebook("analysis.lua:10: no; see analysis.lua", "analysis.lua", "a.ipynb", source),
               "a.ipynb, cell 3, line 2: no; see a.ipynb");
     EXPECT_EQ(with_places_in_notebook("analysis.lua:99999999999999999999: no", "analysis.lua", "a", source),
               "a:99999999999999999999: no");
+    const Message placed = with_places_in_notebook(
+        Message("{}{}", "analysis.lua:10: ", Message("see {}", listed({"analysis.lua", "analysis.lua:6"}))),
+        "analysis.lua", "a.ipynb", source);
+    EXPECT_EQ(message_text(placed), "a.ipynb, cell 3, line 2: see a.ipynb, a.ipynb, cell 2, line 1");
+    EXPECT_EQ(message_text(placed, {catalog_of("fr")}),
+              "a.ipynb, cellule 3, ligne 2: see a.ipynb, a.ipynb, cellule 2, ligne 1");
 }
 
 TEST(notebook, other_files_are_refused_with_a_reason) {
@@ -143,7 +152,7 @@ TEST(notebook, other_files_are_refused_with_a_reason) {
     EXPECT_EQ(script_of_notebook(notebook_with(odd).dump(), "a").source, "-- %%\n\n-- %%\nx = 1\n");
     EXPECT_THAT(refusal(std::string(1 << 20, '[')), HasSubstr("no Jupyter notebook"));
     const json pasted = {{"cell_type", "markdown"}, {"source", "x"}, {"attachments", {{"a.png", json::object()}}}};
-    EXPECT_THAT(script_of_notebook(notebook_with({pasted}).dump(), "a.ipynb").losses,
+    EXPECT_THAT(test::texts_of(script_of_notebook(notebook_with({pasted}).dump(), "a.ipynb").losses),
                 ::testing::ElementsAre(HasSubstr("a.ipynb: cell 1 has a picture that was pasted")));
 }
 

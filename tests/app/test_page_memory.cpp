@@ -23,7 +23,7 @@ class page_memory : public testing::Test {
         request.template_file = folder.path() / "report.md";
         request.output = "preview.html";
         files = {folder.path() / "d.csv"};
-        page.name = "analysis.lua", page.html["p1"] = "<p>one</p>", page.complaints = {"no such figure"};
+        page.name = "analysis.lua", page.html["p1"] = "<p>one</p>", page.complaints = {Message("no such figure")};
     }
     void write(const std::string& name, const std::string& text) const { std::ofstream(folder.path() / name) << text; }
     void set_script(const std::string& source) {

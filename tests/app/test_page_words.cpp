@@ -1,25 +1,29 @@
-// The words of our pages in English and French. Oracle: the sources of the pages, which name their words by key.
+// The words of our pages, and what pages get of their translations. Oracles: the sources of the pages, which name their
+// words by key; French written by hand.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
 
+#include "app/page/page_files.h"
+#include "app/page/page_routes.h"
+#include "base/catalog.h"
+#include "base/languages.h"
 #include "documents/percent_script.h"
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"
+#include "support/page_client.h"
 
 namespace test_page_words {
 using namespace dynlab;
 namespace fs = std::filesystem;
 
-struct Row {
-    std::string english, french;
-};
-using Rows = std::map<std::string, Row>;
+using Rows = std::map<std::string, std::string>;  // English by key
 
 std::string source_of(const std::string& file) {
     return read_text(fs::path(DYNLAB_SOURCE_DIR) / "engine/app/page" / file);
@@ -30,13 +34,13 @@ std::string code_of(const std::string& file) {
     return std::regex_replace(source_of(file), std::regex(R"((^|\s)//[^\n]*)"), "$1");
 }
 
-/// key: ["English", "French"]
+/// key: tr("English"), and the other marks
 void add_rows(const std::string& file, Rows& rows) {
-    static const std::regex row(R"re((?:"([^"]+)"|(\w+)): \["([^"]*)",\s*"([^"]*)"\])re");
+    static const std::regex row(R"re((?:"([^"]+)"|(\w+)): tr(?:In\("[^"]*", |Plural\(|\()"([^"]*)"(?:, "[^"]*")?\))re");
     const std::string all = code_of(file), text = all.substr(0, all.find("const VIEWS"));  // these are names of views
     for (std::sregex_iterator found(text.begin(), text.end(), row), end; found != end; ++found) {
         const std::string key = (*found)[1].str() + (*found)[2].str();
-        EXPECT_TRUE(rows.emplace(key, Row{(*found)[3], (*found)[4]}).second) << key << " stands twice";
+        EXPECT_TRUE(rows.emplace(key, (*found)[3]).second) << key << " stands twice";
     }
 }
 
@@ -48,23 +52,24 @@ Rows rows_of(const std::string& file) {
     return rows;
 }
 
-/// From behind an opening bracket to its closing one.
-std::string until_closed(const std::string& text, std::size_t begin) {
+/// From behind an opening bracket to its closing one, or to the comma before.
+std::string first_argument(const std::string& text, std::size_t begin) {
     int depth = 1;
     std::size_t end = begin;
-    for (; end < text.size() && depth > 0; ++end) depth += text[end] == '(' ? 1 : text[end] == ')' ? -1 : 0;
+    for (; end < text.size() && depth > 0 && !(depth == 1 && text[end] == ','); ++end)
+        depth += text[end] == '(' ? 1 : text[end] == ')' ? -1 : 0;
     return text.substr(begin, end - begin);
 }
 
-/// Keys that stand whole in say(...) and counted(...), other values in them aside, and those that the HTML names.
+/// Keys that stand whole in say(...), other values in them aside, and those that the HTML names.
 std::set<std::string> keys_shown(const std::string& text) {
-    static const std::regex call(R"(\b(say|counted)\()"), key(R"re("(\w+)"(?! *\+))re"),
-        other(R"re((===|!==|\+) *"[^"]*")re"), named(R"re(data-say(?:-title|-label)?="(\w+)")re");
+    static const std::regex call(R"(\bsay\()"), key(R"re("(\w+)"(?! *\+))re"), other(R"re((===|!==|\+) *"[^"]*")re"),
+        named(R"re(data-say(?:-title|-label)?="(\w+)")re");
     std::set<std::string> keys;
     for (std::sregex_iterator found(text.begin(), text.end(), call), end; found != end; ++found) {
         const auto behind = static_cast<std::size_t>(found->position() + found->length());
-        const std::string arguments = std::regex_replace(until_closed(text, behind), other, "");
-        for (std::sregex_iterator word(arguments.begin(), arguments.end(), key); word != end; ++word)
+        const std::string argument = std::regex_replace(first_argument(text, behind), other, "");
+        for (std::sregex_iterator word(argument.begin(), argument.end(), key); word != end; ++word)
             keys.insert((*word)[1]);
     }
     for (std::sregex_iterator found(text.begin(), text.end(), named), end; found != end; ++found)
@@ -116,7 +121,7 @@ TEST(page_words, of_the_workbench_have_rows_and_no_row_is_unused) {
     const Rows rows = rows_of("bench_words.js");
     const std::string code = code_of(workbench_files());
     expect_rows(code, rows);
-    static const std::regex put_together("(no_|shape|letter)?(.*?)(About|Part|Step)?");
+    static const std::regex put_together("(no_|shape|letter|edge)?(.*?)(About|Part|Step)?");
     for (const auto& [key, row] : rows) {
         std::smatch parts;
         ASSERT_TRUE(std::regex_match(key, parts, put_together));
@@ -139,8 +144,7 @@ TEST(page_words, are_written_in_the_tables_alone) {
         }
     }
     for (const char* file : {"index.html", "workbench.html", "view.html"}) {
-        const std::string body = std::regex_replace(
-            source_of(file), std::regex(R"(<title>[^<]*</title>|<option [^>]*lang=[^>]*>[^<]*</option>)"), "");
+        const std::string body = std::regex_replace(source_of(file), std::regex("<title>[^<]*</title>"), "");
         std::smatch text;
         EXPECT_FALSE(std::regex_search(body, text, std::regex(R"(>\s*[A-Za-z][^<>]*<)"))) << file << text.str();
         EXPECT_FALSE(std::regex_search(body, text, std::regex(R"re((aria-label|\stitle)="(?!Ctrl-S"))re")))
@@ -167,33 +171,89 @@ TEST(page_words, tell_all_that_the_editor_s_search_says) {
     const std::set<std::string> lists = all_found(source_of("editor.js"), R"re(const kPhrases = \[([^\]]*)\])re");
     ASSERT_EQ(lists.size(), 1u);
     const Rows rows = rows_of("page_words.js");
-    for (const std::string& key : all_found(*lists.begin(), R"re("(\w+)")re")) told.insert(rows.at(key).english);
+    for (const std::string& key : all_found(*lists.begin(), R"re("(\w+)")re")) told.insert(rows.at(key));
     EXPECT_GT(said.size(), 5u);
     EXPECT_EQ(told, said);
 }
 
-/// How many %1, %2, ... a text has.
-std::set<std::string> places_in(const std::string& text) {
-    static const std::regex place(R"(%\d)");
-    std::set<std::string> places;
-    for (std::sregex_iterator found(text.begin(), text.end(), place), end; found != end; ++found)
-        places.insert(found->str());
+/// How many {} a text has.
+std::size_t places_in(const std::string& text) {
+    std::size_t places = 0;
+    for (std::size_t at = text.find("{}"); at != std::string::npos; at = text.find("{}", at + 2)) ++places;
     return places;
 }
 
-TEST(page_words, are_told_in_both_languages) {
-    const std::set<std::string> alike = {"bar", "pdf", "onPage", "table", "script", "options"};
-    for (const char* file : {"page_words.js", "bench_words.js"})
-        for (const auto& [key, row] : rows_of(file)) {
-            EXPECT_FALSE(row.english.empty() || row.french.empty()) << key;
-            EXPECT_EQ(places_in(row.english), places_in(row.french)) << key;
-            const bool sentence = row.english.find(' ') != std::string::npos && row.english.size() > 12;
-            EXPECT_TRUE(!sentence || alike.contains(key) || row.english != row.french) << key;
-            // words.js makes the blanks before these signs narrow: where there is none it cannot.
-            for (std::size_t i = 1; i < row.french.size(); ++i)
-                EXPECT_TRUE(std::string(";?!").find(row.french[i]) == std::string::npos || row.french[i - 1] == ' ')
-                    << key << ": " << row.french;
+struct Marked {
+    std::string context, id;
+    bool plural;
+};
+/// tr("English"), trIn("context", "English"), trPlural("one", "many") of all scripts.
+std::vector<Marked> marked_messages() {
+    static const std::regex mark(R"re(\btr(In|Plural)?\("([^"]*)"(?:, "([^"]*)")?\))re");
+    std::string all;
+    for (const PageFile& file : page_files())
+        if (file.name.ends_with(".js")) all += code_of(std::string(file.name));
+    for (const auto& entry : fs::directory_iterator(fs::path(DYNLAB_SOURCE_DIR) / "report_templates/html"))
+        if (entry.path().extension() == ".js") all += read_text(entry.path());
+    std::vector<Marked> messages;
+    for (std::sregex_iterator found(all.begin(), all.end(), mark), end; found != end; ++found) {
+        const bool in_context = (*found)[1] == "In";
+        messages.push_back(
+            {in_context ? (*found)[2].str() : "", (*found)[in_context ? 3 : 2], (*found)[1] == "Plural"});
+    }
+    return messages;
+}
+
+TEST(page_words, have_french_with_the_same_places) {
+    const Catalog* const french = catalog_of("fr");
+    ASSERT_NE(french, nullptr);
+    const std::vector<Marked> messages = marked_messages();
+    EXPECT_GT(messages.size(), 300u);
+    const auto ends_with_space = [](std::string_view text) {
+        return text.ends_with(' ') || text.ends_with("\u00A0") || text.ends_with("\u202F");
+    };
+    for (const auto& [context, id, plural] : messages) {
+        const auto forms = french->forms(id, context);
+        EXPECT_EQ(forms.size(), plural ? 2u : 1u) << id;
+        for (const std::string_view form : forms) {
+            EXPECT_EQ(places_in(std::string(form)), places_in(id)) << id;
+            for (std::size_t at = form.find_first_of(";?!"); at != form.npos; at = form.find_first_of(";?!", at + 1))
+                EXPECT_TRUE(ends_with_space(form.substr(0, at))) << form;
         }
+    }
+}
+
+/// What catalogs.js gives to the script before it.
+nlohmann::json catalogs_of_pages() {
+    WebServer server({});
+    serve_page_files(server, "view.html");
+    server.start();
+    const auto reply = test::PageClient(server.address()).get("/catalogs.js");
+    if (!reply || reply->status != 200) return {};
+    const std::string begin = "const dynlabCatalogs = ", end = ";\n";
+    EXPECT_TRUE(reply->body.starts_with(begin) && reply->body.ends_with(end));
+    return nlohmann::json::parse(reply->body.substr(begin.size(), reply->body.size() - begin.size() - end.size()));
+}
+
+TEST(page_words, in_french_come_from_the_server_and_english_needs_none) {
+    const nlohmann::json catalogs = catalogs_of_pages();
+    EXPECT_FALSE(catalogs.contains("en"));
+    const nlohmann::json& french = catalogs.at("fr");
+    EXPECT_EQ(french.at("decimalSign"), ",");
+    EXPECT_EQ(french.at("forms").get<std::string>().substr(0, 4), "0011") << "French has 0 and 1 in the singular";
+    const nlohmann::json& texts = french.at("texts");
+    EXPECT_EQ(texts.at("Undo"), "Annuler");
+    EXPECT_EQ(texts.at("Run all"), "Tout exécuter");
+    EXPECT_EQ(texts.at("Search:"), "Chercher\u202F:");
+    EXPECT_EQ(texts.at("Choose an answer."), "Choisissez une réponse.") << "of the scripts in documents, too";
+    EXPECT_EQ(texts.at("{} cell, {} s"), nlohmann::json::array({"{} cellule, {} s", "{} cellules, {} s"}));
+    EXPECT_EQ(texts.at("kind of answer\4truth"), "vrai ou faux");
+    EXPECT_EQ(texts.at("column of a study\4truth"), "vrai");
+}
+
+TEST(page_words, in_another_language_need_only_its_catalog) {
+    add_language("vo", "msgid \"Undo\"\nmsgstr \"Sädunön <b>\"\n\nmsgid \"of no page\"\nmsgstr \"nos\"\n");
+    EXPECT_EQ(catalogs_of_pages().at("vo").at("texts"), nlohmann::json::parse(R"({"Undo": "Sädunön <b>"})"));
 }
 
 }  // namespace test_page_words

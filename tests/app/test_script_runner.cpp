@@ -110,7 +110,7 @@ TEST_F(script_runner, a_slider_moved_during_a_run_counts) {
 TEST_F(script_runner, goes_on_behind_a_failure) {
     EXPECT_THAT(run(kA + kB + "-- %% id=c\nerror(\"no\")\n"), ElementsAre(0, 1, 2));
     ASSERT_TRUE(record.error);
-    EXPECT_THAT(record.error->message, testing::HasSubstr("no"));
+    EXPECT_THAT(record.error->text(), testing::HasSubstr("no"));
     EXPECT_EQ(printed("b"), "2\n");
     EXPECT_THAT(run(kA + kB + kC), ElementsAre(2));
     EXPECT_FALSE(record.error);
@@ -169,7 +169,7 @@ TEST_F(script_runner, survives_the_death_of_its_processes) {
     const RunnerNews news = runner.next();
     EXPECT_EQ(news.kind, "ended");
     ASSERT_TRUE(news.record.error);
-    EXPECT_THAT(news.record.error->message, testing::HasSubstr("has ended"));
+    EXPECT_THAT(news.record.error->text(), testing::HasSubstr("has ended"));
     run(kA + kB + kC);
     EXPECT_EQ(printed("c"), "20\n");
 }

@@ -379,9 +379,10 @@ TEST_F(workbench, speaks_french_where_the_script_does) {
     EXPECT_EQ(browser.evaluate("return document.documentElement.lang"), "\"fr\"");
     const std::string told =
         "[...document.querySelectorAll('.told, .advice p, .chosen p')].map((one) => one.textContent).join(' ')";
-    for (const char* words : {"adéquation de", "l'erreur de sortie", "est assez riche pour des modèles à",
+    for (const char* words : {"adéquation de", "L'erreur de sortie", "est assez riche pour des modèles à",
                               "SRIVC a convergé en", "blanc en sortie"})
-        EXPECT_TRUE(browser.comes(told + ".includes(`" + words + "`)")) << words;
+        EXPECT_TRUE(browser.comes(told + ".includes(`" + words + "`)")) << words << "\n"
+                                                                        << browser.evaluate("return " + told);
     const std::string said = browser.evaluate("return " + told);
     EXPECT_FALSE(std::regex_search(said, std::regex("\\b(the|is|of|error|with|samples|fit)\\b"))) << said;
     write("mine.lua", french + "\nprint(yy)\n");

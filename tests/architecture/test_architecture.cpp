@@ -425,15 +425,14 @@ std::vector<std::string> literals_of(const std::string& source) {
     return matches(code, R"rx("((?:[^"\\\n]|\\.)*)")rx");
 }
 
-/// Names of options as scripts write them, MaxIter, of all bindings, but for the field's own symbols.
+/// Names of options as scripts write them, MaxIter, of all functions, but for the field's own symbols.
 std::set<std::string> option_words_of_lua() {
     const std::set<std::string> symbols = {"Kp", "Td",   "Ts",       "Tw",
                                            "Tz", "Zeta", "Reference"};  // "Reference: Ljung ..."
     std::set<std::string> words;
-    for (const fs::path& file : sources_below(kRoot / "engine/scripting/bind"))
-        for (const std::string& list : matches(text_of(file), R"rx(Options[^;{}]*\(\s*call,[^;{}]*\{([^}]*)\})rx"))
-            for (const std::string& word : matches(list, R"rx("([A-Z][A-Za-z]+)")rx"))
-                if (!symbols.contains(word)) words.insert(word);
+    for (const dynlab::FunctionEntry& function : dynlab::catalogue_of_functions())
+        for (const std::string& word : dynlab::option_names(function.options))
+            if (std::regex_match(word, std::regex("[A-Z][A-Za-z]+")) && !symbols.contains(word)) words.insert(word);
     return words;
 }
 
@@ -471,10 +470,15 @@ TEST(architecture, numerics_knows_no_option_of_lua) {
 TEST(architecture, scripting_has_a_word_for_every_option_that_messages_name) {
     const std::vector<std::string> known = dynlab::translated_options();
     std::set<std::string> unknown, named;
-    for (const fs::path& file : sources_below(kRoot / "engine/numerics"))
-        for (const std::string& literal : literals_of(text_of(file)))
-            for (const std::string& option : matches(literal, "`([a-z_]+)`"))
-                (std::find(known.begin(), known.end(), option) == known.end() ? unknown : named).insert(option);
+    const auto count = [&](const std::vector<std::string>& options) {
+        for (const std::string& option : options)
+            (std::find(known.begin(), known.end(), option) == known.end() ? unknown : named).insert(option);
+    };
+    for (const fs::path& file : sources_below(kRoot / "engine/numerics")) {
+        const std::string text = text_of(file);
+        count(matches(text, R"re(OptionName(?: \w+)?\{"([a-z_]+)"\})re"));
+        for (const std::string& literal : literals_of(text)) count(matches(literal, "`([a-z_]+)`"));
+    }
     EXPECT_THAT(unknown, IsEmpty());
     EXPECT_EQ(named.size(), known.size()) << "a word that no message needs";
 }

@@ -55,7 +55,6 @@ Vector ivsvf_theta(const IdData& data) {
 Vector srivc_theta(const IdData& data) {
     FitOptions options;
     options.lambda = kCutoff;
-    options.doubts = false;  // as the peers, which have none
     return srivc(data, TransferStructure::single(2, 0), options).theta;
 }
 
@@ -108,7 +107,6 @@ void measure_srivc(const Record& record, const std::string& what, double goal, i
 void measure_starts(const Record& record, Report& report) {
     const TransferStructure structure = TransferStructure::single(2, 0);
     FitOptions alone;
-    alone.doubts = false;
     double check = 0;
     const auto [measured, reference] = paired_medians(
         301, [&] { check += srivc(record.data, structure, alone).loss; },

@@ -45,7 +45,6 @@ void estimate(const IdData& data) {
     TransferStructure structure = TransferStructure::single(2, 0);
     structure.free_delays = true;
     FitOptions alone;
-    alone.doubts = false;
     tbb::task_arena arena(1);
     arena.execute([&] {
         if (!(srivc(data, structure, alone).fit_percent[0] > 0)) throw std::logic_error("nothing was estimated");

@@ -9,7 +9,6 @@
 #include "numerics/estimators/rivc.h"
 #include "numerics/estimators/srivc.h"
 #include "support/search_corpus.h"
-#include "support/without_doubts.h"
 
 namespace dynlab::bench {
 namespace {
@@ -67,15 +66,12 @@ void count_unsolved(const char* method, int systems, Index longest, bool irregul
 
 /// How many random systems are not found from default settings.
 void measure_searches(Report& report) {
-    const auto transfer = [](const test::SearchCase& one) {
-        return srivc(one.data, structure_of(one), test::without_doubts());
-    };
+    const auto transfer = [](const test::SearchCase& one) { return srivc(one.data, structure_of(one), FitOptions{}); };
     const auto with_noise = [](const test::SearchCase& one) {
-        return rivc(one.data, structure_of(one), NoiseOrders{.nd = 1}, test::without_doubts());  // as tfrivc has it
+        return rivc(one.data, structure_of(one), NoiseOrders{.nd = 1}, FitOptions{});  // as tfrivc has it
     };
     const auto process = [](const test::SearchCase& one) {
-        return procsrivc(one.data, ProcessStructure::parse(process_name(one)),
-                         test::without_doubts<ProcsrivcOptions>());
+        return procsrivc(one.data, ProcessStructure::parse(process_name(one)), ProcsrivcOptions{});
     };
     const auto add = [&](const std::string& what, const char* against, int failed, int tried, double bar) {
         report.results.push_back({what, against, static_cast<double>(failed), static_cast<double>(tried), bar, 0});

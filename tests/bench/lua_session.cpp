@@ -29,7 +29,7 @@ void LuaSession::forget_results() {
 
 void LuaSession::run(const std::string& line) {
     const RunRecord record = runtime_.run_code(line, "bench.lua");
-    if (record.error) throw std::runtime_error(line + ": " + record.error->message);
+    if (record.error) throw std::runtime_error(line + ": " + record.error->text());
 }
 
 Vector LuaSession::numbers(const std::string& expression) {

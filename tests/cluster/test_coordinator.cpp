@@ -1,7 +1,6 @@
 // Coordinator and workers in processes of their own. Oracle: the jobs that were put, each of which must come back once.
 #include "workflow/shares/coordinator.h"
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/prctl.h>
@@ -14,6 +13,7 @@
 #include "platform/error.h"
 #include "platform/interrupt.h"
 #include "platform/temporary_folder.h"
+#include "support/message_texts.h"
 #include "workflow/shares/shared_identity.h"
 #include "workflow/shares/worker.h"
 
@@ -88,7 +88,9 @@ class coordinator : public testing::Test {
         do {
             while (const auto done = coordinator.finished()) {
                 EXPECT_FALSE(all.contains(done->key));
-                all[done->key] = !done->result ? done->trouble : done->result->trouble.value_or(done->result->bytes);
+                all[done->key] = !done->result           ? message_text(done->trouble)
+                                 : done->result->trouble ? message_text(*done->result->trouble)
+                                                         : done->result->bytes;
             }
         } while (coordinator.wait());
         return all;
@@ -195,7 +197,8 @@ TEST_F(coordinator, a_stranger_who_writes_into_the_spool_changes_no_result) {
     }
     start_worker("a");
     EXPECT_EQ(collected(leader), expected);
-    EXPECT_THAT(leader.complaints(), testing::Contains(HasSubstr("is not signed by any worker of this session")));
+    EXPECT_THAT(test::texts_of(leader.complaints()),
+                testing::Contains(HasSubstr("is not signed by any worker of this session")));
 }
 
 TEST_F(coordinator, refuses_a_worker_with_another_program) {
@@ -206,7 +209,7 @@ TEST_F(coordinator, refuses_a_worker_with_another_program) {
     options.node = "alpha";
     const auto refused = work_for(spool, options);
     ASSERT_TRUE(refused);
-    EXPECT_THAT(*refused, HasSubstr("alpha has another version of dynlab"));
+    EXPECT_THAT(message_text(*refused), HasSubstr("alpha has another version of dynlab"));
 }
 
 // Where every third job loses its worker to somebody else's kill, none of them is wronged.
@@ -219,7 +222,8 @@ TEST_F(coordinator, does_not_blame_jobs_for_a_storm) {
     std::map<std::string, std::string> all;
     int kills = 0;
     for (int waited = 0; leader.wait(); ++waited) {
-        while (const auto done = leader.finished()) all[done->key] = done->result ? done->result->bytes : done->trouble;
+        while (const auto done = leader.finished())
+            all[done->key] = done->result ? done->result->bytes : message_text(done->trouble);
         if (waited % 6 != 5 || kills == 40) continue;
         pid_t& victim = storm[static_cast<std::size_t>(kills++ % 2)];
         end(victim, SIGKILL);

@@ -44,6 +44,19 @@ class spool : public testing::Test {
     TemporaryFolder folder_;
 };
 
+TEST_F(spool, one_whose_making_or_removal_was_killed_is_begun_again) {  // oracle: what each step of the two leaves
+    for (const char* gone : {"spool.json", "identity", "jobs"}) {
+        begun();
+        fs::remove(folder_.path() / "spool/spool.json");
+        fs::remove_all(folder_.path() / "spool" / gone);
+        EXPECT_TRUE(begun().exists()) << gone;
+    }
+    fs::remove(folder_.path() / "spool/spool.json");
+    write_file_atomically(folder_.path() / "spool/thesis.tex", "mine");
+    EXPECT_THROW(begun(), EnvironmentError);
+    EXPECT_EQ(read_file(folder_.path() / "spool/thesis.tex"), "mine");
+}
+
 TEST_F(spool, a_job_is_claimed_by_one_of_many_processes) {
     constexpr int kJobs = 200, kProcesses = 8;
     const Spool folder = begun();

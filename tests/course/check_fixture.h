@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/reader.h"
 #include "course/findings/document_findings.h"
 #include "documents/document_fixture.h"
 #include "platform/child_process.h"
@@ -90,8 +91,8 @@ class CheckTest : public DocumentTest {
         std::vector<std::string> found;
         expect_told_in_french(result.findings);
         for (const Finding& finding : result.findings) {
-            EXPECT_TRUE(finding.what.ends_with('.')) << finding.what;
-            EXPECT_TRUE(finding.remedy.ends_with('.')) << finding.remedy;
+            EXPECT_TRUE(message_text(finding.what).ends_with('.')) << message_text(finding.what);
+            EXPECT_TRUE(message_text(finding.remedy).ends_with('.')) << message_text(finding.remedy);
             found.push_back(finding.id);
         }
         return found;

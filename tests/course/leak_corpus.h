@@ -1,6 +1,7 @@
 #pragma once
 #include <functional>
 
+#include "base/reader.h"
 #include "check_fixture.h"
 #include "course/names/sought_names.h"
 
@@ -66,8 +67,8 @@ class LeakCorpus : public CheckTest {
                                   finding.id == "not-searched" || finding.id == "damaged";
             if (!of_names) continue;
             expect_told_in_french({finding});
-            EXPECT_TRUE(finding.what.ends_with('.')) << finding.what;
-            EXPECT_TRUE(finding.remedy.ends_with('.')) << finding.remedy;
+            EXPECT_TRUE(message_text(finding.what).ends_with('.')) << message_text(finding.what);
+            EXPECT_TRUE(message_text(finding.remedy).ends_with('.')) << message_text(finding.remedy);
             const std::string words = finding.id + " " + std::to_string(finding.page);
             result.push_back(finding.severity == Severity::kRule ? words : "(" + words + ")");
         }

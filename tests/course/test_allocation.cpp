@@ -7,6 +7,7 @@
 #include <random>
 #include <set>
 
+#include "base/reader.h"
 #include "course/review/allocation.h"
 #include "numerics/error.h"
 
@@ -145,11 +146,11 @@ TEST(allocation, says_what_cannot_be_had) {
     EXPECT_EQ(all.pairs.size(), 6u);
     EXPECT_EQ(all.swapped, 3);
     ASSERT_FALSE(all.remarks.empty());
-    EXPECT_NE(all.remarks.back().find("3 couples of groups review each other"), std::string::npos);
+    EXPECT_NE(message_text(all.remarks.back()).find("3 couples of groups review each other"), std::string::npos);
     problem = {4, 1, std::vector<bool>(4, true), {{0, 1}, {0, 2}, {0, 3}}, {}, {}};
     const Allocation lonely = allocate_reviews(problem, fixed_draw(1));
     EXPECT_EQ(lonely.open_reviews, 1);
-    EXPECT_NE(lonely.remarks.front().find("common members"), std::string::npos);
+    EXPECT_NE(message_text(lonely.remarks.front()).find("common members"), std::string::npos);
 }
 
 // oracle: the clock; 300 groups with six reviews each

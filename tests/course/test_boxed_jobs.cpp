@@ -6,8 +6,10 @@
 #include <random>
 
 #include "course/boxes/boxed_work.h"
+#include "course/boxes/told_reason.h"
 #include "course/checks/check_descriptions.h"
 #include "course/review/version_description.h"
+#include "documents/text_lines.h"
 #include "platform/program_lookup.h"
 #include "support/program.h"
 
@@ -22,7 +24,7 @@ GradedRun sample_run() {
     run.figures = {"raw", "fit"};
     run.values = {"fit"};
     run.printed = "93.2\n";
-    run.error = "analysis.lua:3: no";
+    run.error = Message("{}:{}: no", "analysis.lua", 3);
     run.seconds = 0.25;
     return run;
 }
@@ -36,7 +38,7 @@ ChecksJob sample_checks() {
     job.clock_multiple = 5;
     job.only = 1;
     const CheckedSubmission work{{{"main", sample_run()}},
-                                 {{"pages", Severity::kHint, 7, "", "Too many pages.", "Cut."}},
+                                 {{"pages", Severity::kHint, 7, "", Message("Too many pages."), Message("Cut.")}},
                                  "answer('G', 1)",
                                  AnswerChange{"G", 1.5}};
     job.submissions = {{work, "/box/home-1", {{"hidden", {{"crane", 4'000'000'001u}}}}}, {}};
@@ -55,20 +57,18 @@ TEST(boxed_jobs, come_back) {
     expect_to_come_back(sample_run());
     expect_to_come_back(sample_checks());
     expect_to_come_back(ChecksJob());
-    expect_to_come_back(RunJob{"/box/submission/analysis.lua",
-                               "/box/words/engine_sentences.fr.txt",
-                               7,
-                               {{"gain", "number"}},
-                               60000,
-                               5,
-                               1ull << 30});
+    expect_to_come_back(RunJob{"/box/submission/analysis.lua", 7, {{"gain", "number"}}, 60000, 5, 1ull << 30});
     expect_to_come_back(UnpackJob{"/box/archive", "/box/to", 200ull << 20, 2000, true});
-    expect_to_come_back(Unpacked{{"\"../x\" leads outside of the archive"}, "the archive is damaged"});
+    expect_to_come_back(
+        Unpacked{{Message("\"{}\" leads outside of the archive", "../x")}, Message("the archive is damaged")});
     expect_to_come_back(VersionJob{"/box/submission", "/box/made", true});
     const CheckDescription check{"a", "about", "hint", 2, "seed", true, true, "rubric", false};
-    const TriedCheck tried{check, 0.5, "no", "why"};
-    expect_to_come_back(
-        CheckResults{{tried}, {{{tried}, "", 0.5}, {{}, "why", 60}}, {"rc"}, {{{"u", {1, 2}}}}, "error"});
+    const TriedCheck tried{check, 0.5, Message("no"), Message("why")};
+    expect_to_come_back(CheckResults{{tried},
+                                     {{{tried}, {}, 0.5}, {{}, Message("it crashed (signal {})", 11), 60}},
+                                     {"rc"},
+                                     {{{"u", {1, 2}}}},
+                                     Message("error")});
     const ChecksJob back = from_cbor<ChecksJob>(cbor_of(sample_checks()));
     EXPECT_EQ(back.hidden_folder, "/box/hidden");
     EXPECT_EQ(back.time_ms, 10000);
@@ -78,17 +78,28 @@ TEST(boxed_jobs, come_back) {
     EXPECT_TRUE(back.files.at(0).visible);
     EXPECT_EQ(back.submissions.at(0).specimens.at("hidden").at("crane"), 4'000'000'001u);
     EXPECT_EQ(back.submissions.at(0).work.findings.at(0).severity, Severity::kHint);
-    EXPECT_EQ(back.submissions.at(0).work.runs.at("main").error, "analysis.lua:3: no");
+    EXPECT_EQ(back.submissions.at(0).work.runs.at("main").error, Message("{}:{}: no", "analysis.lua", 3));
     EXPECT_THAT(back.submissions.at(0).work.runs.at("main").figures, ElementsAre("raw", "fit"));
+}
+
+// oracle: written by hand
+TEST(boxed_jobs, message_from_a_box_names_files_of_the_work_and_keeps_its_id) {
+    const Message said("{}: there is no file {}", "/box/submission/analysis.lua:3", "/box/submission/data/x.csv");
+    EXPECT_EQ(told_outside(said, "/box/submission"),
+              Message("{}: there is no file {}", "analysis.lua:3", "data/x.csv"));
+    EXPECT_EQ(shortened_trouble(said), said);
+    const auto as_capitals = [](const std::string& text) { return text == "b" ? "B" : replaced(text, "a b", "A B"); };
+    EXPECT_EQ(with_changed_text(Message("a {}", "b"), as_capitals), Message::verbatim("A B"))
+        << "its format changes too";
 }
 
 TEST(boxed_jobs, texts_from_a_box_are_utf8) {
     GradedRun run = sample_run();
     run.printed = "a\xFF";
-    run.error = "\xC3";
+    run.error = Message::verbatim("\xC3");
     const GradedRun back = from_cbor<GradedRun>(cbor_of(run), boxed_limits());
     EXPECT_EQ(back.printed, "a\xEF\xBF\xBD");
-    EXPECT_EQ(back.error, "\xEF\xBF\xBD");
+    EXPECT_EQ(back.error, Message::verbatim("\xEF\xBF\xBD"));
 }
 
 TEST(boxed_jobs, any_bytes_from_a_box_are_a_result_or_refused) {

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/reader.h"
 #include "course/grading/folder_check.h"
 #include "support/program.h"
 
@@ -121,7 +122,7 @@ TEST(check_command, a_folder_that_takes_too_long_or_is_too_large_is_given_up) {
     const CheckResult endless = check_folder(bench.path("mine"), DYNLAB_PROGRAM, {}, limits);
     ASSERT_EQ(endless.findings.size(), 1u);
     EXPECT_EQ(endless.findings[0].id, "analysis-fails");
-    EXPECT_THAT(endless.findings[0].what, HasSubstr("used more than 1 s of processor time"));
+    EXPECT_THAT(message_text(endless.findings[0].what), HasSubstr("used more than 1 s of processor time"));
     limits.folder_bytes = 10;
     EXPECT_EQ(check_folder(bench.path("mine"), DYNLAB_PROGRAM, {}, limits).findings.at(0).id, "folder-too-large");
     limits = {};

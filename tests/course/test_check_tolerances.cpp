@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <regex>
 
+#include "base/reader.h"
 #include "course/grading/grading_rules.h"
 #include "course/grading_bench.h"
 
@@ -79,11 +80,12 @@ class check_tolerances : public ::testing::TestWithParam<std::string> {};
 
 void expect_fair_marks(const Grade& grade, bool inside, const std::vector<std::string>& untouched) {
     SCOPED_TRACE(grade.submission);
-    EXPECT_EQ(grade.trouble, "");
+    EXPECT_EQ(message_text(grade.trouble), "");
     for (const CheckGrade& check : grade.checks) {
         const bool looks_elsewhere =
             check.id == "figures" || std::find(untouched.begin(), untouched.end(), check.id) != untouched.end();
-        EXPECT_EQ(check.earned == check.points, inside || looks_elsewhere) << check.id << ": " << check.message;
+        EXPECT_EQ(check.earned == check.points, inside || looks_elsewhere)
+            << check.id << ": " << message_text(check.message);
     }
 }
 

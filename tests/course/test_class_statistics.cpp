@@ -10,12 +10,13 @@ namespace test_class_statistics {
 using ::testing::ElementsAre;
 using ::testing::Pair;
 
-Grade work(const std::string& name, double a, double b, double c, const std::string& said = "") {
+Grade work(const std::string& name, double a, double b, double c, const Message& said = {}) {
     Grade grade;
     grade.submission = name;
     for (const auto& [id, earned] : {std::pair("a", a), std::pair("b", b), std::pair("c", c)}) {
         CheckGrade check;
-        check.id = check.about = id;
+        check.id = id;
+        check.about = Message::verbatim(id);
         check.points = 2;
         check.earned = earned;
         if (earned < 2 && id == std::string("a")) check.message = said;
@@ -27,9 +28,9 @@ Grade work(const std::string& name, double a, double b, double c, const std::str
 // oracle: counted and computed by hand. Points in a: 2 2 1 0 0, mean 1, deviations 1 1 0 -1 -1; in b and c together:
 // 4 3 2 1 0, mean 2, deviations 2 1 0 -1 -2; correlation 6/sqrt(4*10).
 TEST(class_statistics, are_those_counted_by_hand) {
-    const std::vector<Grade> grades = {work("1", 2, 2, 2), work("2", 2, 1, 2), work("3", 1, 0, 2, "It is 3.2 % away."),
-                                       work("4", 0, 0, 1, "The sign is wrong."),
-                                       work("5", 0, 0, 0, "It is 1e-05 % away.")};
+    const std::vector<Grade> grades = {
+        work("1", 2, 2, 2), work("2", 2, 1, 2), work("3", 1, 0, 2, Message("It is {} % away.", 3.2)),
+        work("4", 0, 0, 1, Message("The sign is wrong.")), work("5", 0, 0, 0, Message("It is {} % away.", 1e-5))};
     const auto all = statistics_of_checks(grades);
     ASSERT_EQ(all.size(), 3u);
     EXPECT_EQ(all[0].graded, 5);

@@ -5,12 +5,14 @@
 #include "course/findings/findings_report.h"
 #include "course/findings/leftover_findings.h"
 #include "platform/atomic_file.h"
+#include "support/message_texts.h"
 #include "support/pdf_inspection.h"
 
 namespace dynlab {
 namespace test_document_findings {
 
 using test::inspect_pdf;
+using test::texts_of;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -28,10 +30,10 @@ TEST_F(document_findings, a_sound_report_has_none_and_the_summary_says_what_was_
     EXPECT_THAT(ids(result), IsEmpty());
     EXPECT_TRUE(result.passed());
     EXPECT_EQ(result.language, "en");
-    EXPECT_THAT(result.checked, Contains("9 sections"));
-    EXPECT_THAT(result.checked, Contains("1 numbered figure"));
-    EXPECT_THAT(result.checked, Contains("English only"));
-    EXPECT_THAT(result.checked, Contains(HasSubstr("of at most 6 + 1 of appendix")));
+    EXPECT_THAT(texts_of(result.checked), Contains("9 sections"));
+    EXPECT_THAT(texts_of(result.checked), Contains("1 numbered figure"));
+    EXPECT_THAT(texts_of(result.checked), Contains("English only"));
+    EXPECT_THAT(texts_of(result.checked), Contains(HasSubstr("of at most 6 + 1 of appendix")));
 }
 
 TEST_F(document_findings, a_sound_french_report_has_none) {
@@ -39,7 +41,7 @@ TEST_F(document_findings, a_sound_french_report_has_none) {
     const CheckResult result = check_report("---\ntitle: La grue\n---\n" + french_report());
     EXPECT_THAT(ids(result), IsEmpty());
     EXPECT_EQ(result.language, "fr");
-    EXPECT_THAT(result.checked, Contains("French only"));
+    EXPECT_THAT(texts_of(result.checked), Contains("French only"));
 }
 
 TEST_F(document_findings, own_wordings_of_headings_are_understood) {
@@ -56,12 +58,12 @@ TEST_F(document_findings, a_missing_section_is_named_in_the_documents_language) 
     std::string text = english_report();
     text.erase(text.find("# Raw data"), text.find("# Pre-processing") - text.find("# Raw data"));
     const Finding missing = only(check_report(text), "section-missing");
-    EXPECT_THAT(missing.what, HasSubstr("\"Raw data\""));
+    EXPECT_THAT(message_text(missing.what), HasSubstr("\"Raw data\""));
     EXPECT_EQ(missing.severity, Severity::kRule);
 
     text = french_report();
     text.erase(text.find("# Données brutes"), text.find("# Prétraitement") - text.find("# Données brutes"));
-    EXPECT_THAT(only(check_report(text), "section-missing").what, HasSubstr("Données brutes"));
+    EXPECT_THAT(message_text(only(check_report(text), "section-missing").what), HasSubstr("Données brutes"));
 }
 
 TEST_F(document_findings, empty_and_short_sections_are_told_apart) {
@@ -70,10 +72,10 @@ TEST_F(document_findings, empty_and_short_sections_are_told_apart) {
     const Finding empty =
         only(check_report(std::string(text).replace(start, end - start, "# Raw data\n\n")), "section-empty");
     EXPECT_EQ(empty.page, 1);
-    EXPECT_THAT(empty.what, HasSubstr("\"Raw data\" is empty"));
+    EXPECT_THAT(message_text(empty.what), HasSubstr("\"Raw data\" is empty"));
     const CheckResult result = check_report(std::string(text).replace(
         start, end - start, "# Raw data\n\nThe data are good and they were used as such.\n\n"));
-    EXPECT_THAT(only(result, "section-short").what, HasSubstr("10 words"));
+    EXPECT_THAT(message_text(only(result, "section-short").what), HasSubstr("10 words"));
     EXPECT_TRUE(result.passed());
     EXPECT_THAT(ids(check_report(std::string(text).replace(start, end - start,
                                                            std::string("# Raw data\n\n## The record\n\n") + kProse))),
@@ -99,8 +101,8 @@ TEST_F(document_findings, pages_beyond_the_limit_count_and_an_appendix_has_its_o
     EXPECT_THAT(ids(pages(6 - own)), IsEmpty());
     const Finding seven = only(pages(7 - own), "pages");
     EXPECT_EQ(seven.page, 7);
-    EXPECT_THAT(seven.what, HasSubstr("has 7 pages; at most 6 pages and 1 page of appendix"));
-    EXPECT_THAT(seven.remedy, HasSubstr("heading \"Appendix\""));
+    EXPECT_THAT(message_text(seven.what), HasSubstr("has 7 pages; at most 6 pages and 1 page of appendix"));
+    EXPECT_THAT(message_text(seven.remedy), HasSubstr("heading \"Appendix\""));
     const std::string appendix = std::string("\n::: {.pagebreak}\n:::\n\n# Appendix: control\n\n") + kProse;
     EXPECT_THAT(ids(pages(6 - own, appendix)), IsEmpty());
     EXPECT_EQ(only(pages(7 - own, appendix), "pages").page, 8);
@@ -111,7 +113,7 @@ TEST_F(document_findings, pages_beyond_the_limit_count_and_an_appendix_has_its_o
 TEST_F(document_findings, a_figure_that_is_never_mentioned_is_found_in_every_caption_style) {
     add_figure("raw", "A step", DocumentFormat::kPdf);
     const Finding finding = only(check_report(english_report(kFigure)), "figure-not-mentioned");
-    EXPECT_EQ(finding.what, "Figure 1 is never mentioned in the text.");
+    EXPECT_EQ(message_text(finding.what), "Figure 1 is never mentioned in the text.");
     const std::vector<std::string> pages = inspect_pdf(file("report.pdf")).pages;
     EXPECT_THAT(pages.at(static_cast<std::size_t>(finding.page) - 1), HasSubstr("Figure"));
 
@@ -129,7 +131,7 @@ TEST_F(document_findings, a_figure_that_is_never_mentioned_is_found_in_every_cap
     std::vector<std::string> unmentioned;
     for (const Finding& one : check_latex("", kProse + captions + kProse).findings) {
         EXPECT_EQ(one.id, "figure-not-mentioned");
-        unmentioned.push_back(one.what);
+        unmentioned.push_back(message_text(one.what));
     }
     EXPECT_THAT(unmentioned, testing::ElementsAreArray(every_figure));
     EXPECT_THAT(ids(check_latex("", mentions + kProse + captions + kProse)), IsEmpty());
@@ -143,7 +145,7 @@ TEST_F(document_findings, lists_and_ranges_of_figures_mention_all_of_them) {
     const auto found = [&](const std::string& sentence) {
         std::vector<std::string> missing;
         for (const Finding& finding : check_latex("", kProse + sentence + "\n\n" + captions).findings)
-            missing.push_back(finding.what.substr(0, 8));
+            missing.push_back(message_text(finding.what).substr(0, 8));
         return missing;
     };
     EXPECT_THAT(found("See Figures 1, 2 and 3, Figs. 4--5 and figure~6."), IsEmpty());
@@ -183,7 +185,7 @@ TEST_F(document_findings, guidance_of_the_template_must_not_be_printed) {
         "mine", {}, guidance_of("# A\n\n<!-- What moves the process, and what is measured on it? Be brief. -->\n"), {}};
     const std::string sentence = "What moves the process, and what is measured on it?\n";
     const Finding finding = only(check_latex("", kProse + ("\\newpage\n" + sentence)), "guidance-left");
-    EXPECT_THAT(finding.what, HasSubstr("What moves the process"));
+    EXPECT_THAT(message_text(finding.what), HasSubstr("What moves the process"));
     EXPECT_EQ(finding.page, 2);
     for (const std::string& other : {std::string("Be brief. What moves it is measured.\n"), "Some" + sentence})
         EXPECT_THAT(ids(check_latex("", kProse + other)), IsEmpty()) << other;
@@ -228,9 +230,10 @@ TEST_F(document_findings, a_passage_in_the_other_language_is_a_hint_with_its_pag
     const CheckResult result = check_report(english_report(kFrenchProse));
     const Finding finding = only(result, "language-mixed");
     EXPECT_EQ(finding.severity, Severity::kHint);
-    EXPECT_THAT(finding.what, HasSubstr("looks French: \""));
+    EXPECT_THAT(message_text(finding.what), HasSubstr("looks French: \""));
     EXPECT_TRUE(result.passed());
-    EXPECT_THAT(only(check_report(french_report() + kProse), "language-mixed").what, HasSubstr("looks English"));
+    EXPECT_THAT(message_text(only(check_report(french_report() + kProse), "language-mixed").what),
+                HasSubstr("looks English"));
     EXPECT_THAT(
         ids(check_report(english_report("A term such as *mise en \u0153uvre* or *coup de force* is none, nor is the "
                                         "title *Identification des syst\u00E8mes* in a reference."))),
@@ -239,10 +242,10 @@ TEST_F(document_findings, a_passage_in_the_other_language_is_a_hint_with_its_pag
         "Discovering the equations of the systems that we have, and what is to be found in the data by "
         "the sparse identification of them";
     EXPECT_THAT(ids(check_report(french_report() + "\n\nDans « " + title + " », 2016.\n")), IsEmpty());
-    EXPECT_THAT(only(check_report(french_report() + "\n\n" + title + ".\n"), "language-mixed").what,
+    EXPECT_THAT(message_text(only(check_report(french_report() + "\n\n" + title + ".\n"), "language-mixed").what),
                 HasSubstr("English"));
     standard_->language = "fr";
-    EXPECT_THAT(only(check_report(english_report()), "language-differs").what, HasSubstr("lang: fr"));
+    EXPECT_THAT(message_text(only(check_report(english_report()), "language-differs").what), HasSubstr("lang: fr"));
 }
 
 TEST_F(document_findings, small_text_and_narrow_margins_break_the_rules) {
@@ -252,7 +255,7 @@ TEST_F(document_findings, small_text_and_narrow_margins_break_the_rules) {
     EXPECT_THAT(ids(check_latex("", prose)), IsEmpty());
     EXPECT_THAT(ids(check_latex("\\usepackage[margin=16mm]{geometry}", prose)), IsEmpty());
     EXPECT_THAT(ids(check_latex("", "\\small " + prose)), IsEmpty());
-    EXPECT_THAT(only(check_latex("", "\\footnotesize " + prose), "text-small").what, HasSubstr("9.0 pt"));
+    EXPECT_THAT(message_text(only(check_latex("", "\\footnotesize " + prose), "text-small").what), HasSubstr("9.0 pt"));
     EXPECT_EQ(only(check_latex("", prose + "\\newpage\\scriptsize " + prose), "text-small").page, 2);
     EXPECT_EQ(only(check_latex("\\usepackage[margin=8mm]{geometry}", prose), "margins").severity, Severity::kRule);
     EXPECT_THAT(ids(check_latex("\\usepackage[left=12mm,right=25mm]{geometry}", prose)), ElementsAre("margins"));
@@ -265,7 +268,7 @@ TEST_F(document_findings, a_line_in_the_margin_is_a_hint_and_over_the_edge_a_rul
                             std::string("\\mbox{This line is much longer than the width of the text and it can not be "
                                         "broken since it stands in a box.}\n\n") +
                             kProse);
-    EXPECT_THAT(only(overflow, "text-overflow").what, HasSubstr("This line is much longer"));
+    EXPECT_THAT(message_text(only(overflow, "text-overflow").what), HasSubstr("This line is much longer"));
     EXPECT_THAT(
         ids(check_latex("", kProse + std::string("\\hspace*{13.4cm}\\mbox{Ausserordentlichlang}\n\n") + kProse)),
         Contains("text-cut-off"));
@@ -284,7 +287,7 @@ TEST_F(document_findings, slides_are_held_against_their_own_limits) {
     EXPECT_THAT(ids(found(one, {"Validation of the model", text})), IsEmpty());
     EXPECT_THAT(ids(found(one, {"Raw data", text})), ElementsAre("section-missing"));
     EXPECT_EQ(only(found(one, {"Validation", "None."}), "section-empty").page, 2);
-    EXPECT_THAT(only(found(four, {"Validation", text}), "pages").what,
+    EXPECT_THAT(message_text(only(found(four, {"Validation", text}), "pages").what),
                 HasSubstr("has 5 slides; at most 3 slides are allowed"));
     std::string much;
     for (int i = 0; i < 6; ++i) much += text + " ";

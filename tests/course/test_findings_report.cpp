@@ -13,12 +13,18 @@ using testing::HasSubstr;
 using testing::Not;
 
 CheckResult some_result() {
-    CheckResult result{"report.pdf", "lab_report", "en", "", 7, {"7 pages of at most 6", "unfilled slots"}, {}};
-    result.findings = {{"language-mixed", Severity::kHint, 2, "", "A hint.", "Look at it."},
-                       {"pages", Severity::kRule, 7, "", "It is long.", "Shorten it."},
-                       {"answer-open", Severity::kRule, 9, "", "Another.", "Write."},
+    CheckResult result{"report.pdf",
+                       "lab_report",
+                       "en",
+                       "",
+                       7,
+                       {Message("{} pages of at most {}", 7, 6), Message("unfilled slots")},
+                       {}};
+    result.findings = {{"language-mixed", Severity::kHint, 2, "", Message("A hint."), Message("Look at it.")},
+                       {"pages", Severity::kRule, 7, "", Message("It is long."), Message("Shorten it.")},
+                       {"answer-open", Severity::kRule, 9, "", Message("Another."), Message("Write.")},
                        {"answer-open", Severity::kRule, 0, "analysis.lua:12",
-                        std::string(30, 'x') + " " + std::string(80, 'y') + ".", "Write."}};
+                        Message("{} {}.", std::string(30, 'x'), std::string(80, 'y')), Message("Write.")}};
     sort_findings(result.findings);
     return result;
 }
@@ -66,6 +72,7 @@ TEST(findings_report, json_holds_everything_and_null_where_nothing_is_known) {
     EXPECT_EQ(json.at("findings").at(0).at("place"), "analysis.lua:12");
     EXPECT_TRUE(json.at("findings").at(0).at("page").is_null());
     EXPECT_EQ(json.at("findings").at(1).at("page"), 7);
+    EXPECT_EQ(json.at("findings").at(1).at("what"), "It is long.");
     EXPECT_EQ(json.at("findings").at(1).at("severity"), "rule");
     EXPECT_EQ(json.at("findings").at(3).at("severity"), "hint");
     EXPECT_TRUE(nlohmann::json::parse(findings_as_json(CheckResult())).at("pages").is_null());
@@ -76,6 +83,8 @@ TEST(findings_report, json_comes_back_and_other_texts_are_refused) {
     const CheckResult back = findings_from_json(findings_as_json(some_result()));
     EXPECT_EQ(findings_in_words(back, false), findings_in_words(some_result(), false));
     EXPECT_EQ(findings_as_json(back), findings_as_json(some_result()));
+    EXPECT_EQ(back.checked, some_result().checked);
+    EXPECT_EQ(back.findings.at(0).what, some_result().findings.at(0).what) << "the message, not its text alone";
     const CheckResult stored = findings_from_json(
         R"({"subject": "report.pdf", "template": null, "language": "en", "pages": null, "passed": false, "checked": [],
             "findings": [{"id": "damaged", "severity": "rule", "page": null, "place": null, "what": "w",
@@ -84,6 +93,7 @@ TEST(findings_report, json_comes_back_and_other_texts_are_refused) {
     EXPECT_EQ(stored.pages, 0);
     EXPECT_EQ(stored.findings.at(0).severity, Severity::kRule);
     EXPECT_EQ(stored.findings.at(0).place, "");
+    EXPECT_EQ(stored.findings.at(0).what, Message::verbatim("w"));
     for (const char* text : {"", "[]", R"({"subject": "x"})"})
         EXPECT_THROW(findings_from_json(text), EnvironmentError) << text;
 }

@@ -131,7 +131,7 @@ TEST(gradebook_memory, only_takes_a_name_a_group_an_id_or_a_student) {
     GradingRequest request;
     request.roster = work.path("roster.csv");
     const ClassOwners owners(request);
-    std::vector<std::string> left_out;
+    std::vector<Message> left_out;
     const std::vector<Submission> submissions = submissions_in(work.path("in"), left_out);
     const auto chosen = [&](const std::vector<std::string>& words) {
         std::vector<std::string> names;

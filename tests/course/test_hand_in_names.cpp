@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "base/reader.h"
 #include "course/course_bench.h"
 #include "course/grading_bench.h"
 #include "course/hand_ins/owners.h"
@@ -154,7 +155,7 @@ TEST(hand_in_names, every_owner_is_found_in_what_platforms_and_systems_write) {
         const TemporaryFolder to;
         EXPECT_THAT(unpack_export(bench.path(made.file), to.path() / "all", Isolation::kProcess, DYNLAB_PROGRAM),
                     IsEmpty());
-        std::vector<std::string> left_out;
+        std::vector<Message> left_out;
         const std::vector<Submission> submissions = submissions_in(to.path() / "all", left_out);
         EXPECT_THAT(left_out, IsEmpty());
         EXPECT_THAT(submissions, SizeIs(all.size()));
@@ -164,7 +165,7 @@ TEST(hand_in_names, every_owner_is_found_in_what_platforms_and_systems_write) {
             const long place = place_of(submission);
             const bool theirs =
                 found.anybody() && found.students.size() == 1 && static_cast<long>(found.students[0]) == place;
-            EXPECT_TRUE(theirs) << submission.name << " is place " << place << ": " << found.trouble;
+            EXPECT_TRUE(theirs) << submission.name << " is place " << place << ": " << message_text(found.trouble);
             right += theirs;
         }
         EXPECT_EQ(right, all.size());
@@ -196,13 +197,13 @@ TEST(hand_in_names, one_meaning_is_taken_and_two_are_told) {
          {"group-1", "Group 1", "group_01_final", "ANNA MULLER", "Mueller Anna", "muelleranna_5_6_x", "lee ben",
           "Lab 4 - Anna Müller", "1002", "anna.mueller", "Default group-Ben Lee_7_assignsubmission_file_",
           "group-1-Ben Lee_8_assignsubmission_file_", "group-1_against_group-2"})
-        EXPECT_EQ(group(name), "group-1") << name << ": " << owners.find(called(name)).trouble;
+        EXPECT_EQ(group(name), "group-1") << name << ": " << message_text(owners.find(called(name)).trouble);
     EXPECT_EQ(group("group-12_report"), "group-12");
     EXPECT_EQ(group("Participant_900003_assignsubmission_file_"), "group-12");
     EXPECT_EQ(group("group-9"), "group-9");
     EXPECT_EQ(group("José García"), "group-2");  // an accent tells them apart where it is written
     EXPECT_EQ(group("Jose Garcia"), "group-3");
-    const auto trouble = [&](const std::string& name) { return owners.find(called(name)).trouble; };
+    const auto trouble = [&](const std::string& name) { return message_text(owners.find(called(name)).trouble); };
     EXPECT_EQ(trouble("jose GARCIA"), "it fits several: group-2, group-3");
     EXPECT_EQ(trouble("group-1-Zoë Ade_8_assignsubmission_file_"), "it fits several: group-1, group-12");
     EXPECT_EQ(trouble("Ben Lee_900003_assignsubmission_file_"),

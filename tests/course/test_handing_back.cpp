@@ -89,23 +89,27 @@ TEST(handing_back, platforms_that_know_nobody_are_told) {
                 AllOf(HasSubstr("without moodle-grades.csv"), Not(HasSubstr("without canvas-grades.csv"))));
 }
 
-// oracle: the French of the sentences that the program tells students, and the decimal comma
+// oracle: the French of the program, that of the lesson, and the decimal comma
 TEST(handing_back, comments_are_in_the_language_of_the_feedback) {
-    const std::string unseen = "On a record that you have not seen, it falls short of full points.";
-    GradingBench bench(
-        kAnswers,
-        "check{id = 'x', points = 2.5, about = '" + unseen + "', test = function(a) return near(a.x, 42) end}\n",
-        kSolution);
+    GradingBench bench(kAnswers,
+                       "check{id = 'x', points = 2.5, about = 'The number', hint = 'Six times seven.',\n"
+                       "  test = function(a) return near(a.x, 42) end}\n",
+                       kSolution);
     Workbench& work = bench.bench();
-    bench.hand_in("Zoé_K_900002_assignsubmission_file_", "answer('x', 1)\n");
+    work.write("home/lessons/99_small/checks.fr.po",
+               "msgid \"The number\"\nmsgstr \"Le nombre\"\n\nmsgid \"Six times seven.\"\nmsgstr \"Six fois sept.\"\n");
+    bench.hand_in("Zoé_K_900002_assignsubmission_file_", "answer('x', 41)\n");
     bench.hand_in("Anna_L_900003_assignsubmission_file_", "answer('x', 1)\n");
     work.write("roster.csv", "id,name,moodle,language\n2,Zoé K,900002,fr\n3,Anna L,900003,en\n");
     bench.grade({"--roster", "roster.csv"});
+    work.write("out/manual.csv", "submission,check,points,reason\nZoé_K_900002_assignsubmission_file_,x,1.5,\n");
+    bench.grade({"--roster", "roster.csv"});
     work.dynlab({"hand-back", "out", "--roster", "roster.csv"});
     const std::string moodle = work.read("out/handed_back/moodle-grades.csv");
-    EXPECT_THAT(moodle, HasSubstr("\"Points : 0 sur 2,5.\nSur un enregistrement que vous n'avez pas vu, cela n'atteint "
-                                  "pas tous les points. : 0 sur 2,5."));
-    EXPECT_THAT(moodle, HasSubstr("0 of 2.5 points.\n" + unseen + ": 0 of 2.5."));
+    EXPECT_THAT(moodle, HasSubstr("\"Points\u202F: 1,5 sur 2,5.\nLe nombre\u202F: 1,5 sur 2,5. Noté par "
+                                  "l'enseignant.\nSix fois sept."));
+    EXPECT_THAT(moodle, HasSubstr("0 of 2.5 points.\nThe number: 0 of 2.5. It is 97.6 % away from what was expected; "
+                                  "at most 5 % was wanted.\nSix times seven."));
 }
 
 // oracle: the text of the worked solution

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/reader.h"
 #include "check_fixture.h"
 #include "course/findings/findings_report.h"
 #include "documents/pdf/guarded_pdf.h"
@@ -38,9 +39,10 @@ class hostile_pdfs : public CheckTest {
 };
 
 TEST_F(hostile_pdfs, no_pdf_at_all) {
-    EXPECT_THAT(only(check_bytes(""), "not-pdf").what, HasSubstr("empty"));
-    EXPECT_THAT(only(check_bytes("PK\x03\x04 a document of a word processor"), "not-pdf").what, HasSubstr("not a PDF"));
-    EXPECT_THAT(only(check_bytes(std::string(5000, '\0')), "not-pdf").remedy, HasSubstr("dynlab report"));
+    EXPECT_THAT(message_text(only(check_bytes(""), "not-pdf").what), HasSubstr("empty"));
+    EXPECT_THAT(message_text(only(check_bytes("PK\x03\x04 a document of a word processor"), "not-pdf").what),
+                HasSubstr("not a PDF"));
+    EXPECT_THAT(message_text(only(check_bytes(std::string(5000, '\0')), "not-pdf").remedy), HasSubstr("dynlab report"));
     EXPECT_THROW(check(file("none.pdf")), PdfRefusal);
     EXPECT_THROW(check(folder_.path()), PdfRefusal);
     ASSERT_EQ(::mkfifo(file("pipe.pdf").c_str(), 0600), 0);
@@ -51,7 +53,9 @@ TEST_F(hostile_pdfs, cut_off_at_any_place) {
     const std::string sound = sound_pdf();
     for (const double part : {0.1, 0.5, 0.9, 0.999}) {
         const auto bytes = static_cast<std::size_t>(part * static_cast<double>(sound.size()));
-        EXPECT_THAT(only(check_bytes(sound.substr(0, bytes)), "damaged").what, HasSubstr("its end is missing")) << part;
+        EXPECT_THAT(message_text(only(check_bytes(sound.substr(0, bytes)), "damaged").what),
+                    HasSubstr("its end is missing"))
+            << part;
     }
     only(check_bytes("%PDF-1.5\nnothing\n%%EOF\n"), "damaged");
 }
@@ -76,28 +80,29 @@ TEST_F(hostile_pdfs, encrypted_or_protected) {
         return check(file("locked.pdf"));
     };
     standard_ = DocumentStandard();
-    EXPECT_THAT(only(encrypt("secret"), "encrypted").what, HasSubstr("password"));
+    EXPECT_THAT(message_text(only(encrypt("secret"), "encrypted").what), HasSubstr("password"));
     EXPECT_EQ(only(encrypt(""), "protected").severity, Severity::kHint);
 }
 
 TEST_F(hostile_pdfs, pages_without_text) {
-    EXPECT_THAT(only(check_bytes(small_pdf()), "scanned").what, HasSubstr("pictures"));
+    EXPECT_THAT(message_text(only(check_bytes(small_pdf()), "scanned").what), HasSubstr("pictures"));
 }
 
 TEST_F(hostile_pdfs, more_than_the_limits) {
-    EXPECT_THAT(only(check_bytes(blank_pages(201)), "too-large").what, HasSubstr("201 pages; at most 200"));
+    EXPECT_THAT(message_text(only(check_bytes(blank_pages(201)), "too-large").what),
+                HasSubstr("201 pages; at most 200"));
     const std::string sound = sound_pdf();
     PdfLimits limits;
     limits.words = 10;
-    EXPECT_THAT(only(check_pdf(file("own.pdf"), {standard_, {}}, limits), "too-large").what,
+    EXPECT_THAT(message_text(only(check_pdf(file("own.pdf"), {standard_, {}}, limits), "too-large").what),
                 HasSubstr("more than 10 words"));
     limits = {};
     limits.file_bytes = 1000;
-    EXPECT_THAT(only(check_pdf(file("own.pdf"), {standard_, {}}, limits), "too-large").what,
+    EXPECT_THAT(message_text(only(check_pdf(file("own.pdf"), {standard_, {}}, limits), "too-large").what),
                 HasSubstr("MB are looked at"));
     limits = {};
     limits.time = std::chrono::milliseconds(0);
-    EXPECT_THAT(only(check_pdf(file("own.pdf"), {standard_, {}}, limits), "too-large").what,
+    EXPECT_THAT(message_text(only(check_pdf(file("own.pdf"), {standard_, {}}, limits), "too-large").what),
                 HasSubstr("The file is not read: reading it used more than 0 s of processor time"));
 }
 

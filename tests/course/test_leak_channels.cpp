@@ -491,7 +491,7 @@ TEST_F(leak_channels, a_cleaned_photograph_looks_as_before) {
     AnonymousCopySetup setup;
     setup.names = *names_;
     const AnonymousCopy copy = anonymous_copy(own, file("copy.pdf"), setup);
-    ASSERT_TRUE(copy.made) << copy.trouble;
+    ASSERT_TRUE(copy.made) << message_text(copy.trouble);
     for (const char* name : {"own", "copy"}) run({"pdftoppm", "-r", "50", std::string(name) + ".pdf", name});
     EXPECT_EQ(read(file("own-1.ppm")), read(file("copy-1.ppm")));
 }

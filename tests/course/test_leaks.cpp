@@ -2,6 +2,7 @@
 // each was made.
 #include <gmock/gmock.h>
 
+#include "base/reader.h"
 #include "course/names/anonymous_copy.h"
 #include "leak_corpus.h"
 
@@ -244,7 +245,7 @@ TEST_F(leaks, hints_hide_no_name_however_many_they_are) {
     EXPECT_FALSE(copy.made) << "not all that was found can be looked at";
     ASSERT_EQ(copy.findings.size(), 41u);
     EXPECT_EQ(copy.findings.back().id, "names-not-listed");
-    EXPECT_THAT(copy.findings.back().what, HasSubstr("5 further places"));
+    EXPECT_THAT(message_text(copy.findings.back().what), HasSubstr("5 further places"));
     EXPECT_FALSE(std::filesystem::exists(file("copy.pdf")));
     EXPECT_TRUE(anonymous_copy(prose_with(kProse + citations(*names_, 40)), file("copy.pdf"), setup).made);
 }
@@ -283,7 +284,7 @@ TEST_F(leaks, copies_are_cleaned_and_what_cannot_be_cleaned_stops_them) {
     write("notes.txt", "by Brandtner");
     run({"pdfattach", "own.pdf", "notes.txt", "with.pdf"});
     const AnonymousCopy copy = anonymous_copy(file("with.pdf"), file("copy.pdf"), setup);
-    ASSERT_TRUE(copy.made) << copy.trouble;
+    ASSERT_TRUE(copy.made) << message_text(copy.trouble);
     EXPECT_FALSE(copy.rebuilt);
     EXPECT_THAT(found(file("copy.pdf")), IsEmpty());
     run({"qpdf", "--check", "copy.pdf"});
@@ -302,7 +303,7 @@ TEST_F(leaks, copies_are_cleaned_and_what_cannot_be_cleaned_stops_them) {
     write("broken.pdf", "%PDF-1.4\nnothing\n%%EOF\n");
     const AnonymousCopy broken = anonymous_copy(file("broken.pdf"), file("none.pdf"), setup);
     EXPECT_FALSE(broken.made);
-    EXPECT_THAT(broken.trouble, HasSubstr("damaged"));
+    EXPECT_THAT(message_text(broken.trouble), HasSubstr("damaged"));
 }
 
 // Oracle: the report that dynlab makes of the same folder.
@@ -315,7 +316,8 @@ TEST_F(leaks, copies_are_made_again_from_the_source) {
     write("work/group.toml", "members = [\"Zoé Brandtner\"]\n");
     write("work/report.pdf", read(prose_with("by Brandtner")));
     const AnonymousCopy copy = anonymous_copy(file("work"), file("copy.pdf"), setup);
-    ASSERT_TRUE(copy.made) << copy.trouble << (copy.findings.empty() ? "" : copy.findings.front().what);
+    ASSERT_TRUE(copy.made) << message_text(copy.trouble)
+                           << (copy.findings.empty() ? "" : message_text(copy.findings.front().what));
     EXPECT_TRUE(copy.rebuilt);
     EXPECT_THAT(text_of("copy.pdf"), HasSubstr("The gain is 2.5."));
     EXPECT_EQ(anonymous_copy(file("work"), file("again.pdf"), setup).hash, copy.hash);
@@ -325,9 +327,10 @@ TEST_F(leaks, copies_are_made_again_from_the_source) {
     EXPECT_FALSE(fallen_back.rebuilt);
     EXPECT_EQ(fallen_back.findings.front().id, "name-in-text");
     std::filesystem::remove(file("work/report.pdf"));
-    EXPECT_THAT(anonymous_copy(file("work"), file("other.pdf"), setup).trouble, HasSubstr("cannot be made again"));
+    EXPECT_THAT(message_text(anonymous_copy(file("work"), file("other.pdf"), setup).trouble),
+                HasSubstr("cannot be made again"));
     write("work/analysis.lua", "x = 1\nprint(meen({1, 2}))\n");
-    EXPECT_THAT(anonymous_copy(file("work"), file("other.pdf"), setup).trouble,
+    EXPECT_THAT(message_text(anonymous_copy(file("work"), file("other.pdf"), setup).trouble),
                 testing::AllOf(testing::StartsWith("The report cannot be made again: analysis.lua:2: "),
                                testing::EndsWith("did you mean 'mean'?")));
 }
@@ -344,12 +347,13 @@ TEST_F(leaks, a_report_made_again_fills_no_disk) {
     write("work/analysis.lua", header +
                                    "local big = {}\nfor i = 1, 20 do big['c' .. i] = randn(200000) end\n"
                                    "save_csv(\"big.csv\", big, {digits = 17})\n");
-    EXPECT_THAT(anonymous_copy(file("work"), file("none.pdf"), setup).trouble, HasSubstr("a file of more than 64 MB"));
+    EXPECT_THAT(message_text(anonymous_copy(file("work"), file("none.pdf"), setup).trouble),
+                HasSubstr("a file of more than 64 MB"));
     if (setup.isolation != Isolation::kFull) return;
     write("work/analysis.lua", header + "save_csv(\"/box/submission/fill.csv\", {t = zeros(3)})\n");
     const AnonymousCopy copy = anonymous_copy(file("work"), file("none.pdf"), setup);
     EXPECT_FALSE(copy.made);
-    EXPECT_THAT(copy.trouble, HasSubstr("read-only file system (in /box/submission)"));
+    EXPECT_THAT(message_text(copy.trouble), HasSubstr("read-only file system (in /box/submission)"));
 }
 
 }  // namespace test_leaks

@@ -4,6 +4,7 @@
 #include <numeric>
 #include <regex>
 
+#include "base/reader.h"
 #include "course/grading/grading_rules.h"
 #include "course/grading_bench.h"
 
@@ -58,10 +59,10 @@ void expect_full_marks(const GroupsOfLesson& groups, Workbench::Memory memory,
         works.push_back({fmt::format("seed {}", seed), std::move(work), group, log});
     }
     for (const Grade& grade : rules.judged(works)) {
-        EXPECT_EQ(grade.trouble, "") << grade.submission;
+        EXPECT_EQ(message_text(grade.trouble), "") << grade.submission;
         for (const CheckGrade& check : grade.checks)
             EXPECT_TRUE(check.graded && check.earned == check.points)
-                << grade.submission << ", " << check.about << ": " << check.message;
+                << grade.submission << ", " << message_text(check.about) << ": " << message_text(check.message);
     }
 }
 

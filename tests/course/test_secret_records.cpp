@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "base/reader.h"
 #include "course/checks/check_descriptions.h"
 #include "course/grading/grading_rules.h"
 #include "course/grading_bench.h"
@@ -122,9 +123,10 @@ class secret_records_box : public ::testing::Test {
         listed.checks[0].check.id = listed.checks[0].check.about = "x";
         listed.checks[0].check.rerun = "suspension";
         GradedRun run;
-        run.error = "";
+        run.error = Message::verbatim("?");
         const std::string bytes = cbor_of(run);
-        const std::size_t error = bytes.find("error") + 5;  // where the text stands, which is one byte while empty
+        // Where its text stands: two bytes, its length and "?".
+        const std::size_t error = bytes.find("text", bytes.find("error")) + 4;
         return "#!/bin/sh\n"
                "job=$(tr -d '\\000')\n"
                "case $2 in\n"
@@ -148,7 +150,7 @@ class secret_records_box : public ::testing::Test {
                "  printf \"\\\\$(printf %03o $((${#text} / 256)))\\\\$(printf %03o $((${#text} % 256)))\"\n"
                "  printf %s \"$text\"\n"
                "  printf '" +
-               octal(bytes.substr(error + 1)) +
+               octal(bytes.substr(error + 2)) +
                "' ;;\n"
                "esac\n";
     }
@@ -176,9 +178,10 @@ class secret_records_box : public ::testing::Test {
 
 // oracle: the programs inside; the official files' checksums
 TEST_F(secret_records_box, holds_the_data_of_its_run_alone) {
-    if (const auto obstacle = obstacle_to(Isolation::kFull)) GTEST_SKIP() << *obstacle;
+    if (const auto obstacle = obstacle_to(Isolation::kFull)) GTEST_SKIP() << message_text(*obstacle);
     const Grade grade = graded(Isolation::kFull);
-    EXPECT_EQ(grade.trouble, "records: " + sum_of("suspension.csv") + sum_of("suspension.mat") + " left: .");
+    EXPECT_EQ(message_text(grade.trouble),
+              "records: " + sum_of("suspension.csv") + sum_of("suspension.mat") + " left: .");
     EXPECT_THAT(grade.log, HasSubstr("  records: /box/home/data/suspension/suspension.mat "));
     EXPECT_THAT(grade.log, Not(HasSubstr("/box/suspension")));
 }
@@ -186,7 +189,7 @@ TEST_F(secret_records_box, holds_the_data_of_its_run_alone) {
 TEST_F(secret_records_box, begins_with_an_empty_scratch_folder) {
     for (const std::string& level : levels()) {
         const Grade grade = graded(level == "full" ? Isolation::kFull : Isolation::kProcess);
-        EXPECT_THAT(grade.trouble, HasSubstr(" left: ."));
+        EXPECT_THAT(message_text(grade.trouble), HasSubstr(" left: ."));
         EXPECT_THAT(grade.log, HasSubstr("run suspension: ")) << level;
         EXPECT_THAT(grade.log, Not(HasSubstr("was_here"))) << level;
     }
@@ -198,7 +201,8 @@ TEST_F(secret_records_box, whose_checks_fail_altogether_quotes_nothing) {
     ASSERT_EQ(grade.checks.size(), 1u);
     EXPECT_FALSE(grade.checks[0].graded);
     EXPECT_FALSE(grade.checks[0].message.empty());
-    EXPECT_EQ(grade.checks[0].message.find_first_of(kDigits), std::string::npos) << grade.checks[0].message;
+    const std::string said = message_text(grade.checks[0].message);
+    EXPECT_EQ(said.find_first_of(kDigits), std::string::npos) << said;
     EXPECT_THAT(grade.log, HasSubstr("check x: it ended with code 1: sample 30.78"));
 }
 

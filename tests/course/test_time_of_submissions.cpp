@@ -4,6 +4,7 @@
 
 #include <thread>
 
+#include "base/reader.h"
 #include "course/grading/grading_rules.h"
 #include "course/grading_bench.h"
 
@@ -88,7 +89,7 @@ TEST(time_of_submissions, a_worked_solution_that_uses_most_of_the_time_is_told) 
     rules.compare_with_solution({{"main", 25}, {"seed", 29}});
     EXPECT_EQ(rules.note_on_time(), std::nullopt);
     rules.compare_with_solution({{"main", 25}, {"seed", 40}});
-    EXPECT_THAT(rules.note_on_time().value_or(""),
+    EXPECT_THAT(message_text(rules.note_on_time().value_or(Message())),
                 AllOf(HasSubstr("uses 40.0 s"), HasSubstr("may use 60 s (1.5 times")));
 }
 

@@ -107,6 +107,7 @@ TEST(unfair_submissions, feedback_tells_no_distance_on_records_that_nobody_has_s
     ASSERT_EQ(bench.grade().exit_code, 1);
     const auto tests = bench.result("a").at("extra_data").at("dynlab").at("checks");
     EXPECT_THAT(tests[0].at("message").get<std::string>(), HasSubstr("away from"));
+    EXPECT_EQ(tests[0].at("stored_message").at("id"), "It is {} away from what was expected; at most {} was wanted.");
     for (const int k : {1, 2}) {
         const std::string message = tests[k].at("message");
         EXPECT_FALSE(message.empty());

@@ -7,6 +7,7 @@
 #include "course/grading_bench.h"
 #include "course/hand_ins/submission.h"
 #include "course/names/byte_text.h"
+#include "support/message_texts.h"
 
 namespace dynlab::test {
 namespace test_unpack {
@@ -33,7 +34,7 @@ std::vector<Isolation> isolation_levels() {
 
 struct FilesOut {
     std::map<std::string, std::string> files;  ///< place -> content
-    std::vector<std::string> left_out;
+    std::vector<Message> left_out;
 };
 
 FilesOut files_out_of(const Workbench& bench, const std::string& archive, Isolation level) {
@@ -100,14 +101,14 @@ open('mixed.zip', 'wb').write(data)
     for (const Isolation level : isolation_levels()) {
         const FilesOut all = files_out_of(bench, "mixed.zip", level);
         EXPECT_EQ(all.files, good);
-        EXPECT_THAT(all.left_out, ElementsAre("\"../up.csv\" leads outside of the archive",
-                                              "\"/tmp/absolute.csv\" leads outside of the archive",
-                                              "\"C:/drive.csv\" leads outside of the archive",
-                                              AllOf(HasSubstr("deep.csv\" lies deeper than 20 folders")),
-                                              HasSubstr("\" has a name that is too long"),
-                                              "\"two\nlines.csv\" has a name with control characters",
-                                              "the name of a file in it cannot be read",
-                                              "\"link.csv\" is a link or not a regular file"));
+        EXPECT_THAT(texts_of(all.left_out), ElementsAre("\"../up.csv\" leads outside of the archive",
+                                                        "\"/tmp/absolute.csv\" leads outside of the archive",
+                                                        "\"C:/drive.csv\" leads outside of the archive",
+                                                        AllOf(HasSubstr("deep.csv\" lies deeper than 20 folders")),
+                                                        HasSubstr("\" has a name that is too long"),
+                                                        "\"two\nlines.csv\" has a name with control characters",
+                                                        "the name of a file in it cannot be read",
+                                                        "\"link.csv\" is a link or not a regular file"));
     }
 }
 

@@ -91,7 +91,7 @@ class DocumentTest : public testing::Test {
         options.gaps = &gaps;
         DocumentMaker(options).make(source, file("draft.html"), DocumentFormat::kHtml, nullptr);
         std::string sentences;
-        for (const std::string& gap : gaps.sentences()) sentences += gap + "\n";
+        for (const Message& gap : gaps.messages()) sentences += message_text(gap) + "\n";
         return {replaced(sentences, folder_.path().string() + "/", ""), read(file("draft.html"))};
     }
 

@@ -7,9 +7,11 @@
 
 #include "documents/document_fixture.h"
 #include "documents/weave.h"
+#include "support/message_texts.h"
 
 namespace test_chunk_setter {
 using namespace dynlab;
+using test::texts_of;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -107,7 +109,7 @@ TEST_F(chunk_setter, equations_of_solutions_are_counted_as_in_the_whole) {
 TEST_F(chunk_setter, references_follow_labels) {
     set(kText);
     const std::string renamed = changed(kText, "{#eq:three}", "{#eq:other}");
-    EXPECT_THAT(set(renamed).complaints,
+    EXPECT_THAT(texts_of(set(renamed).complaints),
                 ElementsAre(HasSubstr("report.md:7: the cross reference @eq:three points to nothing")));
     EXPECT_THAT(set(kText).complaints, IsEmpty());
     expect_as_at_once(kText);
@@ -127,7 +129,7 @@ TEST_F(chunk_setter, says_what_is_not_there_yet) {
     record_.values.clear();
     EXPECT_THAT(set(kText, true).complaints, IsEmpty());
     const SetDocument finished = set(kText, false);
-    EXPECT_THAT(finished.complaints, ElementsAre(HasSubstr("the script reported no value \"fit\"")));
+    EXPECT_THAT(texts_of(finished.complaints), ElementsAre(HasSubstr("the script reported no value \"fit\"")));
     EXPECT_THAT(joined(finished), HasSubstr("A figure again"));  // all else is shown
     record_.values["fit"] = {1.0, "1"};
     expect_as_at_once(kText);

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "base/languages.h"
 #include "documents/document.h"
 #include "documents/html/plot_data.h"
 #include "figures/plots/motion_plot.h"
@@ -32,7 +33,7 @@ Figure sliding_block() {
     record.t = Vector::LinSpaced(501, 0, 10);
     record.measured = record.t / 4, record.simulated = Matrix::Constant(501, 1, 3);
     MotionLook look;
-    look.title = "A block";
+    look.title = Message("A block");
     return motion_plot(rig, record, look);
 }
 
@@ -43,7 +44,7 @@ class motion_pages : public testing::Test {
         RecordedFigure recorded;
         recorded.caption = "A block";
         recorded.file = folder.path() / "block.svg";
-        recorded.plot = plot_data(sliding_block(), language == "fr");
+        recorded.plot = plot_data(sliding_block(), {catalog_of(language)});
         std::ofstream(recorded.file) << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"500\" height=\"250\"/>\n";
         record.figures["block"] = recorded;
         std::ofstream(folder.path() / "report.md")

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "base/languages.h"
 #include "documents/document.h"
 #include "documents/html/plot_data.h"
 #include "figures/figure.h"
@@ -24,13 +25,13 @@ using testing::Not;
 /// y = 2 x V from 0 to 10 s, and 20 V - y dashed.
 Figure ramps() {
     Panel panel;
-    panel.x_label = "time (s)";
-    panel.y_label = "output (V)";
+    panel.x_label = Message("time (s)");
+    panel.y_label = Message("output (V)");
     Curve up, down;
     up.x = down.x = Vector::LinSpaced(1001, 0, 10);
     up.y = 2 * up.x;
     down.y = 20 - up.y.array();
-    up.label = "up <b>ramp</b>", down.label = "down";
+    up.label = Message("up <b>ramp</b>"), down.label = Message("down");
     panel.curves = {up, down};
     panel.x_range = {0, 10}, panel.y_range = {0, 20};
     return Figure(panel);
@@ -43,7 +44,7 @@ class page_figures : public testing::Test {
         RecordedFigure recorded;
         recorded.caption = "Two ramps";
         recorded.file = folder.path() / "ramps.svg";
-        recorded.plot = plot_data(figure, language == "fr");
+        recorded.plot = plot_data(figure, {catalog_of(language)});
         const json size = json::parse(recorded.plot)["size"];
         const auto pixels = [&](int side) { return std::lround(size[side].get<double>() / 2.54 * 96); };
         std::ofstream(recorded.file) << fmt::format(
@@ -285,12 +286,12 @@ TEST_F(page_figures, panels_over_the_same_time_go_together_and_logarithms_stay_s
 
 TEST_F(page_figures, clouds_are_read_point_by_point_and_french_has_commas) {
     Panel panel;
-    panel.x_label = "a_{1}", panel.y_label = "a_{2}";
+    panel.x_label = Message("a_{1}"), panel.y_label = Message("a_{2}");
     Curve cloud;
     cloud.style = CurveStyle::kPoints;
     cloud.x = Vector{{4.0, 4.25, 3.5}};
     cloud.y = Vector{{3.0, 3.5, 2.75}};
-    cloud.label = "IVSVF";
+    cloud.label = Message("IVSVF");
     panel.curves = {cloud};
     panel.x_range = {3, 5}, panel.y_range = {2, 4};
     make(Figure(panel), "fr");

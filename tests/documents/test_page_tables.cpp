@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/languages.h"
 #include "document_fixture.h"
 #include "documents/html/plot_data.h"
 #include "figures/figure.h"
@@ -20,7 +21,7 @@ class page_tables : public DocumentTest {
   protected:
     void open(const Figure& figure, const std::string& language = "en") {
         add_figure("shown", "A figure", DocumentFormat::kHtml);
-        record_.figures["shown"].plot = plot_data(figure, language == "fr");
+        record_.figures["shown"].plot = plot_data(figure, {catalog_of(language)});
         make("---\nlang: " + language + "\n---\n\n![](figure:shown)\n", "page.html");
         browser.open("file://" + file("page.html").string());
         ASSERT_TRUE(browser.comes("document.querySelector('.plot .data') !== null"));
@@ -41,14 +42,15 @@ class page_tables : public DocumentTest {
 
 Curve curve_of(const Vector& x, const Vector& y, const std::string& label) {
     Curve curve;
-    curve.x = x, curve.y = y, curve.label = label;
+    curve.x = x, curve.y = y, curve.label = Message::verbatim(label);
     return curve;
 }
 
 Figure two_panels(Index count) {
     const Vector t = Vector::LinSpaced(count, 0, 0.5 * static_cast<double>(count - 1));
     Panel above, below;
-    above.y_label = "position (m)", below.y_label = "angle (rad)", below.x_label = "time (s)";
+    above.y_label = Message("position (m)"), below.y_label = Message("angle (rad)"),
+    below.x_label = Message("time (s)");
     above.curves = {curve_of(t, 2 * t, "measured"), curve_of(t, -t, "simulated, \"free\"")};
     below.curves = {curve_of(t, 0.25 * t.array() + 0.125, "")};
     Figure figure;
@@ -122,7 +124,7 @@ TEST_F(page_tables, of_very_long_records_say_that_they_are_thinned) {
 
 TEST_F(page_tables, tell_curves_of_other_abscissas_apart_and_both_edges_of_bands) {
     Panel panel;
-    panel.x_label = "x", panel.y_label = "y (V)";
+    panel.x_label = Message("x"), panel.y_label = Message("y (V)");
     Curve band = curve_of(Vector{{0.0, 1.0}}, Vector{{1.0, 2.0}}, "band");
     band.style = CurveStyle::kBand, band.y_upper = Vector{{3.0, 4.5}};
     panel.curves = {band, curve_of(Vector{{0.0, 0.25}}, Vector{{1.0, std::nan("")}}, "gap")};

@@ -98,18 +98,19 @@ class slider_pages : public testing::Test {
         panel.curves.emplace_back();
         panel.curves[0].x = Vector::LinSpaced(11, 0, 1);
         panel.curves[0].y = k * panel.curves[0].x;
-        if (has_legend_) panel.curves[0].label = "line", panel.title = k == 3 ? "Steep\nindeed" : "";
+        if (has_legend_)
+            panel.curves[0].label = Message("line"), panel.title = Message::verbatim(k == 3 ? "Steep\nindeed" : "");
         const Vector of_k = Vector::LinSpaced(21, 1, 3), of_c = Vector::LinSpaced(21, 0, 2);
         panel.annotations.push_back(
             {0.2 + 0.3 * c,
              k,
-             "end",
+             Message("end"),
              true,
              {{"c", true, c, of_c, (0.2 + 0.3 * of_c.array()).matrix()}, {"k", false, k, of_k, of_k}}});
         RecordedFigure& figure = record.figures["draw-figure-1"];
         figure.caption = "A line";
         figure.file = folder_.path() / "drawn.svg";
-        figure.plot = plot_data(Figure(panel), false);
+        figure.plot = plot_data(Figure(panel));
         if (draws_twice_) {
             record.figures["draw-figure-2"] = figure;
             record.figures["draw-figure-2"].caption = "A line again, gain " + json(k).dump();

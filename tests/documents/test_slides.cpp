@@ -95,7 +95,7 @@ TEST_F(slides, are_pages_of_text_in_html) {
 }
 
 TEST_F(slides, of_a_script_that_stopped_begin_with_the_error) {
-    record_.error = RecordedError{"analysis.lua:3: no such thing", 3};
+    record_.error = RecordedError{Message("no such thing"), "analysis.lua", 3};
     const PdfContent content = pdf("# Process\n\n`fit`{.value}\n");
     ASSERT_EQ(content.pages.size(), 2u);
     EXPECT_THAT(content.pages[0], HasSubstr("no such thing"));

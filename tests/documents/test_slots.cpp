@@ -104,7 +104,7 @@ TEST_F(slots, an_entry_that_is_missing_is_named_with_the_nearest_name_and_the_li
 }
 
 TEST_F(slots, a_script_that_stopped_leaves_gaps_with_names_and_its_error_first) {
-    record_.error = RecordedError{"analysis.lua:10: there is no function 'f`oo'", 10};
+    record_.error = RecordedError{Message("there is no function '{}'", "f`oo"), "analysis.lua", 10};
     record_.values["fit"] = {93.2, "93.2"};
     const std::string text = html(
         "Fit `fit`{.value}, later `late`{.value}, @fig:raw.\n\n![A](figure:raw){#fig:raw}\n\n"

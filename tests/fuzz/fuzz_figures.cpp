@@ -36,11 +36,11 @@ Vector take_vector(std::string& text, unsigned count) {
     return values;
 }
 
-std::string take_label(std::string& text) {
+Message take_label(std::string& text) {
     const std::size_t length = fuzz::take_choice(text) % 8;
     const std::string label = text.substr(0, length);
     text.erase(0, length);
-    return label;
+    return Message::verbatim(label);
 }
 
 Curve take_curve(std::string& text) {
@@ -88,6 +88,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string script = gnuplot_script(figure, FigureFormat::kPdf);
     fuzz::demand(script.size() < 10'000'000);
     fuzz::demand(script.find("inf,") == std::string::npos && script.find(" nan") == std::string::npos);
-    plot_data(figure, false);
+    plot_data(figure);
     return 0;
 }

@@ -10,7 +10,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const PercentScript script = parse_percent_script(fuzz::text_of(data, size), "input.lua");
         RunRecord record;
         for (const Cell& cell : script.cells) record.outputs[cell.id].push_back({"printed\n", std::nullopt});
-        record.error = RecordedError{"input.lua:1: wrong", 1};
+        record.error = RecordedError{Message("wrong"), "input.lua", 1};
         const MarkdownText woven = weave_cells(script, record);
         fuzz::demand(static_cast<std::size_t>(std::count(woven.text.begin(), woven.text.end(), '\n')) ==
                      woven.origin.size());

@@ -28,7 +28,7 @@ TEST_P(grey_figures, neighbouring_curves_are_told_apart) {
     request.out_folder = out.path();
     request.call_cache = &calls;
     const RunRecord record = run_script(request, renderer);
-    ASSERT_FALSE(record.error) << record.error->message;
+    ASSERT_FALSE(record.error) << record.error->text();
     EXPECT_FALSE(record.figures.empty());
     for (const auto& [name, drawn] : record.figures)
         for (std::size_t place = 0; place < drawn.figure->panels.size(); ++place) {

@@ -85,7 +85,7 @@ TEST_F(group_data, records_are_the_bytes_that_lua_saves) {
         const std::string file = rig.name + ".mat";
         const RunRecord run = runtime.run_code(
             "save_mat('" + file + "', rig('" + rig.name + "', {specimen = 5, seed = 6}), {digits = 7})", "made.lua");
-        ASSERT_FALSE(run.error) << run.error->message;
+        ASSERT_FALSE(run.error) << run.error->text();
         EXPECT_TRUE(read_file(ours / file) == read_file(theirs / file)) << rig.name;
     }
     EXPECT_THROW(write_specimen_record("hairdryer", {}, path("ours")), InvalidArgument);

@@ -58,7 +58,7 @@ TEST(other_specimens, carry_lesson_1_to_its_end_and_keep_its_words_true) {
         options.out_folder = out.path();
         Runtime runtime(options, renderer);
         const RunRecord run = runtime.run(on_specimen(number));
-        ASSERT_FALSE(run.error) << run.error->message;
+        ASSERT_FALSE(run.error) << run.error->text();
         EXPECT_EQ(run.answers.size(), 6u);
         const auto exchanger = heat_exchanger_truth(heat_exchanger_specimen(static_cast<std::uint32_t>(number)));
         const auto found = numbers_of(run, "exchanger", 1);

@@ -85,7 +85,7 @@ TEST(script_parts, share_locals_and_functions) {
         "z = f()\n"
         "-- %% id=c\nz\nprint(y)\n");
     const RunRecord record = in_parts(script);
-    ASSERT_FALSE(record.error) << record.error->message;
+    ASSERT_FALSE(record.error) << record.error->text();
     LessonRun whole(script);
     EXPECT_EQ(to_json(record), to_json(whole.runtime.run(script)));
     EXPECT_THAT(record.outputs.at("c").front().printed, testing::HasSubstr("5"));
@@ -95,7 +95,7 @@ TEST(script_parts, errors_name_the_line_of_the_script) {
     const RunRecord record = in_parts(script_of("-- %% id=a\nlocal x = 1\n\n-- %% id=b\nprint(x)\nerror(\"no\")\n"));
     ASSERT_TRUE(record.error);
     EXPECT_EQ(record.error->line, 6);
-    EXPECT_EQ(record.error->message, "analysis.lua:6: no");
+    EXPECT_EQ(record.error->text(), "analysis.lua:6: no");
     EXPECT_EQ(record.outputs.at("b").front().printed, "1\n");
     const RunRecord wrong = in_parts(script_of("-- %% id=a\nprint(1)\n-- %% id=b\nlocal = 3\n"));
     ASSERT_TRUE(wrong.error);

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/languages.h"
+#include "base/reader.h"
+#include "data_io/values/said_messages.h"
 #include "support/program.h"
 
 namespace dynlab::test {
@@ -48,6 +51,22 @@ TEST(program_errors, script_that_fails_is_told_even_where_no_report_can_be_made)
     const ChildResult result = bench.dynlab({"report", "mine"});
     expect_failure(result, 1, "on purpose\n    error('on purpose')\nThe report up to there cannot be made: ");
     EXPECT_THAT(bench.files(), ElementsAre("mine"));
+}
+
+// oracle: the messages that the same command prints
+TEST(program_errors, messages_go_to_the_program_that_asks_for_them) {
+    const Workbench bench;
+    write_folder(bench, "-- %%\nlocal x = y\n", "::: {.cells}\n:::\n");
+    const ChildResult result = bench.shell("DYNLAB_MESSAGES=said \"$DYNLAB\" report mine -o out.md");
+    const SaidMessages said = read_said_messages(bench.path("said"));
+    EXPECT_EQ(said.results, std::vector{Message("{} (up to the error)", bench.path("out.md").string())});
+    ASSERT_EQ(said.complaints.size(), 1u);
+    EXPECT_EQ("dynlab: " + message_text(said.complaints.front()) + "\n", result.error_output);
+    EXPECT_THAT(message_text(said.complaints.front(), {catalog_of("fr")}),
+                HasSubstr("analysis.lua:2: il n'y a ni fonction ni variable"));
+    EXPECT_TRUE(said.notes.empty());
+    bench.shell("DYNLAB_MESSAGES=said \"$DYNLAB\" report nowhere");
+    EXPECT_THAT(message_text(read_said_messages(bench.path("said")).all()), HasSubstr("nowhere"));
 }
 
 TEST(program_errors, control_c_ends_an_endless_loop_and_leaves_nothing) {

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "base/reader.h"
 #include "numerics/estimators/procsrivc.h"
 #include "numerics/signals/random.h"
 #include "numerics/simulation/lsim.h"
@@ -56,7 +57,8 @@ Vector growth(const ProcessStructure& structure, double time, double gain) {
 }
 
 void expect_grown(const Fit& grown, const Fit& one, const Vector& factor) {
-    EXPECT_LT(relative_difference(grown.theta, one.theta.cwiseProduct(factor)), 1e-7) << grown.message;
+    EXPECT_LT(relative_difference(grown.theta, one.theta.cwiseProduct(factor)), 1e-7)
+        << message_text(grown.full_message());
     EXPECT_LT(relative_difference(grown.std, one.std.cwiseProduct(factor.cwiseAbs())), 1e-6);
     EXPECT_EQ(grown.start.state, one.start.state);
     EXPECT_EQ(grown.start.offset, one.start.offset);

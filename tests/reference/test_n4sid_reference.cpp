@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "base/reader.h"
 #include "numerics/estimators/n4sid.h"
 #include "support/hair_dryer.h"
 
@@ -24,7 +25,7 @@ TEST(n4sid_reference, hair_dryer_eigenvalues) {
     for (const Complex& value : ComplexVector(printed.eigenvalues()))
         EXPECT_LT((eigenvalues.array() - value).abs().minCoeff(), 1e-3) << value;
     EXPECT_EQ(found.block_rows, 15);
-    EXPECT_TRUE(found.fit.warnings.empty()) << found.fit.message;
+    EXPECT_TRUE(found.fit.warnings.empty()) << message_text(found.fit.full_message());
 }
 
 }  // namespace test_n4sid_reference

@@ -19,7 +19,7 @@ inline RunRecord run(const std::string& code, RunOptions options = {}, const std
 /// All text that `code` prints; its error message when it stops with one.
 inline std::string printed(const std::string& code, RunOptions options = {}, const std::string& language = "en") {
     const RunRecord record = run(code, std::move(options), language);
-    if (record.error) return "ERROR " + record.error->message;
+    if (record.error) return "ERROR " + record.error->text();
     std::string text;
     for (const auto& [cell, pieces] : record.outputs)
         for (const CellOutput& piece : pieces) text += piece.printed;
@@ -29,7 +29,7 @@ inline std::string printed(const std::string& code, RunOptions options = {}, con
 /// The message with which `code` stops.
 inline std::string error_of(const std::string& code, RunOptions options = {}) {
     const RunRecord record = run(code, std::move(options));
-    return record.error ? record.error->message : "(no error)";
+    return record.error ? record.error->text() : "(no error)";
 }
 
 }  // namespace dynlab::test

@@ -281,8 +281,10 @@ TEST(bad_input, models_of_the_wrong_kind_are_refused) {
         "local P = procsrivc(d, 'P1')\nlocal D = arx(d, {2, 2, 1})\n"
         "local M = srivc(iddata(y, matrix{u, e}, 0.05), {{1, 1}, {2, 2}, {0, 0}})\n";
     const std::vector<std::pair<std::string, std::string>> kCases = {
-        {"compare(d, M)", "the model needs one transfer function from each of the 1 input(s)"},
-        {"resid(d, M)", "the model needs one transfer function from each of the 1 input(s)"},
+        {"compare(d, M)",
+         "the model needs one transfer function from each input to each output of the data (1 input and 1 output)"},
+        {"resid(d, M)",
+         "the model needs one transfer function from each input to each output of the data (1 input and 1 output)"},
         {"fit_measures(d, M)", "must have one input and one output"},
         {"lsim(M, u, 0.05)", "must have one input and one output"},
         {"compare(iddata(y, u, 0.1), D)", "the model is discrete with Ts = 0.05 s"},

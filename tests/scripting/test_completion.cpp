@@ -24,7 +24,7 @@ class Session {
     }
     std::string run(const std::string& typed) {
         printed_.clear();
-        EXPECT_EQ(prompt_.run(read_statement(typed, shown_calls()), "prompt").error, "");
+        EXPECT_FALSE(prompt_.run(read_statement(typed, shown_calls()), "prompt").error) << typed;
         return printed_;
     }
     std::vector<std::string> names(const std::string& text) { return prompt_.complete_end(text).candidates; }

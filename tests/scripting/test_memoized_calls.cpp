@@ -92,7 +92,7 @@ TEST_F(memoized_calls, values_come_back_bit_by_bit) {
           "lssvf = {{2, 1, 0}, 3}}}",
           "step_second_order(iddata(step(1/(s^2 + 0.4*s + 1), linspace(0, 60, 601)), ones(601), 0.1))"}) {
         const RunRecord made = runtime.run_code(std::string("value = ") + expression, "value.lua");
-        ASSERT_FALSE(made.error) << expression << ": " << made.error->message;
+        ASSERT_FALSE(made.error) << expression << ": " << made.error->text();
         const std::string bytes = archive_of_global(L, "value");
         CborReader archive(bytes);
         const Call call(L);
@@ -257,7 +257,7 @@ TEST_F(memoized_calls, damaged_entries_are_computed_again) {
         RunOptions options;
         options.call_cache = &calls;
         const RunRecord record = test::run(kData + code, options);
-        ASSERT_FALSE(record.error) << damage << ": " << record.error->message;
+        ASSERT_FALSE(record.error) << damage << ": " << record.error->text();
         EXPECT_EQ(calls.use().made, 1u) << damage;
         EXPECT_EQ(calls.use().recalled, 0u) << damage;
         EXPECT_EQ(record.figures.size(), 1u) << damage;

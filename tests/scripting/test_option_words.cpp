@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+
+#include "base/reader.h"
 #include "script_run.h"
 #include "scripting/conversions/option_words.h"
 
@@ -11,12 +14,11 @@ namespace test_option_words {
 using namespace dynlab;
 using testing::HasSubstr;
 
-TEST(option_words, names_in_backticks_become_those_of_lua) {  // oracle: definition
-    EXPECT_EQ(in_lua_words("raise `largest_delay` = 2, or `tolerance`"), "raise TdMax = 2, or Tol");
-    EXPECT_EQ(in_lua_words("`max_iterations`"), "MaxIter");
-    EXPECT_EQ(in_lua_words("a `foreign` word and `offset`"), "a `foreign` word and Offset");
-    EXPECT_EQ(in_lua_words("one ` alone, max_iterations"), "one ` alone, max_iterations");
-    EXPECT_EQ(in_lua_words(""), "");
+TEST(option_words, options_in_messages_become_those_of_lua) {  // oracle: definition
+    EXPECT_EQ(option_name("max_iterations"), "MaxIter");
+    EXPECT_EQ(option_name("foreign"), "`foreign`");
+    const Message message("raise {} = {}, or {}", OptionName{"largest_delay"}, 2, OptionName{"foreign"});
+    EXPECT_EQ(message_text(message, {nullptr, option_name}), "raise TdMax = 2, or `foreign`");
 }
 
 const std::string kRecord =
@@ -30,15 +32,20 @@ TEST(option_words, errors_name_the_options_of_scripts) {
              {"tfsrivc(d, 2, 0, {TdMax = 1000})", "TdMax must be shorter than the record"},
              {"tfcoe(d, 2, 0, {TdMin = -1})", "TdMin must not be negative, and is -1"},
              {"tfsrivc(d, 2, 0, {NumTd = 0})", "NumTd must be at least 1"},
-             {"coe(d, {1, 2, 0}, {InitialState = 'warm'})", "InitialState is \"zero\", \"steady\""},
-             {"oe(d, {1, 2, 1}, {Offset = 'big'})", "Offset is \"none\", \"remove\""},
+             {"coe(d, {1, 2, 0}, {InitialState = 'warm'})",
+              "option 'InitialState' must be one of \"none\", \"steady\", \"estimate\", \"auto\", but \"warm\" was "
+              "given"},
+             {"oe(d, {1, 2, 1}, {Offset = 'big'})", "option 'Offset' must be one of \"none\", \"remove\""},
+             {"hammerstein(d, 2, 0, {InitialState = 'estimate'})",
+              "option 'InitialState' must be one of \"none\", \"steady\", but \"estimate\" was given"},
+             {"n4sid(d, 3, {Weighting = 'moesp'})", "option 'Weighting' must be one of \"MOESP\", \"N4SID\", \"CVA\""},
              {"procsrivc(d, 'P1I', {InitialState = 'estimate', Offset = 'estimate'})",
               "with InitialState \"estimate\""},
              {"srivc(d, {1, 2, 0}, {Tol = 0})", "Tol must be positive, and is 0"},
              {"coe(d, {1, 2, 0}, {Fixed = {a3 = 1}})", "Fixed: the model has no parameter a3; it has a1, a2, b0"},
              {"tfcoe(d, 2, 0, {Fixed = {Td = 1}})", "a delay is fixed with IODelay"},
              {"coe(d, {1, 2, 0}, {OutputWeights = {1, 2}})", "OutputWeights holds a positive number for each"},
-             {"hammerstein(d, 2, 0, {Bins = 0})", "Bins must lie between 1 and 1000"},
+             {"hammerstein(d, 2, 0, {Bins = 0})", "option 'Bins' must lie between 1 and 1000, but 0 was given"},
              {"hammerstein(d, 2, 0, {Breakpoints = {2, 1}})", "Breakpoints must increase"},
              {"n4sid(d, 3, {BlockRows = 2})", "BlockRows must be greater than the order"}}) {
         const std::string error = dynlab::test::error_of(kRecord + call);
@@ -59,6 +66,20 @@ TEST(option_words, messages_name_the_options_of_scripts) {
         const std::string message = dynlab::test::printed(kRecord + "print(" + call + ".report.message)");
         EXPECT_THAT(message, HasSubstr(said)) << call;
         EXPECT_THAT(message, testing::Not(HasSubstr("`"))) << call;
+    }
+}
+
+// oracle: a default that is written out is the same call
+TEST(option_words, written_default_of_a_choice_changes_nothing) {
+    for (const auto& [call, option, initial, other] : std::vector<std::array<std::string, 4>>{
+             {"lssvf(d, {2, 1, 10}, 3", "hold_y", "foh", "zoh"}, {"n4sid(d, 3", "Weighting", "MOESP", "N4SID"}}) {
+        const auto fit_with = [&](const std::string& choice) {
+            return call + ", {" + option + " = '" + choice + "'}).report.fit_percent";
+        };
+        EXPECT_EQ(dynlab::test::printed(kRecord + "local fit = " + call + ").report.fit_percent\nprint(fit == " +
+                                        fit_with(initial) + ", fit == " + fit_with(other) + ")"),
+                  "true\tfalse\n")
+            << call;
     }
 }
 

@@ -32,7 +32,7 @@ std::string session(const std::vector<std::string>& statements) {
     PromptSession prompt("dynlab_out", [&text](const std::string& printed) { text += printed; });
     for (const std::string& typed : statements) {
         const StatementResult result = prompt.run(read_statement(typed, shown_calls()), "prompt");
-        if (!result.error.empty()) text += "ERROR " + result.error + '\n';
+        if (result.error) text += "ERROR " + result.error->text() + '\n';
     }
     return text;
 }

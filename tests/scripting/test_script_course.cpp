@@ -27,7 +27,7 @@ TEST(script_course, runs_the_lines_of_the_course) {
         "local data0, data = iddata(x, u, Ts), iddata(y, u, Ts)\n"
         "idplot(data)\n"
         "print(#u, Go.num, Go.den, data.N, data)\n");
-    ASSERT_FALSE(record.error) << record.error->message;
+    ASSERT_FALSE(record.error) << record.error->text();
     const auto& pieces = record.outputs.at("cell-1");
     EXPECT_EQ(pieces.at(0).figure, "cell-1-figure-1");
     EXPECT_EQ(pieces.at(1).printed, "1500\t[2]\t[1 4 3]\t1500\tiddata: 1500 samples, 1 output, 1 input, Ts = 0.01 s\n");

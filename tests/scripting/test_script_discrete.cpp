@@ -67,7 +67,8 @@ TEST(script_discrete, orders_are_explained) {
     EXPECT_THAT(refusal("arx(data, {{1, 2}, 1, 1})"), HasSubstr("na is one number of poles"));
     EXPECT_THAT(refusal("oe(data, {0, 2, 1})"), HasSubstr("nb, the number of coefficients of B, must lie between 1"));
     EXPECT_THAT(refusal("oe(data, {2, 2, 1}, {Offst = 'none'})"), HasSubstr("did you mean 'Offset'?"));
-    EXPECT_THAT(refusal("oe(data, {2, 2, 1}, {InitialState = 'rest'})"), HasSubstr("InitialState is \"zero\""));
+    EXPECT_THAT(refusal("oe(data, {2, 2, 1}, {InitialState = 'rest'})"),
+                HasSubstr("option 'InitialState' must be one of \"none\""));
     EXPECT_THAT(refusal("print(Go.A)"), HasSubstr("difference equations"));
 }
 

@@ -3,8 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/reader.h"
 #include "numerics/estimators/srivc.h"
 #include "numerics/fit/assessment.h"
+#include "numerics/fit/diagnostics.h"
+#include "numerics/fit/missed_structure.h"
 #include "numerics/signals/prbs.h"
 #include "numerics/simulation/lsim.h"
 #include "script_run.h"
@@ -127,23 +130,43 @@ TEST(script_estimators, each_output_has_orders_of_its_own) {  // oracle: each ou
         "true\t4\t2\n");
 }
 
-// Oracle: the constant that was put into the record, and the same estimate by the C++ function.
-TEST(script_estimators, srivc_reports_the_doubts_of_the_cpp_function) {
+// Oracle: what was put into the record, and the diagnostics of the C++ function.
+TEST(script_estimators, srivc_reports_the_diagnostics_of_the_cpp_function) {
     const Vector u = prbs(7, 8);
     const Vector ripple = (Vector::LinSpaced(u.size(), 0, static_cast<double>(u.size() - 1)).array().square()).sin();
-    const Vector y = lsim(TransferFunction(Vector{{2.0}}, Vector{{1.0, 4.0, 3.0}}), u, 0.05);
+    const Vector y = lsim(TransferFunction(Vector{{2.0}}, Vector{{1.0, 4.0, 3.0}}), u, 0.05) + u;
     const IdData data(Matrix((y + 0.05 * ripple).array() + 3), Matrix(u), 0.05);
     const Fit fit = srivc(data, TransferStructure::single(2, 0));
-    ASSERT_TRUE(fit.doubts.missed_option && fit.doubts.missed_option->start.offset);
-    ASSERT_TRUE(fit.doubts.assessment);
+    const Diagnostics found = diagnose(fit, data, {});
+    ASSERT_TRUE(fit.start.offset);
+    ASSERT_TRUE(found.missed && found.missed->code == MissedCode::kFeedthrough);
+    ASSERT_TRUE(found.assessment);
+    const Vector& std = found.assessment->std;
     EXPECT_EQ(printed("local u = prbs(7, 8)\n"
-                      "local y = lsim(tf({2}, {1, 4, 3}), u, 0.05) + 0.05*sin(range(0, 1, #u - 1)^2) + 3\n"
-                      "local G = srivc(iddata(y, u, 0.05), {1, 2, 0})\n"
+                      "local y = lsim(tf({2}, {1, 4, 3}), u, 0.05) + u + 0.05*sin(range(0, 1, #u - 1)^2) + 3\n"
+                      "local data = iddata(y, u, 0.05)\n"
+                      "local G = srivc(data, {1, 2, 0})\n"
+                      "data = nil\ncollectgarbage()\n"  // the model keeps what it needs
                       "print(G.report.warnings[#G.report.warnings])\nprint(G.report.white)\n"
                       "for i = 1, #G.param do print(string.format('%.6g %.6g', G.param[i], G.robust_std[i])) end"),
-              fmt::format("{}\n{}\n{:.6g} {:.6g}\n{:.6g} {:.6g}\n{:.6g} {:.6g}\n", in_lua_words(fit.warnings.back()),
-                          fit.doubts.assessment->white, fit.theta[0], fit.doubts.assessment->std[0], fit.theta[1],
-                          fit.doubts.assessment->std[1], fit.theta[2], fit.doubts.assessment->std[2]));
+              fmt::format("{}\n{}\n{:.6g} {:.6g}\n{:.6g} {:.6g}\n{:.6g} {:.6g}\n",
+                          message_text(found.warnings().back(), {nullptr, option_name}), found.assessment->white,
+                          fit.theta[0], std[0], fit.theta[1], std[1], fit.theta[2], std[2]));
+}
+
+// Oracle: the constant that was put into the record.
+TEST(script_estimators, message_names_the_start_that_is_chosen) {
+    const std::string record =
+        "rng(1)\nlocal u = prbs(7, 8)\n"
+        "local y = lsim(tf({2}, {1, 4, 3}), u, 0.05) + 0.05*randn(#u) + 3\nlocal data = iddata(y, u, 0.05)\n";
+    EXPECT_THAT(printed(record + "print(srivc(data, {1, 2, 0}).report.message)"),
+                HasSubstr("from rest at zero input, with an estimated offset"));
+    EXPECT_EQ(printed(record + "local none = {InitialState = \"none\", Offset = \"none\"}\n"
+                               "local zero = {InitialState = \"zero\", Offset = \"none\"}\n"
+                               "print(srivc(data, {1, 2, 0}).report.fit_percent > 75, "
+                               "srivc(data, {1, 2, 0}, none).report.fit_percent < 50, "
+                               "srivc(data, {1, 2, 0}, none).param[1] == srivc(data, {1, 2, 0}, zero).param[1])"),
+              "true\ttrue\ttrue\n");
 }
 
 }  // namespace test_script_estimators

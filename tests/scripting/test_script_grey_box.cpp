@@ -158,7 +158,7 @@ TEST(script_grey_box, refuses_in_words) {  // oracle: the mistakes written here
                         "{a1 = 1, b = {0, fixed = true}}, {states = {'h'}}))"),
                 HasSubstr("a coefficient in the derivative of the state h is no finite number"));
     EXPECT_THAT(refusal("greyest(data, idgrey(f, names, {states = 2}), {RelTol = 2})"),
-                HasSubstr("RelTol must lie between"));
+                HasSubstr("option 'RelTol' must lie between 1e-13 and 0.01, but 2 was given"));
     EXPECT_THAT(refusal("greyest(data, idgrey(function(t, x, u, p) return {p.a1*sqrt(x[1] - 1) + u} end, {a1 = 1}, "
                         "{states = {'h'}}))"),
                 HasSubstr("sqrt: it is not defined for the negative number -1"));

@@ -57,13 +57,13 @@ TEST(script_motion, keeps_signals_and_rig_in_one_figure) {
     const RunRecord record = test::run(kRecord +
                                        "report.figure('m', motion{rig = 'crane', t = t, measured = s,\n"
                                        "simulated = s, instants = {0.5, 1.5}, title = 'Both', width = 12}, '')");
-    ASSERT_FALSE(record.error) << record.error->message;
+    ASSERT_FALSE(record.error) << record.error->text();
     const Figure& figure = *record.figures.at("m").figure;
     ASSERT_TRUE(figure.motion);
-    EXPECT_EQ(figure.panels[1].y_label, "position (m)");
+    EXPECT_EQ(message_text(figure.panels[1].y_label), "position (m)");
     EXPECT_EQ(figure.panels[2].curves.size(), 2u);
     EXPECT_EQ(figure.panels[1].references.size(), 2u);
-    EXPECT_EQ(figure.title, "Both");
+    EXPECT_EQ(message_text(figure.title), "Both");
     EXPECT_EQ(figure.width_cm, 12);
 }
 
@@ -73,7 +73,7 @@ TEST(script_motion, where_scripts_are_graded_draws_nothing_and_stops_nothing) {
     const test::EnvironmentVariable home("DYNLAB_HOME", "/nowhere");
     for (const char* options : {"measured = s", "measured = t", "measured = {angle = t, more = t}, simulated = s"}) {
         const RunRecord record = test::run(kRecord + "motion{rig = 'crane', t = t, " + options + "}", graded);
-        EXPECT_FALSE(record.error) << options << ": " << record.error->message;
+        EXPECT_FALSE(record.error) << options << ": " << record.error->text();
     }
 }
 

@@ -117,7 +117,7 @@ TEST(script_simulation, simsd_agrees_with_the_band_of_the_step) {
               "true\ttrue\t30\ntrue\ttrue\t30\ntrue\ttrue\t30\n");
     EXPECT_THAT(error_of("rng(1)\nlocal u = prbs(7, 4)\nlocal d = iddata(lsim(tf({2}, {1, 3}), u, 0.1) + "
                          "0.05*randn(#u), u, 0.1)\nsimsd(srivc(d, {1, 1, 0}), matrix{{1, 2}, {3, 4}}, 0.1)"),
-                HasSubstr("the model has 1 input(s), and 2 were given"));
+                HasSubstr("the model has 1 input, and 2 were given"));
 }
 
 TEST(script_simulation, data_of_inputs_are_refused_where_an_output_is_needed) {

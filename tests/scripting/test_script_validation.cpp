@@ -33,16 +33,16 @@ TEST(script_validation, resid_says_what_is_left) {
                 testing::AllOf(HasSubstr("to rounding"), HasSubstr("nil\n")));
 }
 
-TEST(script_validation, a_fit_and_resid_name_the_option_that_the_defaults_miss) {
+TEST(script_validation, reports_and_resid_name_the_structure_that_is_missed) {
     EXPECT_THAT(
-        printed(kRecord + "local raised = iddata(x + 0.1*randn(#u) + 5, u, 0.05)\n"
+        printed(kRecord + "local raised = iddata(x + u + 0.1*randn(#u) + 5, u, 0.05)\n"
                           "local G = srivc(raised, {1, 2, 0})\nprint(G.report.warnings[#G.report.warnings])\n"
                           "local fig, t = resid(raised, G)\nprint(t.verdict)"),
-        testing::AllOf(HasSubstr("With Offset = \"estimate\" the fit is"), Not(HasSubstr("Dynamics are missing"))));
+        testing::AllOf(HasSubstr("With as many zeros as poles the fit is"), Not(HasSubstr("Dynamics are missing"))));
     EXPECT_THAT(printed(kRecord + "print(#srivc(white, {1, 2, 0}).report.warnings)"), HasSubstr("0\n"));
-    EXPECT_THAT(printed(kRecord + "local G = rivc(iddata(x + 0.1*randn(#u) + 5, u, 0.05), {1, 0, 1, 2, 0})\n"
+    EXPECT_THAT(printed(kRecord + "local G = rivc(iddata(x + u + 0.1*randn(#u) + 5, u, 0.05), {1, 0, 1, 2, 0})\n"
                                   "print(G.report.warnings[#G.report.warnings])"),
-                HasSubstr("With Offset = \"estimate\" the fit is"));
+                HasSubstr("With as many zeros as poles the fit is"));
 }
 
 TEST(script_validation, resid_can_be_quiet_in_a_loop) {
@@ -119,15 +119,38 @@ TEST(script_validation, present_writes_no_digits_below_the_error) {
     EXPECT_GT(pairs, 10);
 }
 
+// Oracle: the words and bounds of the help pages.
+TEST(script_validation, options_are_held_to_their_words_and_bounds) {
+    const std::string model = kRecord + "local G = idproc('P1', {Kp = 2, Tp1 = 1})\n";
+    for (const auto& [call, said] : std::vector<std::pair<std::string, std::string>>{
+             {"compare(white, G, {InitialState = 'model'})",
+              "option 'InitialState' must be one of \"none\", \"steady\", \"estimate\", \"auto\", but \"model\" was "
+              "given"},
+             {"predict(white, G, {Offset = 'big'})",
+              "option 'Offset' must be one of \"none\", \"remove\", \"estimate\", \"auto\", but \"big\" was given"},
+             {"bootstrap(G, white, {kind = 'blocks'})",
+              "option 'kind' must be one of \"residual\", \"parametric\", but \"blocks\" was given"},
+             {"bootstrap(G, white, {runs = 19})", "option 'runs' must be at least 20, but 19 was given"},
+             {"lsq({{1}, {2}}, {1, 2}, {method = 'svd'})",
+              "option 'method' must be one of \"qr\", \"normal\", but \"svd\" was given"},
+             {"lsq({{1, 1}, {2, 2}, {3, 3}}, {1, 2, 3}, {method = 'normal'})", "lsq"},
+             {"idfilt(white, {0, 1}, {order = 21})", "option 'order' must lie between 1 and 20, but 21 was given"}})
+        EXPECT_THAT(error_of(model + call), HasSubstr(said)) << call;
+    EXPECT_EQ(printed("print(lsq({{1, 1}, {2, 2}, {3, 3}}, {1, 2, 3}, {method = 'qr'}).rank == 1)\n"
+                      "print(iddata({1, 2}, {1, 2}, 1).InterSample)\n"
+                      "print(iddata({1, 2}, {1, 2}, 1, {InterSample = 'foh'}).InterSample)"),
+              "true\nzoh\nfoh\n");
+}
+
 TEST(script_validation, figures_carry_bands_unless_refused) {
     const auto bands = [](const std::string& drawing) {
         const RunRecord record = test::run(kRecord + "local G = procsrivc(white, 'P2')\n" + drawing);
-        EXPECT_FALSE(record.error) << record.error->message;
+        EXPECT_FALSE(record.error) << record.error->text();
         std::size_t count = 0;
         for (const auto& [name, figure] : record.figures)
             for (const Panel& panel : figure.figure->panels)
                 for (const Curve& curve : panel.curves)
-                    count += curve.style == CurveStyle::kBand || curve.label == "90 % confidence";
+                    count += curve.style == CurveStyle::kBand || message_text(curve.label) == "90 % confidence";
         return count;
     };
     EXPECT_EQ(bands("step(G)"), 1u);

@@ -128,7 +128,7 @@ TEST(shown_expressions, functions_of_the_script_s_own_are_not_taken_for_those_th
 
 TEST(shown_expressions, show_figures_too) {
     const RunRecord record = run("local fig = plot({1, 2, 3})\nfig");
-    ASSERT_FALSE(record.error) << record.error->message;
+    ASSERT_FALSE(record.error) << record.error->text();
     EXPECT_EQ(record.figures.size(), 1u);
 }
 

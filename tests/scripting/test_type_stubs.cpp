@@ -29,7 +29,7 @@ TEST(type_stubs, define_every_function_once_and_nothing_else) {
         const std::string gives = std::string("return type(") + entry.name + ")";
         ASSERT_EQ(luaL_dostring(L, gives.c_str()), LUA_OK) << entry.name;
         EXPECT_STREQ(lua_tostring(L, -1), "function") << entry.name;
-        EXPECT_THAT(stubs, HasSubstr(std::string("\n---`") + entry.signature + "`\n")) << entry.name;
+        EXPECT_THAT(stubs, HasSubstr("\n---`" + signature_text(entry) + "`\n")) << entry.name;
         lua_settop(L, 0);
     }
     const std::regex definition("\nfunction ([\\w.]+)\\(");
@@ -43,7 +43,7 @@ TEST(type_stubs, use_the_documented_tags_and_name_the_parameters_in_order) {
     EXPECT_THAT(stubs, StartsWith("---@meta\n"));
     const std::regex tag("^---@(meta|class|field|param|return|overload)\\b.*");
     const std::regex parameter("---@param (\\.\\.\\.|[A-Za-z_]\\w*)([?]?) (any|table|dynlab\\.\\w+\\.options)");
-    const std::regex field("---@field [A-Za-z_]\\w*\\? any.*");
+    const std::regex field("---@field [A-Za-z_]\\w*\\? (any|number|integer|boolean|string) .+");
     std::string named;
     for (const std::string& line : lines_of(stubs)) {
         EXPECT_EQ(line.starts_with("---@"), std::regex_match(line, tag)) << line;
@@ -62,7 +62,7 @@ TEST(type_stubs, use_the_documented_tags_and_name_the_parameters_in_order) {
 TEST(type_stubs, tell_options_with_the_words_of_the_page) {
     const std::string stubs = type_stubs();
     EXPECT_THAT(stubs,
-                HasSubstr("---@class dynlab.srivc.options\n---@field lambda? any cut-off frequency of the filter"));
+                HasSubstr("---@class dynlab.srivc.options\n---@field lambda? number cut-off frequency of the filter"));
     EXPECT_THAT(stubs,
                 HasSubstr("---@param data any\n---@param nb_nf_nk? table\n---@param options? "
                           "dynlab.srivc.options\n---@return any G\nfunction srivc(data, nb_nf_nk, options) end"));
@@ -70,18 +70,20 @@ TEST(type_stubs, tell_options_with_the_words_of_the_page) {
 
 TEST(function_forms, takes_signatures_apart) {
     EXPECT_THAT(forms_of("f(a) -> x; f(b, {c =})"), testing::ElementsAre("f(a) -> x", "f(b, {c =})"));
-    EXPECT_THAT(arguments_of("f(data, {na, nb}, x, {hold =}) -> G"),
-                testing::ElementsAre("data", "{na, nb}", "x", "{hold =}"));
-    const auto options = options_of_function("srivc");
-    ASSERT_TRUE(options);
-    EXPECT_EQ(options->first_place, 2u);
+    EXPECT_THAT(arguments_of("f(data, {na, nb}, x, {options}) -> G"),
+                testing::ElementsAre("data", "{na, nb}", "x", "{options}"));
+    EXPECT_EQ(place_of_options(*find_function("srivc")), 2u);
+    EXPECT_FALSE(place_of_options(*find_function("mean")));
+}
+
+TEST(function_forms, options_are_found_by_their_names) {
+    const OptionTables options = find_function("srivc")->options;
     for (const char* name : {"MaxIter", "maxIter", "Lambda", "OutputWeights"})
-        EXPECT_TRUE(options->knows(name)) << name;
-    EXPECT_THAT(options->names, testing::Not(testing::Contains("data")));
-    EXPECT_THAT(options_of_function("load")->names,
-                testing::ElementsAre("skip", "names", "delimiter", "units", "time", "sheet"));
-    EXPECT_FALSE(options->knows("Lamda"));
-    EXPECT_FALSE(options_of_function("mean"));
+        EXPECT_NE(find_option(options, name), nullptr) << name;
+    EXPECT_EQ(find_option(options, "Lamda"), nullptr);
+    EXPECT_THAT(option_names(options), testing::Not(testing::Contains("data")));
+    EXPECT_THAT(option_names(find_function("load")->options),
+                testing::UnorderedElementsAre("skip", "names", "delimiter", "units", "time", "sheet"));
 }
 
 }  // namespace test_type_stubs

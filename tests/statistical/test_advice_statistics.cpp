@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/reader.h"
 #include "numerics/validation/advice.h"
 #include "support/advice_corpus.h"
 
@@ -21,7 +22,7 @@ bool has_one_of(const Advice& advice, const std::vector<std::string>& codes) {
 std::string warnings(const Advice& advice) {
     std::string all;
     for (const RecordFinding& finding : advice.findings)
-        if (finding.weight == Weight::kWarning) all += "\n  " + finding.code + ": " + finding.message;
+        if (finding.weight == Weight::kWarning) all += "\n  " + finding.code + ": " + message_text(finding.message);
     return all;
 }
 

@@ -11,7 +11,6 @@
 #include "numerics/signals/random.h"
 #include "numerics/simulation/lsim.h"
 #include "support/coloured_noise.h"
-#include "support/without_doubts.h"
 
 namespace test_assessment_statistics {
 
@@ -55,7 +54,7 @@ Runs runs_of(const TwoOutputs& system) {
     Runs runs{{}, Vector::Zero(system.theta.size())};
     for (int run = 0; run < kRuns; ++run) {
         const IdData data = system.record(static_cast<std::uint32_t>(run + 1));
-        const Fit estimate = srivc(data, system.structure, without_doubts());
+        const Fit estimate = srivc(data, system.structure, FitOptions{}.from_rest());
         values.row(run) = estimate.theta.transpose();
         runs.robust += assess(data, estimate).std / kRuns;
     }
@@ -137,7 +136,7 @@ Vector resonant_noise(Index N, std::uint32_t seed) {
 }
 
 Fit srivc_of(const IdData& data, const TransferStructure& structure) {
-    return srivc(data, structure, without_doubts());
+    return srivc(data, structure, FitOptions{}.from_rest());
 }
 Fit ivsvf_of(const IdData& data, const TransferStructure& structure) {
     SvfOptions options;
@@ -172,8 +171,8 @@ TEST(assessment_statistics, two_outputs_of_the_crane_are_no_less_certain_than_on
     Vector alone = Vector::Zero(3), together = Vector::Zero(3);
     for (std::uint32_t seed = 1; seed <= kSeeds; ++seed) {
         const IdData data = crane_record(seed), position = data.select({1}, {1});
-        alone += assess(position, srivc(position, single, without_doubts())).std.head(3) / kSeeds;
-        together += assess(data, srivc(data, common, without_doubts())).std.head(3) / kSeeds;
+        alone += assess(position, srivc(position, single, FitOptions{}.from_rest())).std.head(3) / kSeeds;
+        together += assess(data, srivc(data, common, FitOptions{}.from_rest())).std.head(3) / kSeeds;
     }
     for (Index i = 0; i < 3; ++i) EXPECT_LT(together[i], (1 + kAllowed) * alone[i]) << "a" << i + 1;
 }

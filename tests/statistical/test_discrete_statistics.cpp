@@ -10,7 +10,6 @@
 #include "numerics/signals/prbs.h"
 #include "numerics/simulation/lsim.h"
 #include "support/difference_equation.h"
-#include "support/without_doubts.h"
 
 namespace test_discrete_statistics {
 
@@ -69,13 +68,13 @@ IdData course_record(double Ts, Index N, std::uint32_t seed) {
 
 TEST(discrete_statistics, standard_errors_of_oe_are_honest) {  // oracle: statistics, fixed seeds
     expect_honest(monte_carlo(4, with_white_output_noise,
-                              [](const IdData& data) { return oe(data, kOutputError, without_doubts()); }),
+                              [](const IdData& data) { return oe(data, kOutputError, FitOptions{}.from_rest()); }),
                   kTruth);
 }
 
 TEST(discrete_statistics, standard_errors_of_sriv_are_honest) {  // oracle: statistics, fixed seeds
     expect_honest(monte_carlo(4, with_white_output_noise,
-                              [](const IdData& data) { return sriv(data, kOutputError, without_doubts()); }),
+                              [](const IdData& data) { return sriv(data, kOutputError, FitOptions{}.from_rest()); }),
                   kTruth);
 }
 
@@ -140,8 +139,8 @@ TEST(discrete_statistics, default_settings_find_good_models_of_fast_samples) {  
             const Vector e = problem.sigma * RandomStream(static_cast<std::uint32_t>(run)).normal(x.size());
             const IdData data(Matrix(x + e), Matrix(problem.u), 0.01);
             const double limit = 1.01 * e.squaredNorm() / static_cast<double>(e.size());
-            EXPECT_LT(oe(data, orders, without_doubts()).loss, limit) << run;
-            EXPECT_LT(sriv(data, orders, without_doubts()).loss, limit) << run;
+            EXPECT_LT(oe(data, orders, FitOptions{}.from_rest()).loss, limit) << run;
+            EXPECT_LT(sriv(data, orders, FitOptions{}.from_rest()).loss, limit) << run;
         }
     }
 }

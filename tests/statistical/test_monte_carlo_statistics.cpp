@@ -10,7 +10,6 @@
 #include "numerics/estimators/srivc.h"
 #include "numerics/validation/monte_carlo.h"
 #include "support/transfer_cases.h"
-#include "support/without_doubts.h"
 
 namespace test_monte_carlo_statistics {
 
@@ -143,7 +142,7 @@ int good_fits(double snr) {
     const Vector x = lsim(study.system, study.u, study.Ts);
     const MonteCarlo result = monte_carlo(
         study, {{"loss ratio", [&](const IdData& data) {
-                     const Fit estimate = srivc(data, TransferStructure::single(4, 1), without_doubts());
+                     const Fit estimate = srivc(data, TransferStructure::single(4, 1), FitOptions{}.from_rest());
                      const auto y = data.experiments.front().y.col(0);
                      const Vector simulated = lsim(estimate.models.front(), study.u, study.Ts);
                      return MonteCarloEstimate{Vector{{(y - simulated).squaredNorm() / (y - x).squaredNorm()}}, {}};

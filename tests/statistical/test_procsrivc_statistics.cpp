@@ -30,7 +30,6 @@ Study monte_carlo(const char* structure_name, const Vector& truth) {
     options.offset = Offset::kEstimate;
     options.largest_delay = 1.5;
     options.delay_count = 20;
-    options.doubts = false;
     const Index d = truth.size();
     Matrix estimates(kRuns, d);
     Study study{Vector::Zero(d), Vector::Zero(d), Vector::Zero(d), 0};

@@ -87,7 +87,6 @@ ErrorStudy error_study(const Vector& u, double Ts, double pole, double size) {
     ProcsrivcOptions options;
     options.initial_state = InitialState::kZero;
     options.offset = Offset::kNone;
-    options.doubts = false;
     Matrix estimates(kRuns, 2);
     ErrorStudy study{Vector::Zero(2), Vector::Zero(2), Vector::Zero(2)};
     for (int run = 0; run < kRuns; ++run) {

@@ -6,7 +6,6 @@
 #include "numerics/estimators/srivc.h"
 #include "numerics/filters/transfer_sensitivity.h"
 #include "support/coloured_noise.h"
-#include "support/without_doubts.h"
 
 namespace test_rivc_statistics {
 
@@ -35,7 +34,7 @@ Runs runs_of_rivc(const ColouredProblem& problem, const NoiseOrders& orders) {
     Runs runs{Matrix(kRuns, 3 + nc + nd), Vector::Zero(3 + nc + nd)};
     for (int run = 0; run < kRuns; ++run) {
         const Fit result =
-            rivc(problem.record(static_cast<std::uint32_t>(run + 1)), kStructure, orders, without_doubts());
+            rivc(problem.record(static_cast<std::uint32_t>(run + 1)), kStructure, orders, FitOptions{}.from_rest());
         EXPECT_EQ(result.termination, Termination::kConverged) << run + 1;
         runs.values.row(run) << result.theta.transpose(), result.noise->C.tail(nc).transpose(),
             result.noise->D.tail(nd).transpose();
@@ -91,7 +90,8 @@ TEST(rivc_statistics, a_noise_model_pays_where_theory_says) {
     Runs plain{Matrix(kRuns, 3), {}};
     for (int run = 0; run < kRuns; ++run)
         plain.values.row(run) =
-            srivc(problem.record(static_cast<std::uint32_t>(run + 1)), kStructure, without_doubts()).theta.transpose();
+            srivc(problem.record(static_cast<std::uint32_t>(run + 1)), kStructure, FitOptions{}.from_rest())
+                .theta.transpose();
     for (Index i = 0; i < 3; ++i) {
         EXPECT_LT(bound[i], 0.95 * of_srivc[i]) << i;
         EXPECT_NEAR(runs.spread()[i] / bound[i], 1, kAllowed) << i;

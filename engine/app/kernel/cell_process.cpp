@@ -25,7 +25,7 @@ constexpr std::size_t kLargestPiece = std::size_t{64} << 10;
 /// A copy of this process that ends with it. True in the copy.
 bool fork_bound(pid_t& process) {
     process = fork_bound_copy();
-    if (process < 0) throw EnvironmentError("cannot start a process for the cells: " + system_reason(errno));
+    if (process < 0) throw EnvironmentError("cannot start a process for the cells: {}", system_reason(errno));
     return process == 0;
 }
 

@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/kernel/cell_messages.h"
+#include "base/languages.h"
+#include "base/reader.h"
 #include "data_io/values/cbor_values.h"
 #include "documents/script_header.h"
 #include "documents/text_lines.h"
@@ -118,7 +120,8 @@ class CellWorld {
             for (const std::string& figure : figures_in_order(record)) {
                 throw_if_interrupted();
                 tell({.kind = "display",
-                      .data = figure_bundle(*record.figures.at(figure).figure, renderer_, language_.code == "fr")});
+                      .data = figure_bundle(*record.figures.at(figure).figure, renderer_,
+                                            Reader{catalog_of(language_.code)})});
             }
             renderer_.finish();  // what the cell saved itself
             give_value("result");
@@ -154,7 +157,7 @@ class CellWorld {
         PercentScript cell;
         cell.file = name;
         cell.source = code;
-        tell({.kind = "failed", .text = take_apart(error.message).text, .lines = lines_of(error_text(error, cell))});
+        tell({.kind = "failed", .text = message_text(error.message), .lines = lines_of(error_text(error, cell))});
     }
 
     Channel line_;

@@ -28,16 +28,15 @@ KernelConnection read_connection(const std::filesystem::path& file) {
             connection.*port = told.at(name).get<int>();
         if (connection.key.empty())
             throw EnvironmentError(
-                fmt::format("{} has no key, so that everybody on this machine could run cells; let Jupyter write the "
-                            "file, which makes one (do not set Session.key to nothing)",
-                            file.string()));
+                "{} has no key, so that everybody on this machine could run cells; let Jupyter write the file, which "
+                "makes one (do not set Session.key to nothing)",
+                file.string());
         const std::string scheme = told.value("signature_scheme", "hmac-sha256");
         if (scheme != "hmac-sha256")
-            throw EnvironmentError(
-                fmt::format("{}: messages signed by {}, and dynlab's are by hmac-sha256", file.string(), scheme));
+            throw EnvironmentError("{}: messages signed by {}, and dynlab's are by hmac-sha256", file.string(), scheme);
     } catch (const json::exception&) {
-        throw EnvironmentError(fmt::format(
-            "{} is no connection file of Jupyter, which starts a kernel by itself: jupyter notebook", file.string()));
+        throw EnvironmentError("{} is no connection file of Jupyter, which starts a kernel by itself: jupyter notebook",
+                               file.string());
     }
     return connection;
 }

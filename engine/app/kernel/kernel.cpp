@@ -15,6 +15,7 @@
 #include "app/kernel/connection.h"
 #include "app/kernel/input_history.h"
 #include "app/kernel/message.h"
+#include "base/error.h"
 #include "platform/interrupt.h"
 #include "platform/terminal/terminal_text.h"
 #include "platform/utf8.h"
@@ -85,8 +86,8 @@ class Kernel {
             try {
                 socket->bind(connection.address(port));
             } catch (const zmq::error_t& error) {
-                throw EnvironmentError(
-                    fmt::format("the kernel cannot listen at {}: {}", connection.address(port), error.what()));
+                throw EnvironmentError("the kernel cannot listen at {}: {}", connection.address(port),
+                                       message_of(error));
             }
         }
     }

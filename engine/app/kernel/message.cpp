@@ -20,7 +20,7 @@ constexpr std::size_t kPartsBehind = 5;           // signature, header, parent, 
 
 json object_of(const std::string& frame, const char* what) {
     json object = json::parse(frame, nullptr, false);
-    if (!object.is_object()) throw BadMessage(fmt::format("a message whose {} is no object of JSON", what));
+    if (!object.is_object()) throw BadMessage("a message whose {} is no object of JSON", what);
     return object;
 }
 

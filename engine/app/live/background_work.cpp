@@ -4,6 +4,8 @@
 
 #include <filesystem>
 
+#include "base/error.h"
+#include "data_io/values/said_messages.h"
 #include "platform/atomic_file.h"
 #include "platform/child_process.h"
 #include "platform/program_lookup.h"
@@ -61,7 +63,7 @@ BackgroundWork::Pdf BackgroundWork::pdf() {
     changed_.notify_all();
     changed_.wait(lock, [this] { return end_ || pdf_version_ == version_; });
     --waiting_for_pdf_;
-    return pdf_version_ == version_ ? pdf_ : Pdf{{}, "dynlab is ending"};
+    return pdf_version_ == version_ ? pdf_ : Pdf{{}, Message("dynlab is ending")};
 }
 
 bool BackgroundWork::hands_in() const {
@@ -86,13 +88,18 @@ BackgroundWork::Made BackgroundWork::make(std::vector<std::string> command) {
         const std::lock_guard guard(mutex_);
         return end_;
     };
+    const fs::path messages = folder_.path() / "made.messages";
+    fs::remove(messages);
+    child.environment = {{kFileOfSaidMessages, messages.string()}};
     Made made;
     try {
         const ChildResult result = run_child(child, "dynlab");
-        made = {result.exit_code == 0, result.output + result.error_output};
-        if (result.timed_out) made.words += "it took longer than ten minutes\n";
+        SaidMessages said = read_said_messages(messages);
+        if (result.timed_out) said.complaints.push_back(Message("it took longer than ten minutes"));
+        made = {result.exit_code == 0,
+                said.empty() ? Message::verbatim(result.output + result.error_output) : said.all()};
     } catch (const std::exception& error) {
-        made.words = error.what();
+        made.words = message_of(error);
     }
     const std::lock_guard lock(mutex_);
     findings_version_ = 0;  // they speak of what lies in the folder
@@ -171,14 +178,19 @@ BackgroundWork::Pdf BackgroundWork::made_pdf(const std::map<std::string, double>
                      file.string()};
     for (const auto& [name, value] : slider_values)
         child.command.insert(child.command.end(), {"--set", fmt::format("{}={}", name, value)});
+    const fs::path messages = folder_.path() / "pdf.messages";
+    fs::remove(messages);
+    child.environment = {{kFileOfSaidMessages, messages.string()}};
     child.timeout = kLongest;
     child.give_up = give_up;
     try {
         const ChildResult made = run_child(child, "dynlab");
         if (fs::exists(file)) return {read_file(file), {}};
-        return {{}, made.timed_out ? "making the PDF took longer than ten minutes" : made.error_output};
+        if (made.timed_out) return {{}, Message("making the PDF took longer than ten minutes")};
+        const SaidMessages said = read_said_messages(messages);
+        return {{}, said.empty() ? Message::verbatim(made.error_output) : said.all()};
     } catch (const std::exception& error) {
-        return {{}, error.what()};
+        return {{}, message_of(error)};
     }
 }
 

@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "base/message.h"
 #include "platform/temporary_folder.h"
 
 namespace dynlab::inline app {
@@ -30,14 +31,14 @@ class BackgroundWork {
 
     struct Pdf {
         std::string bytes;  ///< empty where it cannot be made
-        std::string error;  ///< then why
+        Message error;      ///< then why
     };
     Pdf pdf();  ///< of the document as it is now; waits until it is made
 
     /// What is made only when somebody asks, as `dynlab report` and `dynlab pack` do.
     struct Made {
         bool done = false;
-        std::string words;  ///< what the command says, for a reader
+        Message words;  ///< what the command says, for a reader
     };
     bool hands_in() const;  ///< whether the document is a folder with a report
     Made make_report();     ///< into the folder, as the script says, wherever sliders were moved to

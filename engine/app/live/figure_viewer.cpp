@@ -55,7 +55,7 @@ void FigureViewer::show(const std::string& name, const Figure& figure) {
     GnuplotRenderer renderer;
     renderer.draw(figure, file, FigureFormat::kSvg);
     renderer.finish();
-    const std::string plot = plot_data(figure, false);
+    const std::string plot = plot_data(figure);
     {
         const std::lock_guard lock(mutex_);
         shown_.push_front({++count_, name, read_text(file), plot});

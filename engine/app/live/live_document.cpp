@@ -1,6 +1,5 @@
 #include "app/live/live_document.h"
 
-#include <fmt/format.h>
 #include <poll.h>
 #include <sys/eventfd.h>
 #include <unistd.h>
@@ -166,10 +165,10 @@ void LiveDocument::or_complain(const std::function<void()>& act) {
     try {
         act();
     } catch (const DocumentError& error) {
-        page_.complain(lines_of(error.what()));
+        page_.complain({error.message()});
         tell_();
     } catch (const EnvironmentError& error) {
-        page_.complain({error.what()});
+        page_.complain({error.message()});
         tell_();
     }
 }
@@ -320,7 +319,7 @@ void LiveDocument::set_page() {
             if (request_->slider_values.empty()) remember_ = Clock::now() + kKeepAfter;
         }
     } catch (const DocumentError& error) {
-        page_.complain(lines_of(error.what()));
+        page_.complain({error.message()});
     }
     tell_();
 }

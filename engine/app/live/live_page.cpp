@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "course/findings/french_sentences.h"
 #include "data_io/values/json_values.h"
+#include "data_io/values/message_values.h"
 #include "documents/html/web_page.h"
 #include "documents/record_description.h"
+#include "documents/text_lines.h"
 #include "platform/atomic_file.h"
 #include "platform/hash.h"
 #include "platform/text/small_letters.h"
@@ -33,13 +34,13 @@ json sliders_json(const std::map<std::string, RecordedSlider>& sliders) {
     return list;
 }
 
-/// What `dynlab check --json` prints, told in French. What was looked at stays as it is: the page reads points in it.
-void put_into_french(json& checked, const SentenceCatalogue& sentences) {
+/// Findings of `dynlab check --json` for a reader. What was looked at stays as it is: the page reads points in it.
+void put_into_language(json& checked, const LessonReader& reader) {
     if (!checked.is_object() || !checked.contains("findings")) return;
     for (json& finding : checked["findings"])
-        for (const char* part : {"what", "remedy"})
-            if (finding.is_object() && finding.contains(part) && finding[part].is_string())
-                finding[part] = sentences.translated(finding[part].get<std::string>());
+        for (const std::string part : {"what", "remedy"})
+            if (const std::string message = part + "_message"; finding.is_object() && finding.contains(message))
+                finding[part] = reader.text(value_of_json<Message>(finding[message]));
 }
 
 }  // namespace
@@ -146,7 +147,7 @@ PageContent LivePage::content() const {
     return content;
 }
 
-void LivePage::complain(const std::vector<std::string>& sentences) {
+void LivePage::complain(const std::vector<Message>& sentences) {
     const std::lock_guard lock(mutex_);
     if (content_.complaints == sentences) return;
     content_.complaints = sentences;
@@ -158,22 +159,18 @@ void LivePage::speak(const std::string& language, const std::string& lesson) {
     if (language_ == language && lesson_ == lesson) return;
     changed_ = findings_changed_ = true;
     language_ = language;
-    if (lesson_ != lesson) french_.reset();
     lesson_ = lesson;
+    reader_.reset();
 }
 
-const SentenceCatalogue& LivePage::french() const {
-    if (!french_) french_ = french_sentences(lesson_);
-    return *french_;
+const LessonReader& LivePage::reader() const {
+    if (!reader_) reader_.emplace(language_, lesson_);
+    return *reader_;
 }
 
-std::string LivePage::in_language(const std::string& sentences) const {
-    return language_ == "fr" ? french().translated_lines(sentences) : sentences;
-}
-
-std::string LivePage::told(const std::string& sentences) const {
+std::string LivePage::told(const Message& message) const {
     const std::lock_guard lock(mutex_);
-    return in_language(sentences);
+    return reader().text(message);
 }
 
 void LivePage::set_states(std::map<std::string, CellState> states, bool running) {
@@ -235,13 +232,14 @@ std::string LivePage::json(bool all) const {
                              {"pdf_is_ready", pdf_is_ready_},
                              {"hands_in", hands_in_},
                              {"states", ::nlohmann::json::object()}};
-    for (const std::string& sentence : content_.complaints) page["complaints"].push_back(in_language(sentence));
+    for (const Message& complaint : content_.complaints)
+        for (const std::string& line : lines_of(reader().text(complaint))) page["complaints"].push_back(line);
     for (const auto& [cell, state] : content_.states)
         page["states"][cell] = {{"state", state.state}, {"seconds", state.seconds}, {"progress", state.progress}};
     if (all || findings_changed_) {
         ::nlohmann::json& findings = page["findings"];
         if (::nlohmann::json::accept(findings_)) findings = ::nlohmann::json::parse(findings_);
-        if (language_ == "fr") put_into_french(findings, french());
+        put_into_language(findings, reader());
     }
     if (all || text_changed_) {
         ::nlohmann::json& pieces = page["pieces"] = ::nlohmann::json::array();

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "app/live/page_content.h"
+#include "course/findings/lesson_reader.h"
 #include "documents/chunks/chunk_setter.h"
 #include "documents/percent_script.h"
 #include "documents/run_record.h"
-#include "documents/words/sentence_catalogue.h"
 
 namespace dynlab::inline app {
 
@@ -22,11 +22,11 @@ class LivePage {
     void show(PageContent remembered);
     /// Makes the next version of a document that was set. Figures are read from their files now.
     void show(const SetDocument& document, const PercentScript& script, const RunRecord& record);
-    /// In which the page speaks, and all that is told of the document, what is wrong with it by now, too; the sentences
-    /// of its lesson's checks are told in it, as the lesson has them when they are first asked for.
+    /// In which the page speaks, and all that is said of the document, what is wrong with it by now, too. What authors
+    /// of the lesson's checks wrote is read as the lesson has it when it is first needed.
     void speak(const std::string& language, const std::string& lesson);
-    /// Text above the page, in English: what is wrong. The document stays as it is.
-    void complain(const std::vector<std::string>& sentences);
+    /// Text above the page: what is wrong. The document stays as it is.
+    void complain(const std::vector<Message>& sentences);
     void set_states(std::map<std::string, CellState> states, bool running);
     void set_running(bool running);
     void ask_whether_to_run(bool asking);
@@ -35,8 +35,7 @@ class LivePage {
     void set_sources(std::map<std::string, std::string> digests);  ///< of the files that the page may change
     void set_hands_in(bool hands_in);                              ///< whether report and zip can be asked for
     void set_work(std::string findings, bool pdf_is_ready);        ///< findings: JSON, in English, or empty
-    /// What the program says, in the page's language as far as it is known there; line by line.
-    std::string told(const std::string& sentences) const;
+    std::string told(const Message& message) const;                ///< in the page's language
 
     PageContent content() const;  ///< of the last version alone
     bool settled() const;  ///< the run came to its end, or to a mistake; not one that was stopped, nor one of before
@@ -52,8 +51,7 @@ class LivePage {
     void add_unseen_cells(const PercentScript& script, std::map<std::string, std::string>& html);
     std::string with_pictures(const SetChunk& chunk, const RunRecord& record);
     std::string keep_picture(const std::filesystem::path& file);
-    const SentenceCatalogue& french() const;
-    std::string in_language(const std::string& sentences) const;
+    const LessonReader& reader() const;
     std::string json(bool all) const;
 
     mutable std::mutex mutex_;
@@ -62,7 +60,7 @@ class LivePage {
     std::map<std::string, std::string> sources_;
     std::string findings_;
     std::string language_ = "en", lesson_;
-    mutable std::optional<SentenceCatalogue> french_;  ///< the lesson's, once it was asked for
+    mutable std::optional<LessonReader> reader_;  ///< once it was needed
     bool pdf_is_ready_ = false, hands_in_ = false;
     bool running_ = false, recalled_ = false, asking_ = false;
     bool changed_ = false, text_changed_ = false, findings_changed_ = false;

@@ -4,7 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "data_io/values/described.h"
+#include "data_io/values/message_values.h"
 #include "documents/record_description.h"
 #include "documents/run_record.h"
 
@@ -39,8 +41,8 @@ struct PageContent {
     std::map<std::string, PagePicture> pictures;
     std::map<std::string, CellState> states;
     std::map<std::string, RecordedSlider> sliders;
-    std::string open_answers;             ///< "G1 (model), gain (number)"
-    std::vector<std::string> complaints;  ///< what is wrong, in English
+    std::string open_answers;         ///< "G1 (model), gain (number)"
+    std::vector<Message> complaints;  ///< what is wrong
 };
 DYNLAB_DESCRIBE(PageContent, name, head, notes, pieces, html, pictures, states, sliders, open_answers, complaints)
 

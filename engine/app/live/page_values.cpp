@@ -5,13 +5,12 @@
 #include <nlohmann/json.hpp>
 
 #include "documents/html/plot_data.h"
-#include "documents/weave.h"
-#include "documents/words/sentence_catalogue.h"
-#include "figures/french_texts.h"
+#include "figures/figure.h"
 #include "scripting/conversions/arguments.h"
 #include "scripting/conversions/numeric.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/runtime/context.h"
+#include "scripting/runtime/errors.h"
 
 namespace dynlab::inline app {
 namespace {
@@ -40,41 +39,35 @@ json vector_json(NumericBlock& block) {
     return list;
 }
 
-json figure_json(ScriptFigure& shown, bool comma) {
+json figure_json(ScriptFigure& shown, const Reader& reader) {
     shown.used = true;
-    return json::parse(plot_data(comma ? in_french(shown.figure) : shown.figure, comma));
+    return json::parse(plot_data(shown.figure, reader));
 }
 
-/// What a view says to its reader, by the name under which it says it; other texts are names and code.
-std::string told_on_page(const std::string& name, const std::string& text, bool comma) {
-    if (!comma) return text;
-    if (name == "words") return french_engine_sentences().translated(text);
-    return name == "error" ? told_error(text, "fr") : text;
-}
-
-json value_json(lua_State* L, int index, int depth, bool comma);
+json value_json(lua_State* L, int index, int depth, const PageValues& page);
 
 /// A list where the keys are 1, 2, ...; else an object of those that are texts.
-json table_json(lua_State* L, int index, int depth, bool comma) {
+json table_json(lua_State* L, int index, int depth, const PageValues& page) {
     const auto length = static_cast<lua_Integer>(lua_rawlen(L, index));
     if (depth > kDeepest) return nullptr;
     luaL_checkstack(L, 4, "tables in tables");
     json list = json::array(), object = json::object();
     for (lua_Integer i = 1; i <= length; ++i) {
         lua_rawgeti(L, index, i);
-        list.push_back(value_json(L, lua_gettop(L), depth + 1, comma));
+        list.push_back(value_json(L, lua_gettop(L), depth + 1, page));
         lua_pop(L, 1);
     }
     for (lua_pushnil(L); lua_next(L, index) != 0; lua_pop(L, 1)) {
         if (lua_type(L, -2) != LUA_TSTRING) continue;
         const std::string name = lua_tostring(L, -2);
-        object[name] = lua_type(L, -1) == LUA_TSTRING ? json(told_on_page(name, lua_tostring(L, -1), comma))
-                                                      : value_json(L, lua_gettop(L), depth + 1, comma);
+        object[name] = name == "error" && lua_type(L, -1) == LUA_TSTRING
+                           ? json(message_text(error_at(L, -1).with_place(), page.reader))
+                           : value_json(L, lua_gettop(L), depth + 1, page);
     }
     return object.empty() ? list : object;
 }
 
-json value_json(lua_State* L, int index, int depth, bool comma) {
+json value_json(lua_State* L, int index, int depth, const PageValues& page) {
     switch (lua_type(L, index)) {
         case LUA_TBOOLEAN:
             return lua_toboolean(L, index) != 0;
@@ -83,25 +76,77 @@ json value_json(lua_State* L, int index, int depth, bool comma) {
         case LUA_TSTRING:
             return lua_tostring(L, index);
         case LUA_TTABLE:
-            return table_json(L, index, depth, comma);
+            return table_json(L, index, depth, page);
         default:
             break;
     }
     if (NumericBlock* const block = to_vector(L, index)) return vector_json(*block);
     if (NumericBlock* const block = to_matrix(L, index)) return matrix_json(*block);
-    if (FigurePointer* const figure = to_object<FigurePointer>(L, index)) return figure_json(**figure, comma);
+    if (FigurePointer* const figure = to_object<FigurePointer>(L, index)) return figure_json(**figure, page.reader);
     return nullptr;
 }
 
 int show(Call& call) {
     PageValues& page = call.owner<PageValues>();
-    const json value = value_json(call.state(), 2, 0, page.decimal_comma);
+    const json value = value_json(call.state(), 2, 0, page);
     page.show(call.text(1, "name"), value.dump(-1, ' ', false, json::error_handler_t::replace));
     return 0;
 }
 
-constexpr std::array kPageFunctions = {FunctionEntry{"workbench.show", "workbench", "workbench.show(name, value)",
-                                                     "gives the page a value", guarded<show>}};
+/// What stands at the figures that the page's views draw themselves.
+Message label_called(const std::string& name) {
+    if (name == "time") return axis_label(Message("time"), "s");
+    if (name == "delay") return axis_label(Message("delay"), "s");
+    if (name == "frequency") return axis_label(Message("frequency"), "rad/s");
+    if (name == "power") return Message("power of the output");
+    if (name == "mean_square_error") return Message("mean square error");
+    if (name == "measured") return Message("measured");
+    if (name == "by_hand") return Message("by hand");
+    if (name == "final_level") return Message("final level");
+    if (name == "first_peak") return Message("first peak");
+    throw InvalidArgument("there is no label \"{}\"", name);
+}
+
+int give_label(Call& call) {
+    return call.give(message_text(label_called(call.text(1, "name")), call.owner<PageValues>().reader));
+}
+
+/// What a reading of a step response says, by its kind, and how well it fits.
+Message sentence_of_reading(const std::string& kind, const Vector& numbers, double fit) {
+    const Index wanted = kind == "second" ? 6 : 5;
+    if (numbers.size() != wanted)
+        throw InvalidArgument("a reading \"{}\" has {} numbers, but {} were given", kind, wanted, numbers.size());
+    const auto at = [&](Index i) { return significant(numbers(i), 4); };
+    const Number percent = decimals(fit, 1);
+    if (kind == "first")
+        return Message(
+            "K = change of y/change of u = {}/{} = {}.  T: 63 % of the change after {}.  Within 5 % after 3 T = {}.  "
+            "Fit {} %.",
+            at(0), at(1), at(2), at(3), at(4), percent);
+    if (kind == "delayed")
+        return Message(
+            "28 % after {}, 63 % after {}:  T = 1.5 (t63 - t28) = {},  Td = t63 - T = {}.  K = {}.  Fit {} %.", at(0),
+            at(1), at(2), at(3), at(4), percent);
+    if (kind != "second") throw InvalidArgument("there is no reading \"{}\"", kind);
+    return Message(
+        "Overshoot D = {} % after T1 = {}:  z = sqrt(ln(D)^2/(ln(D)^2 + pi^2)) = {},  w0 = pi/(T1 sqrt(1 - z^2)) = {} "
+        "rad/s.  K = {}.  Within 5 % after about 3/(z w0) = {}.  Fit {} %.",
+        significant(numbers(0), 3), at(1), at(2), at(3), at(4), at(5), percent);
+}
+
+int reading_words(Call& call) {
+    const Message words = sentence_of_reading(call.text(1, "kind"), call.vector(2, "numbers"), call.number(3, "fit"));
+    return call.give(message_text(words, call.owner<PageValues>().reader));
+}
+
+constexpr std::array kPageFunctions = {
+    FunctionEntry{"workbench.show", "workbench", "workbench.show(name, value)", "gives the page a value",
+                  guarded<show>},
+    FunctionEntry{"workbench.label", "workbench", "workbench.label(name) -> text", "a text for a figure of the page",
+                  guarded<give_label>},
+    FunctionEntry{"workbench.reading_words", "workbench", "workbench.reading_words(kind, numbers, fit)",
+                  "says what was read off a step response", guarded<reading_words>},
+};
 
 }  // namespace
 

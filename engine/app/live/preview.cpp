@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 /// How the document is read, now and after every change.
 std::function<ReportRequest()> reader_of(const std::string& document) {
     const bool names_file = document.ends_with(".lua") || document.find('/') != std::string::npos;
-    if (names_file && !fs::exists(document)) throw EnvironmentError("there is no file or folder " + document);
+    if (names_file && !fs::exists(document)) throw EnvironmentError("there is no file or folder {}", document);
     if (fs::exists(document) && !fs::is_directory(document))
         return [document] { return report_of_script(read_percent_script(document), "preview.html"); };
     return [document] { return report_of(document, "preview.html", ""); };
@@ -36,7 +36,7 @@ std::function<ReportRequest()> reader_of(const std::string& document) {
 void serve_page(WebServer& server, LivePage& page) {
     server.on_get("/picture/*", [&page](const PageRequest& asked) {
         const auto picture = page.picture(fs::path(asked.path).filename().string());
-        if (!picture) return PageReply{"This picture is no longer shown.", kPlainText, 404};
+        if (!picture) return PageReply{page.told(Message("This picture is no longer shown.")), kPlainText, 404};
         return PageReply{picture->second, picture->first};
     });
 }
@@ -85,7 +85,8 @@ DYNLAB_DESCRIBE(MadeReply, done, words)
 
 PageReply not_allowed(const LivePage& page) {
     constexpr int kForbidden = 403;
-    return {page.told("This document has not been allowed to run: say so on the page."), kPlainText, kForbidden};
+    return {page.told(Message("This document has not been allowed to run: say so on the page.")), kPlainText,
+            kForbidden};
 }
 
 /// What was made in the background, and what is made now to hand in.
@@ -112,14 +113,10 @@ void serve_sources(WebServer& server, SourceFiles& sources, LivePage& page) {
     constexpr const char* kJson = "application/json";
     server.on_get("/sources", [&](const PageRequest&) { return PageReply{json_of(sources.read()), kJson}; });
     server.on_post("/save", [&, kJson](const PageRequest& asked) {
-        constexpr int kConflict = 409, kFailure = 500;
-        try {
-            const SourceFiles::Outcome outcome = sources.save(from_json<SourceText>(asked.body));
-            page.set_sources(sources.digests());
-            return PageReply{json_of(outcome.now), kJson, outcome.written ? 200 : kConflict};
-        } catch (const EnvironmentError& error) {
-            return PageReply{page.told(error.what()), kPlainText, kFailure};
-        }
+        constexpr int kConflict = 409;
+        const SourceFiles::Outcome outcome = sources.save(from_json<SourceText>(asked.body));
+        page.set_sources(sources.digests());
+        return PageReply{json_of(outcome.now), kJson, outcome.written ? 200 : kConflict};
     });
 }
 
@@ -182,7 +179,7 @@ void preview(const PreviewOptions& options) {
     BackgroundWork background(options.document);
     std::mutex sending;  // news come from two threads, and the later must not go first
     std::function<void()> send_changes, look_for_readers;
-    WebServer server({.port = options.port});
+    WebServer server({.port = options.port, .told = [&page](const Message& message) { return page.told(message); }});
     const StopsBeforeServer stops{background};
     send_changes = [&] {
         const std::lock_guard lock(sending);

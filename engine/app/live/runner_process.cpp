@@ -13,11 +13,11 @@
 
 #include "app/live/page_values.h"
 #include "app/live/runner_messages.h"
+#include "base/languages.h"
 #include "data_io/values/cbor_values.h"
 #include "documents/html/plot_data.h"
 #include "documents/weave.h"
 #include "figures/figure.h"
-#include "figures/french_texts.h"
 #include "figures/gnuplot_renderer.h"
 #include "platform/cache.h"
 #include "platform/error.h"
@@ -25,6 +25,7 @@
 #include "platform/process_group.h"
 #include "platform/stopwatch.h"
 #include "platform/terminal/progress.h"
+#include "scripting/conversions/option_words.h"
 #include "scripting/interpreter/runtime.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/runtime/services.h"
@@ -53,11 +54,11 @@ struct World {
     World(RunOptions options, const std::string& report_language, const std::string& prelude)
         : language{report_language}, runtime(with_memory(std::move(options), &calls), renderer) {
         runtime.services().language = &language;
-        page.decimal_comma = report_language == "fr";
+        page.reader = {catalog_of(report_language), &option_name};
         if (!prelude.empty()) {
             runtime.add_functions(page_functions(), page);
             const RunRecord made = runtime.run_code(prelude, "workbench");
-            if (made.error) throw EnvironmentError(made.error->message);
+            if (made.error) throw EnvironmentError(made.error->text());
         }
         sliders.clamped = true;  // it was chosen before the script had this range
         runtime.services().sliders = &sliders;
@@ -160,16 +161,15 @@ class RunnerProcess {
     void draw(RunRecord& record, const std::filesystem::path& folder, bool all) {
         world_->renderer.finish();
         GnuplotRenderer renderer(&world_->cache);
-        const bool french = world_->language.code == "fr";
+        const Reader& reader = world_->page.reader;
         for (auto& [name, figure] : record.figures) {
             figure.file = folder / (digest_of(name).hex() + ".svg");
             if (all || !world_->drawn.contains(name)) {
-                const Figure shown = french ? in_french(*figure.figure) : *figure.figure;
-                renderer.draw(shown, figure.file, FigureFormat::kSvg, french);
-                world_->drawn[name] = plot_data(shown, french);
+                renderer.draw(*figure.figure, figure.file, FigureFormat::kSvg, reader);
+                world_->drawn[name] = plot_data(*figure.figure, reader);
             }
             figure.plot = world_->drawn.at(name);
-            figure.axes = words_of_axes(*figure.figure, french);
+            figure.axes = words_of_axes(*figure.figure, reader);
         }
         renderer.finish();
     }

@@ -18,7 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kNoneLeft = "the process that runs scripts has ended; start dynlab again";
+Message none_left() {
+    return Message("the process that runs scripts has ended; start dynlab again");
+}
 
 /// What a change of which makes every part run anew: the file's place, the seed, the header.
 std::string settings_of(const PercentScript& script, std::uint32_t seed) {
@@ -34,7 +36,7 @@ bool is_same(const ScriptPart& a, const ScriptPart& b) {
 ScriptRunner::ScriptRunner(RunnerWorld world) : keeps_end_(world.keeps_end) {
     auto [here, there] = Channel::pair();
     const pid_t first = fork_bound_copy();
-    if (first < 0) throw EnvironmentError("cannot start a process for the script: " + system_reason(errno));
+    if (first < 0) throw EnvironmentError("cannot start a process for the script: {}", system_reason(errno));
     if (first == 0) {
         here.release();
         serve_runs(std::move(there), std::move(world));
@@ -94,7 +96,7 @@ std::size_t ScriptRunner::run(const ReportRequest& request, const fs::path& figu
     parts_ = std::move(parts);
     used_.resize(parts_.size());
     order_ = {script.file.string(), script.source, 0, request.seed, figure_folder.string(), request.slider_values};
-    if (!send_order()) throw EnvironmentError(kNoneLeft);
+    if (!send_order()) throw EnvironmentError(none_left());
     return under_way_;
 }
 
@@ -126,7 +128,7 @@ RunnerNews ScriptRunner::next() {
             if (send_order()) return next();
         }
         RunnerNews died{.kind = "ended", .part = under_way_};
-        died.record.error = RecordedError{split_ ? "the process that ran the script has ended" : kNoneLeft, 0};
+        died.record.error = RecordedError{split_ ? Message("the process that ran the script has ended") : none_left()};
         split_ = true;
         stop();
         return died;

@@ -1,11 +1,11 @@
 #include "app/live/source_files.h"
 
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include "data_io/values/json_values.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
+#include "platform/files/temporary_file.h"
 #include "platform/hash.h"
 
 namespace dynlab::inline app {
@@ -18,7 +18,9 @@ SourceFiles::SourceFiles(const std::vector<fs::path>& files) {
         const fs::path place = fs::canonical(file, failure);  // a link is followed, not replaced
         const bool writable =
             !failure && ::access(place.c_str(), W_OK) == 0 && ::access(place.parent_path().c_str(), W_OK) == 0;
-        if (writable && std::find(files_.begin(), files_.end(), place) == files_.end()) files_.push_back(place);
+        if (!writable || std::find(files_.begin(), files_.end(), place) != files_.end()) continue;
+        files_.push_back(place);
+        remove_leftover_files(place.parent_path());
     }
 }
 
@@ -54,9 +56,9 @@ SourceFiles::Outcome SourceFiles::save(const SourceText& saved) {
     if (there && there->digest != saved.digest) return {false, *std::move(there)};
     const fs::path& file = files_[saved.number];
     if (!there && fs::exists(file))
-        throw EnvironmentError(file.string() + ": not saved: it was changed elsewhere and cannot be read as UTF-8");
+        throw EnvironmentError("{}: not saved: it was changed elsewhere and cannot be read as UTF-8", file.string());
     if (in_utf8(saved.text) != saved.text)
-        throw EnvironmentError(fmt::format("{}: not saved: the text is not UTF-8", file.string()));
+        throw EnvironmentError("{}: not saved: the text is not UTF-8", file.string());
     write_file_atomically(file, saved.text);
     return {true, {saved.number, file.filename(), {}, digest_of(saved.text).hex()}};
 }

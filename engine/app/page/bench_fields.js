@@ -35,7 +35,7 @@ const isNumber = (text) => text.trim() !== "" && Number.isFinite(Number(text));
 function labelled(words, control, title = "") {
   control.title = title;
   const range = control.querySelector?.("input[type=range]");
-  if (range) range.ariaLabel = `${words}: ${say("slider")}`;
+  if (range) range.ariaLabel = say("labelled", words, say("slider"));
   return element("label", { title }, element("span", { textContent: words }), control);
 }
 /// The beginning of what a help page says of an option, and what is taken where it is not given.
@@ -69,7 +69,7 @@ function expression(box, now, act) {
   Object.assign(box, { value: now, defaultValue: now, spellcheck: false });
   box.onchange = () => {
     const text = box.value.trim(), wrong = openAt(text);
-    if (wrong) trouble(`${say("notClosed")} ${wrong}    ${text}`);
+    if (wrong) trouble(say("notClosed", `${wrong}    ${text}`));
     else if (box.ariaInvalid === "true") trouble(session.error?.message ?? null);
     box.ariaInvalid = String(Boolean(wrong));
     if (!wrong) act(text);

@@ -58,7 +58,7 @@ export function formatted(text) {
 /// The help page of a function.
 export async function help(name) {
   const answer = await request(`help?name=${encodeURIComponent(name)}`);
-  document.getElementById("help-title").textContent = `${say("help")} ${name}`;
+  document.getElementById("help-title").textContent = say("help", name);
   document.getElementById("help-text").replaceChildren(...formatted((await answer.text()).replace(/^# .*\n+/, "")));
   const dialog = document.getElementById("page-of-help");
   dialog.showModal();

@@ -63,7 +63,7 @@ export function estimatePanel() {
   if (step) {
     const key = keyOf(step), form = session.forms.find((one) => one.name === step.function), name = step.names[0];
     const box = element("div", { className: "chosen" }, element("h3", { textContent: name }));
-    if (form) box.append(methodList((method) => exchangeMethod(key, method), step.function, `${say("methodOf")} ${name}`), why(step.function), element("p", { className: "faint", textContent: `${form.structure}; ${form.noise}` }), stepControls(key, step));
+    if (form) box.append(methodList((method) => exchangeMethod(key, method), step.function, say("methodOf", name)), why(step.function), element("p", { className: "faint", textContent: `${form.structure}; ${form.noise}` }), stepControls(key, step));
     else box.append(labelled(`${name} =`, textField(rightSide(step), (text) => rewrite(key, () => ({ receiver: "", function: "", options: [], braces: false, arguments: [text] })))));
     for (const trap of trapsOf(step, form)) box.append(element("p", { className: "warning", textContent: trap }));
     const [words, kind] = verdictOf(step);
@@ -104,13 +104,13 @@ async function unfit(name) {
 }
 function renameModel(step) {
   const now = step.names[0], dialog = document.getElementById("rename"), box = document.getElementById("new-name"), told = document.getElementById("name-trouble");
-  document.getElementById("rename-title").textContent = `${say("rename")}: ${now}`;
+  document.getElementById("rename-title").textContent = say("labelled", say("rename"), now);
   Object.assign(box, { value: now, ariaLabel: say("newName") });
   told.textContent = "";
   dialog.querySelector("form").onsubmit = async (event) => {
     event.preventDefault();
     const next = box.value.trim(), wrong = next === now ? null : await unfit(next);
-    told.textContent = wrong ? `${next}: ${wrong}` : "";
+    told.textContent = wrong ? say("labelled", next, wrong) : "";
     if (wrong) return;
     dialog.close();
     if (next !== now) rename(now, next);
@@ -141,7 +141,7 @@ function deleteModel(key) {
     const report = reportWithout(name, modelSteps().map((step) => step.names[0]));
     const used = linesWith(name).find((line) => !isOurs(line) && !report.seen.has(line));
     if (used) {
-      trouble(`${name} ${say("isUsed")} ${used}${say("colon")} ${session.source.split("\n")[used - 1].trim()}`);
+      trouble(say("isUsed", name, used, session.source.split("\n")[used - 1].trim()));
       return null;
     }
     return [...cellRemoval([own, ...empty]), ...others.map((step) => replaced(step, { arguments: without(step) })), ...report.edits];
@@ -150,7 +150,7 @@ function deleteModel(key) {
 
 function actionsOf(step) {
   const key = keyOf(step), name = step.names[0];
-  const act = (word, does) => button(say(word), does, { ariaLabel: `${say(word)}: ${name}` });
+  const act = (word, does) => button(say(word), does, { ariaLabel: say("labelled", say(word), name) });
   return element("span", { className: "actions" }, element("b", { textContent: name }),
     act("copy", () => change(() => {
       const other = freeName("G");
@@ -174,7 +174,7 @@ export function modelsPanel() {
   const chosen = chosenStep();
   const body = lines.map(({ step, row }) => {
     const line = element("tr", { className: chosen === step ? "chosen" : "" });
-    const shown = element("input", { type: "checkbox", checked: step.on && !isHidden(row.name), ariaLabel: `${say("shown")}: ${row.name}`, onchange: () => setHidden(row.name, !shown.checked) });
+    const shown = element("input", { type: "checkbox", checked: step.on && !isHidden(row.name), ariaLabel: say("labelled", say("shown"), row.name), onchange: () => setHidden(row.name, !shown.checked) });
     line.append(element("td", {}, shown));
     for (const [name, read] of COLUMNS) {
       const value = read(row), cell = element("td", { className: typeof value === "number" ? "number" : name });

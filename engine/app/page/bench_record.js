@@ -82,12 +82,12 @@ function columnsTable() {
     for (const column of shown.filter((one) => one.role === role)) {
       const list = choice(ROLES, column.role, (value) => { column.role = value; redraw(); }, ROLES.map((one) => say(one || "unused")));
       list.disabled = !column.usable;
-      list.ariaLabel = `${say("role")}: ${column.name}`;
+      list.ariaLabel = say("labelled", say("role"), column.name);
       const about = column.trouble || `${shortNumber(column.smallest)} … ${shortNumber(column.largest)}`;
-      const chip = element("div", { className: "chip", draggable: column.usable, title: `${column.name}: ${about}` }, element("b", { textContent: groups().length > 1 ? column.name.slice(group.length + 1) : column.name }),
+      const chip = element("div", { className: "chip", draggable: column.usable, title: say("labelled", column.name, about) }, element("b", { textContent: groups().length > 1 ? column.name.slice(group.length + 1) : column.name }),
         list, element("small", { textContent: about }));
       if (role === "input" || role === "output")
-        chip.append(element("input", { className: "unit", value: column.unit, placeholder: say("unit"), ariaLabel: `${say("unit")}: ${column.name}`, oninput: ({ target }) => { column.unit = target.value; } }));
+        chip.append(element("input", { className: "unit", value: column.unit, placeholder: say("unit"), ariaLabel: say("labelled", say("unit"), column.name), oninput: ({ target }) => { column.unit = target.value; } }));
       chip.ondragstart = (event) => event.dataTransfer.setData("text/plain", column.name);
       row.append(chip);
     }
@@ -159,7 +159,7 @@ function findingsList() {
   if (list.length === 0) node.append(element("p", { textContent: say("clean") }));
   for (const finding of list) {
     const line = element("p", { className: finding.warning ? "warning" : "" }, finding.message + " ");
-    if (finding.sections?.length > 0) line.append(button(say("show"), () => showSamples(finding.sections[0]), { ariaLabel: `${say("show")}: ${finding.code}` }));
+    if (finding.sections?.length > 0) line.append(button(say("show"), () => showSamples(finding.sections[0]), { ariaLabel: say("labelled", say("show"), finding.code) }));
     line.append(...remedies(finding));
     node.append(line);
   }
@@ -172,7 +172,7 @@ export function recordPanel() {
   if (offered) node.append(offeredRecord());
   else if (!raw) node.append(opener());
   else {
-    if (data?.kind === "data") node.append(element("p", { textContent: `${raw}${say("colon")} ${data.N} × ${data.inputs} → ${data.outputs}, Ts = ${shortNumber(data.Ts)} s` }));
+    if (data?.kind === "data") node.append(element("p", { textContent: say("labelled", raw, `${data.N} × ${data.inputs} → ${data.outputs}, Ts = ${shortNumber(data.Ts)} s`) }));
     node.append(element("details", {}, element("summary", { textContent: say("open") }), opener()), findingsList());
   }
   return node;

@@ -1,7 +1,7 @@
 // What a session puts into its report: figures and tables with numbers, captions and a sentence each, as lines of the script.
 import { session } from "./bench_session.js";
 import { luaText, roles, variables } from "./bench_steps.js";
-import { isFrench } from "./bench_words.js";
+import { languages, text as told, textIn, tr, trIn } from "./bench_words.js";
 
 const labels = (models) => `{labels = {${models.map(luaText).join(", ")}}}`;
 /// The transfer functions of the models, each with what a legend calls it: several where there are several channels.
@@ -22,41 +22,44 @@ function together(call, models) {
   return `${call}(${[...all.map(({ code }) => code), ...(all.length > 1 ? [labels(all.map(({ label }) => label))] : [])].join(", ")})`;
 }
 
-/// What tables and legends call things, in English and French.
-const BY_HAND = ["by hand", "à la main"];
-const TITLE = ["-- title: Identification from ", "-- title: Identification à partir de "];  // as workbench/record_choice.cpp writes it
-const HEADS = { models: [["model", "estimation (%)", "validation (%)"], ["modèle", "estimation (%)", "validation (%)"]],
-                orders: [["poles", "zeros", "fit (%)", "YIC"], ["pôles", "zéros", "ajustement (%)", "YIC"]] };
-const inLanguage = ([english, french]) => (isFrench() ? french : english);
-const headText = (head) => `{${head.map(luaText).join(", ")}}`;
+/// What tables and legends call things.
+const BY_HAND = tr("by hand");
+const TITLE = tr("Identification from {}");  // as workbench/record_choice.cpp writes it
+const HEADS = { models: [tr("model"), tr("estimation (%)"), tr("validation (%)")],
+                orders: [tr("poles"), tr("zeros"), trIn("report", "fit (%)"), "YIC"] };
+const headText = (head, write = told) => `{${head.map((one) => luaText(write(one))).join(", ")}}`;
 
-/// By view: the figure's code, its caption and what a sentence says that it shows, in English and French.
+/// By view: the figure's code, its caption and what a sentence says that it shows.
 const FIGURES = {
-  record: [({ raw }) => `idplot(${raw})`, "The record: output above, input below", "the record as it was measured",
-    "L'enregistrement : sortie en haut, entrée en bas", "l'enregistrement tel qu'il a été mesuré"],
-  second: [({ second }) => `idplot(${second})`, "The second record: output above, input below", "the record on which the models are judged",
-    "Le second enregistrement : sortie en haut, entrée en bas", "l'enregistrement sur lequel les modèles sont jugés"],
+  record: [({ raw }) => `idplot(${raw})`,
+    tr("The record: output above, input below"), tr("the record as it was measured")],
+  second: [({ second }) => `idplot(${second})`,
+    tr("The second record: output above, input below"), tr("the record on which the models are judged")],
   compare: [({ validation }, models) => `compare(${[validation, ...models, labels(models)].join(", ")})`,
-    "Measured output and outputs that the models simulate, with the fit of each", "what was measured and what the models simulate",
-    "Sortie mesurée et sorties simulées par les modèles, avec l'ajustement de chacune", "ce qui a été mesuré et ce que simulent les modèles"],
+    tr("Measured output and outputs that the models simulate, with the fit of each"),
+    tr("what was measured and what the models simulate")],
   residuals: [({ validation }, models) => `(resid(${validation}, ${models[models.length - 1]}))`,
-    "Autocorrelation of the simulation error, and its correlation with the input; the grey bands are the bounds of chance", "what the model leaves unexplained",
-    "Autocorrélation de l'erreur de simulation et corrélation avec l'entrée ; les bandes grises sont les limites du hasard", "ce que le modèle n'explique pas"],
-  step: [(_, models) => together("step", models), "Step response, with the band of its confidence where it is known", "the response to a unit step",
-    "Réponse indicielle, avec sa bande de confiance là où elle est connue", "la réponse à un échelon unité"],
-  impulse: [(_, models) => together("impulse", models), "Impulse response", "the response to an impulse", "Réponse impulsionnelle", "la réponse à une impulsion"],
-  bode: [(_, models) => together("bode", models), "Frequency response: magnitude above, phase below", "the frequency response",
-    "Réponse fréquentielle : gain en haut, phase en bas", "la réponse fréquentielle"],
-  nyquist: [(_, models) => together("nyquist", models), "Nyquist plot", "the frequency response in the complex plane", "Lieu de Nyquist", "la réponse fréquentielle dans le plan complexe"],
-  poles: [(_, models) => together("pzmap", models), "Poles (crosses) and zeros (circles) with the regions of their confidence where they are known", "poles and zeros",
-    "Pôles (croix) et zéros (cercles) avec leurs régions de confiance là où elles sont connues", "les pôles et les zéros"],
+    tr("Autocorrelation of the simulation error, and its correlation with the input; the grey bands are the bounds of chance"),
+    tr("what the model leaves unexplained")],
+  step: [(_, models) => together("step", models),
+    tr("Step response, with the band of its confidence where it is known"),
+    tr("the response to a unit step")],
+  impulse: [(_, models) => together("impulse", models), tr("Impulse response"), tr("the response to an impulse")],
+  bode: [(_, models) => together("bode", models),
+    tr("Frequency response: magnitude above, phase below"), tr("the frequency response")],
+  nyquist: [(_, models) => together("nyquist", models),
+    tr("Nyquist plot"), tr("the frequency response in the complex plane")],
+  poles: [(_, models) => together("pzmap", models),
+    tr("Poles (crosses) and zeros (circles) with the regions of their confidence where they are known"),
+    tr("poles and zeros")],
   correlation: [({ estimation }, models) => `(impulseest(${[estimation, ...models, ...(models.length > 0 ? [labels(models)] : [])].join(", ")}))`,
-    "Impulse response by correlation; the grey band is what chance alone would give", "the impulse response that the record shows without any model",
-    "Réponse impulsionnelle par corrélation ; la bande grise est ce que donnerait le hasard seul", "la réponse impulsionnelle que montre l'enregistrement sans aucun modèle"],
-  reading: [({ raw, reading }) => `compare(${raw}, ${reading}_model, ${labels([inLanguage(BY_HAND)])})`, "The record and the model that was read off it by hand", "the model that was read off by hand",
-    "L'enregistrement et le modèle lu à la main", "le modèle lu à la main"],
-  study: [({ study }) => `${study}:histograms()`, "Estimates of all runs of the Monte Carlo study, with the true values", "the estimates of all runs",
-    "Estimées de tous les tirages de l'étude de Monte-Carlo, avec les vraies valeurs", "les estimées de tous les tirages"],
+    tr("Impulse response by correlation; the grey band is what chance alone would give"),
+    tr("the impulse response that the record shows without any model")],
+  reading: [({ raw, reading }) => `compare(${raw}, ${reading}_model, ${labels([told(BY_HAND)])})`,
+    tr("The record and the model that was read off it by hand"), tr("the model that was read off by hand")],
+  study: [({ study }) => `${study}:histograms()`,
+    tr("Estimates of all runs of the Monte Carlo study, with the true values"),
+    tr("the estimates of all runs")],
 };
 const number = (call, digits) => `string.format("%.${digits}f", ${call})`;
 const TABLES = {
@@ -65,19 +68,19 @@ const TABLES = {
     const outputs = variables()[estimation]?.output_names ?? [""];
     const cell = (part, model, i) => number(outputs.length > 1 ? `(select(${i + 1}, fit(${part}, ${model})))` : `fit(${part}, ${model})`, 1);
     const rows = models.flatMap((model) => outputs.map((output, i) => `{${luaText(outputs.length > 1 ? `${model}, ${output}` : model)}, ${cell(estimation, model, i)}, ${cell(validation, model, i)}}`));
-    return `report.table("${name}", {\n  ${headText(inLanguage(HEADS.models))},\n  ${rows.join(",\n  ")}})`;
-  }, "Fit of the simulated output", "how well the models simulate the records", "Ajustement de la sortie simulée", "l'ajustement des modèles"],
+    return `report.table("${name}", {\n  ${headText(HEADS.models)},\n  ${rows.join(",\n  ")}})`;
+  }, tr("Fit of the simulated output"), tr("how well the models simulate the records")],
   orders: [({ orders }, _, name) =>
-    `local structures = {${headText(inLanguage(HEADS.orders))}}\nfor _, row in ipairs(${orders}.rows) do\n  if not row.failure and #structures <= 10 then\n`
+    `local structures = {${headText(HEADS.orders)}}\nfor _, row in ipairs(${orders}.rows) do\n  if not row.failure and #structures <= 10 then\n`
       + `    structures[#structures + 1] = {row.poles, row.zeros, ${number("row.fit_percent", 1)}, ${number("row.yic", 1)}}\n  end\nend\nreport.table("${name}", structures)`,
-    "Structures that were compared", "the structures that were compared", "Structures comparées", "les structures comparées"],
+    tr("Structures that were compared"), tr("the structures that were compared")],
 };
 export const goesIntoReport = (view) => Object.hasOwn(FIGURES, view) || Object.hasOwn(TABLES, view);
 
 /// Views of one kind come under one heading.
-const SECTIONS = [["Record", "Enregistrement", ["record", "second", "correlation"]], ["Reading by hand", "Lecture à la main", ["reading"]], ["Choice of the structure", "Choix de la structure", ["orders"]],
-  ["Models", "Modèles", ["parameters", "models"]], ["Validation", "Validation", ["compare", "residuals"]], ["Responses", "Réponses", ["step", "impulse", "bode", "nyquist", "poles"]],
-  ["Monte Carlo study", "Étude de Monte-Carlo", ["study"]]];
+const SECTIONS = [[tr("Record"), ["record", "second", "correlation"]], [tr("Reading by hand"), ["reading"]], [tr("Choice of the structure"), ["orders"]],
+  [tr("Models"), ["parameters", "models"]], [tr("Validation"), ["compare", "residuals"]], [tr("Responses"), ["step", "impulse", "bode", "nyquist", "poles"]],
+  [tr("Monte Carlo study"), ["study"]]];
 
 function freeId(view, taken) {
   let k = 1;
@@ -95,37 +98,46 @@ function codeOf(view, models, id) {
   return FIGURES[view] ? `report.figure("${id}", ${code}, ${luaText(wordsOf(view)[0])})` : code;
 }
 /// Caption, and what a sentence says.
-const wordsOf = (view) => (FIGURES[view] ?? TABLES[view]).slice(isFrench() ? 3 : 1).slice(0, 2);
+const wordsOf = (view, write = told) => (FIGURES[view] ?? TABLES[view]).slice(1).map((one) => write(one));
 
 /// The lines of one view: a cell whose code is not printed, and the text that shows what it made.
 function linesOf(view, models, taken) {
   const id = freeId(view, taken), [caption, shows] = wordsOf(view), cell = `\n-- %% id=${id} echo=false\n${codeOf(view, models, id)}\n`;
   if (!caption) return cell;
-  const kind = FIGURES[view] ? "fig" : "tbl", sentence = inLanguage(sentences(kind, id, shows, shows));
+  const kind = FIGURES[view] ? "fig" : "tbl", sentence = told(SENTENCES[kind], id, shows);
   return cell + (kind === "fig" ? text(sentence, "", `![${caption}](figure:${id}){#fig:${id}}`) : text(sentence, "", `::: {.table name=${id} #tbl:${id}}`, caption, ":::"));
 }
-const sentences = (kind, id, shows, montre) => [`@${kind}:${id} shows ${shows}.`, `${kind === "fig" ? "La" : "Le"} @${kind}:${id} montre ${montre}.`];
+const SENTENCES = { fig: tr("@fig:{} shows {}."), tbl: tr("@tbl:{} shows {}.") };
 
-/// The script with what this wrote into its report in the other language; what somebody has changed stays.
-export function reportIn(source, french) {
-  const from = french ? 0 : 1, to = 1 - from, turned = new Map();
-  const turn = (pair, lineOf = (one) => `-- ${one}`) => turned.set(lineOf(pair[from]), lineOf(pair[to]));
-  for (const [english, inFrench] of SECTIONS) turn([english, inFrench], (heading) => `-- ## ${heading}`);
-  turn(HEADS.models, (head) => `  ${headText(head)},`);
-  turn(HEADS.orders, (head) => `local structures = {${headText(head)}}`);
-  const entries = [...Object.entries(FIGURES), ...Object.entries(TABLES)].filter(([, [, caption]]) => caption);
+/// The script with what this wrote into its report in that language; what somebody has changed stays.
+export function reportIn(source, language) {
+  const writers = languages.filter((code) => code !== language).map((code) => textIn.bind(null, code)), write = textIn.bind(null, language);
+  const turned = new Map();
+  const turn = (lineBy) => { for (const before of writers) turned.set(lineBy(before), lineBy(write)); };
+  for (const [heading] of SECTIONS) turn((by) => `-- ## ${by(heading)}`);
+  turn((by) => `  ${headText(HEADS.models, by)},`);
+  turn((by) => `local structures = {${headText(HEADS.orders, by)}}`);
+  const captioned = [...Object.keys(FIGURES), ...Object.keys(TABLES)].filter((view) => wordsOf(view).length > 0);
+  for (const view of captioned) if (TABLES[view]) turn((by) => `-- ${wordsOf(view, by)[0]}`);
   for (const line of source.split("\n")) {
-    const [, kind, id] = /^-- .*@(fig|tbl):(\S+) /.exec(line) ?? [], [, name] = /^report\.figure\("([^"]+)"/.exec(line) ?? [];
-    for (const [view, [, caption, shows, legende, montre]] of entries) {
-      if (kind) turn(sentences(kind, id, shows, montre));
-      if (TABLES[view]) turn([caption, legende]);
-      else if (/^-- !\[/.test(line)) turn([caption, legende], (words) => line.replace(/^-- !\[.*\]\(/, () => `-- ![${words}](`));
-      else if (name) turn([caption, legende], (words) => line.replace(/, "(?:[^"\\]|\\.)*"\)$/, () => `, ${luaText(words)})`));
+    const [, kind, id] = /^-- .*@(fig|tbl):([\w-]+)/.exec(line) ?? [], isFigure = /^report\.figure\("[^"]+"/.test(line), isPicture = /^-- !\[/.test(line);
+    for (const view of captioned) {
+      if (kind) turn((by) => `-- ${by(SENTENCES[kind], id, wordsOf(view, by)[1])}`);
+      if (TABLES[view]) continue;
+      if (isPicture) turn((by) => line.replace(/^-- !\[.*\]\(/, () => `-- ![${wordsOf(view, by)[0]}](`));
+      else if (isFigure) turn((by) => line.replace(/, "(?:[^"\\]|\\.)*"\)$/, () => `, ${luaText(wordsOf(view, by)[0])})`));
     }
   }
-  const byHand = labels([BY_HAND[from]]), written = (line) => (line.startsWith("report.figure(") ? line.replace(byHand, () => labels([BY_HAND[to]]))
-    : line.startsWith(TITLE[from]) ? TITLE[to] + line.slice(TITLE[from].length) : line);
-  return source.split("\n").map((line) => written(turned.get(line) ?? line)).join("\n");
+  const byHand = (by) => labels([by(BY_HAND)]);
+  const rewritten = (line) => {
+    if (line.startsWith("report.figure(")) return writers.reduce((text, before) => text.replace(byHand(before), () => byHand(write)), line);
+    for (const before of writers) {
+      const [head, tail] = `-- title: ${before(TITLE, "\n")}`.split("\n");
+      if (line.startsWith(head) && line.endsWith(tail)) return `-- title: ${write(TITLE, line.slice(head.length, line.length - tail.length))}`;
+    }
+    return line;
+  };
+  return source.split("\n").map((line) => rewritten(turned.get(line) ?? line)).join("\n");
 }
 const takenIds = () => new Set(session.cells.map(({ id }) => id));
 
@@ -137,7 +149,7 @@ export function wholeReport(shown, models) {
   const { raw, second, orders, reading, study } = roles(), taken = takenIds();
   const there = { record: raw, second, correlation: raw && shown.includes("correlation"), reading, orders, study };
   const wanted = (view) => (view in there ? there[view] : models.length > 0 && (shown.includes(view) || ["parameters", "models"].includes(view)));
-  return SECTIONS.map(([english, french, views]) => [inLanguage([english, french]), views.filter((view) => wanted(view) && goesIntoReport(view))])
+  return SECTIONS.map(([heading, views]) => [told(heading), views.filter((view) => wanted(view) && goesIntoReport(view))])
     .filter(([, views]) => views.length > 0)
     .map(([heading, views]) => text(`## ${heading}`) + views.map((view) => linesOf(view, models, taken)).join("")).join("");
 }

@@ -121,11 +121,11 @@ function makeTile(name) {
   const node = element("section", { className: "tile", ariaLabel: viewName(name) });
   node.dataset.view = name;
   node.classList.toggle("wide", WIDE.includes(name));
-  const close = button("×", () => toggleView(name, false), { className: "close", ariaLabel: `${say("close")}: ${viewName(name)}` });
-  const into = button(say("intoScript"), () => intoScript(name), { className: "into", ariaLabel: `${say("intoScript")}: ${viewName(name)}` });
+  const close = button("×", () => toggleView(name, false), { className: "close", ariaLabel: say("labelled", say("close"), viewName(name)) });
+  const into = button(say("intoScript"), () => intoScript(name), { className: "into", ariaLabel: say("labelled", say("intoScript"), viewName(name)) });
   const body = element("div", { className: "body" }), words = element("p", { className: "told" });
   const title = element("h2", { textContent: viewName(name) });
-  const saved = element("select", { className: "save", ariaLabel: `${say("saveAs")}: ${viewName(name)}` });
+  const saved = element("select", { className: "save", ariaLabel: say("labelled", say("saveAs"), viewName(name)) });
   saved.append(...["↓", "PDF", "SVG", "PNG"].map((text) => element("option", { value: text.toLowerCase(), textContent: text })));
   saved.onchange = () => { if (saved.selectedIndex > 0) save({ what: "figure", view: name, format: saved.value }); saved.selectedIndex = 0; };
   const tools = element("span", { className: "tools-of-tile" }, why(HELP[name]), ...(TABLES[name] ? [] : [saved]), ...(goesIntoReport(name) ? [into] : []), close);
@@ -208,7 +208,7 @@ function ordersMap(seen) {
     if (!row) return "";
     const fit = row.validation ?? row.fit;
     const words = row.failure ? say("failed") : `${shortNumber(fit, 4)} %${row.best ? " ★" : ""}${row.doubt ? " ?" : ""}`;
-    const node = button(words, () => takeOrders(p, z, row.delay), { title: row.failure ?? `${say("takeOrders")}: YIC ${shortNumber(row.yic, 3)}, BIC ${shortNumber(row.bic, 5)}` });
+    const node = button(words, () => takeOrders(p, z, row.delay), { title: row.failure ?? say("labelled", say("takeOrders"), `YIC ${shortNumber(row.yic, 3)}, BIC ${shortNumber(row.bic, 5)}`) });
     node.style.setProperty("--share", String(best > worst ? (fit - worst) / (best - worst) : 1));
     node.className = "order";
     return node;

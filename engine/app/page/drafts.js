@@ -2,7 +2,7 @@
 // opening of the file apart, so that none writes over another's. What an earlier one left is offered when the page is opened
 // again and the file is another text.
 import { noteNames, noteOf, setNote } from "./notes.js";
-import { isFrench, say } from "./page_words.js";
+import { language, say } from "./page_words.js";
 
 const kDelay = 400;  // ms behind the last letter
 const waiting = new Map();  // source -> timer
@@ -55,6 +55,6 @@ export function setAside(source) {
 export function wordsOf({ at }) {
   const then = new Date(at), today = then.toDateString() === new Date().toDateString();
   const time = { hour: "2-digit", minute: "2-digit", hourCycle: "h23" }, day = { day: "numeric", month: "long" };
-  const when = then.toLocaleString(isFrench() ? "fr" : "en", today ? time : { ...day, ...time });
+  const when = then.toLocaleString(language(), today ? time : { ...day, ...time });
   return say("draft", when);
 }

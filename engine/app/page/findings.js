@@ -1,7 +1,7 @@
 // What `dynlab check` finds in the folder, and which answers are open, in a panel beside the document. What is said of
 // one thing is counted once: an answer that is not given stands among the open ones only, and what the lesson's checks
 // take points for stands with the points.
-import { isFrench, say, withComma } from "./page_words.js";
+import { language, number, say } from "./page_words.js";
 
 const $ = (id) => document.getElementById(id);
 const make = (name, text = "", kind = "") => Object.assign(document.createElement(name), { textContent: text, className: kind });
@@ -34,13 +34,11 @@ function answer(text, { goToName }) {
   return node;
 }
 
-const counted = (number, one, many) => say(number === 1 ? one : many, number);
-
 /// "3 of 20 points", where the lesson has checks.
 function pointsIn(checked) {
   for (const text of checked ?? []) {
     const found = /^checks of lesson .*: ([\d.]+) of ([\d.]+) points$/.exec(text);
-    if (found) return say("points", withComma(found[1]), withComma(found[2]));
+    if (found) return say("points", number(found[1]), number(found[2]));
   }
   return "";
 }
@@ -57,9 +55,9 @@ export function showFindings(result, openAnswers, older, ways) {
   const hints = findings.filter((finding) => !rules.includes(finding) && !lost.includes(finding));
   const points = pointsIn(result?.checked);
   const words = [];
-  if (answers.length > 0) words.push(counted(answers.length, "answerOpen", "answersOpen"));
-  if (rules.length > 0) words.push(counted(rules.length, "ruleBroken", "rulesBroken"));
-  if (hints.length > 0) words.push(counted(hints.length, "hint", "hints"));
+  if (answers.length > 0) words.push(say("openAnswers", answers.length));
+  if (rules.length > 0) words.push(say("brokenRules", rules.length));
+  if (hints.length > 0) words.push(say("hints", hints.length));
   if (points) words.push(points);
   if (words.length === 0 && result) words.push(say("checked"));
   const told = words.join(", "), shown = $("show-findings");
@@ -73,7 +71,7 @@ export function showFindings(result, openAnswers, older, ways) {
 
 let filled = "";  // what the panel shows: who reads in it is not disturbed by what is the same
 function fill(panel, content, ways) {
-  const text = JSON.stringify([isFrench(), content]);
+  const text = JSON.stringify([language(), content]);
   if (text === filled) return;
   filled = text;
   const { answers, rules, lost, hints, points } = content, parts = [];

@@ -3,7 +3,7 @@ import { controlsByCell } from "./sliders.js";
 import * as editor from "./editor.js";
 import { showFindings } from "./findings.js";
 import { order } from "./orders.js";
-import { label, say, useLanguage, withComma } from "./page_words.js";
+import { label, number, say, useLanguage } from "./page_words.js";
 import "./hand_in.js";
 
 const $ = (id) => document.getElementById(id);
@@ -129,7 +129,7 @@ function showStates(page) {
   $("state").textContent = page.recalled ? say(page.running ? "ofBeforeRunning" : "ofBefore")
     : page.running ? [say("cellOf", Math.min(done + 1, total), total), running, share > 0 ? `${Math.floor(100 * share)} %` : ""].filter(Boolean).join(", ")
     : failed > 0 ? say("mistake") : done < total ? say("stoppedAfter", done, total)
-    : total > 0 ? say(total === 1 ? "cellDone" : "cellsDone", total, withComma(seconds.toFixed(1))) : "";
+    : total > 0 ? say("cells", total, number(seconds.toFixed(1))) : "";
   $("stop").hidden = !page.running;
   $("to-mistake").hidden = failed === 0;
 }
@@ -144,7 +144,7 @@ $("to-mistake").onclick = () => {
 
 /// The first "analysis.lua:12" of a text: file and line.
 function placeIn(text) {
-  const found = /([^\s/:"]+\.(?:lua|md)):(\d+)/.exec(text ?? "");
+  const found = /([^\s\/:"]+\.(?:lua|md)):(\d+)/.exec(text ?? "");
   return found && [found[1], Number(found[2])];
 }
 

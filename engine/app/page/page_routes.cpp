@@ -3,6 +3,8 @@
 #include <filesystem>
 
 #include "app/page/page_files.h"
+#include "base/languages.h"
+#include "documents/html/script_catalogs.h"
 #include "documents/html/web_page.h"
 #include "platform/atomic_file.h"
 #include "platform/program_lookup.h"
@@ -13,10 +15,11 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path kCodeMirror = "/usr/share/javascript/codemirror";
+constexpr const char* kJavaScript = "text/javascript; charset=utf-8";
 
 std::string type_of_page_file(const fs::path& name) {
     if (name.extension() == ".css") return "text/css; charset=utf-8";
-    if (name.extension() == ".js") return "text/javascript; charset=utf-8";
+    if (name.extension() == ".js") return kJavaScript;
     return "text/html; charset=utf-8";
 }
 
@@ -45,8 +48,14 @@ void serve_page_files(WebServer& server, const std::string& first) {
         server.on_get("/" + std::string(file.name == first ? "" : file.name),
                       [reply](const PageRequest&) { return reply; });
     }
+    server.on_get("/catalogs.js", [](const PageRequest&) {
+        std::string scripts = shown_scripts(shared_folder() / "report_templates");
+        for (const PageFile& file : page_files())
+            if (file.name.ends_with(".js")) scripts += file.text;
+        return PageReply{script_catalogs(scripts, languages()), kJavaScript};
+    });
     server.on_get("/plot.js", [](const PageRequest&) {
-        return PageReply{shown_scripts(shared_folder() / "report_templates"), "text/javascript; charset=utf-8"};
+        return PageReply{shown_scripts(shared_folder() / "report_templates"), kJavaScript};
     });
     server.on_get("/document.css", [](const PageRequest&) {
         return PageReply{read_text(shared_folder() / "report_templates/html/document.css"), "text/css; charset=utf-8"};

@@ -1,7 +1,7 @@
 // Sliders of a document: a control behind the cell that asks for it. What was chosen goes to the server; while a run is
 // under way only the newest choice waits, so that dragging shows every result that there was time for.
 import { order } from "./orders.js";
-import { say, withComma } from "./page_words.js";
+import { number, say } from "./page_words.js";
 
 const kPlaces = 1000;  // of a slider without steps
 const controls = new Map();  // name -> {node, input, output, slider}
@@ -28,7 +28,7 @@ function placeOf(slider, value) {
   return Math.round(part * kPlaces);
 }
 
-const written = (slider, value) => withComma(String(slider.step ? exact(value) : digits(value))) + (slider.unit ? "\u202f" + slider.unit : "");
+const written = (slider, value) => number(String(slider.step ? exact(value) : digits(value))) + (slider.unit ? "\u202f" + slider.unit : "");
 
 function send() {
   if (sent && performance.now() - sent.at < kLongestWait || waiting.size === 0) return;

@@ -1,5 +1,5 @@
 // The figures of a prompt as they are made, the newest first. The page speaks the browser's language.
-import { isFrench, label, say, useLanguage } from "./page_words.js";
+import { label, say } from "./page_words.js";
 
 const $ = (id) => document.getElementById(id);
 const shown = new Map();  // number -> element
@@ -37,10 +37,9 @@ function show({ figures }) {
     shown.set(figure.number, make(figure));
     $("figures").prepend(shown.get(figure.number));
   }
-  $("state").textContent = figures.length === 0 ? say("noFigures") : String(figures.length);
+  $("state").textContent = figures.length === 0 ? say("noFigures", "step(tf({1}, {1, 1}))") : String(figures.length);
 }
 
-useLanguage(isFrench() ? "fr" : "en");
 label();
 const source = new EventSource("events");
 source.addEventListener("page", (event) => show(JSON.parse(event.data)));

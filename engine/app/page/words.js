@@ -1,24 +1,16 @@
-// The words of our pages in English and French. Each page adds a table of its own, {key: [English, French]}; its scripts and
-// its HTML look up by key what they show.
+// The words of our pages, in the page's language. Each page adds a table of its own, {key: tr("English")}; its scripts and its
+// HTML look up by key what they show. Translations: report_templates/html/words.js.
+export const { tr, trIn, trPlural, number, language, languages, languageOf, text, textIn } = dynlabWords;
 const words = {};
-let place = navigator.language?.startsWith("fr") ? 1 : 0;
 
-/// With the spaces that French has before signs and within quotation marks, at which no line breaks.
-const typeset = (french) => french.replace(/ ([;:?!]|%(?!\d))/g, "\u202f$1").replace(/« /g, "«\u00a0").replace(/ »/g, "\u00a0»");
+export const addWords = (table) => Object.assign(words, table);
+export const useLanguage = (code) => { document.documentElement.lang = code; };
+export const browserLanguage = () => languageOf(navigator.language);
+/// The values stand for {} in their order; the first one is the number of a message that has a plural.
+export const say = (key, ...values) => (Object.hasOwn(words, key) ? text(words[key], ...values) : key);
+export const inEnglish = (key) => textIn("en", words[key]);
 
-export function addWords(table) {
-  for (const [key, [english, french]] of Object.entries(table)) words[key] = [english, typeset(french)];
-}
-export function useLanguage(code) {
-  place = code === "fr" ? 1 : 0;
-  document.documentElement.lang = code;
-}
-export const isFrench = () => place === 1;
-export const inEnglish = (key) => words[key][0];
-/// The values stand for %1, %2, ...
-export const say = (key, ...values) => (words[key]?.[place] ?? key).replace(/%(\d)/g, (_, number) => values[number - 1]);
-/// A number that is written with a point, as the language writes it.
-export const withComma = (number) => (isFrench() ? number.replace(".", ",") : number);
+useLanguage(browserLanguage());  // until a page knows what it shows
 
 /// What the HTML names by key: the text of an element (data-say), its hint (data-say-title) and what is told of it to those who
 /// do not see it (data-say-label).
@@ -29,6 +21,6 @@ export function label() {
 }
 
 addWords({
-  stop: ["Stop", "Arrêter"], allow: ["Run it", "L'exécuter"], mistake: ["stopped at a mistake", "arrêté par une erreur"],
-  noAnswer: ["no answer from dynlab; waiting for it", "pas de réponse de dynlab ; en attente"],
+  stop: tr("Stop"), allow: tr("Run it"), mistake: tr("stopped at a mistake"),
+  noAnswer: tr("no answer from dynlab; waiting for it"),
 });

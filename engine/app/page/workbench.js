@@ -10,7 +10,7 @@ import { exportsPanel } from "./bench_exports.js";
 import { closeScript, openScript, showMistake, showScript } from "./bench_script.js";
 import { reportIn } from "./bench_report.js";
 import { modelSteps, roles } from "./bench_steps.js";
-import { isFrench, label, say, useLanguage } from "./bench_words.js";
+import { browserLanguage, label, language, languages, say, useLanguage } from "./bench_words.js";
 
 const $ = (id) => document.getElementById(id);
 let connection = "here", opened = false, making = false, viewsBefore = "";
@@ -22,11 +22,16 @@ function speak() {
   useLanguage(languageOfScript() ?? "en");
   label();
   const { lang } = document.documentElement;
-  $("language").value = isFrench() ? "fr" : "en";
+  $("language").value = language();
   if (languageBefore && languageBefore !== lang) { renewTiles(); viewsBefore = ""; }
   languageBefore = lang;
 }
-const turnTo = (code) => change(() => ({ text: reportIn(inLanguage(session.source, code), code === "fr") }));
+const turnTo = (code) => change(() => ({ text: reportIn(inLanguage(session.source, code), code) }));
+/// Each language is called as it calls itself.
+for (const code of languages) {
+  const name = new Intl.DisplayNames([code], { type: "language" }).of(code);
+  $("language").append(Object.assign(document.createElement("option"), { value: code, lang: code, textContent: name[0].toLocaleUpperCase(code) + name.slice(1) }));
+}
 /// The script with this language in its header.
 function inLanguage(source, code) {
   const line = `-- language: ${code}`;
@@ -56,7 +61,7 @@ function showState() {
   $("state").classList.toggle("broken", Boolean(session.error));
   $("question").hidden = !session.asking;
   $("unsaved").hidden = !session.unsaved;
-  const unsaved = session.unsaved ? say("unsaved") + session.unsaved : "";
+  const unsaved = session.unsaved ? say("unsaved", session.unsaved) : "";
   if ($("unsaved").textContent !== unsaved) $("unsaved").textContent = unsaved;
   const mistake = session.error?.message ?? "", { dataset, hidden } = $("trouble");
   if (mistake && (dataset.mistake !== mistake || hidden)) trouble(mistake);
@@ -156,7 +161,7 @@ onChange(draw);
 async function open() {
   opened = true;
   openScript();
-  if (await openFirst() && !languageOfScript() && navigator.language?.startsWith("fr")) turnTo("fr");
+  if (await openFirst() && !languageOfScript() && browserLanguage() !== "en") turnTo(browserLanguage());
 }
 document.addEventListener("benchdraw", drawPanels);
 connect((state) => {

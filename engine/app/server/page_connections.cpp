@@ -1,7 +1,6 @@
 #include "app/server/page_connections.h"
 
 #include <arpa/inet.h>
-#include <fmt/format.h>
 #include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/eventfd.h>
@@ -46,9 +45,8 @@ PageConnections::PageConnections(int port) : ending_(::eventfd(0, EFD_CLOEXEC)) 
     for (int tries = port == 0 ? kTries : 1; tries > 0 && !taken; --tries) taken = take(port);
     if (!taken || !ending_)
         throw EnvironmentError(
-            fmt::format("the port {} cannot be used: another program has it, or it is not allowed; leave --port out "
-                        "for a free one",
-                        port));
+            "the port {} cannot be used: another program has it, or it is not allowed; leave --port out for a free one",
+            port);
 }
 
 bool PageConnections::take(int port) {

@@ -6,6 +6,7 @@
 
 #include "app/server/event_streams.h"
 #include "app/server/page_connections.h"
+#include "base/error.h"
 #include "platform/error.h"
 
 namespace dynlab::inline app {
@@ -100,12 +101,12 @@ class WebServer::Work {
         return found->second;
     }
 
-    static HttpReply made(const PageRequest& request, const Handler& handler) {
+    HttpReply made(const PageRequest& request, const Handler& handler) const {
         try {
             PageReply reply = handler(request);
             return {reply.status, std::move(reply.type), std::move(reply.body)};
         } catch (const std::exception& error) {
-            return {500, kPlainText, error.what()};
+            return {500, kPlainText, options_.told ? options_.told(message_of(error)) : error.what()};
         }
     }
 
@@ -134,7 +135,7 @@ class WebServer::Work {
 
 const std::string& PageRequest::parameter(const std::string& name) const {
     const auto found = parameters.find(name);
-    if (found == parameters.end()) throw EnvironmentError("what was asked lacks the parameter \"" + name + "\"");
+    if (found == parameters.end()) throw EnvironmentError("what was asked lacks the parameter \"{}\"", name);
     return found->second;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "app/server/entrance.h"
+#include "base/message.h"
 
 namespace dynlab::inline app {
 
@@ -39,6 +40,7 @@ class WebServer {
         int port = 0;  ///< any free one
         std::size_t largest_body = std::size_t{8} << 20;
         int most_streams = 24;
+        std::function<std::string(const Message&)> told = {};  ///< text of a message for the reader; English without
     };
     using Handler = std::function<PageReply(const PageRequest&)>;
 

@@ -1,47 +1,43 @@
 #include "app/workbench/estimator_forms.h"
 
-#include <re2/re2.h>
-
 #include <algorithm>
 #include <map>
-#include <set>
 
-#include "documents/words/sentence_catalogue.h"
+#include "base/catalog.h"
 #include "numerics/estimators/catalogue.h"
+#include "scripting/interpreter/catalogue.h"
 #include "scripting/lint/function_forms.h"
 
 namespace dynlab::inline app {
 namespace {
 
-/// The words of an option; where they only point to another page, that page's.
-std::string words_of(const std::string& option, const std::string& words) {
-    static const RE2 kElsewhere(R"(as for `(\w+)`)", RE2::Latin1);
-    std::string elsewhere;
-    if (!RE2::PartialMatch(words, kElsewhere, &elsewhere)) return words;
-    for (const auto& [name, there] : described_options(elsewhere))
-        if (name == option) return words_of(option, there);
-    return words;
+std::string text_of(const MessageId<>& description, const Reader& reader) {
+    return message_text(Message(description), reader);
 }
 
-FormField option_field(const std::string& name, const std::string& words) {
-    static const RE2 kChoice(R"(`("\w+")`( \([^)]*the default\))?)", RE2::Latin1),
-        kNumbers(
-            R"(\b(iterations?|change at which|bounds?|between which|seconds|rad/s|grid|number|numbers|delays?|coefficients|bins|samples|gain|frequency)\b)",
-            RE2::Latin1);
-    FormField field{name, "text", {}, "", words};
-    std::string choice, mark;
-    for (re2::StringPiece rest = words; RE2::FindAndConsume(&rest, kChoice, &choice, &mark);) {
-        field.parts.push_back(choice);
-        if (!mark.empty()) field.initial = choice;
+/// A text of the catalogues, which mark it for translation: marked("estimator", ...).
+std::string text_of(const std::string& text, const Reader& reader) {
+    const std::string_view other = reader.catalog == nullptr ? "" : reader.catalog->translation(text, "estimator");
+    return other.empty() ? text : std::string(other);
+}
+
+FormField option_field(const OptionEntry& option, const Reader& reader) {
+    FormField field{option.name, "text", {}, initial_text(option), text_of(option.description, reader)};
+    switch (option.kind) {
+        case ValueKind::kNumber:
+        case ValueKind::kCount:
+            field.kind = "number";
+            break;
+        case ValueKind::kFlag:
+            field.kind = "flag";
+            break;
+        case ValueKind::kChoice:
+            field.kind = "choice";
+            for (const char* choice : option.facts.choices) field.parts.push_back('"' + std::string(choice) + '"');
+            break;
+        default:
+            break;
     }
-    if (field.parts.size() > 1)
-        field.kind = "choice";
-    else if (words.starts_with("true"))
-        field.kind = "flag";
-    else if (words.find("{") == std::string::npos && words.find("edges") == std::string::npos &&
-             RE2::PartialMatch(words, kNumbers))
-        field.kind = "number";
-    if (field.kind != "choice") field.parts.clear();
     return field;
 }
 
@@ -73,31 +69,24 @@ FormField argument_field(const std::string& written, TimeDomain domain) {
     return field;
 }
 
-EstimatorForm form_of(const MethodEntry& method, const FunctionEntry& function) {
-    const bool reading = std::string(function.name).starts_with("step_");  // each has another model
+EstimatorForm form_of(const MethodEntry& method, const FunctionEntry& function, const Reader& reader) {
+    const std::string summary = text_of(std::string(function.summary), reader);
+    const bool reading = std::string_view(function.name).starts_with("step_");  // each has another model
     EstimatorForm form{function.name,
-                       function.summary,
-                       reading ? function.summary : method.structure,
-                       method.noise,
+                       summary,
+                       reading ? summary : text_of(method.structure, reader),
+                       text_of(method.noise, reader),
                        method.domain == TimeDomain::kContinuous ? "continuous" : "discrete",
                        {},
                        {}};
-    std::vector<std::string> written = arguments_of(function.signature);
-    std::set<std::string> known = {"data"};
-    bool takes_options = false;
-    for (std::size_t i = 1; i < written.size(); ++i) {
-        takes_options = takes_options || is_options(written[i]);
+    const std::vector<std::string> written = arguments_of(function.signature);
+    for (std::size_t i = 1; i < written.size(); ++i)
         if (!is_options(written[i])) form.arguments.push_back(argument_field(written[i], method.domain));
-    }
-    const auto described = described_options(function.name);
-    for (FormField& argument : form.arguments) {
-        known.insert(argument.name);
-        for (const auto& [name, words] : described)
-            if (name == argument.name) argument.words = words;
-    }
-    for (const auto& [name, words] : described)
-        if (takes_options && find_function(name) == nullptr && known.insert(name).second)
-            form.options.push_back(option_field(name, words_of(name, words)));
+    for (FormField& field : form.arguments)
+        for (const ArgumentEntry& argument : function.arguments)
+            if (field.name == argument.name) field.words = text_of(argument.description, reader);
+    for (const OptionTable& table : function.options)
+        for (const OptionEntry& option : table) form.options.push_back(option_field(option, reader));
     return form;
 }
 
@@ -110,7 +99,9 @@ int rank_of(const EstimatorForm& form) {
     return begins("process") || begins("structure") || begins("np") ? 0 : 1;
 }
 
-std::vector<EstimatorForm> make_forms() {
+}  // namespace
+
+std::vector<EstimatorForm> estimator_forms(const Reader& reader) {
     std::vector<EstimatorForm> forms;
     for (const MethodEntry& method : method_catalogue())
         for (const std::string& name : method.lua_names) {
@@ -118,28 +109,10 @@ std::vector<EstimatorForm> make_forms() {
             if (function == nullptr) continue;
             const std::string signature = function->signature;
             const bool from_record = arguments_of(signature).front() == "data" && signature.ends_with("-> G");
-            if (from_record) forms.push_back(form_of(method, *function));
+            if (from_record) forms.push_back(form_of(method, *function, reader));
         }
     std::ranges::stable_sort(
         forms, [](const EstimatorForm& one, const EstimatorForm& other) { return rank_of(one) < rank_of(other); });
-    return forms;
-}
-
-}  // namespace
-
-const std::vector<EstimatorForm>& estimator_forms() {
-    static const std::vector<EstimatorForm> kForms = make_forms();
-    return kForms;
-}
-
-std::vector<EstimatorForm> estimator_forms_in_french() {
-    std::vector<EstimatorForm> forms = estimator_forms();
-    for (EstimatorForm& form : forms) {
-        for (std::string* const text : {&form.summary, &form.structure, &form.noise})
-            *text = french_engine_sentences().translated(*text);
-        for (std::vector<FormField>* const fields : {&form.arguments, &form.options})
-            for (FormField& field : *fields) field.words = french_option_words().translated(field.words);
-    }
     return forms;
 }
 

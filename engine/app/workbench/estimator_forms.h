@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "base/reader.h"
 #include "data_io/values/described.h"
 
 namespace dynlab::inline app {
@@ -13,7 +14,7 @@ struct FormField {
                        ///< of a process model), "text" (any expression)
     std::vector<std::string> parts;  ///< of orders: their names; of a choice: what can be chosen, as scripts write it
     std::string initial;             ///< what a new step is given; of an option, what it is without being given
-    std::string words;               ///< what the help page says of it
+    std::string words;               ///< its description
 };
 DYNLAB_DESCRIBE(FormField, name, kind, parts, initial, words)
 
@@ -26,10 +27,8 @@ struct EstimatorForm {
 };
 DYNLAB_DESCRIBE(EstimatorForm, name, summary, structure, noise, domain, arguments, options)
 
-/// All methods of the catalogue that make a model of a record, in its order. They follow from the catalogue, from the
-/// functions' signatures and from the part "Arguments" of their help pages: a new method is among them by itself.
-const std::vector<EstimatorForm>& estimator_forms();
-/// With summary, structure, noise and the words of arguments and options in French.
-std::vector<EstimatorForm> estimator_forms_in_french();
+/// All methods of the catalogue that make a model of a record, in its order, with their texts for the reader. They
+/// follow from the catalogue of methods and from the table of functions: a new method is among them by itself.
+std::vector<EstimatorForm> estimator_forms(const Reader& reader = {});
 
 }  // namespace dynlab::inline app

@@ -10,6 +10,8 @@
 #include <set>
 
 #include "app/workbench/session_script.h"
+#include "base/languages.h"
+#include "base/reader.h"
 #include "data_io/data_file.h"
 #include "data_io/dataset_index.h"
 #include "documents/percent_script.h"
@@ -200,7 +202,7 @@ RecordOrder suggested_order(const RecordChoice& choice) {
         if (column.role == "time") order.time = column.name;
     }
     if (order.inputs.empty() || order.outputs.empty())
-        throw EnvironmentError(choice.data + " has no two signals of the same length that change");
+        throw EnvironmentError("{} has no two signals of the same length that change", choice.data);
     return order;
 }
 
@@ -208,8 +210,8 @@ std::string with_record(const std::string& source, const RecordOrder& order, con
     const PercentScript script = parse_percent_script(source, "session.lua");
     if (std::ranges::none_of(script.cells, [](const Cell& cell) { return cell.kind == Cell::Kind::kCode; })) {
         const std::string& language = script.header.language;
-        const std::string title = language == "fr" ? "Identification à partir de " : "Identification from ";
-        return new_session(title + fs::path(order.data).stem().string(), lines, language);
+        const Message title = Message("Identification from {}", fs::path(order.data).stem().string());
+        return new_session(message_text(title, {catalog_of(language)}), lines, language);
     }
     const std::string own_cell = fmt::format("\n-- %% id={}\n{}", order.name, trimmed(lines));
     for (const Cell& cell : script.cells) {
@@ -223,7 +225,7 @@ std::string with_record(const std::string& source, const RecordOrder& order, con
 
 void expect_plain_name(const std::string& name) {
     if (std::ranges::any_of(name, [](unsigned char c) { return std::iscntrl(c); }))
-        throw EnvironmentError("there are control characters in the name of the file " + in_one_line(name));
+        throw EnvironmentError("there are control characters in the name of the file {}", in_one_line(name));
 }
 
 std::string new_session(const std::string& title, const std::string& lines, const std::string& language) {

@@ -1,6 +1,5 @@
 #include "app/workbench/session_script.h"
 
-#include <fmt/format.h>
 #include <re2/re2.h>
 
 #include <algorithm>
@@ -10,7 +9,6 @@
 
 #include "data_io/values/value_limits.h"
 #include "documents/text_lines.h"
-#include "numerics/number_text.h"
 #include "scripting/source/lua_tokens.h"
 
 namespace dynlab::inline app {
@@ -339,8 +337,8 @@ std::string with_edits(const std::string& source, std::vector<LineEdit> edits) {
     };
     for (const LineEdit& edit : edits) {
         if (edit.first < next || edit.first > count + 1 || edit.last > count || edit.last < edit.first - 1)
-            throw ValueError(fmt::format("lines {} to {} cannot be changed in a script of {}", edit.first, edit.last,
-                                         counted(count, "line")));
+            throw ValueError("lines {} to {} cannot be changed in a script of {}", edit.first, edit.last,
+                             plural(count, "{} line", "{} lines"));
         copy_until(edit.first);
         if (!edit.text.empty()) text += edit.text + "\n";
         next = edit.last + 1;

@@ -1,7 +1,5 @@
 #include "app/workbench/session_text.h"
 
-#include <fmt/format.h>
-
 #include "documents/error.h"
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"
@@ -54,7 +52,7 @@ bool SessionText::look_at_file() {
     const std::string now = text_of_source(file_);
     if (now == saved_ || now.empty()) return false;  // empty: an editor is about to write it
     saved_ = now;
-    unsaved_.clear();
+    unsaved_ = Message();
     if (now == text_) return false;
     change(now, false);
     return true;
@@ -70,7 +68,7 @@ void SessionText::take_from_file() {
 void SessionText::change(std::string text, bool goes_on) {
     if (text == text_) return;
     if (text.size() > kMostSourceBytes)
-        throw DocumentError(fmt::format("not taken over: a script has at most {} MB", kMostSourceBytes >> 20));
+        throw DocumentError(Message("not taken over: a script has at most {} MB", kMostSourceBytes >> 20));
     if (!goes_on) past_.push_back(text_);
     if (past_.size() > kMostSteps) past_.erase(past_.begin());
     future_.clear();
@@ -79,13 +77,13 @@ void SessionText::change(std::string text, bool goes_on) {
 }
 
 bool SessionText::save() {
-    unsaved_.clear();
+    unsaved_ = Message();
     if (text_ == saved_) return false;
     try {
         write_file_atomically(file_, text_);
         saved_ = text_;
     } catch (const EnvironmentError& error) {
-        unsaved_ = error.what();
+        unsaved_ = error.message();
     }
     return unsaved_.empty();
 }

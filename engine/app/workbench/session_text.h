@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "app/workbench/session_script.h"
+#include "base/message.h"
 
 namespace dynlab::inline app {
 
@@ -32,7 +33,7 @@ class SessionText {
     bool can_redo() const { return !future_.empty(); }
 
     /// Why the file is behind the text, since it could not be written; empty when it is not. The next save tries again.
-    const std::string& unsaved() const { return unsaved_; }
+    const Message& unsaved() const { return unsaved_; }
 
     /// False when the order was made from another revision, or the file holds what another program wrote, which is
     /// taken first: nothing is done then. Throws ValueError (with_edits()), and as take_from_file() and for a text
@@ -54,7 +55,8 @@ class SessionText {
     void change(std::string text, bool goes_on);
 
     std::filesystem::path file_;
-    std::string text_, saved_, unsaved_;
+    std::string text_, saved_;
+    Message unsaved_;
     std::vector<std::string> past_, future_;
     std::size_t revision_ = 1;
 };

@@ -42,7 +42,7 @@ std::string view_cells(const ViewOrder& order) {
     if (!quick.is_object()) throw ValueError("the settings of the views are no object");
     std::string variables;
     for (const std::string& name : order.variables) {
-        if (!is_name(name) || name.find('-') != std::string::npos) throw ValueError("'" + name + "' is no name");
+        if (!is_name(name) || name.find('-') != std::string::npos) throw ValueError("'{}' is no name", name);
         variables += fmt::format("{0} = value_or_nil(function() return {0} end), ", name);
     }
     const json views = quick.value("views", json::array());

@@ -7,7 +7,7 @@ local pcall, type, ipairs, pairs, tostring, math, string, table = pcall, type, i
 local mean, std, vector, exp, sqrt, cos, sin, abs, fft = mean, std, vector, exp, math.sqrt, cos, sin, abs, fft
 local range, slider, save, save_mat, save_csv = range, slider, save, save_mat, save_csv
 local step_first_order, step_second_order, step_delayed = step_first_order, step_second_order, step_delayed
-local show, language = workbench.show, report.language
+local show, figure_label, reading_words, language = workbench.show, workbench.label, workbench.reading_words, report.language
 
 local CM_PER_PIXEL = 2.54/96
 
@@ -115,7 +115,7 @@ function views.spectrum(settings, values)
   end
   add(raw, settings.raw, 8)
   if prepared ~= raw and is_data(prepared) then add(prepared, settings.prepared, 0) end
-  return {figure = figure{curves = curves, x_log = true, y_log = true, xlabel = "frequency (rad/s)", ylabel = "power of the output"}}
+  return {figure = figure{curves = curves, x_log = true, y_log = true, xlabel = figure_label("frequency"), ylabel = figure_label("power")}}
 end
 
 function views.compare(settings, values)
@@ -183,7 +183,7 @@ function views.delay(settings, values)
   local report = model and field(model, "report")
   local delays, losses = report and field(report, "delay_grid"), report and field(report, "delay_loss")
   if not delays or #delays < 2 then return end
-  local fig = plot(delays, losses, {xlabel = "delay (s)", ylabel = "mean square error", style = "line_points"})
+  local fig = plot(delays, losses, {xlabel = figure_label("delay"), ylabel = figure_label("mean_square_error"), style = "line_points"})
   fig:vline(field(model, "IODelay"), labels[#labels])
   return {figure = fig}
 end
@@ -223,15 +223,14 @@ function views.study(settings, values)
   return {figure = fig, rows = rows, runs = field(study, "runs")}
 end
 
---- What a table of readings says of the response: its curve, its handles and the formulas with their numbers.
+--- What a table of readings says of the response: its curve, its handles and the numbers of its formulas.
 local shapes = {}
 
 function shapes.first(r)
   return function(since) return r.K*(1 - exp(-since/r.T)) end,
-    {{parameter = "K", x = "end", y = function(K) return K end, text = "final level"},
+    {{parameter = "K", x = "end", y = function(K) return K end, text = figure_label("final_level")},
      {parameter = "T", x = function(T) return T end, y = 0.632*r.K, text = "63 %"}},
-    string.format("K = change of y/change of u = %.4g/%.4g = %.4g.  T: 63 %% of the change after %.4g.  Within 5 %% after 3 T = %.4g.",
-                  r.K*r.change, r.change, r.K, r.T, 3*r.T)
+    {r.K*r.change, r.change, r.K, r.T, 3*r.T}
 end
 
 function shapes.delayed(r)
@@ -241,10 +240,10 @@ function shapes.delayed(r)
   end
   local t28, t63 = r.Td + r.T/3, r.Td + r.T
   return curve,
-    {{parameter = "K", x = "end", y = function(K) return K end, text = "final level"},
+    {{parameter = "K", x = "end", y = function(K) return K end, text = figure_label("final_level")},
      {parameter = "Td", x = function(Td) return Td + r.T/3 end, y = 0.283*r.K, text = "28 %"},
      {parameter = "T", x = function(T) return r.Td + T end, y = 0.632*r.K, text = "63 %"}},
-    string.format("28 %% after %.4g, 63 %% after %.4g:  T = 1.5 (t63 - t28) = %.4g,  Td = t63 - T = %.4g.  K = %.4g.", t28, t63, r.T, r.Td, r.K)
+    {t28, t63, r.T, r.Td, r.K}
 end
 
 function shapes.second(r)
@@ -254,10 +253,9 @@ function shapes.second(r)
   return function(since)
       return r.K*(1 - exp(-r.z*r.w0*since)*(cos(r.w0*root*since) + r.z/root*sin(r.w0*root*since)))
     end,
-    {{parameter = "K", x = "end", y = function(K) return K end, text = "final level"},
-     {parameter = "w0", x = function(w0) return math.pi/(w0*root) end, other = "z", y = function(z) return r.K*(1 + overshoot(z)) end, text = "first peak"}},
-    string.format("Overshoot D = %.3g %% after T1 = %.4g:  z = sqrt(ln(D)^2/(ln(D)^2 + pi^2)) = %.4g,  w0 = pi/(T1 sqrt(1 - z^2)) = %.4g rad/s.  K = %.4g.  Within 5 %% after about 3/(z w0) = %.4g.",
-                  100*D, T1, r.z, r.w0, r.K, 3/(r.z*r.w0))
+    {{parameter = "K", x = "end", y = function(K) return K end, text = figure_label("final_level")},
+     {parameter = "w0", x = function(w0) return math.pi/(w0*root) end, other = "z", y = function(z) return r.K*(1 + overshoot(z)) end, text = figure_label("first_peak")}},
+    {100*D, T1, r.z, r.w0, r.K, 3/(r.z*r.w0)}
 end
 
 local function ranged(name, value)
@@ -271,11 +269,11 @@ end
 function views.reading(settings, values)
   local r, data = values[settings.reading], values[settings.raw]
   if type(r) ~= "table" or not is_data(data) or not shapes[r.kind] then return end
-  local curve, handles, words = shapes[r.kind](r)
+  local curve, handles, numbers = shapes[r.kind](r)
   local t = data.t
   local since = t - r.start
   local y = r.rest + r.change*curve((since + abs(since))/2)
-  local fig = plot(t, data.y, "measured", t, y, "by hand", {style = {"points", "line"}, marker = 0, colour = {8, 0}, xlabel = "time (s)"})
+  local fig = plot(t, data.y, figure_label("measured"), t, y, figure_label("by_hand"), {style = {"points", "line"}, marker = 0, colour = {8, 0}, xlabel = figure_label("time")})
   for _, name in ipairs{"K", "T", "Td", "z", "w0"} do
     if r[name] then ranged(name, r[name]) end
   end
@@ -291,7 +289,7 @@ function views.reading(settings, values)
     end
   end
   local error = data.y - y
-  return {figure = fig, words = string.format("%s  Fit %.1f %%.", words, 100*(1 - std(error)/std(data.y)))}
+  return {figure = fig, words = reading_words(r.kind, numbers, 100*(1 - std(error)/std(data.y)))}
 end
 
 --- What the functions for step tests read off a record, to begin with.

@@ -19,6 +19,7 @@
 #include "platform/error.h"
 #include "platform/memory.h"
 #include "platform/system_call.h"
+#include "scripting/interpreter/catalogue.h"
 #include "scripting/runtime/help.h"
 #include "workflow/lesson_catalogue.h"
 #include "workflow/recording.h"
@@ -42,7 +43,7 @@ std::string record_of_lesson(const Lesson& lesson) {
     static const RE2 kLoad(R"(\bload\("([^"]+)\"\))", RE2::Latin1);
     std::string record;
     if (!RE2::PartialMatch(read_text(lesson.script()), kLoad, &record))
-        throw EnvironmentError(fmt::format("lesson {} loads no record; name a data file or a data set", lesson.slug));
+        throw EnvironmentError("lesson {} loads no record; name a data file or a data set", lesson.slug);
     return record;
 }
 
@@ -54,10 +55,10 @@ Subject subject_of(const std::string& words) {
     expect_plain_name(words);
     if (words.empty()) return {"session.lua", "", "Session"};
     if (words.ends_with(".lua")) {
-        if (!fs::exists(words)) throw EnvironmentError("there is no file " + words);
+        if (!fs::exists(words)) throw EnvironmentError("there is no file {}", words);
         return {words, "", ""};
     }
-    if (is_data_file(words) && !fs::exists(words)) throw EnvironmentError("there is no file " + words);
+    if (is_data_file(words) && !fs::exists(words)) throw EnvironmentError("there is no file {}", words);
     const std::vector<std::string> sets = dataset_names();
     const bool is_record = fs::exists(words) || std::find(sets.begin(), sets.end(), words) != sets.end();
     if (is_record) return {session_of(words), words, "Identification from " + fs::path(words).filename().string()};
@@ -73,14 +74,12 @@ struct Opening {
 };
 DYNLAB_DESCRIBE(Opening, data, words, fresh)
 
-const std::string kSamplingRemedy = "; choose the column of the time, or type the sampling time below";
-
 /// record_lines(), with what somebody at the page can do about a file without a sampling time.
 std::string lines_of_order(const RecordOrder& order) {
     try {
         return record_lines(order);
     } catch (const UnknownSampling& error) {
-        throw EnvironmentError(error.what() + kSamplingRemedy);
+        throw EnvironmentError("{}; choose the column of the time, or type the sampling time below", error.message());
     }
 }
 
@@ -107,7 +106,7 @@ void take_script_orders(WebServer& server, WorkbenchSession& bench) {
         constexpr int kConflict = 409;
         const auto revision = bench.change(from_json<ScriptOrder>(asked.body));
         return revision ? PageReply{std::to_string(*revision), kJson}
-                        : PageReply{"The script has changed meanwhile.", kPlainText, kConflict};
+                        : PageReply{bench.told(Message("The script has changed meanwhile.")), kPlainText, kConflict};
     });
     server.on_post("/look", [&](const PageRequest& asked) {
         return PageReply{std::to_string(bench.look(from_json<ViewOrder>(asked.body))), kJson};
@@ -122,7 +121,7 @@ void take_script_orders(WebServer& server, WorkbenchSession& bench) {
 bool is_created(const fs::path& file) {
     constexpr mode_t kForAll = 0666;
     const FileDescriptor made(::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kForAll));
-    if (!made && errno != EEXIST) throw EnvironmentError(file.string() + ": not written: " + system_reason(errno));
+    if (!made && errno != EEXIST) throw EnvironmentError("{}: not written: {}", file.string(), system_reason(errno));
     return static_cast<bool>(made);
 }
 
@@ -131,7 +130,7 @@ fs::path free_name(const std::string& wanted) {
     expect_plain_name(wanted);
     const fs::path name = fs::path(wanted).filename();
     if (!is_data_file(name))
-        throw EnvironmentError(name.string() + " is no data file: wanted .csv, .txt, .dat, .tsv, .xlsx or .mat");
+        throw EnvironmentError("{} is no data file: wanted .csv, .txt, .dat, .tsv, .xlsx or .mat", name.string());
     fs::path file = name;
     for (int k = 2; !is_created(file); ++k)
         file = fmt::format("{}-{}{}", name.stem().string(), k, name.extension().string());
@@ -145,7 +144,7 @@ const std::string& checked_record(const std::string& data, const std::string& su
     const fs::path within = fs::weakly_canonical(data).lexically_relative(fs::current_path());
     const bool leads_out = within.empty() || *within.begin() == "..";
     if (data == subject || std::find(sets.begin(), sets.end(), data) != sets.end() || !leads_out) return data;
-    throw EnvironmentError(data + " lies outside the session's folder; drop the file on the page to copy it there");
+    throw EnvironmentError("{} lies outside the session's folder; drop the file on the page to copy it there", data);
 }
 
 void serve_records(WebServer& server, WorkbenchSession& bench, const std::string& subject) {
@@ -173,12 +172,12 @@ void serve_records(WebServer& server, WorkbenchSession& bench, const std::string
 }
 
 /// Help pages as the terminal shows them.
-void serve_help(WebServer& server) {
-    server.on_get("/help", [](const PageRequest& asked) {
+void serve_help(WebServer& server, const WorkbenchSession& bench) {
+    server.on_get("/help", [&](const PageRequest& asked) {
         const auto page = find_help_page(asked.parameter("name"));
         constexpr int kMissing = 404;
-        if (!page) return PageReply{"There is no help page of this name.", kPlainText, kMissing};
-        return PageReply{std::string(page->text), kPlainText};
+        if (!page) return PageReply{bench.told(Message("There is no help page of this name.")), kPlainText, kMissing};
+        return PageReply{page_text(*page, find_function(std::string(page->name))), kPlainText};
     });
 }
 
@@ -193,10 +192,10 @@ void serve_documents(WebServer& server, WorkbenchSession& bench, BackgroundWork&
     server.on_get("/document.pdf", [&](const PageRequest&) {
         constexpr int kFailed = 500, kForbidden = 403, kConflict = 409;
         if (!permissions.granted())
-            return PageReply{bench.told("This script has not been allowed to run."), kPlainText, kForbidden};
+            return PageReply{bench.told(Message("This script has not been allowed to run.")), kPlainText, kForbidden};
         if (const auto mistake = bench.mistake())
-            return PageReply{bench.told("There is no report of a script with a mistake: " + *mistake), kPlainText,
-                             kConflict};
+            return PageReply{bench.told(Message("There is no report of a script with a mistake: {}", *mistake)),
+                             kPlainText, kConflict};
         background.document_changed({});
         const BackgroundWork::Pdf pdf = background.pdf();
         return pdf.bytes.empty() ? PageReply{bench.told(pdf.error), kPlainText, kFailed}
@@ -230,12 +229,14 @@ void serve_workbench(const WorkbenchOptions& options) {
     if (permissions.granted()) bench.allow_runs();
 
     BackgroundWork background(subject.script.string());
-    WebServer server({.port = options.port, .largest_body = kLargestUpload});
+    WebServer server({.port = options.port, .largest_body = kLargestUpload, .told = [&bench](const Message& message) {
+                          return bench.told(message);
+                      }});
     const StopsBeforeServer stops{background};
     serve_page_files(server, "workbench.html");
     take_script_orders(server, bench);
     serve_records(server, bench, subject.data);
-    serve_help(server);
+    serve_help(server, bench);
     serve_documents(server, bench, background, permissions);
     server.on_post("/allow", [&](const PageRequest&) {
         permissions.grant_script(bench.script());

@@ -9,14 +9,17 @@
 #include <nlohmann/json.hpp>
 
 #include "app/workbench/estimator_forms.h"
+#include "base/error.h"
+#include "base/languages.h"
+#include "base/reader.h"
+#include "course/boxes/told_reason.h"
 #include "data_io/values/json_values.h"
 #include "documents/error.h"
 #include "documents/text_lines.h"
-#include "documents/weave.h"
-#include "documents/words/sentence_catalogue.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/interrupt.h"
+#include "scripting/conversions/option_words.h"
 #include "scripting/runtime/prompt_statement.h"
 
 namespace dynlab::inline app {
@@ -36,6 +39,10 @@ std::string printed_by(const RunRecord& record, const std::string& cell) {
     for (const CellOutput& output : outputs->second) text += output.printed;
     if (text.size() > kMostPrinted) text.resize(kMostPrinted);
     return text;
+}
+
+Reader reader_of_session(const std::string& language) {
+    return {catalog_of(language), &option_name};
 }
 
 }  // namespace
@@ -151,7 +158,7 @@ void WorkbenchSession::work() {
 void WorkbenchSession::save_rest() {
     const std::lock_guard lock(mutex_);
     if (text_.save() && may_run_) tell_of_saving_(text_.text());
-    if (!text_.unsaved().empty()) throw EnvironmentError("the last changes are lost: " + text_.unsaved());
+    if (!text_.unsaved().empty()) throw EnvironmentError("the last changes are lost: {}", text_.unsaved());
 }
 
 void WorkbenchSession::take_file_changes() {
@@ -159,11 +166,11 @@ void WorkbenchSession::take_file_changes() {
     for (const fs::path& file : watch_.changes()) {
         if (file.filename() == text_.file().filename()) {
             changed_ = true;
-            unread_.clear();
+            unread_ = Message();
             try {
                 text_.look_at_file();
             } catch (const std::exception& error) {
-                unread_ = error.what();
+                unread_ = message_of(error);
             }
         } else if (const fs::path place = place_of(file); data_.contains(place)) {
             changed_data_.insert(place);
@@ -268,9 +275,9 @@ void WorkbenchSession::run() {
         for (std::size_t i = first; i < runner_.parts().size(); ++i)
             for (const std::string& cell : runner_.parts()[i].cells) states_[cell] = {"waiting", 0, 0};
     } catch (const DocumentError& error) {
-        if (!lines_to_run_) error_ = RecordedError{error.what(), 0};  // else its beginning alone is no script
+        if (!lines_to_run_) error_ = RecordedError{message_of(error)};  // else its beginning alone is no script
     } catch (const EnvironmentError& error) {
-        error_ = RecordedError{error.what(), 0};
+        error_ = RecordedError{message_of(error)};
     }
 }
 
@@ -289,14 +296,14 @@ bool WorkbenchSession::ends_early(const std::string& text) const {
     return !parts.empty() && read_script_part(parts.back().code, {}).kind == PromptStatement::Kind::kIncomplete;
 }
 
-std::optional<std::string> WorkbenchSession::mistake() const {
+std::optional<Message> WorkbenchSession::mistake() const {
     const std::lock_guard lock(mutex_);
-    return error_ ? std::optional(error_->message) : std::nullopt;
+    return error_ ? std::optional(with_place(*error_)) : std::nullopt;
 }
 
-std::string WorkbenchSession::told(const std::string& sentences) const {
+std::string WorkbenchSession::told(const Message& message) const {
     const std::lock_guard lock(mutex_);
-    return language() == "fr" ? shared_french_sentences().translated_lines(sentences) : sentences;
+    return message_text(message, reader_of_session(language()));
 }
 
 /// From now on only what stands before this part is run and looked at, until the script changes.
@@ -359,6 +366,7 @@ std::string WorkbenchSession::language() const {
 
 std::string WorkbenchSession::json(bool all) const {
     const std::string told_in = language();
+    const Reader reader = reader_of_session(told_in);
     ::nlohmann::json page = {{"all", all},
                              {"revision", text_.revision()},
                              {"shown", run_revision_},
@@ -368,19 +376,17 @@ std::string WorkbenchSession::json(bool all) const {
                              {"stopped", stopped_},
                              {"undo", text_.can_undo()},
                              {"redo", text_.can_redo()},
-                             {"unsaved", told_error(text_.unsaved(), told_in)},
+                             {"unsaved", message_text(text_.unsaved(), reader)},
                              {"states", ::nlohmann::json::object()}};
     for (const auto& [cell, state] : states_)
         page["states"][cell] = {{"state", state.state}, {"seconds", state.seconds}, {"progress", state.progress}};
     if (!unread_.empty())
-        page["error"] = {{"message", told_error(unread_, told_in)}, {"line", 0}};
+        page["error"] = {{"message", message_text(unread_, reader)}, {"line", 0}};
     else if (error_)
-        page["error"] = {{"message", told_error(error_->message, told_in)}, {"line", error_->line}};
+        page["error"] = {{"message", message_text(with_place(*error_), reader)},
+                         {"line", error_->line_in(text_.file().filename().string())}};
     if (all) page["file"] = fs::absolute(text_.file()).string();
-    if (all || sent_language_ != told_in) {
-        page["forms"] =
-            ::nlohmann::json::parse(json_of(told_in == "fr" ? estimator_forms_in_french() : estimator_forms()));
-    }
+    if (all || sent_language_ != told_in) page["forms"] = ::nlohmann::json::parse(json_of(estimator_forms(reader)));
     if (all || sent_revision_ != text_.revision()) {
         page["source"] = text_.text();
         page["steps"] = ::nlohmann::json::parse(json_of(session_steps(text_.text())));

@@ -39,8 +39,8 @@ class WorkbenchSession {
     /// What a run saved (workbench.show "saved"), by its name. Throws EnvironmentError where there is none.
     std::string saved(const std::string& name) const;
 
-    std::optional<std::string> mistake() const;            ///< at which the script stops, as the last run told it
-    std::string told(const std::string& sentences) const;  ///< in the script's language as far as they are known there
+    std::optional<Message> mistake() const;          ///< at which the script stops, as the last run told it
+    std::string told(const Message& message) const;  ///< in the script's language
     std::string script() const;
     std::filesystem::path file() const;
     std::string whole() const;             ///< what a page shows, JSON
@@ -62,7 +62,7 @@ class WorkbenchSession {
     void take(RunnerNews news);
     void take_record(const RunnerNews& news);
     std::string json(bool all) const;
-    std::string language() const;  ///< that of the script, "en" or "fr"
+    std::string language() const;  ///< that of the script
 
     ScriptRunner& runner_;
     std::function<void()> tell_ = [] {};
@@ -87,7 +87,7 @@ class WorkbenchSession {
     std::map<std::string, CellState> states_;
     std::map<std::string, std::string> printed_;  ///< by cell
     std::optional<RecordedError> error_;
-    std::string unread_;  ///< why what another program wrote into the script's file is not taken; else empty
+    Message unread_;  ///< why what another program wrote into the script's file is not taken; else empty
     struct View {
         std::string json;
         bool fresh = true;

@@ -3,10 +3,12 @@
 #include <cstdlib>
 #include <iostream>
 
+#include "base/error.h"
 #include "cli/commands.h"
 #include "cli/options/script_options.h"
+#include "course/boxes/told_reason.h"
 #include "course/findings/findings_report.h"
-#include "course/findings/french_sentences.h"
+#include "course/findings/lesson_reader.h"
 #include "course/grading/folder_check.h"
 #include "course/hand_ins/work_language.h"
 #include "documents/text_lines.h"
@@ -36,8 +38,8 @@ std::shared_ptr<const SoughtNames> sought_by(const CheckArguments& words) {
     auto names = std::make_shared<SoughtNames>();
     if (!words.roster.empty()) {
         const Roster roster(words.roster);
-        if (const std::string unsought = unsought_numbers_sentence(roster.students()); !unsought.empty())
-            std::cerr << terminal_text(fmt::format("dynlab: {}: {}\n", words.roster, unsought));
+        if (const Message unsought = unsought_numbers(roster.students()); !unsought.empty())
+            std::cerr << terminal_text(fmt::format("dynlab: {}: {}\n", words.roster, message_text(unsought)));
         *names = SoughtNames(roster);
     }
     if (const char* home = std::getenv("HOME")) names->add_account(home);
@@ -52,12 +54,17 @@ CheckResult check_script(const fs::path& script, const CheckOptions& wishes) {
     result.subject = script.string();
     const std::string name = script.filename().string(), pdf = fs::path(name).replace_extension(".pdf").string();
     const std::string source = is_notebook(script) ? read_file(folder.path() / "analysis.lua") : "";
-    for (Finding& finding : result.findings)
-        for (std::string* text : {&finding.place, &finding.what, &finding.remedy}) {
-            const std::string told = source.empty() ? replaced(*text, "analysis.lua", name)
-                                                    : with_places_in_notebook(*text, "analysis.lua", name, source);
-            *text = replaced(replaced(told, "report.pdf", pdf), "FOLDER", name);
-        }
+    const auto placed = [&](const auto& text) {
+        return source.empty() ? text : with_places_in_notebook(text, "analysis.lua", name, source);
+    };
+    const auto renamed = [&](const std::string& text) {
+        return replaced(replaced(replaced(text, "analysis.lua", name), "report.pdf", pdf), "FOLDER", name);
+    };
+    for (Finding& finding : result.findings) {
+        finding.place = renamed(placed(finding.place));
+        finding.what = with_changed_text(placed(finding.what), renamed);
+        finding.remedy = with_changed_text(placed(finding.remedy), renamed);
+    }
     return result;
 }
 
@@ -65,12 +72,12 @@ bool is_script(const fs::path& subject) {
     return fs::is_regular_file(subject) && (subject.extension() == ".lua" || is_notebook(subject));
 }
 
-/// Findings of French work are told in French.
-SentenceCatalogue sentences_for(const fs::path& subject, const CheckResult& result) {
+/// Findings are read in the language of the work.
+LessonReader reader_for(const fs::path& subject, const CheckResult& result) {
     std::string language = result.language;
     if (fs::is_directory(subject)) language = language_of_work(subject);
     if (is_script(subject)) language = read_script_or_notebook(subject).header.language;
-    return language == "fr" ? french_sentences(result.lesson) : SentenceCatalogue();
+    return LessonReader(language, result.lesson);
 }
 
 int check(const CheckArguments& words) {
@@ -78,17 +85,17 @@ int check(const CheckArguments& words) {
     CheckResult result;
     if (words.pages > 0) wishes.pages = words.pages;
     wishes.lesson_checks = !words.document_only;
-    const auto misuse = [](const std::string& sentence) {
-        std::cerr << "dynlab: " << sentence << '\n';
+    const auto misuse = [](const Message& sentence) {
+        std::cerr << "dynlab: " << message_text(sentence) << '\n';
         return kUsage;
     };
     try {
         wishes.names = sought_by(words);
         if (!words.template_name.empty()) wishes.standard = standard_of(words.template_name);
     } catch (const std::runtime_error& error) {
-        return misuse(error.what());
+        return misuse(message_of(error));
     }
-    if (!fs::exists(words.subject)) return misuse("there is no file or folder '" + words.subject + "'");
+    if (!fs::exists(words.subject)) return misuse(Message("there is no file or folder '{}'", words.subject));
     if (fs::is_directory(words.subject))
         result = check_folder(words.subject, running_program(), wishes);
     else if (is_script(words.subject))
@@ -96,7 +103,7 @@ int check(const CheckArguments& words) {
     else
         result = check_pdf(words.subject, wishes);
     std::cout << (words.as_json ? findings_as_json(result)
-                                : findings_in_words(result, in_colour(), sentences_for(words.subject, result)));
+                                : findings_in_words(result, in_colour(), reader_for(words.subject, result).reader()));
     return result.passed() ? kDone : kFailed;
 }
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "base/reader.h"
 #include "cli/commands.h"
 #include "cli/course/course_commands.h"
 #include "course/office/course_status.h"
@@ -69,7 +70,7 @@ void add_roster(CLI::App& course, CourseArguments& where, Action& action) {
         std::cerr << terminal_text(fmt::format("dynlab: {}: not read: the unknown columns {}\n", *file,
                                                fmt::join(change.unknown_columns, ", ")));
     if (!change.unsought_ids.empty())
-        std::cerr << terminal_text(fmt::format("dynlab: {}: {}\n", *file, change.unsought_ids));
+        std::cerr << terminal_text(fmt::format("dynlab: {}: {}\n", *file, message_text(change.unsought_ids)));
     std::cout << fmt::format("{} students: {} new, {} changed, {} moved to another group; {} new groups.\n",
                              change.students, change.new_students, change.changed, change.moved, change.new_groups);
     if (!change.absent.empty())
@@ -118,8 +119,8 @@ void apply(const AssignmentArguments& words, const CourseClock& clock, Assignmen
     if (!words.grace.empty()) {
         const auto grace = duration_of(words.grace);
         if (!grace)
-            throw InvalidArgument("--grace must be a duration such as 15min, 2h or 1d, but \"" + words.grace +
-                                  "\" was given");
+            throw InvalidArgument("--grace must be a duration such as 15min, 2h or 1d, but \"{}\" was given",
+                                  words.grace);
         a.grace = *grace;
     }
     if (!words.costs.empty()) a.costs = costs_of(words.costs == "none" ? "" : words.costs);

@@ -1,12 +1,10 @@
-#include <fmt/format.h>
-
 #include <filesystem>
 #include <iostream>
 
+#include "base/reader.h"
 #include "cli/course/course_commands.h"
 #include "course/review/final_changes.h"
 #include "course/review/final_changes_document.h"
-#include "numerics/number_text.h"
 #include "platform/error.h"
 #include "platform/program_lookup.h"
 #include "platform/terminal/terminal_text.h"
@@ -40,7 +38,9 @@ int changes(const CourseArguments& where, const ChangesArguments& words) {
     const std::size_t written =
         write_change_documents(all, course, assignment, words.out, documents, writing.progress());
     writing.finish();
-    std::cout << fmt::format("{} as PDF and Markdown in {}\n", counted(written, "document"), words.out);
+    std::cout << message_text(plural(static_cast<std::int64_t>(written), "{} document as PDF and Markdown in {}",
+                                     "{} documents as PDF and Markdown in {}", words.out))
+              << '\n';
     return kDone;
 }
 

@@ -44,9 +44,10 @@ int show_findings(const CourseArguments& where, const FindingsArguments& words) 
     const Group group = group_named(course, words.group);
     const auto found = stored_findings(course, assignment, group, words.stage, words.version);
     if (found.empty())
-        throw InvalidArgument(fmt::format("{} has handed in no {} for {}{}", group.name, stage_in_words(words.stage),
-                                          assignment.name,
-                                          words.version ? fmt::format(" numbered {}", *words.version) : ""));
+        throw words.version ? InvalidArgument("{} has handed in no {} for {} numbered {}", group.name,
+                                              stage_in_words(words.stage), assignment.name, *words.version)
+                            : InvalidArgument("{} has handed in no {} for {}", group.name, stage_in_words(words.stage),
+                                              assignment.name);
     bool passed = true;
     for (const StoredFindings& one : found) {
         std::cout << fmt::format("{}, {}: {}{} v{}, received {}\n", group.name, stage_in_words(words.stage), one.part,

@@ -3,6 +3,7 @@
 
 #include <iostream>
 
+#include "base/reader.h"
 #include "cli/course/course_commands.h"
 #include "course/office/course_export.h"
 #include "course/review/oral_marks.h"
@@ -72,7 +73,8 @@ void tell_costs_and_gaps(Course& course, const Assignment& a, const Marks& all) 
         for (const GroupMark& mark : all.groups) {
             if (mark.group != group.id) continue;
             if (!mark.costs.empty())
-                std::cout << terminal_text(fmt::format("{}: {}.\n", group.name, fmt::join(mark.costs, ", ")));
+                std::cout << terminal_text(message_text(Message("{}: {}.", group.name, MessageList{mark.costs})))
+                          << '\n';
             if (mark.final_version)
                 std::cout << terminal_text(
                     fmt::format("{}: the final version has {:.1f} percent, {:g} percent of the work's mark.\n",

@@ -2,11 +2,11 @@
 
 #include <iostream>
 
+#include "base/reader.h"
 #include "cli/course/course_commands.h"
 #include "course/names/anonymous_copy.h"
 #include "course/returns/returned_files.h"
 #include "course/review/peer_review.h"
-#include "numerics/number_text.h"
 #include "platform/program_lookup.h"
 #include "platform/terminal/aligned_table.h"
 #include "platform/terminal/terminal_text.h"
@@ -23,9 +23,11 @@ int assign(const CourseArguments& where, const PeerArguments& words) {
     Course course(where.folder);
     const Assignment assignment = assignment_named(course, words.assignment);
     const AssignOutcome done = assign_reviews(course, assignment, time_of(course, words.at), words.early);
-    std::cout << fmt::format("{}: {}, {}: {} new, {} taken back.\n", assignment.name, counted(done.groups, "group"),
-                             counted(done.pairs, "review"), done.fresh, done.ended);
-    for (const std::string& remark : done.remarks) std::cout << terminal_text(remark) << '\n';
+    std::cout << message_text(Message("{}: {}, {}: {} new, {} taken back.", assignment.name,
+                                      plural(done.groups, "{} group", "{} groups"),
+                                      plural(done.pairs, "{} review", "{} reviews"), done.fresh, done.ended))
+              << '\n';
+    for (const Message& remark : done.remarks) std::cout << terminal_text(message_text(remark)) << '\n';
     if (done.remarks.empty())
         std::cout << "Nobody reviews their own report, one twice, one of a common member, or each other.\n";
     return kDone;
@@ -49,8 +51,8 @@ int show_pairs(const CourseArguments& where, const PeerArguments& words) {
     return kDone;
 }
 
-std::string in_words(const Finding& finding) {
-    return fmt::format("{}{}", finding.page > 0 ? fmt::format("page {}: ", finding.page) : "", finding.what);
+Message with_page(const Finding& finding) {
+    return finding.page > 0 ? Message("page {}: {}", finding.page, finding.what) : finding.what;
 }
 
 /// Copies are searched for everybody in the course; a name that is certain stops one.
@@ -63,7 +65,7 @@ AnonymousCopier anonymous_copier() {
             anonymous_copy(request.pack.empty() ? request.pdf : request.pack, request.copy, setup);
         CopyOutcome outcome{copy.made, {}, {}};
         for (const Finding& finding : copy.findings)
-            (finding.severity == Severity::kRule ? outcome.hits : outcome.hints).push_back(in_words(finding));
+            (finding.severity == Severity::kRule ? outcome.hits : outcome.hints).push_back(with_page(finding));
         if (!copy.made && outcome.hits.empty()) outcome.hits.push_back(copy.trouble);
         return outcome;
     };
@@ -75,7 +77,7 @@ int send(const CourseArguments& where, const PeerArguments& words, Way way) {
     const SendOutcome done =
         send_copies(course, assignment, way, time_of(course, words.at), anonymous_copier(), words.early);
     for (const auto* lines : {&done.hits, &done.hints})
-        for (const std::string& line : *lines) std::cerr << "dynlab: " << terminal_text(line) << '\n';
+        for (const Message& line : *lines) std::cerr << "dynlab: " << terminal_text(message_text(line)) << '\n';
     std::cout << fmt::format("{}: {} sent now{}, {} before, {} stopped, {} not come yet{}; in {}\n", assignment.name,
                              done.sent, done.again > 0 ? fmt::format(" ({} in a newer version)", done.again) : "",
                              done.before, done.stopped, done.waiting,
@@ -122,8 +124,10 @@ int give_back(const CourseArguments& where, const ReturnArguments& words) {
         return_files(course, assignment, {words.out, words.moodle, words.all, time_of(course, words.at)});
     for (const auto& [group, files] : done.files)
         std::cout << terminal_text(fmt::format("{}: {}\n", group, fmt::join(files, ", ")));
-    std::cout << (done.files.empty() ? "Nothing is new for anybody.\n"
-                                     : fmt::format("For {}, in {}\n", counted(done.files.size(), "group"), words.out));
+    std::cout << message_text(done.files.empty() ? Message("Nothing is new for anybody.")
+                                                 : plural(static_cast<std::int64_t>(done.files.size()),
+                                                          "For {} group, in {}", "For {} groups, in {}", words.out))
+              << '\n';
     if (!done.without_mail.empty())
         std::cerr << terminal_text(
             fmt::format("dynlab: no mail address is known of {}; the roster's column mail has them\n",

@@ -3,13 +3,13 @@
 #include <filesystem>
 #include <iostream>
 
+#include "base/reader.h"
 #include "cli/course/course_commands.h"
 #include "course/corrections/arrival_times.h"
 #include "course/office/receive.h"
 #include "course/store/graded_work.h"
 #include "course/store/receipts.h"
 #include "course/store/store_check.h"
-#include "numerics/number_text.h"
 #include "platform/atomic_file.h"
 #include "platform/program_lookup.h"
 #include "platform/terminal/aligned_table.h"
@@ -27,23 +27,25 @@ struct ReceiveArguments {
     bool no_checks = false, first = false;
 };
 
-std::string remark(const Received& r) {
-    if (!r.trouble.empty() && r.part == "pack") return r.trouble + ": ask for a pack that opens";
-    if (!r.trouble.empty()) return fmt::format("{}: ask for a readable file", r.trouble);
-    if (!r.missing.empty()) return r.missing + ": ask for one";
-    if (r.withdrawn) return "known and withdrawn; dynlab course restore lets it stand again";
+Message remark(const Received& r) {
+    if (!r.trouble.empty() && r.part == "pack") return Message("{}: ask for a pack that opens", r.trouble);
+    if (!r.trouble.empty()) return Message("{}: ask for a readable file", r.trouble);
+    if (!r.missing.empty()) return Message("{}: ask for one", r.missing);
+    if (r.withdrawn) return Message("known and withdrawn; dynlab course restore lets it stand again");
     if (!r.other_time.empty())
-        return fmt::format("known already; by --times it came {}: dynlab course time corrects that", r.other_time);
-    if (r.known) return "known already, nothing changed";
-    std::vector<std::string> clauses;
-    if (!r.twin.empty()) clauses.push_back("the same file as " + r.twin);
-    if (!r.earlier.empty()) clauses.push_back("the same file as " + r.earlier);
-    if (r.marked_late) clauses.push_back("the platform calls it late: see --times");
-    if (r.made) clauses.push_back("made here, as the pack has no PDF");
-    if (r.scores > 0) clauses.push_back(counted(r.scores, "score") + " read");
+        return Message("known already; by --times it came {}: dynlab course time corrects that", r.other_time);
+    if (r.known) return Message("known already, nothing changed");
+    MessageList clauses{{}, Join::kSemicolon};
+    if (!r.twin.empty()) clauses.items.push_back(Message("the same file as {}", r.twin));
+    if (!r.earlier.empty()) clauses.items.push_back(Message("the same file as {}", r.earlier));
+    if (r.marked_late) clauses.items.push_back(Message("the platform calls it late: see --times"));
+    if (r.made) clauses.items.push_back(Message("made here, as the pack has no PDF"));
+    if (r.scores > 0) clauses.items.push_back(plural(r.scores, "{} score read", "{} scores read"));
     if (r.rules_broken > 0)
-        clauses.push_back(counted(r.rules_broken, "rule") + " broken" + (r.names ? ": it names somebody" : ""));
-    return fmt::format("{}", fmt::join(clauses, "; "));
+        clauses.items.push_back(
+            r.names ? plural(r.rules_broken, "{} rule broken: it names somebody", "{} rules broken: it names somebody")
+                    : plural(r.rules_broken, "{} rule broken", "{} rules broken"));
+    return Message("{}", clauses);
 }
 
 std::string what(const Received& r) {
@@ -56,7 +58,7 @@ void show(const ReceiveOutcome& outcome, const std::string& stage) {
     int fresh = 0, late = 0;
     for (const Received& r : outcome.received) {
         rows.push_back({r.group, what(r), fmt::format("v{}", r.version),
-                        r.late > 0 ? "late by " + duration_text(r.late) : "in time", remark(r)});
+                        r.late > 0 ? "late by " + duration_text(r.late) : "in time", message_text(remark(r))});
         fresh += !r.known;
         late += !r.known && r.late > 0;
     }
@@ -64,7 +66,7 @@ void show(const ReceiveOutcome& outcome, const std::string& stage) {
                              stage == "first"    ? "first version"
                              : stage == "review" ? "reviews"
                                                  : "final version",
-                             counted(fresh, "file"), late,
+                             message_text(plural(fresh, "{} file", "{} files")), late,
                              rows.size() > static_cast<std::size_t>(fresh)
                                  ? fmt::format(", {} known already", rows.size() - static_cast<std::size_t>(fresh))
                                  : "");
@@ -72,7 +74,8 @@ void show(const ReceiveOutcome& outcome, const std::string& stage) {
         std::cout << terminal_text(aligned_table(
                          {"group", stage == "review" ? "review of" : "part", "version", "when", "remark"}, rows))
                   << "Receipts: " << outcome.receipts.string() << '\n';
-    for (const std::string& refused : outcome.refused) std::cerr << "dynlab: " << terminal_text(refused) << '\n';
+    for (const Message& refused : outcome.refused)
+        std::cerr << "dynlab: " << terminal_text(message_text(refused)) << '\n';
 }
 
 int receive_files(const CourseArguments& where, const ReceiveArguments& words, const std::string& stage) {
@@ -153,10 +156,14 @@ int verify_course(const CourseArguments& where, const std::vector<std::string>& 
     }
     if (receipts.empty()) {
         const StoreCheck check = check_store(course);
-        for (const std::string& leftover : check.leftovers) std::cout << terminal_text(leftover) << '\n';
-        for (const std::string& trouble : check.troubles) std::cerr << "dynlab: " << terminal_text(trouble) << '\n';
-        std::cout << fmt::format("{}, {}: {}\n", counted(check.files, "file"), counted(check.versions, "version"),
-                                 check.troubles.empty() ? "all there and unaltered" : "see above");
+        for (const Message& leftover : check.leftovers) std::cout << terminal_text(message_text(leftover)) << '\n';
+        for (const Message& trouble : check.troubles)
+            std::cerr << "dynlab: " << terminal_text(message_text(trouble)) << '\n';
+        const Message files = plural(check.files, "{} file", "{} files"),
+                      versions = plural(check.versions, "{} version", "{} versions");
+        std::cout << message_text(check.troubles.empty() ? Message("{}, {}: all there and unaltered", files, versions)
+                                                         : Message("{}, {}: see above", files, versions))
+                  << '\n';
         well = check.troubles.empty();
     }
     return well ? kDone : kFailed;
@@ -194,7 +201,8 @@ void add_key(CLI::App& course, CourseArguments& where, Action& action) {
 int lay_out(const CourseArguments& where, const std::string& name, const std::string& stage, const std::string& out) {
     Course course(where.folder);
     const LaidOutWork work = lay_out_work(course, assignment_named(course, name), stage, out);
-    std::cout << terminal_text(fmt::format("{}: the work of {}\n", out, counted(work.groups.size(), "group")));
+    const Message groups = plural(static_cast<std::int64_t>(work.groups.size()), "{} group", "{} groups");
+    std::cout << terminal_text(message_text(Message("{}: the work of {}", out, groups))) << '\n';
     if (!work.without.empty())
         std::cerr << terminal_text(
             fmt::format("dynlab: neither script nor pack of {}\n", fmt::join(work.without, ", ")));

@@ -4,12 +4,12 @@
 #include <memory>
 #include <thread>
 
+#include "base/reader.h"
 #include "cli/commands.h"
 #include "cli/course/grading_options.h"
 #include "cli/course/share_options.h"
 #include "cli/document_command.h"
 #include "course/grading/grading.h"
-#include "numerics/number_text.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/program_lookup.h"
@@ -36,7 +36,7 @@ std::string eye_text(const GradingOutcome& outcome) {
     if (outcome.eye.empty()) return "";
     std::string text =
         fmt::format("{} your eye:\n", outcome.eye.size() == 1 ? "1 needs" : fmt::format("{} need", outcome.eye.size()));
-    for (const std::string& sentence : outcome.eye) text += "  " + terminal_text(sentence) + "\n";
+    for (const Message& sentence : outcome.eye) text += "  " + terminal_text(message_text(sentence)) + "\n";
     return text;
 }
 
@@ -52,8 +52,7 @@ int grade(const GradeArguments& words) {
     if (!words.secret.empty()) {
         request.setup.secret = read_file(words.secret);
         if (request.setup.secret.empty())
-            throw EnvironmentError(
-                fmt::format("{} is empty: hidden records drawn from it would be no secret", words.secret));
+            throw EnvironmentError("{} is empty: hidden records drawn from it would be no secret", words.secret);
     }
     request.roster = given(words.roster);
     request.owners = given(words.owners);
@@ -72,10 +71,13 @@ int grade(const GradeArguments& words) {
     if (words.secret.empty())
         std::cerr << "dynlab: no --secret FILE: anybody who reads the project can compute the hidden records\n";
     const GradingOutcome outcome = grade_class(request);
-    for (const std::string& note : outcome.notes) std::cerr << "dynlab: note: " << terminal_text(note) << '\n';
-    for (const std::string& complaint : outcome.complaints) std::cerr << "dynlab: " << terminal_text(complaint) << '\n';
+    for (const Message& note : outcome.notes)
+        std::cerr << "dynlab: note: " << terminal_text(message_text(note)) << '\n';
+    for (const Message& complaint : outcome.complaints)
+        std::cerr << "dynlab: " << terminal_text(message_text(complaint)) << '\n';
     std::cout << fmt::format("{}: {} graded now, {} unchanged{}; isolation {}\n",
-                             counted(outcome.submissions, "submission"), outcome.made, outcome.kept,
+                             message_text(plural(outcome.submissions, "{} submission", "{} submissions")), outcome.made,
+                             outcome.kept,
                              outcome.not_whole > 0 ? fmt::format(", {} with ungraded checks", outcome.not_whole) : "",
                              isolation_name(request.setup.isolation))
               << eye_text(outcome) << (request.out / "gradebook.csv").string() << '\n'

@@ -1,6 +1,7 @@
 #include <iostream>
 #include <memory>
 
+#include "base/reader.h"
 #include "cli/commands.h"
 #include "course/returns/handed_back.h"
 #include "platform/terminal/terminal_text.h"
@@ -18,8 +19,10 @@ int hand_back_marks(const HandBackArguments& words) {
     request.assignment = words.assignment;
     if (!words.roster.empty()) request.roster = words.roster;
     const HandedBack back = hand_back(request);
-    for (const std::string& platform : back.unwritten) std::cerr << "dynlab: " << terminal_text(platform) << '\n';
-    for (const std::string& complaint : back.complaints) std::cerr << "dynlab: " << terminal_text(complaint) << '\n';
+    for (const Message& platform : back.unwritten)
+        std::cerr << "dynlab: " << terminal_text(message_text(platform)) << '\n';
+    for (const Message& complaint : back.complaints)
+        std::cerr << "dynlab: " << terminal_text(message_text(complaint)) << '\n';
     for (const auto& file : back.files) std::cout << terminal_text(file.string()) << '\n';
     return back.complaints.empty() ? kDone : kFailed;
 }

@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 #include <re2/re2.h>
 
 #include <iostream>
@@ -8,10 +7,10 @@
 
 #include "cli/commands.h"
 #include "cli/options/script_options.h"
+#include "cli/say.h"
 #include "course/grading/hand_in.h"
 #include "course/hand_ins/roster.h"
 #include "documents/pdf/pdf_layout.h"
-#include "numerics/number_text.h"
 #include "platform/error.h"
 #include "platform/temporary_folder.h"
 #include "platform/terminal/terminal_text.h"
@@ -48,18 +47,18 @@ void tell_of_report(const fs::path& folder, const std::string& subject) {
         if (!entry.is_regular_file() || entry.path().extension() != ".pdf") continue;
         made = std::max(made.value_or(entry.last_write_time()), entry.last_write_time());
         if (is_draft(entry.path()))
-            std::cerr << terminal_text(
-                fmt::format("dynlab: {} is a draft: ?? stands in it; dynlab check {} says what is missing\n",
-                            entry.path().filename().string(), shell_word(subject)));
+            complain(Message("{} is a draft: ?? stands in it; dynlab check {} says what is missing",
+                             entry.path().filename().string(), shell_word(subject)));
     }
     bool older = false;
     for (const char* source : {"report.md", "analysis.lua", "analysis.ipynb"})
         older = older || (made && fs::exists(folder / source) && fs::last_write_time(folder / source) > *made);
-    if (!made || older)
-        std::cerr << terminal_text(fmt::format(
-            "dynlab: {}: dynlab report {}, then pack again\n",
-            made ? "the PDF in it is older than the report's text or script" : "there is no PDF of the report in it",
-            shell_word(subject)));
+    if (!made)
+        complain(
+            Message("there is no PDF of the report in it: dynlab report {}, then pack again", shell_word(subject)));
+    else if (older)
+        complain(Message("the PDF in it is older than the report's text or script: dynlab report {}, then pack again",
+                         shell_word(subject)));
 }
 
 int pack(const PackArguments& words) {
@@ -73,10 +72,11 @@ int pack(const PackArguments& words) {
         folder = made.path();
     }
     const Pack pack = pack_folder(folder, file);
-    for (const std::string& name : pack.files) std::cout << terminal_text(name) << '\n';
+    for (const std::string& name : pack.files) say(Message::verbatim(name));
     for (const std::string& name : pack.left_out)
-        std::cerr << "dynlab: left out, because it is not a regular file: " << terminal_text(name) << '\n';
-    std::cout << fmt::format("{}: {}, SHA-256 {}\n", file.string(), counted(pack.files.size(), "file"), pack.hash);
+        complain(Message("left out, because it is not a regular file: {}", name));
+    const Message files = plural(static_cast<std::int64_t>(pack.files.size()), "{} file", "{} files");
+    say(Message("{}: {}, SHA-256 {}", file.string(), files, pack.hash));
     tell_of_report(folder, words.subject);
     return kDone;
 }
@@ -91,12 +91,12 @@ int bundle_groups(const Lesson& lesson, const PackArguments& words) {
         if (!student.seed) continue;
         const auto [known, added] = seeds.try_emplace(owner, *student.seed);
         if (!added && known->second != *student.seed)
-            throw EnvironmentError(fmt::format("{}: the members of {} have different seeds", words.roster, owner));
+            throw EnvironmentError("{}: the members of {} have different seeds", words.roster, owner);
     }
-    if (seeds.empty()) throw EnvironmentError(words.roster + ": nobody has a seed; fill in the column seed");
+    if (seeds.empty()) throw EnvironmentError("{}: nobody has a seed; fill in the column seed", words.roster);
     fs::create_directories(folder);
     for (const auto& [owner, seed] : seeds) {
-        if (owner.find('/') != std::string::npos) throw EnvironmentError("there is a / in the name of " + owner);
+        if (owner.find('/') != std::string::npos) throw EnvironmentError("there is a / in the name of {}", owner);
         const fs::path file = folder / (lesson.slug + "-" + owner + ".zip");
         bundle_lesson(lesson, file, seed);
         std::cout << terminal_text(file.string()) << '\n';

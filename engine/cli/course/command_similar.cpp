@@ -1,11 +1,9 @@
-#include <fmt/format.h>
-
 #include <iostream>
 #include <memory>
 
+#include "base/reader.h"
 #include "cli/commands.h"
 #include "course/similarity/class_similarity.h"
-#include "numerics/number_text.h"
 #include "platform/program_lookup.h"
 #include "platform/terminal/terminal_text.h"
 
@@ -28,9 +26,12 @@ int compare(const SimilarArguments& words) {
     request.isolation = strongest_isolation();
     request.program = running_program();
     const SimilarityOutcome outcome = compare_class(request);
-    for (const std::string& complaint : outcome.complaints) std::cerr << "dynlab: " << terminal_text(complaint) << '\n';
-    std::cout << fmt::format("{} compared: {} above the line\n", counted(outcome.scripts, "script"),
-                             counted(outcome.pairs, "pair"))
+    for (const Message& complaint : outcome.complaints)
+        std::cerr << "dynlab: " << terminal_text(message_text(complaint)) << '\n';
+    const Message pairs = plural(outcome.pairs, "{} pair", "{} pairs");
+    std::cout << message_text(plural(outcome.scripts, "{} script compared: {} above the line",
+                                     "{} scripts compared: {} above the line", pairs))
+              << '\n'
               << (request.out / "similarity.md").string() << '\n';
     return outcome.complaints.empty() ? kDone : kFailed;
 }

@@ -35,7 +35,9 @@ class StudySharing : public RunSharing {
     }
     std::vector<std::string> end(bool succeeded) override {
         if (succeeded) study_->conclude();
-        return study_->notes();
+        std::vector<std::string> notes;
+        for (const Message& note : study_->notes()) notes.push_back(message_text(note));
+        return notes;
     }
 
   private:

@@ -2,10 +2,10 @@
 
 #include <iostream>
 
+#include "base/reader.h"
 #include "cli/commands.h"
 #include "cli/course/grading_options.h"
 #include "course/grading/lesson_trial.h"
-#include "numerics/number_text.h"
 #include "platform/terminal/activity_line.h"
 #include "platform/terminal/terminal_text.h"
 
@@ -24,7 +24,7 @@ int test_lesson(const TestLessonArguments& words) {
         for (const LessonFault& fault : found) {
             const std::string line = fault.line > 0 ? fmt::format(":{}", fault.line) : "";
             std::cout << terminal_text(
-                fmt::format("{}{}: {}\n", (lesson.folder / fault.file).string(), line, fault.what));
+                fmt::format("{}{}: {}\n", (lesson.folder / fault.file).string(), line, message_text(fault.what)));
         }
         if (found.empty()) std::cout << what << ": in order\n";
         faults += found.size();
@@ -45,8 +45,11 @@ int test_lesson(const TestLessonArguments& words) {
         tell(found, "documents");
     }
     if (faults > 0)
-        std::cerr << fmt::format("dynlab: {} in {}{}\n", counted(faults, "fault"), lesson.slug,
-                                 readable ? "" : "; nothing was run");
+        std::cerr << "dynlab: "
+                  << message_text(readable ? plural(faults, "{} fault in {}", "{} faults in {}", lesson.slug)
+                                           : plural(faults, "{} fault in {}; nothing was run",
+                                                    "{} faults in {}; nothing was run", lesson.slug))
+                  << '\n';
     return faults == 0 ? kDone : kFailed;
 }
 

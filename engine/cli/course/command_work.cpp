@@ -32,10 +32,10 @@ int work(const WorkArguments& words) {
 }
 
 std::string state_of(const WorkerStatus& worker, bool beats) {
-    if (!worker.refused.empty()) return "refused: " + worker.refused;
+    if (!worker.refused.empty()) return message_text(Message("refused: {}", worker.refused));
     if (worker.ended) return "ended";
     if (!beats) return "silent";
-    return worker.trouble.empty() ? "works" : "waits: " + worker.trouble;
+    return worker.trouble.empty() ? "works" : message_text(Message("waits: {}", worker.trouble));
 }
 
 /// Two looks a little apart: whose heart beats, and what they did meanwhile.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iostream>
 
+#include "base/languages.h"
 #include "cli/commands.h"
 #include "documents/template_file.h"
 #include "platform/error.h"
@@ -22,36 +23,13 @@ struct HintArguments {
     bool next = false, all = false;
 };
 
-/// What stands around the hints.
-struct HintWords {
-    const char *lesson, *question, *listed, *first, *hint, *more, *last;
-};
-constexpr HintWords kEnglishHintWords = {
-    "Lesson {}\n\n",
-    "Lesson {}, question {}\n",
-    "question {:>2}   {} hints, {} seen\n",
-    "\nThe first one of a question:  dynlab hint {} {}\n",
-    "\nHint {} of {}\n",
-    "\n{} more:  dynlab hint {} {} --next\n",
-    "\nThis is the last one. The worked solution:  dynlab report {}\n",
-};
-constexpr HintWords kFrenchHintWords = {
-    "Leçon {}\n\n",
-    "Leçon {}, question {}\n",
-    "question {:>2}   indices : {}, déjà vus : {}\n",
-    "\nLe premier d'une question :  dynlab hint {} {}\n",
-    "\nIndice {} sur {}\n",
-    "\nEncore {} :  dynlab hint {} {} --next\n",
-    "\nC'est le dernier. Le corrigé :  dynlab report {} --lang fr\n",
-};
-const HintWords& hint_words(const Lesson& lesson, const std::string& language) {
-    return language == "fr" && std::filesystem::is_regular_file(lesson.hints(language)) ? kFrenchHintWords
-                                                                                        : kEnglishHintWords;
+/// English, where the lesson has no hints in that language.
+Reader reader_of_hints(const Lesson& lesson, const std::string& language) {
+    return {std::filesystem::is_regular_file(lesson.hints(language)) ? catalog_of(language) : nullptr};
 }
 
-template <class... Values>
-void say(const char* words, const Values&... values) {
-    std::cout << fmt::format(fmt::runtime(words), values...);
+void say(const Message& message, const Reader& reader) {
+    std::cout << message_text(message, reader) << "\n";
 }
 
 /// The lesson that is named, or that the copy in this folder is of, whose report also tells the language.
@@ -63,7 +41,7 @@ Lesson lesson_to_help(HintArguments& words) {
         if (const auto found = metadata.find("lang"); found != metadata.end()) words.language = found->second;
     }
     const std::string name = read_percent_script(folder / "analysis.lua").header.lesson;
-    if (name.empty()) throw EnvironmentError((folder / "analysis.lua").string() + " does not name its lesson");
+    if (name.empty()) throw EnvironmentError("{} does not name its lesson", (folder / "analysis.lua").string());
     words.lesson = name;
     return find_lesson(name);
 }
@@ -72,21 +50,23 @@ Hints hints_of(const Lesson& lesson, const std::string& language) {
     for (const std::string& wanted : {language, std::string("en")})
         if (!wanted.empty() && std::filesystem::is_regular_file(lesson.hints(wanted)))
             return read_hints(lesson.hints(wanted));
-    throw EnvironmentError("lesson " + lesson.slug + " has no hints (" + lesson.hints("en").string() + ")");
+    throw EnvironmentError("lesson {} has no hints ({})", lesson.slug, lesson.hints("en").string());
 }
 
-int list_hints(const Lesson& lesson, const Hints& hints, const std::string& name, const HintWords& words) {
-    say(words.lesson, lesson.slug);
+int list_hints(const Lesson& lesson, const Hints& hints, const std::string& name, const Reader& reader) {
+    say(Message("Lesson {}\n", lesson.slug), reader);
     for (const auto& [question, stages] : hints)
-        say(words.listed, question, stages.size(), std::min(HintsSeen(lesson.slug, question).count(), stages.size()));
-    say(words.first, name, hints.begin()->first);
+        say(Message("question {}   {} hints, {} seen", fmt::format("{:>2}", question), stages.size(),
+                    std::min(HintsSeen(lesson.slug, question).count(), stages.size())),
+            reader);
+    say(Message("\nThe first one of a question:  dynlab hint {} {}", name, hints.begin()->first), reader);
     return kDone;
 }
 
-void show_stages(const std::vector<std::string>& stages, std::size_t shown, const HintWords& words) {
+void show_stages(const std::vector<std::string>& stages, std::size_t shown, const Reader& reader) {
     const std::size_t width = columns_of_text(kHelpWidth);
     for (std::size_t i = 0; i < shown; ++i) {
-        say(words.hint, i + 1, stages.size());
+        say(Message("\nHint {} of {}", i + 1, stages.size()), reader);
         std::cout << laid_out(stages[i], width);
     }
 }
@@ -95,13 +75,13 @@ int give_hint(HintArguments words) {
     const std::string name = shell_word(words.lesson);
     const Lesson lesson = lesson_to_help(words);
     const Hints hints = hints_of(lesson, words.language);
-    if (hints.empty()) throw EnvironmentError("the hints of lesson " + lesson.slug + " are empty");
-    const HintWords& sentences = hint_words(lesson, words.language);
-    if (words.question == 0) return list_hints(lesson, hints, name, sentences);
+    if (hints.empty()) throw EnvironmentError("the hints of lesson {} are empty", lesson.slug);
+    const Reader reader = reader_of_hints(lesson, words.language);
+    if (words.question == 0) return list_hints(lesson, hints, name, reader);
     const auto found = hints.find(words.question);
     if (found == hints.end())
-        throw EnvironmentError(fmt::format("lesson {} has no hints for question {}; it has some for {} to {}",
-                                           lesson.slug, words.question, hints.begin()->first, hints.rbegin()->first));
+        throw EnvironmentError("lesson {} has no hints for question {}; it has some for {} to {}", lesson.slug,
+                               words.question, hints.begin()->first, hints.rbegin()->first);
     const std::vector<std::string>& stages = found->second;
     const HintsSeen seen(lesson.slug, words.question);
     if (words.next && !seen.lasting())
@@ -110,13 +90,17 @@ int give_hint(HintArguments words) {
     const std::size_t shown = words.all    ? stages.size()
                               : words.next ? std::min(before + 1, stages.size())
                                            : std::max<std::size_t>(before, 1);
-    say(sentences.question, lesson.slug, words.question);
-    show_stages(stages, shown, sentences);
+    say(Message("Lesson {}, question {}", lesson.slug, words.question), reader);
+    show_stages(stages, shown, reader);
     seen.remember(std::max(shown, before));
     if (const std::size_t left = stages.size() - shown; left > 0)
-        say(sentences.more, left, name, words.question);
+        say(Message("\n{} more:  dynlab hint {} {} --next", left, name, words.question), reader);
     else
-        say(sentences.last, lesson.slug);
+        say(words.language.empty() || words.language == "en"
+                ? Message("\nThis is the last one. The worked solution:  dynlab report {}", lesson.slug)
+                : Message("\nThis is the last one. The worked solution:  dynlab report {} --lang {}", lesson.slug,
+                          words.language),
+            reader);
     return kDone;
 }
 
@@ -131,7 +115,7 @@ void add_hint(CLI::App& app, Action& action) {
     CLI::Option* next = command->add_flag("--next", words->next, "One hint more than were seen so far");
     command->add_flag("--all", words->all, "All hints of the question")->excludes(next);
     command->add_option("--lang", words->language, "Language, where the lesson has hints in it")
-        ->check(CLI::IsMember({"en", "fr"}));
+        ->check(CLI::IsMember(languages()));
     command->footer("Examples:  dynlab hint 04 4     dynlab hint 04 4 --next     dynlab hint my-work");
     command->callback([words, &action] { action = [words] { return give_hint(*words); }; });
 }

@@ -1,5 +1,6 @@
 #include <cstdio>
 
+#include "base/error.h"
 #include "cli/commands.h"
 #include "cli/document_command.h"
 #include "numerics/error.h"
@@ -30,9 +31,9 @@ std::string script_of(const IdentifyRequest& request) {
     try {
         return identification_script(request);
     } catch (const UnknownSampling& error) {
-        throw EnvironmentError(std::string(error.what()) +
-                               "; give --Ts SECONDS or --time NAME, or write '# Ts: 0.01' into the first line of a "
-                               "CSV file");
+        throw EnvironmentError(
+            "{}; give --Ts SECONDS or --time NAME, or write '# Ts: 0.01' into the first line of a CSV file",
+            message_of(error));
     }
 }
 

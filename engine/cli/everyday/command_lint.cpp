@@ -4,6 +4,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "base/reader.h"
 #include "cli/commands.h"
 #include "cli/options/script_options.h"
 #include "documents/text_lines.h"
@@ -38,7 +39,7 @@ std::vector<std::string> names_in(const std::string& file, const CheckNames& che
 
 /// Where editors find it; in a notebook, where people do.
 std::string finding_place(const LintFinding& found, const std::string& file, const std::string& source) {
-    const std::string cell = is_notebook(file) ? place_in_notebook(source, found.line) : "";
+    const std::string cell = is_notebook(file) ? message_text(place_in_notebook(source, found.line)) : "";
     return cell.empty() ? fmt::format("{}:{}:{}", file, found.line, found.column) : fmt::format("{}, {}", file, cell);
 }
 
@@ -53,8 +54,8 @@ int lint(const LintArguments& words, const CheckNames& check_names) {
                            {"line", found.line},
                            {"column", found.column},
                            {"kind", found.kind},
-                           {"message", found.message}});
-            text += fmt::format("{}: {}\n", finding_place(found, file, source), found.message);
+                           {"message", message_text(found.message)}});
+            text += fmt::format("{}: {}\n", finding_place(found, file, source), message_text(found.message));
         }
     }
     if (words.json)

@@ -1,6 +1,7 @@
 #include <iostream>
 #include <optional>
 
+#include "base/languages.h"
 #include "cli/commands.h"
 #include "platform/error.h"
 #include "platform/terminal/activity_line.h"
@@ -18,7 +19,7 @@ struct NewArguments {
 };
 
 int make_editor_files(const std::string& folder) {
-    if (!std::filesystem::is_directory(folder)) throw EnvironmentError("there is no folder " + folder);
+    if (!std::filesystem::is_directory(folder)) throw EnvironmentError("there is no folder {}", folder);
     for (const std::string& kept : write_editor_files(folder))
         std::cout << kept << " is there already and stays as it is\n";
     std::cout << folder << ": editors complete and check the functions of dynlab in it\n";
@@ -70,7 +71,7 @@ void add_new(CLI::App& app, Action& action) {
         ->type_name("N")
         ->check(CLI::Range(1u, 4294967295u));
     command->add_option("--lang", words->language, "Language of the report, where it is not the lesson's")
-        ->check(CLI::IsMember({"en", "fr"}));
+        ->check(CLI::IsMember(languages()));
     command->footer(
         "Examples:  dynlab new 02 my-work     dynlab new review my-review --lang fr\n"
         "dynlab new lesson DIR makes a small lesson of your own with checks, to be changed: dynlab help "

@@ -1,5 +1,6 @@
 #include <iostream>
 
+#include "base/languages.h"
 #include "cli/commands.h"
 #include "figures/gnuplot_renderer.h"
 #include "platform/atomic_file.h"
@@ -50,7 +51,7 @@ int write_with_outputs(const NotebookArguments& words, const PercentScript& scri
     const RunRecord record = run_script(request, renderer);
     std::map<std::string, std::string> figures;
     for (const auto& [name, figure] : record.figures)
-        figures[name] = figure_bundle(*figure.figure, renderer, script.header.language == "fr");
+        figures[name] = figure_bundle(*figure.figure, renderer, Reader{catalog_of(script.header.language)});
     write(words, ".ipynb", notebook_of(script, &record, figures));
     if (!record.error) return kDone;
     std::cerr << "dynlab: " << terminal_text(error_text(*record.error, script)) << '\n';
@@ -61,7 +62,8 @@ int convert(const NotebookArguments& words) {
     if (is_notebook(words.file)) {
         const NotebookScript script = read_notebook(words.file);
         parse_percent_script(script.source, words.file);  // throws where the cells do not make a script
-        for (const std::string& loss : script.losses) std::cerr << "dynlab: note: " << terminal_text(loss) << '\n';
+        for (const Message& loss : script.losses)
+            std::cerr << "dynlab: note: " << terminal_text(message_text(loss)) << '\n';
         write(words, ".lua", script.source);
         return kDone;
     }

@@ -1,3 +1,4 @@
+#include "base/languages.h"
 #include "cli/commands.h"
 #include "cli/document_command.h"
 #include "cli/options/script_options.h"
@@ -38,7 +39,7 @@ void add_report(CLI::App& app, Action& action) {
     command->add_option("--record", words->record, "Where to write what the script gave, too (.json)")
         ->type_name("FILE");
     command->add_option("--lang", words->language, "Language of a lesson's report, where it has several")
-        ->check(CLI::IsMember({"en", "fr"}));
+        ->check(CLI::IsMember(languages()));
     command->add_flag("--timings", words->timings, "Say how long each step took");
     command->add_flag("--stay-in-folder", words->stay_in_folder, "")->group("");  // what check wants
     words->seed.add_to(*command);

@@ -4,9 +4,9 @@
 
 #include <iostream>
 
+#include "base/languages.h"
 #include "cli/commands.h"
 #include "cli/options/run_command.h"
-#include "figures/french_texts.h"
 #include "figures/gnuplot_script.h"
 #include "platform/atomic_file.h"
 #include "platform/terminal/activity_line.h"
@@ -55,13 +55,12 @@ void save_figures(RunRecord& record, GnuplotRenderer& renderer, const fs::path& 
 
 /// Beside each figure what gnuplot draws it from.
 void save_gnuplot_files(const RunRecord& record, const std::string& language) {
-    const bool french = language == "fr";
+    const Reader reader{catalog_of(language)};
     for (const auto& [name, figure] : record.figures) {
         fs::path file = figure.file;
         const std::string drawn = file.filename().string();
-        write_file_atomically(
-            file.replace_extension(".gp"),
-            gnuplot_file(french ? in_french(*figure.figure) : *figure.figure, FigureFormat::kPdf, drawn, french));
+        write_file_atomically(file.replace_extension(".gp"),
+                              gnuplot_file(*figure.figure, FigureFormat::kPdf, drawn, reader));
     }
 }
 
@@ -74,14 +73,14 @@ void show_reported(const PercentScript& script, const RunRecord& record) {
     for (const auto& [name, text] : record.texts)
         std::cout << terminal_text(fmt::format("text {}: {}\n", name, text.markdown));
     std::cout.flush();
-    for (const std::string& sentence : entries_without_place(script, record))
-        std::cerr << "dynlab: note: " << terminal_text(sentence) << '\n';
+    for (const UnplacedEntries& entries : entries_without_place(script, record))
+        std::cerr << "dynlab: note: " << terminal_text(message_text(entries.message())) << '\n';
 }
 
 RunRecord run_showing_activity(RunRequest& request, GnuplotRenderer& renderer) {
     ActivityLine activity;
     request.print = [&activity](const std::string& text) { activity.print(text, print_shown); };
-    request.enter_cell = [&activity](const std::string& cell) { activity.begin_part(cell); };
+    request.enter_cell = [&activity](const Message& cell) { activity.begin_part(message_text(cell)); };
     return run_script(request, renderer);
 }
 

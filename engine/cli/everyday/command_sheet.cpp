@@ -1,3 +1,4 @@
+#include "base/languages.h"
 #include "cli/commands.h"
 #include "cli/document_command.h"
 
@@ -16,7 +17,7 @@ void add_sheet(CLI::App& app, Action& action) {
         command->add_flag("--talk", *talk, "Instead: questions that a talk on the lesson may meet (NN_name_talk.pdf)");
     command->add_flag("--answers", *answers, "With the model answers, for whoever asks")->needs(questions);
     command->add_option("--lang", *language, "Language of the tasks, where the lesson has several")
-        ->check(CLI::IsMember({"en", "fr"}))
+        ->check(CLI::IsMember(languages()))
         ->excludes(questions);
     command->footer(
         "Examples:  dynlab sheet 02     dynlab sheet 03_crane --lang fr     dynlab sheet 05 --talk --answers");

@@ -21,7 +21,7 @@ std::optional<std::pair<std::string, double>> parse_setting(const std::string& t
 }  // namespace
 
 void refuse_other_files(const std::string& given, const std::string& command) {
-    if (const std::string why = why_no_script(given, command); !why.empty()) throw CLI::ValidationError(why);
+    if (const Message why = why_no_script(given, command); !why.empty()) throw CLI::ValidationError(message_text(why));
 }
 
 void SeedOption::add_to(CLI::App& command) {

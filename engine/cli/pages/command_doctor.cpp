@@ -5,6 +5,7 @@
 
 #include "app/kernel/kernel_spec.h"
 #include "app/page/page_routes.h"
+#include "base/reader.h"
 #include "cli/commands.h"
 #include "data_io/dataset_index.h"
 #include "numerics/linalg/processor_level.h"
@@ -69,7 +70,8 @@ std::set<std::string> check_latex() {
 /// How far grading can keep what students hand in apart.
 void check_isolation() {
     const auto obstacle = obstacle_to(Isolation::kFull);
-    show("isolation", obstacle ? "process only; " + *obstacle : "full (bubblewrap, seccomp), for grading", !obstacle);
+    show("isolation", obstacle ? "process only; " + message_text(*obstacle) : "full (bubblewrap, seccomp), for grading",
+         !obstacle);
 }
 
 /// Looks for the data sets; returns the packages whose records are missing.

@@ -2,6 +2,7 @@
 
 #include <iostream>
 
+#include "base/reader.h"
 #include "cli/commands.h"
 #include "platform/terminal/activity_line.h"
 #include "workflow/manual/make_manual.h"
@@ -20,10 +21,10 @@ void add_manual(CLI::App& app, Action& action) {
     command->callback([request, timings, &action] {
         action = [request, timings]() -> int {
             ActivityLine activity;
-            request->step = [&activity](const std::string& step) { activity.begin_step(step); };
+            request->step = [&activity](const Message& step) { activity.begin_step(message_text(step)); };
             const ManualResult made = make_manual(*request);
             for (const auto& [step, seconds] : made.timings)
-                if (*timings) std::cout << fmt::format("{:6.2f} s  {}\n", seconds, step);
+                if (*timings) std::cout << fmt::format("{:6.2f} s  {}\n", seconds, message_text(step));
             const auto first = std::filesystem::absolute(request->folder / "index.html").lexically_normal();
             std::cout << fmt::format("{}\n{} pages, and manual.pdf\n", first.string(), made.pages);
             return kDone;

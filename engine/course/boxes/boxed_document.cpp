@@ -78,7 +78,7 @@ void BoxedDocuments::make(const std::string& template_name, const RunRecord& rec
     }
     job.to = box.add_writable(made.path(), "/box/made") / output.filename();
     const auto result = run_boxed(box, program_, job, {kTimeOfDocument});
-    if (!result.output) throw EnvironmentError(output.filename().string() + " cannot be made: " + result.reason);
+    if (!result.output) throw EnvironmentError("{} cannot be made: {}", output.filename().string(), result.reason);
     place_all(made.path(), output.parent_path());
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "base/message.h"
 #include "documents/run_record.h"
 #include "platform/box.h"
 #include "platform/temporary_folder.h"
@@ -40,7 +41,7 @@ class BoxedDocuments {
 
 /// What comes of a job whose result is files.
 struct BoxedOutcome {
-    std::optional<std::string> error;  ///< a sentence; nothing where all went well
+    std::optional<Message> error;  ///< a sentence; nothing where all went well
 };
 
 /// A document to be made inside a box; all paths are those in the box.

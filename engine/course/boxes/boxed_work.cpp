@@ -1,7 +1,5 @@
 #include "course/boxes/boxed_work.h"
 
-#include <fmt/format.h>
-
 #include "platform/program_lookup.h"
 
 namespace dynlab::inline course {
@@ -21,13 +19,15 @@ ValueLimits boxed_limits(std::uint64_t bytes) {
     return limits;
 }
 
-std::string reason_of_end(const ChildResult& child, const TimeLimits& time) {
-    if (child.timed_out) return "it " + time.told(child.time_limit());
-    if (child.output_exceeded) return "it gave out too much";
-    if (child.exit_code > 128) return fmt::format("it crashed (signal {})", child.exit_code - 128);
-    if (child.exit_code == 0) return "";
-    return fmt::format("it ended with code {}: {}", child.exit_code,
-                       child.error_output.substr(0, child.error_output.find('\n')));
+Message reason_of_end(const ChildResult& child, const TimeLimits& time) {
+    if (child.time_limit() == TimeLimit::kProcessor)
+        return Message("it used more than {} s of processor time", time.seconds(TimeLimit::kProcessor));
+    if (child.timed_out) return Message("it had not ended after {} s", time.seconds(TimeLimit::kClock));
+    if (child.output_exceeded) return Message("it gave out too much");
+    if (child.exit_code > 128) return Message("it crashed (signal {})", child.exit_code - 128);
+    if (child.exit_code == 0) return {};
+    return Message("it ended with code {}: {}", child.exit_code,
+                   child.error_output.substr(0, child.error_output.find('\n')));
 }
 
 std::filesystem::path program_for(const std::string& work, const std::filesystem::path& dynlab) {

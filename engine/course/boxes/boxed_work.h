@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "base/message.h"
 #include "data_io/values/cbor_values.h"
 #include "platform/box.h"
 
@@ -14,13 +15,13 @@ namespace dynlab::inline course {
 template <class Result>
 struct BoxedResult {
     std::optional<Result> output;  ///< what the work returned; nothing when it did not finish
-    std::string reason;            ///< then: "it used more than 10 s of processor time", "it crashed (signal 11)", ...
+    Message reason;                ///< then: "it used more than 10 s of processor time", "it crashed (signal 11)", ...
     double seconds = 0;            ///< wall clock, box and start included
 };
 
 /// Why a process that should have done its work within `time` has not: "it used more than 10 s of processor time", ...;
 /// empty where it has.
-std::string reason_of_end(const ChildResult& child, const TimeLimits& time);
+Message reason_of_end(const ChildResult& child, const TimeLimits& time);
 
 /// The program beside `dynlab` that does such work: dynlab-boxed, which starts most quickly, or dynlab-course, which
 /// makes versions.
@@ -45,7 +46,7 @@ BoxedResult<typename Job::Result> run_boxed(Box& box, const std::filesystem::pat
     try {
         result.output = from_cbor<typename Job::Result>(*child.output, boxed_limits(output_bytes));
     } catch (const ValueError&) {
-        result.reason = "its result cannot be read";
+        result.reason = Message("its result cannot be read");
     }
     return result;
 }

@@ -5,7 +5,6 @@
 #include "course/boxes/told_reason.h"
 #include "documents/error.h"
 #include "documents/percent_script.h"
-#include "documents/words/sentence_catalogue.h"
 #include "figures/gnuplot_renderer.h"
 #include "platform/cache.h"
 #include "platform/confinement.h"
@@ -56,7 +55,7 @@ GradedRun graded_run(RunRecord&& record, const PercentScript& script) {
     for (const auto& [name, figure] : record.figures) run.figures.push_back(name);
     for (const auto& [name, value] : record.values) run.values.push_back(name);
     run.answers = std::move(record.answers);
-    if (record.error) run.error = record.error->message;
+    if (record.error) run.error = with_place(*record.error);
     return run;
 }
 
@@ -68,7 +67,6 @@ GradedRun run_for_grading(const RunJob& job) {
     limits.memory_bytes = job.memory_bytes + (2ull << 30);
     limits.open_files = kOpenFiles;
     confine_process(limits);
-    if (!job.french_sentences.empty()) read_french_engine_sentences_from(job.french_sentences);
     try {
         const PercentScript script = read_for_grading(job);
         GnuplotRenderer renderer;
@@ -88,7 +86,7 @@ GradedRun run_for_grading(const RunJob& job) {
     } catch (const DocumentError& error) {
         GradedRun unread;
         unread.began = false;
-        unread.error = told_outside(error.what(), job.script.parent_path());
+        unread.error = told_outside(error.message(), job.script.parent_path());
         return unread;
     }
 }

@@ -16,7 +16,7 @@ struct GradedRun {
     std::map<std::string, RecordedAnswer> answers;
     std::vector<std::string> figures, values;  ///< their names
     std::string printed;                       ///< the end of what it printed
-    std::optional<std::string> error;          ///< the message
+    std::optional<Message> error;              ///< with its place
     double seconds = 0;                        ///< of processor time that the script used
     std::string lesson = {};                   ///< as the script's header names it
     bool began = true;                         ///< false for a script that cannot be read
@@ -28,7 +28,6 @@ struct RunJob {
     using Result = GradedRun;
 
     std::filesystem::path script;
-    std::filesystem::path french_sentences;  ///< what models print in a French script: file_of_french_engine_sentences
     std::uint32_t seed = 1;
     std::vector<ExpectedAnswer> answers;  ///< as the lesson declares them
     std::int64_t time_ms = 0;             ///< most milliseconds of processor time

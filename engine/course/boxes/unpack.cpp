@@ -2,7 +2,6 @@
 
 #include <archive.h>
 #include <archive_entry.h>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
@@ -10,7 +9,9 @@
 #include <fstream>
 #include <memory>
 
+#include "base/error.h"
 #include "platform/confinement.h"
+#include "platform/error.h"
 #include "platform/system_call.h"
 #include "platform/text/foreign_text.h"
 #include "platform/utf8_locale.h"
@@ -25,19 +26,20 @@ using Archive = std::unique_ptr<archive, int (*)(archive*)>;
 constexpr std::size_t kReadBlock = 64u << 10;
 constexpr int kDeepestArchive = 20;
 
-/// Why an entry of this name must not be in a folder; nothing where it may.
-std::optional<std::string> objection_to(const fs::path& path) {
+/// Why an entry of this name must not be in a folder, as a clause; nothing where it may.
+std::optional<Message> objection_to(const fs::path& path) {
     constexpr std::size_t kLongestName = 255;  // of a file system
     const std::string& text = path.native();
+    const Message outside = Message("\"{}\" leads outside of the archive", text);
     const bool on_a_drive = text.size() > 1 && std::isalpha(static_cast<unsigned char>(text[0])) && text[1] == ':';
-    if (path.is_absolute() || on_a_drive) return "leads outside of the archive";
+    if (path.is_absolute() || on_a_drive) return outside;
     int depth = 0;
     for (const fs::path& part : path) {
-        if (part == "..") return "leads outside of the archive";
-        if (++depth > kDeepestArchive) return fmt::format("lies deeper than {} folders", kDeepestArchive);
-        if (part.native().size() > kLongestName) return "has a name that is too long";
+        if (part == "..") return outside;
+        if (++depth > kDeepestArchive) return Message("\"{}\" lies deeper than {} folders", text, kDeepestArchive);
+        if (part.native().size() > kLongestName) return Message("\"{}\" has a name that is too long", text);
         for (const unsigned char c : part.native())
-            if (c < 0x20 || c == 0x7F) return "has a name with control characters";
+            if (c < 0x20 || c == 0x7F) return Message("\"{}\" has a name with control characters", text);
     }
     return {};
 }
@@ -72,21 +74,23 @@ class Unpacker {
   private:
     [[noreturn]] void fail() const {
         const char* const reason = archive_error_string(archive_.get());
-        throw std::runtime_error(fmt::format("the archive cannot be read: {}", reason ? reason : "it is damaged"));
+        if (reason != nullptr) throw EnvironmentError("the archive cannot be read: {}", reason);
+        throw EnvironmentError("the archive cannot be read: it is damaged");
     }
 
     void take(archive_entry* entry) {
-        if (--files_left_ < 0)
-            throw std::runtime_error(fmt::format("the archive holds too many files, more than {}", most_files_));
+        if (--files_left_ < 0) throw EnvironmentError("the archive holds too many files, more than {}", most_files_);
         const char* const name = archive_entry_pathname(entry);
-        if (name == nullptr || *name == '\0') return leave_out(entry, "the name of a file in it cannot be read");
+        if (name == nullptr || *name == '\0')
+            return leave_out(entry, Message("the name of a file in it cannot be read"));
         std::string text = utf8_of_name(name);
         std::replace(text.begin(), text.end(), '\\', '/');
         const fs::path path(text);
         const auto type = archive_entry_filetype(entry);
         const bool ordinary = (type == AE_IFREG || type == AE_IFDIR) && archive_entry_hardlink(entry) == nullptr;
-        const std::optional<std::string> objection = ordinary ? objection_to(path) : "is a link or not a regular file";
-        if (objection) return leave_out(entry, fmt::format("\"{}\" {}", text, *objection));
+        const std::optional<Message> objection =
+            ordinary ? objection_to(path) : Message("\"{}\" is a link or not a regular file", text);
+        if (objection) return leave_out(entry, *objection);
         if (type == AE_IFDIR) {
             fs::create_directories(to_ / path);
             return;
@@ -100,15 +104,14 @@ class Unpacker {
     }
 
     /// What is passed over has to be unpacked as well.
-    void leave_out(archive_entry* entry, const std::string& clause) {
+    void leave_out(archive_entry* entry, const Message& clause) {
         left_out_.push_back(clause);
         if (archive_entry_size_is_set(entry)) use(static_cast<std::uint64_t>(archive_entry_size(entry)));
     }
 
     void use(std::uint64_t bytes) {
         if (bytes > bytes_left_)
-            throw std::runtime_error(
-                fmt::format("the archive is too large once unpacked, more than {} MB", most_bytes_ >> 20));
+            throw EnvironmentError("the archive is too large once unpacked, more than {} MB", most_bytes_ >> 20);
         bytes_left_ -= bytes;
     }
 
@@ -123,8 +126,8 @@ class Unpacker {
         if (count < 0) fail();
         out.close();  // the last bytes may not find room either
         if (!out)
-            throw std::runtime_error(
-                fmt::format("the archive cannot be unpacked: {}: {}", file.filename().string(), system_reason(errno)));
+            throw EnvironmentError("the archive cannot be unpacked: {}: {}", file.filename().string(),
+                                   system_reason(errno));
     }
 
     fs::path to_;
@@ -133,7 +136,7 @@ class Unpacker {
     bool keep_times_;
     Utf8Locale names_;  // libarchive gives names in the character set of the locale
     Archive archive_;
-    std::vector<std::string> left_out_;
+    std::vector<Message> left_out_;
 };
 
 }  // namespace
@@ -145,7 +148,7 @@ Unpacked unpack_archive(const UnpackJob& job) {
     try {
         return Unpacker(job).unpack();
     } catch (const std::runtime_error& error) {
-        return {{}, error.what()};
+        return {{}, message_of(error)};
     }
 }
 

@@ -5,11 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
+
 namespace dynlab::inline course {
 
 struct Unpacked {
-    std::vector<std::string> left_out;  ///< what did not come out and why: "\"../x\" leads outside of the archive"
-    std::optional<std::string> error;   ///< a sentence; then the archive is not unpacked whole
+    std::vector<Message> left_out;  ///< what did not come out and why: "\"../x\" leads outside of the archive"
+    std::optional<Message> error;   ///< a sentence; then the archive is not unpacked whole
 };
 
 /// An archive (zip, tar, with or without compression) to be unpacked for grading.

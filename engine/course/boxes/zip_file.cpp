@@ -2,8 +2,6 @@
 
 #include <archive.h>
 #include <archive_entry.h>
-#include <fmt/format.h>
-
 #include <memory>
 
 #include "platform/atomic_file.h"
@@ -26,7 +24,7 @@ void write_zip(const std::filesystem::path& file, const std::map<std::string, st
     const std::unique_ptr<archive, int (*)(archive*)> zip(archive_write_new(), archive_write_free);
     const auto check = [&](int status) {
         if (status < ARCHIVE_WARN)
-            throw EnvironmentError(fmt::format("cannot write {}: {}", file.string(), archive_error_string(zip.get())));
+            throw EnvironmentError("cannot write {}: {}", file.string(), archive_error_string(zip.get()));
     };
     check(archive_write_set_format_zip(zip.get()));
     // Without times in the extra fields, and in UTF-8.

@@ -17,12 +17,12 @@ bool plain_id(const std::string& id) {
 }
 
 /// The option's place in Lua's registry; 0 where it is not given and need not be.
-int kept_option(const Options& options, const char* name, int type, const std::string& owner, const char* wanted,
+int kept_option(const Options& options, const char* name, int type, const Message& owner, const Message& wanted,
                 bool needed) {
     lua_State* L = options.call().state();
     const int index = options.push(name);
     if (lua_isnil(L, index) && !needed) return 0;
-    if (lua_type(L, index) != type) throw InvalidArgument(fmt::format("\"{}\" of {} must be {}", name, owner, wanted));
+    if (lua_type(L, index) != type) throw InvalidArgument("\"{}\" of {} must be {}", name, owner, wanted);
     lua_pushvalue(L, index);
     return luaL_ref(L, LUA_REGISTRYINDEX);
 }
@@ -30,7 +30,7 @@ int kept_option(const Options& options, const char* name, int type, const std::s
 double points_option(const Options& options, const std::string& id, double fallback) {
     const double points = options.number("points", fallback);
     if (!(points > 0) || points > kMostPoints)
-        throw InvalidArgument(fmt::format("the points of \"{}\" must be a number above 0, at most 1000", id));
+        throw InvalidArgument("the points of \"{}\" must be a number above 0, at most 1000", id);
     return points;
 }
 
@@ -43,7 +43,7 @@ int check(Call& call) {
     check.id = options.text("id", "");
     if (!plain_id(check.id)) throw InvalidArgument("a check needs an id of letters, digits and _");
     for (const DeclaredCheck& other : session.checks)
-        if (other.id == check.id) throw InvalidArgument(fmt::format("there are two checks \"{}\"", check.id));
+        if (other.id == check.id) throw InvalidArgument("there are two checks \"{}\"", check.id);
     check.points = points_option(options, check.id, 1);
     check.about = options.text("about", check.id);
     check.hint = options.text("hint", "");
@@ -53,13 +53,13 @@ int check(Call& call) {
     check.rubric = options.text("rubric", "");
     check.visible = session.visible_file;
     if (check.by_hand && (options.has("test") || options.has("rerun") || options.has("mistakes")))
-        throw InvalidArgument(fmt::format("\"{}\" is marked by hand: it has no test, rerun or mistakes", check.id));
+        throw InvalidArgument("\"{}\" is marked by hand: it has no test, rerun or mistakes", check.id);
     if (!check.by_hand && options.has("rubric"))
-        throw InvalidArgument(fmt::format("\"{}\" has a rubric: it needs by_hand = true", check.id));
-    const std::string owner = fmt::format("the check \"{}\"", check.id);
-    check.test = kept_option(options, "test", LUA_TFUNCTION, owner, "a function", !check.by_hand);
+        throw InvalidArgument("\"{}\" has a rubric: it needs by_hand = true", check.id);
+    const Message owner = Message("the check \"{}\"", check.id);
+    check.test = kept_option(options, "test", LUA_TFUNCTION, owner, Message("a function"), !check.by_hand);
     check.mistakes =
-        kept_option(options, "mistakes", LUA_TTABLE, owner, "a list of {when = function, say = text}", false);
+        kept_option(options, "mistakes", LUA_TTABLE, owner, Message("a list of {when = function, say = text}"), false);
     session.checks.push_back(std::move(check));
     return 0;
 }
@@ -71,9 +71,8 @@ std::vector<DeclaredCheck>::iterator declared(CheckSession& session, const std::
     std::vector<std::string> ids;
     for (const DeclaredCheck& check : session.checks) ids.push_back(check.id);
     const auto near = nearest_word(id, ids);
-    throw InvalidArgument(fmt::format(
-        "there is no check \"{}\"; {}", id,
-        near ? fmt::format("did you mean \"{}\"?", *near) : fmt::format("there are {}", fmt::join(ids, ", "))));
+    if (near) throw InvalidArgument("there is no check \"{}\"; did you mean \"{}\"?", id, *near);
+    throw InvalidArgument("there is no check \"{}\"; there are {}", id, listed(ids));
 }
 
 int change_check(Call& call) {
@@ -100,10 +99,10 @@ int declare_rig(Call& call) {
     const Options options(call, 1, {"name", "record", "truth"});
     const std::string name = options.text("name", "");
     if (!plain_id(name)) throw InvalidArgument("a rig needs a name of letters, digits and _: that of its data set");
-    if (session.rigs.contains(name)) throw InvalidArgument(fmt::format("there are two rigs \"{}\"", name));
-    const std::string owner = fmt::format("the rig \"{}\"", name);
-    session.rigs[name] = {kept_option(options, "record", LUA_TFUNCTION, owner, "a function", true),
-                          kept_option(options, "truth", LUA_TFUNCTION, owner, "a function", false)};
+    if (session.rigs.contains(name)) throw InvalidArgument("there are two rigs \"{}\"", name);
+    const Message owner = Message("the rig \"{}\"", name);
+    session.rigs[name] = {kept_option(options, "record", LUA_TFUNCTION, owner, Message("a function"), true),
+                          kept_option(options, "truth", LUA_TFUNCTION, owner, Message("a function"), false)};
     return 0;
 }
 

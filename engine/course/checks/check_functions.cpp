@@ -5,11 +5,12 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <variant>
 
+#include "base/reader.h"
 #include "course/checks/check_records.h"
 #include "course/checks/check_session.h"
 #include "data_io/values/json_values.h"
-#include "numerics/number_text.h"
 #include "platform/spelling.h"
 #include "scripting/answers/answer_value.h"
 #include "scripting/conversions/arguments.h"
@@ -25,12 +26,27 @@ CheckSession& session_of(const Call& call) {
 }
 
 /// A judgement: {share =, message =}.
-int give_judgement(const Call& call, double share, const std::string& message) {
-    return give_table(call, "share", share, "message", message);
+int give_judgement(const Call& call, double share, const Message& message) {
+    const std::string text = message_text(message);
+    session_of(call).said[text] = message;
+    return give_table(call, "share", share, "message", text);
 }
 
-std::string percent_of_share(double share) {
-    return number_text(100 * share, 3) + " %";
+/// What a judgement of this text says; verbatim where the author of the checks wrote it.
+Message message_said(const Call& call, const std::string& text) {
+    const auto& said = session_of(call).said;
+    const auto known = said.find(text);
+    if (known != said.end()) return known->second;
+    return text.empty() ? Message() : Message::verbatim(text);
+}
+
+/// The sentences of a message that lists several, or the message itself.
+std::vector<Message> sentences_of(const Message& message) {
+    if (message.id() == "{}")
+        if (const auto* const list = std::get_if<MessageList>(&message.arguments().front());
+            list != nullptr && list->join == Join::kSentences)
+            return list->items;
+    return {message};
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -80,16 +96,20 @@ int near(Call& call) {
     if (!(most >= 0) || !(half >= most)) throw InvalidArgument("the tolerance must not be negative, nor half below it");
     const Compared compared(call);
     const double apart = compared.distance(absolute);
-    const auto measured = [&](double x) { return absolute ? number_text(x, 3) : percent_of_share(x); };
-    if (apart <= most) return give_judgement(call, 1, "");
+    const auto measured = [&](double x) {
+        return absolute ? Message("{}", significant(x, 3)) : Message("{} %", significant(100 * x, 3));
+    };
+    if (apart <= most) return give_judgement(call, 1, {});
     if (!absolute && compared.comparable() && compared.wanted.isZero(0))
         throw InvalidArgument("a share of 0 is 0: give how far away an answer may be, {abs = ...}");
-    if (!std::isfinite(apart)) return give_judgement(call, 0, "It is not a finite number, or not as many as wanted.");
+    if (!std::isfinite(apart))
+        return give_judgement(call, 0, Message("It is not a finite number, or not as many as wanted."));
     if (on_secret_record(call))
-        return give_judgement(call, apart <= half ? 0.5 : 0, "On a record that you have not seen, it is too far away.");
+        return give_judgement(call, apart <= half ? 0.5 : 0,
+                              Message("On a record that you have not seen, it is too far away."));
     return give_judgement(
         call, apart <= half ? 0.5 : 0,
-        fmt::format("It is {} away from what was expected; at most {} was wanted.", measured(apart), measured(most)));
+        Message("It is {} away from what was expected; at most {} was wanted.", measured(apart), measured(most)));
 }
 
 int points_between(Call& call) {
@@ -97,12 +117,13 @@ int points_between(Call& call) {
     const double x = call.number(1, "x"), low = call.number(2, "low"), high = call.number(3, "high");
     if (!(low != high)) throw InvalidArgument("low and high must differ");
     const double share = std::isfinite(x) ? std::clamp((x - low) / (high - low), 0.0, 1.0) : 0;
-    if (share == 1) return give_judgement(call, 1, "");
+    if (share == 1) return give_judgement(call, 1, {});
     if (on_secret_record(call))
-        return give_judgement(call, share, "On a record that you have not seen, it falls short of full points.");
+        return give_judgement(call, share,
+                              Message("On a record that you have not seen, it falls short of full points."));
     return give_judgement(call, share,
-                          fmt::format("It comes to {}; full points are from {} on, none at {}.", number_text(x, 3),
-                                      number_text(high, 3), number_text(low, 3)));
+                          Message("It comes to {}; full points are from {} on, none at {}.", significant(x, 3),
+                                  significant(high, 3), significant(low, 3)));
 }
 
 /// What a test may return at a stack index: true or false, a share, a judgement.
@@ -119,7 +140,7 @@ Verdict verdict_at(const Call& call, int index) {
         case LUA_TNUMBER: {
             const double share = lua_tonumber(L, index);
             if (share < 0 || share > 1)
-                throw InvalidArgument(fmt::format("a test returned {}; a share is from 0 to 1", number_text(share, 4)));
+                throw InvalidArgument("a test returned {}; a share is from 0 to 1", significant(share, 4));
             verdict.share = std::isfinite(share) ? share : 0;
             break;
         }
@@ -127,7 +148,7 @@ Verdict verdict_at(const Call& call, int index) {
             lua_getfield(L, index, "share");
             verdict = verdict_at(call, lua_gettop(L));
             lua_getfield(L, index, "message");
-            if (lua_type(L, -1) == LUA_TSTRING) verdict.message = lua_tostring(L, -1);
+            if (lua_type(L, -1) == LUA_TSTRING) verdict.message = message_said(call, lua_tostring(L, -1));
             lua_pop(L, 2);
             break;
         default:
@@ -139,15 +160,16 @@ Verdict verdict_at(const Call& call, int index) {
 
 /// The least share, with the messages of what falls short.
 int all_of(Call& call) {
-    Verdict all{1, ""};
+    double least = 1;
+    std::vector<Message> said;
     for (int i = 1; i <= call.count(); ++i) {
         const Verdict one = verdict_at(call, i);
-        const bool new_words =
-            one.share < 1 && !one.message.empty() && all.message.find(one.message) == std::string::npos;
-        if (new_words) all.message += (all.message.empty() ? "" : " ") + one.message;
-        all.share = std::min(all.share, one.share);
+        least = std::min(least, one.share);
+        if (!(one.share < 1) || one.message.empty()) continue;
+        for (Message& sentence : sentences_of(one.message))
+            if (std::ranges::find(said, sentence) == said.end()) said.push_back(std::move(sentence));
     }
-    return give_judgement(call, all.share, all.message);
+    return give_judgement(call, least, sentences(std::move(said)));
 }
 
 int any_of(Call& call) {
@@ -163,27 +185,28 @@ int any_of(Call& call) {
 int differs(Call& call) {
     call.at_most(2);
     constexpr double kEqualityTolerance = 1e-9;
-    if (Compared(call).distance(false) > kEqualityTolerance) return give_judgement(call, 1, "");
-    return give_judgement(call, 0, "It is the same on another record: it must be computed from the data.");
+    if (Compared(call).distance(false) > kEqualityTolerance) return give_judgement(call, 1, {});
+    return give_judgement(call, 0, Message("It is the same on another record: it must be computed from the data."));
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
 // Facts
 
-int has(Call& call, const std::vector<std::string> GradedRun::*names, const char* words) {
-    call.at_most(1);
-    const std::string name = call.text(1, "name");
-    const std::vector<std::string>& there = session_of(call).runs.at(kMainRun).*names;
-    if (std::find(there.begin(), there.end(), name) != there.end()) return give_judgement(call, 1, "");
-    return give_judgement(call, 0, fmt::format("There is no {} \"{}\" in the report.", words, name));
+int has(Call& call, const std::vector<std::string>& names, const Message& otherwise) {
+    const bool there = std::ranges::find(names, call.text(1, "name")) != names.end();
+    return there ? give_judgement(call, 1, {}) : give_judgement(call, 0, otherwise);
 }
 
 int has_figure(Call& call) {
-    return has(call, &GradedRun::figures, "figure");
+    call.at_most(1);
+    return has(call, session_of(call).runs.at(kMainRun).figures,
+               Message("There is no figure \"{}\" in the report.", call.text(1, "name")));
 }
 
 int has_value(Call& call) {
-    return has(call, &GradedRun::values, "value");
+    call.at_most(1);
+    return has(call, session_of(call).runs.at(kMainRun).values,
+               Message("There is no value \"{}\" in the report.", call.text(1, "name")));
 }
 
 /// no_finding(id, ...): none of these findings of the document, or none at all that breaks a rule.
@@ -198,7 +221,7 @@ int no_finding(Call& call) {
                                    : std::find(ids.begin(), ids.end(), finding.id) != ids.end();
         if (concerned) return give_judgement(call, 0, finding.what);
     }
-    return give_judgement(call, 1, "");
+    return give_judgement(call, 1, {});
 }
 
 constexpr const char* kArea = "checks";
@@ -251,22 +274,22 @@ void multiply_on_top(lua_State* L, double factor) {
 
 /// Why an answer cannot be had, in words for the student. Of other runs than that on the student's own records nothing
 /// is told that the script chose itself.
-std::string answer_trouble(const std::string& name, const std::string& run,
-                           const std::map<std::string, RecordedAnswer>& answers) {
+Message answer_trouble(const std::string& name, const std::string& run,
+                       const std::map<std::string, RecordedAnswer>& answers) {
     const auto given = answers.find(name);
     if (run != kMainRun && given != answers.end())
-        return fmt::format("The answer \"{}\" was not handed in as it was asked for.", name);
+        return Message("The answer \"{}\" was not handed in as it was asked for.", name);
     if (given != answers.end()) {
         std::string why = parsed_json(given->second.json).value("why", "");
         if (!why.empty()) why.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(why.front())));
-        return why + ".";
+        return Message::verbatim(why + ".");
     }
     std::vector<std::string> unknown;
     for (const auto& [other, answer] : answers)
         if (run == kMainRun && answer.kind == kRefusedAnswer) unknown.push_back(other);
     const auto near = nearest_word(name, unknown);
-    return fmt::format("The answer \"{}\" was not handed in{}.", name,
-                       near ? fmt::format("; \"{}\" was, which the lesson does not ask for", *near) : "");
+    if (!near) return Message("The answer \"{}\" was not handed in.", name);
+    return Message("The answer \"{}\" was not handed in; \"{}\" was, which the lesson does not ask for.", name, *near);
 }
 
 /// Reads an answer when it is first asked for; upvalue 3 is the name of the run. One that is not there fails the check,
@@ -275,13 +298,13 @@ int answer_of(Call& call) {
     lua_State* L = call.state();
     const std::string name = call.text(2, "name"), run = lua_tostring(L, lua_upvalueindex(3));
     CheckSession& session = session_of(call);
-    const auto refuse = [&session](const std::string& why) { throw InvalidArgument(session.answer_trouble = why); };
+    const auto refuse = [&session](const Message& why) { throw InvalidArgument(session.answer_trouble = why); };
     const auto& answers = session.runs[run].answers;
     const auto answer = answers.find(name);
     if (answer == answers.end() || answer->second.kind == kRefusedAnswer) refuse(answer_trouble(name, run, answers));
     const auto& [kind, text] = answer->second;
     if (kind != "data" && kind != "text" && holds_no_numbers(parsed_json(text)))
-        refuse(fmt::format("The answer \"{}\" holds NaN or infinite numbers.", name));
+        refuse(Message("The answer \"{}\" holds NaN or infinite numbers.", name));
     push_answer_value(L, text);
     if (session.change && session.change->first == name) multiply_on_top(L, session.change->second);
     lua_pushvalue(L, 2);
@@ -304,22 +327,22 @@ void push_answers(const Call& call, const std::string& run) {
 }
 
 /// The sentence of the first typical mistake that was made.
-std::optional<std::string> mistake_made(const Call& call, const DeclaredCheck& check, int answers) {
+std::optional<Message> mistake_made(const Call& call, const DeclaredCheck& check, int answers) {
     if (check.mistakes == 0) return {};
     lua_State* L = call.state();
     const int top = lua_gettop(L);
     lua_rawgeti(L, LUA_REGISTRYINDEX, check.mistakes);
-    std::optional<std::string> said;
+    std::optional<Message> said;
     for (lua_Integer i = 1; !said && lua_rawgeti(L, top + 1, i) == LUA_TTABLE; ++i, lua_settop(L, top + 1)) {
         lua_getfield(L, -1, "say");
         lua_getfield(L, -2, "when");
         if (lua_type(L, -1) != LUA_TFUNCTION || lua_type(L, -2) != LUA_TSTRING)
-            throw InvalidArgument(fmt::format("entry {} of the mistakes must be {{when = function, say = text}}", i));
+            throw InvalidArgument("entry {} of the mistakes must be {when = function, say = text}", i);
         lua_pushvalue(L, answers);
         lua_pushvalue(L, answers + 1);
         // A mistake that cannot be looked for was not made.
         const bool made = lua_pcall(L, 2, 1, 0) == LUA_OK && verdict_at(call, lua_gettop(L)).share == 1;
-        if (made) said = lua_tostring(L, -2);
+        if (made) said = Message::verbatim(lua_tostring(L, -2));
     }
     lua_settop(L, top);
     return said;
@@ -328,12 +351,14 @@ std::optional<std::string> mistake_made(const Call& call, const DeclaredCheck& c
 /// On a record that students must not learn anything about, what an error says may quote it, and so may a number in
 /// what the test says: these words are the instructor's.
 void keep_secret(const CheckSession& session, bool ended, Verdict& verdict) {
-    const bool has_number = verdict.message.find_first_of("0123456789") != std::string::npos;
+    const bool has_number = message_text(verdict.message).find_first_of("0123456789") != std::string::npos;
     if (ended ? !has_number : verdict.message == session.answer_trouble) return;
     if (verdict.for_instructor.empty()) verdict.for_instructor = std::move(verdict.message);
-    verdict.message = ended ? "On a record that you have not seen, it falls short of full points."
-                            : "On a record that you have not seen, the check ended with an error: what it looked at is "
-                              "not of the kind or size that was asked for.";
+    verdict.message =
+        ended ? Message("On a record that you have not seen, it falls short of full points.")
+              : Message(
+                    "On a record that you have not seen, the check ended with an error: what it looked at is not of "
+                    "the kind or size that was asked for.");
 }
 
 int verdict(Call& call) {
@@ -342,7 +367,7 @@ int verdict(Call& call) {
     const DeclaredCheck& check = session.checks.at(static_cast<std::size_t>(call.size(1, "number")));
     session.current = &check;
     session.took_hidden = false;
-    session.answer_trouble.clear();
+    session.answer_trouble = Message();
     const int answers = lua_gettop(L) + 1;
     push_answers(call, kMainRun);
     push_answers(call, check.rerun.empty() ? kMainRun : check.rerun);
@@ -353,13 +378,18 @@ int verdict(Call& call) {
     Verdict found;
     if (ended) {
         found = verdict_at(call, answers + 2);
-        if (lua_type(L, answers + 3) == LUA_TSTRING && found.share < 1) found.message = lua_tostring(L, answers + 3);
+        if (lua_type(L, answers + 3) == LUA_TSTRING && found.share < 1)
+            found.message = message_said(call, lua_tostring(L, answers + 3));
     } else {
         pass_stop_on(L);
-        const std::string error = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : "The check failed.";
+        const PlacedMessage error =
+            lua_type(L, -1) == LUA_TSTRING ? error_at(L, -1) : PlacedMessage{Message("The check failed.")};
         // Where in the checks it happened is nothing to the student.
-        found.message = take_apart(error).text;
-        if (found.message != session.answer_trouble) found.for_instructor = error;
+        found.message = error.message;
+        if (message_text(found.message) == message_text(session.answer_trouble))
+            found.message = session.answer_trouble;
+        else
+            found.for_instructor = error.with_place();
     }
     if (found.share < 1 && on_secret_record(call)) keep_secret(session, ended, found);
     if (found.share < 1)

@@ -38,15 +38,15 @@ int record(Call& call) {
     call_of_rig(call, session.rigs.at(name).record, whole(2), whole(3));
     const int table = lua_gettop(L);
     if (lua_type(L, table) != LUA_TTABLE)
-        throw InvalidArgument(fmt::format("the record of the rig \"{}\" must be a table of vectors", name));
+        throw InvalidArgument("the record of the rig \"{}\" must be a table of vectors", name);
     for (lua_pushnil(L); lua_next(L, table) != 0; lua_settop(L, table + 1)) {
         if (lua_type(L, table + 1) != LUA_TSTRING)
-            throw InvalidArgument(fmt::format("the signals of the rig \"{}\" need names", name));
+            throw InvalidArgument("the signals of the rig \"{}\" need names", name);
         const Call values(L);
         const VectorMap signal = values.vector(table + 2, lua_tostring(L, table + 1));
         session.record[lua_tostring(L, table + 1)] = {signal.begin(), signal.end()};
     }
-    if (session.record.empty()) throw InvalidArgument(fmt::format("the record of the rig \"{}\" is empty", name));
+    if (session.record.empty()) throw InvalidArgument("the record of the rig \"{}\" is empty", name);
     return 0;
 }
 
@@ -69,9 +69,9 @@ int hidden(Call& call) {
         return 1;
     }
     throw InvalidArgument(
-        fmt::format("there is no hidden record \"{}\": name a simulated experiment, a rig that the "
-                    "checks declare, or a file in the folder hidden of the checks",
-                    name));
+        "there is no hidden record \"{}\": name a simulated experiment, a rig that the checks declare, or a file in "
+        "the folder hidden of the checks",
+        name);
 }
 
 /// The run that a table of answers came from.
@@ -92,7 +92,7 @@ std::pair<std::string, std::uint32_t> specimen_meant(const Call& call, CheckSess
         const Specimens& hidden = session.specimens[kHiddenRecords];
         const auto found = hidden.find(name);
         if (found == hidden.end())
-            throw InvalidArgument(fmt::format("there is no hidden record \"{}\" of which theory says something", name));
+            throw InvalidArgument("there is no hidden record \"{}\" of which theory says something", name);
         return *found;
     }
     call.at_most(2);
@@ -111,7 +111,7 @@ int truth(Call& call) {
     CheckSession& session = call.owner<CheckSession>();
     const auto [name, specimen] = specimen_meant(call, session);
     if (const auto own = session.rigs.find(name); own != session.rigs.end()) {
-        if (own->second.truth == 0) throw InvalidArgument(fmt::format("the rig \"{}\" declares no truth", name));
+        if (own->second.truth == 0) throw InvalidArgument("the rig \"{}\" declares no truth", name);
         call_of_rig(call, own->second.truth, specimen, specimen);
         return 1;
     }

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "course/boxes/boxed_work.h"
+#include "course/boxes/told_reason.h"
 #include "course/checks/check_descriptions.h"
 #include "course/checks/check_functions.h"
 #include "course/checks/check_records.h"
@@ -22,9 +23,11 @@ namespace {
 
 constexpr std::size_t kLongestMessage = 400;
 
-std::string shortened_message(std::string message) {
-    message = replaced(message, "\n", " ");
-    return message.size() > kLongestMessage ? message.substr(0, kLongestMessage) + " ..." : message;
+Message shortened_message(const Message& message) {
+    return with_changed_text(message, [](const std::string& text) {
+        const std::string line = replaced(text, "\n", " ");
+        return line.size() > kLongestMessage ? line.substr(0, kLongestMessage) + " ..." : line;
+    });
 }
 
 /// Tries every check, or the only one wanted, each with a time limit of its own.
@@ -47,7 +50,7 @@ std::vector<TriedCheck> verdicts(Runtime& runtime, CheckSession& session, std::o
             one.message = shortened_message(session.verdict->message);
             one.for_instructor = shortened_message(session.verdict->for_instructor);
         } else {
-            one.message = record.error ? shortened_message(record.error->message) : "it gave no verdict";
+            one.message = record.error ? shortened_message(with_place(*record.error)) : Message("it gave no verdict");
         }
     }
     return all;
@@ -75,13 +78,13 @@ class ReadChecks {
             session_.visible_file = file.visible;
             const RunRecord record = runtime_.run_code(file.source, file.name);
             if (!record.error) continue;
-            error_ = record.error->message;
+            error_ = with_place(*record.error);
             return;
         }
     }
 
     /// A sentence, when a file cannot be read.
-    const std::optional<std::string>& error() const { return error_; }
+    const std::optional<Message>& error() const { return error_; }
 
     std::vector<TriedCheck> tried(std::optional<std::size_t> only) { return verdicts(runtime_, session_, only); }
 
@@ -93,7 +96,7 @@ class ReadChecks {
             const RunRecord record = runtime_.run_code(
                 fmt::format("_record(\"{}\", {}, {})", wanted.rig, wanted.specimen, wanted.seed), wanted.rig);
             if (record.error) {
-                results.error = record.error->message;
+                results.error = with_place(*record.error);
                 return results;
             }
             results.records.push_back(std::move(session_.record));
@@ -114,7 +117,7 @@ class ReadChecks {
     CheckSession session_;
     GnuplotRenderer renderer_;
     Runtime runtime_;
-    std::optional<std::string> error_;
+    std::optional<Message> error_;
 };
 
 /// In a copy of this process.
@@ -142,7 +145,7 @@ JudgedSubmission judged_in_a_copy(const ChecksJob& job, const SubmissionToJudge&
     try {
         if (judged.reason.empty()) judged = from_cbor<JudgedSubmission>(copy.output, boxed_limits(kMostVerdicts));
     } catch (const ValueError&) {
-        judged.reason = "its result cannot be read";
+        judged.reason = Message("its result cannot be read");
     }
     judged.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return judged;

@@ -34,9 +34,9 @@ struct CheckedSubmission {
 /// What one check says; nothing but its description when the checks are only listed.
 struct TriedCheck {
     CheckDescription check;
-    std::optional<double> share;          ///< of the points; nothing for a check that could not be tried
-    std::string message, for_instructor;  ///< see Verdict
-    double seconds = 0;                   ///< of processor time that it took
+    std::optional<double> share;      ///< of the points; nothing for a check that could not be tried
+    Message message, for_instructor;  ///< see Verdict
+    double seconds = 0;               ///< of processor time that it took
 };
 
 /// A submission that the checks are tried on, with the records of its group.
@@ -49,8 +49,7 @@ struct SubmissionToJudge {
 /// What the checks say of one submission.
 struct JudgedSubmission {
     std::vector<TriedCheck> checks;
-    std::string
-        reason;  ///< why there are none: "it used more than 60 s of processor time", "it crashed (signal 11)", ...
+    Message reason;  ///< why there are none: "it used more than 60 s of processor time", "it crashed (signal 11)", ...
     double seconds = 0;  ///< wall clock
 };
 
@@ -59,7 +58,7 @@ struct CheckResults {
     std::vector<JudgedSubmission> judged;                             ///< of ChecksJob::submissions, one by one
     std::vector<std::string> rigs;                                    ///< data sets of the rigs that the files declare
     std::vector<std::map<std::string, std::vector<double>>> records;  ///< of ChecksJob::records, one by one
-    std::optional<std::string> error;  ///< a sentence, when a file cannot be read; then there is nothing else
+    std::optional<Message> error;  ///< a sentence, when a file cannot be read; then there is nothing else
 };
 
 /// A record to be made by a rig that the files declare.

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/message.h"
 #include "course/boxes/graded_run.h"
 #include "course/hand_ins/finding.h"
 
@@ -31,9 +32,9 @@ struct DeclaredCheck : CheckDescription {
 
 /// What a check says of a submission.
 struct Verdict {
-    double share = 0;                 ///< of the points, 0 to 1
-    std::string message;              ///< one or two sentences for the student; may be empty
-    std::string for_instructor = {};  ///< what it said before where that may quote a secret record
+    double share = 0;             ///< of the points, 0 to 1
+    Message message;              ///< one or two sentences for the student; may be empty
+    Message for_instructor = {};  ///< what it said before where that may quote a secret record
 };
 
 /// An apparatus that a file of checks declares; functions of {specimen =, seed =}, as indices in Lua's registry.
@@ -61,8 +62,9 @@ struct CheckSession {
     std::filesystem::path hidden_folder;         ///< holds NAME.mat or NAME.csv
     bool visible_file = true;                    ///< of the file that is being read
     const DeclaredCheck* current = nullptr;
-    bool took_hidden = false;    ///< the current check asked for a hidden record or what theory says of one
-    std::string answer_trouble;  ///< why an answer that the current check asked for cannot be had; quotes no record
+    bool took_hidden = false;  ///< the current check asked for a hidden record or what theory says of one
+    Message answer_trouble;    ///< why an answer that the current check asked for cannot be had; quotes no record
+    std::map<std::string, Message> said;  ///< what the messages of judgements stand for: Lua has their English text
     std::optional<Verdict> verdict;
     std::optional<std::pair<std::string, double>> change;  ///< an answer that is seen multiplied
     std::map<std::string, std::vector<double>> record;     ///< what `_record` made last

@@ -1,9 +1,8 @@
 #include "course/corrections/arrival_times.h"
 
-#include <fmt/format.h>
-
 #include <chrono>
 
+#include "base/error.h"
 #include "data_io/text_table.h"
 #include "numerics/error.h"
 #include "platform/error.h"
@@ -23,8 +22,7 @@ std::string without_word(const std::string& identifier) {
 /// Also as Moodle writes times in English: "Friday, 27 February 2026, 5:30 PM".
 Instant time_in(const std::string& text, const CourseClock& clock) {
     const auto read = clock_reading(text, {"%A, %d %B %Y, %I:%M %p", "%d %B %Y, %I:%M %p", "%A, %d %B %Y, %H:%M"});
-    if (read && !read->exists)
-        throw InvalidArgument(fmt::format("the time \"{}\" does not exist in {}", text, clock.zone()));
+    if (read && !read->exists) throw InvalidArgument("the time \"{}\" does not exist in {}", text, clock.zone());
     if (read) return read->instant;
     return clock.parse(text, "the time");
 }
@@ -43,10 +41,10 @@ ArrivalTimes::ArrivalTimes(const std::filesystem::path& csv, const CourseClock& 
         first_of({"identifier", "id", "id number", "group", "name", "full name", "mail", "email", "email address"});
     const auto when = first_of({"last modified (submission)", "time", "received", "submitted_at"});
     if (whose.empty() || when.empty())
-        throw EnvironmentError(fmt::format(
+        throw EnvironmentError(
             "{}: wanted are a column identifier, id, group, name or mail, and one \"last modified (submission)\", time "
             "or received; there are {}",
-            csv.string(), fmt::join(table.names, ", ")));
+            csv.string(), listed(table.names));
     for (std::size_t r = 0; r < table.rows.size(); ++r) {
         const std::string& text = table.rows[r][when.front()];
         if (text.empty() || text == "-") continue;
@@ -56,7 +54,7 @@ ArrivalTimes::ArrivalTimes(const std::filesystem::path& csv, const CourseClock& 
                 if (const std::string& key = table.rows[r][column]; !key.empty())
                     times_[in_small_letters(without_word(key))] = time;
         } catch (const InvalidArgument& error) {
-            throw EnvironmentError(fmt::format("{}, line {}: {}", csv.string(), table.lines[r], error.what()));
+            throw EnvironmentError("{}, line {}: {}", csv.string(), table.lines[r], message_of(error));
         }
     }
 }

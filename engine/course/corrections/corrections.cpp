@@ -57,10 +57,11 @@ class WantedFiles {
     bool has(const std::string& part, bool withdrawn) const { return rows(part, withdrawn).next(); }
     Found one(const std::string& part, bool withdrawn) const {
         Rows found = rows(part, withdrawn);
-        if (!found.next())
-            throw InvalidArgument(fmt::format("there is no {}{} ({}{}) for {}", withdrawn ? "withdrawn " : "", what(),
-                                              part, wanted_.number ? fmt::format(" v{}", *wanted_.number) : "",
-                                              assignment_.name));
+        if (!found.next()) {
+            const std::string version = wanted_.number ? fmt::format("{} v{}", part, *wanted_.number) : part;
+            throw withdrawn ? InvalidArgument("there is no withdrawn {} ({}) for {}", what(), version, assignment_.name)
+                            : InvalidArgument("there is no {} ({}) for {}", what(), version, assignment_.name);
+        }
         return {found.integer(0), found.integer(1), part};
     }
 
@@ -146,7 +147,8 @@ void hold(Course& course, const Assignment& a, const HandedInWanted& wanted, boo
     Transaction transaction(course.database());
     const WantedFiles files(course, a, wanted);
     if (is_held(course, a, files.group().id, files.pair()) == held)
-        throw InvalidArgument(fmt::format("the {} is {}", files.what(), held ? "held back already" : "not held back"));
+        throw held ? InvalidArgument("the {} is held back already", files.what())
+                   : InvalidArgument("the {} is not held back", files.what());
     course.database().run(
         "INSERT INTO holds (assignment, group_id, pair, held, reason, made_at) VALUES (?, ?, ?, ?, ?, ?)", a.id,
         files.group().id, files.pair(), std::int64_t{held}, reason, now);

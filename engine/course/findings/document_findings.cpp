@@ -1,11 +1,9 @@
 #include "course/findings/document_findings.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <tuple>
 
+#include "base/message.h"
 #include "course/findings/document_text.h"
 #include "course/findings/figure_findings.h"
 #include "course/findings/language_findings.h"
@@ -15,7 +13,6 @@
 #include "course/names/name_findings.h"
 #include "documents/percent_script.h"
 #include "documents/template_file.h"
-#include "numerics/number_text.h"
 #include "platform/atomic_file.h"
 #include "platform/program_lookup.h"
 
@@ -27,19 +24,24 @@ namespace fs = std::filesystem;
 Finding file_finding(const PdfRefusal& refusal) {
     switch (refusal.fault()) {
         case PdfFault::kNotPdf:
-            return {"not-pdf", Severity::kRule, 0, "", refusal.what(), "Hand in the PDF that dynlab report writes."};
+            return {"not-pdf", Severity::kRule,   0,
+                    "",        refusal.message(), Message("Hand in the PDF that dynlab report writes.")};
         case PdfFault::kEncrypted:
-            return {"encrypted", Severity::kRule, 0, "", refusal.what(), "Save it again without a password."};
+            return {"encrypted", Severity::kRule,   0,
+                    "",          refusal.message(), Message("Save it again without a password.")};
         case PdfFault::kTooLarge:
-            return {
-                "too-large", Severity::kRule, 0,
-                "",          refusal.what(),  "Make it smaller: draw figures as lines, not as pictures of the screen."};
+            return {"too-large",
+                    Severity::kRule,
+                    0,
+                    "",
+                    refusal.message(),
+                    Message("Make it smaller: draw figures as lines, not as pictures of the screen.")};
         case PdfFault::kNotThere:
         case PdfFault::kDamaged:
             break;
     }
-    return {"damaged", Severity::kRule, 0,
-            "",        refusal.what(),  "Make it again, or copy it again from where it was made."};
+    return {"damaged", Severity::kRule,   0,
+            "",        refusal.message(), Message("Make it again, or copy it again from where it was made.")};
 }
 
 /// Without those that are others in another language, such as slides.fr.md.
@@ -51,10 +53,6 @@ std::vector<std::string> installed_templates() {
     }
     std::ranges::sort(names);
     return names;
-}
-
-std::string listed(const std::vector<std::string>& words) {
-    return fmt::format("{}", fmt::join(words, ", "));
 }
 
 /// Of a template that may not be installed.
@@ -86,12 +84,18 @@ DocumentStandard standard_for(const DocumentText& text, const CheckOptions& wish
     return standard;
 }
 
-std::string page_summary(const DocumentText& text, int pages, const DocumentRules& rules) {
-    const char* unit = text.is_slides() ? "slide" : "page";
-    std::string summary = counted(pages, unit);
-    if (rules.pages) summary += fmt::format(" of at most {}", *rules.pages);
-    if (rules.pages && rules.appendix_pages) summary += fmt::format(" + {} of appendix", *rules.appendix_pages);
-    return summary;
+Message page_summary(const DocumentText& text, int pages, const DocumentRules& rules) {
+    const bool slides = text.is_slides();
+    if (!rules.pages) return slides ? plural(pages, "{} slide", "{} slides") : plural(pages, "{} page", "{} pages");
+    const int most = *rules.pages;
+    if (!rules.appendix_pages)
+        return slides ? plural(pages, "{} slide of at most {}", "{} slides of at most {}", most)
+                      : plural(pages, "{} page of at most {}", "{} pages of at most {}", most);
+    const int more = *rules.appendix_pages;
+    return slides ? plural(pages, "{} slide of at most {} + {} of appendix", "{} slides of at most {} + {} of appendix",
+                           most, more)
+                  : plural(pages, "{} page of at most {} + {} of appendix", "{} pages of at most {} + {} of appendix",
+                           most, more);
 }
 
 /// Checks what can be read; `result` knows the file already.
@@ -110,11 +114,13 @@ void check_text(const PdfLayout& layout, const DocumentText& text, const Documen
     }
     result.checked.push_back(page_summary(text, result.pages, standard.rules));
     if (!standard.rules.sections.empty())
-        result.checked.push_back(counted(static_cast<std::int64_t>(standard.rules.sections.size()), "section"));
-    result.checked.push_back(counted(figures.figures, "numbered figure"));
-    result.checked.push_back("unfilled slots");
-    if (!result.language.empty()) result.checked.push_back(result.language == "fr" ? "French only" : "English only");
-    result.checked.push_back(text.is_slides() ? "text size" : "text size and margins");
+        result.checked.push_back(plural(std::ssize(standard.rules.sections), "{} section", "{} sections"));
+    result.checked.push_back(
+        plural(static_cast<std::int64_t>(figures.figures), "{} numbered figure", "{} numbered figures"));
+    result.checked.push_back(Message("unfilled slots"));
+    if (!result.language.empty())
+        result.checked.push_back(result.language == "fr" ? Message("French only") : Message("English only"));
+    result.checked.push_back(text.is_slides() ? Message("text size") : Message("text size and margins"));
 }
 
 void check_names(const fs::path& file, const PdfLayout& layout, const SoughtNames& names, const PdfLimits& limits,
@@ -123,7 +129,8 @@ void check_names(const fs::path& file, const PdfLayout& layout, const SoughtName
     search.pdf = limits;
     result.findings = name_findings(file, layout, names, search);
     if (names.empty()) return;
-    result.checked.push_back("names of " + counted(names.people(), "person", "people"));
+    result.checked.push_back(
+        plural(static_cast<std::int64_t>(names.people()), "names of {} person", "names of {} people"));
 }
 
 }  // namespace
@@ -143,7 +150,7 @@ DocumentStandard standard_of(const std::string& name) {
     const fs::path file = is_file ? fs::path(name) : shared_folder() / "report_templates" / (name + ".md");
     const std::vector<std::string> known = installed_templates();
     if (!is_file && std::ranges::find(known, name) == known.end())
-        throw EnvironmentError("there is no template '" + name + "'; the templates are " + listed(known));
+        throw EnvironmentError("there is no template '{}'; the templates are {}", name, listed(known));
     std::vector<std::string> guidance = guidance_of(read_text(file));
     const fs::path french = fs::path(file).replace_extension(".fr.md");
     if (!is_file && fs::is_regular_file(french)) {
@@ -173,16 +180,16 @@ CheckResult check_pdf(const fs::path& file, const CheckOptions& wishes, const Pd
         if (text.words.empty()) {
             result.findings.push_back(
                 {"scanned", Severity::kRule, 0, "",
-                 "The document has no text: its pages are pictures, such as a scan or photographs.",
-                 "Hand in the PDF that dynlab report writes, not a scan of its print."});
+                 Message("The document has no text: its pages are pictures, such as a scan or photographs."),
+                 Message("Hand in the PDF that dynlab report writes, not a scan of its print.")});
             sort_findings(result.findings);
             return result;
         }
         check_text(layout, text, standard, result);
         if (layout.protected_by_password) {
-            result.findings.push_back({"protected", Severity::kHint, 0, "",
-                                       "A password guards the file against changes.",
-                                       "Save it again without protection, so that review copies can be made."});
+            result.findings.push_back(
+                {"protected", Severity::kHint, 0, "", Message("A password guards the file against changes."),
+                 Message("Save it again without protection, so that review copies can be made.")});
         }
     } catch (const PdfRefusal& refusal) {
         if (refusal.fault() == PdfFault::kNotThere) throw;

@@ -41,14 +41,14 @@ struct CheckOptions {
 
 /// The outcome of a check.
 struct CheckResult {
-    std::string subject;               ///< the file or folder, as it was named
-    std::string template_name;         ///< empty when pages and sections were not checked
-    std::string language;              ///< "en", "fr", or empty
-    std::string lesson;                ///< of a folder: as analysis.lua names it; empty where it cannot be read
-    int pages = 0;                     ///< 0 when the document could not be read
-    std::vector<std::string> checked;  ///< what was looked at, in words
-    Findings findings;                 ///< in page order, rules first
-    bool passed() const;               ///< no rule is broken
+    std::string subject;           ///< the file or folder, as it was named
+    std::string template_name;     ///< empty when pages and sections were not checked
+    std::string language;          ///< "en", "fr", or empty
+    std::string lesson;            ///< of a folder: as analysis.lua names it; empty where it cannot be read
+    int pages = 0;                 ///< 0 when the document could not be read
+    std::vector<Message> checked;  ///< what was looked at, in words
+    Findings findings;             ///< in page order, rules first
+    bool passed() const;           ///< no rule is broken
 };
 
 /// Checks a PDF from anybody. Findings about the file itself: not-pdf, encrypted, damaged, too-large, scanned (rules),

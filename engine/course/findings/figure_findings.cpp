@@ -1,7 +1,5 @@
 #include "course/findings/figure_findings.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -115,15 +113,16 @@ FigureFindings figure_findings(const DocumentText& text, Severity not_mentioned)
     FigureFindings result{captions.size(), {}};
     for (const auto& [number, page] : captions) {
         if (mentions.contains(number)) continue;
-        result.findings.push_back({"figure-not-mentioned", not_mentioned, page, "",
-                                   fmt::format("Figure {} is never mentioned in the text.", number),
-                                   "Say in the text what it shows (@fig:name writes its number), or take it out."});
+        result.findings.push_back(
+            {"figure-not-mentioned", not_mentioned, page, "",
+             Message("Figure {} is never mentioned in the text.", number),
+             Message("Say in the text what it shows (@fig:name writes its number), or take it out.")});
     }
     for (const auto& [number, page] : mentions) {
         if (captions.empty() || captions.contains(number)) continue;
         result.findings.push_back({"figure-not-there", Severity::kHint, page, "",
-                                   fmt::format("The text mentions figure {}, but no figure has this number.", number),
-                                   "Correct the number, or give the figure a caption."});
+                                   Message("The text mentions figure {}, but no figure has this number.", number),
+                                   Message("Correct the number, or give the figure a caption.")});
     }
     return result;
 }

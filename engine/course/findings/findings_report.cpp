@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/error.h"
+#include "course/boxes/told_reason.h"
 #include "course/findings/finding_description.h"
 #include "course/names/plain_words.h"
 #include "data_io/values/json_values.h"
@@ -40,16 +42,16 @@ std::string wrapped(const std::string& sentence, const std::string& first) {
 
 class Writer {
   public:
-    Writer(bool in_colour, const SentenceCatalogue& sentences) : in_colour_(in_colour), sentences_(sentences) {}
+    Writer(bool in_colour, const Reader& reader) : in_colour_(in_colour), reader_(reader) {}
 
-    std::string told(const std::string& sentence) const { return sentences_.translated(sentence); }
+    std::string words(const Message& message) const { return message_text(message, reader_); }
 
     std::string styled(const char* style, const std::string& text) const {
         return in_colour_ ? style + text + kPlain : text;
     }
 
     /// Findings of one severity, those of one kind together; a remedy they share stands once.
-    std::string group(const CheckResult& result, Severity severity, const char* style, const std::string& title) const {
+    std::string group(const CheckResult& result, Severity severity, const char* style, const Message& title) const {
         std::vector<std::pair<std::string, std::vector<const Finding*>>> kinds;
         std::size_t count = 0;
         for (const Finding& finding : result.findings) {
@@ -61,7 +63,7 @@ class Writer {
                 .second.push_back(&finding);
         }
         if (count == 0) return "";
-        std::string text = "\n" + styled(style, fmt::format("{} ({})", told(title), count)) + "\n";
+        std::string text = "\n" + styled(style, fmt::format("{} ({})", words(title), count)) + "\n";
         for (const auto& [id, findings] : kinds) text += "\n  " + styled(kBold, id) + "\n" + all_of(findings);
         return text;
     }
@@ -71,9 +73,9 @@ class Writer {
         for (std::size_t i = 0; i < findings.size(); ++i) {
             const std::string location = location_of(*findings[i]);
             text +=
-                wrapped(printable((location.empty() ? "" : location + ": ") + told(findings[i]->what), 2000), "    ");
+                wrapped(printable((location.empty() ? "" : location + ": ") + words(findings[i]->what), 2000), "    ");
             const bool last = i + 1 == findings.size() || findings[i + 1]->remedy != findings[i]->remedy;
-            if (last) text += styled(kFaint, wrapped(printable(told(findings[i]->remedy), 2000), "    -> "));
+            if (last) text += styled(kFaint, wrapped(printable(words(findings[i]->remedy), 2000), "    -> "));
         }
         return text;
     }
@@ -81,11 +83,11 @@ class Writer {
   private:
     std::string location_of(const Finding& finding) const {
         if (!finding.place.empty()) return finding.place;
-        return finding.page > 0 ? told(fmt::format("page {}", finding.page)) : "";
+        return finding.page > 0 ? words(Message("page {}", finding.page)) : "";
     }
 
     bool in_colour_;
-    const SentenceCatalogue& sentences_;
+    Reader reader_;
 };
 
 /// The outcome with nothing in its texts that a terminal would obey, and none of them too long.
@@ -93,30 +95,38 @@ CheckResult printable_result(CheckResult result) {
     constexpr std::size_t kLongest = 4000;
     for (std::string* text : {&result.subject, &result.template_name, &result.language})
         *text = printable(*text, kLongest);
-    for (Finding& finding : result.findings)
-        for (std::string* text : {&finding.place, &finding.what, &finding.remedy}) *text = printable(*text, kLongest);
+    const auto shown = [](const std::string& text) { return printable(text, kLongest); };
+    for (Message& part : result.checked) part = with_changed_text(part, shown);
+    for (Finding& finding : result.findings) {
+        finding.place = shown(finding.place);
+        finding.what = with_changed_text(finding.what, shown);
+        finding.remedy = with_changed_text(finding.remedy, shown);
+    }
     return result;
 }
 
 }  // namespace
 
-std::string findings_in_words(const CheckResult& result, bool in_colour, const SentenceCatalogue& sentences) {
-    const Writer writer(in_colour, sentences);
-    const std::string as = result.template_name.empty() ? "" : " as " + printable(result.template_name);
+std::string findings_in_words(const CheckResult& result, bool in_colour, const Reader& reader) {
+    const Writer writer(in_colour, reader);
     std::vector<std::string> parts;
-    for (const std::string& part : result.checked) parts.push_back(writer.told(part));
-    const std::string checked =
-        fmt::format("{}{}{}", writer.told("checked" + as), parts.empty() ? "" : ": ", fmt::join(parts, ", "));
+    for (const Message& part : result.checked) parts.push_back(writer.words(part));
+    const std::string checked = fmt::format(
+        "{}{}{}",
+        writer.words(result.template_name.empty() ? Message("checked")
+                                                  : Message("checked as {}", printable(result.template_name))),
+        parts.empty() ? "" : ": ", fmt::join(parts, ", "));
     const std::string subject = printable(result.subject);
     if (result.findings.empty())
-        return fmt::format("{}: {}; {}.\n", subject, writer.styled(kGreen, writer.told("nothing to mend")), checked);
+        return fmt::format("{}: {}; {}.\n", subject, writer.styled(kGreen, writer.words(Message("nothing to mend"))),
+                           checked);
     const auto rules = std::count_if(result.findings.begin(), result.findings.end(),
                                      [](const Finding& finding) { return finding.severity == Severity::kRule; });
     std::string text =
         fmt::format("{}{}\n", writer.styled(kBold, subject), result.checked.empty() ? "" : ": " + checked);
-    text += writer.group(result, Severity::kRule, kRed, "Rules broken");
-    text += writer.group(result, Severity::kHint, kYellow, "Hints");
-    if (rules == 0) text += "\n" + writer.styled(kGreen, writer.told("No rule is broken.")) + "\n";
+    text += writer.group(result, Severity::kRule, kRed, Message("Rules broken"));
+    text += writer.group(result, Severity::kHint, kYellow, Message("Hints"));
+    if (rules == 0) text += "\n" + writer.styled(kGreen, writer.words(Message("No rule is broken."))) + "\n";
     return text;
 }
 
@@ -134,7 +144,7 @@ CheckResult findings_from_json(const std::string& json) {
     try {
         return from_json<CheckResult>(json);
     } catch (const ValueError& error) {
-        throw EnvironmentError(std::string("these are not findings that dynlab check wrote: ") + error.what());
+        throw EnvironmentError("these are not findings that dynlab check wrote: {}", message_of(error));
     }
 }
 

@@ -1,15 +1,14 @@
 #pragma once
 #include <string>
 
+#include "base/reader.h"
 #include "course/findings/document_findings.h"
-#include "documents/words/sentence_catalogue.h"
 
 namespace dynlab::inline course {
 
 /// The outcome for a reader: rules broken, then hints, each with its place and remedy; one line when there is nothing
-/// to mend. Text from the document is shown without control characters. What `sentences` knows is told in their
-/// language.
-std::string findings_in_words(const CheckResult& result, bool in_colour, const SentenceCatalogue& sentences = {});
+/// to mend. Text from the document is shown without control characters.
+std::string findings_in_words(const CheckResult& result, bool in_colour, const Reader& reader = {});
 
 /// The outcome for a program, as JSON in UTF-8:
 ///
@@ -17,7 +16,9 @@ std::string findings_in_words(const CheckResult& result, bool in_colour, const S
 ///      "checked": ["7 pages of at most 6 + 1 of appendix", ...],
 ///      "findings": [{"id": "pages", "severity": "rule", "page": 7, "place": null, "what": "...", "remedy": "..."}]}
 ///
-/// severity is "rule" or "hint"; template, language, pages, page and place are null where nothing is known.
+/// severity is "rule" or "hint"; template, language, pages, page and place are null where nothing is known. The
+/// messages that the texts were made of stand beside them, as what_message, remedy_message and checked_messages
+/// (data_io/values/message_values.h).
 std::string findings_as_json(const CheckResult& result);
 
 /// The outcome that findings_as_json wrote. Throws EnvironmentError for any other text.

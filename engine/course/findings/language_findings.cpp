@@ -1,7 +1,5 @@
 #include "course/findings/language_findings.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <set>
 
@@ -39,10 +37,6 @@ Language language_of(const std::string& word) {
     return language;
 }
 
-const char* language_name(const std::string& language) {
-    return language == "fr" ? "French" : "English";
-}
-
 std::string quote(const DocumentText& text, std::size_t from, std::size_t count) {
     std::string words;
     for (std::size_t i = from; i < std::min(from + count, text.words.size()); ++i)
@@ -73,8 +67,7 @@ std::vector<Language> word_languages(const DocumentText& text) {
 }
 
 /// Passages whose function words are those of `other`, one a page.
-Findings passages(const DocumentText& text, const std::vector<Language>& languages, Language other,
-                  const std::string& other_name, const std::string& main_name) {
+Findings passages(const DocumentText& text, const std::vector<Language>& languages, Language other) {
     Findings findings;
     int foreign = 0, own = 0, last_page = 0;
     const auto count = [&](std::size_t i, int change) {
@@ -89,10 +82,13 @@ Findings passages(const DocumentText& text, const std::vector<Language>& languag
         while (languages[start] != other) ++start;
         if (text.words[start].page == last_page) continue;
         last_page = text.words[start].page;
-        findings.push_back({"language-mixed", Severity::kHint, last_page, "",
-                            fmt::format("The document is in {}, but this passage looks {}: \"{} …\".", main_name,
-                                        other_name, quote(text, start, 8)),
-                            "Write the whole report in one language."});
+        const std::string passage = quote(text, start, 8) + " …";
+        findings.push_back(
+            {"language-mixed", Severity::kHint, last_page, "",
+             other == Language::kEnglish
+                 ? Message("The document is in French, but this passage looks English: \"{}\".", passage)
+                 : Message("The document is in English, but this passage looks French: \"{}\".", passage),
+             Message("Write the whole report in one language.")});
     }
     return findings;
 }
@@ -106,17 +102,17 @@ LanguageFindings language_findings(const DocumentText& text, const std::optional
     if (english + french < kKnownLanguageWords) return {};
     const bool is_french = french > english;
     LanguageFindings result{is_french ? "fr" : "en", {}};
-    const std::string other = is_french ? "en" : "fr";
     if (declared && *declared != result.language) {
         result.findings.push_back(
             {"language-differs", Severity::kHint, 0, "",
-             fmt::format("The header says lang: {}, but the text is in {}.", *declared, language_name(result.language)),
-             fmt::format("Write lang: {} in the header of report.md, so that hyphenation and the "
-                         "words for figure and table fit.",
-                         result.language)});
+             is_french ? Message("The header says lang: {}, but the text is in French.", *declared)
+                       : Message("The header says lang: {}, but the text is in English.", *declared),
+             Message(
+                 "Write lang: {} in the header of report.md, so that hyphenation and the words for figure and table "
+                 "fit.",
+                 result.language)});
     }
-    const Findings mixed = passages(text, languages, is_french ? Language::kEnglish : Language::kFrench,
-                                    language_name(other), language_name(result.language));
+    const Findings mixed = passages(text, languages, is_french ? Language::kEnglish : Language::kFrench);
     result.findings.insert(result.findings.end(), mixed.begin(), mixed.end());
     return result;
 }

@@ -1,7 +1,5 @@
 #include "course/findings/layout_findings.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "course/names/plain_words.h"
@@ -38,10 +36,28 @@ double prose_size(const DocumentText& text, int page) {
     return 0;
 }
 
-std::string list_of(const std::vector<int>& pages) {
-    std::string list;
-    for (const int page : pages) list += (list.empty() ? "" : ", ") + std::to_string(page);
+MessageList list_of(const std::vector<int>& pages) {
+    MessageList list;
+    for (const int page : pages) list.items.push_back(Message("{}", page));
     return list;
+}
+
+Message too_small(double size, bool slides, const std::vector<int>& pages) {
+    const Number found = decimals(size, 1);
+    const MessageList where = list_of(pages);
+    if (pages.size() == 1)
+        return slides ? Message(
+                            "The text is too small to read with ease: {} pt, measured as on a slide 96 mm high; at "
+                            "least {} pt are asked for.",
+                            found, kSmallestText)
+                      : Message("The text is too small to read with ease: {} pt; at least {} pt are asked for.", found,
+                                kSmallestText);
+    return slides ? Message(
+                        "The text is too small to read with ease: {} pt, measured as on a slide 96 mm high (pages "
+                        "{}); at least {} pt are asked for.",
+                        found, where, kSmallestText)
+                  : Message("The text is too small to read with ease: {} pt (pages {}); at least {} pt are asked for.",
+                            found, where, kSmallestText);
 }
 
 void check_size(const DocumentText& text, int pages, Findings& findings) {
@@ -54,12 +70,8 @@ void check_size(const DocumentText& text, int pages, Findings& findings) {
         smallest = std::min(smallest, size);
     }
     if (small.empty()) return;
-    findings.push_back(
-        {"text-small", Severity::kRule, small.front(), "",
-         fmt::format("The text is too small to read with ease: {:.1f} pt{}{}; at least {} pt are asked for.", smallest,
-                     text.is_slides() ? ", measured as on a slide 96 mm high" : "",
-                     small.size() > 1 ? " (pages " + list_of(small) + ")" : "", kSmallestText),
-         "Set the text in 11 pt, as the template does, and shorten it instead."});
+    findings.push_back({"text-small", Severity::kRule, small.front(), "", too_small(smallest, text.is_slides(), small),
+                        Message("Set the text in 11 pt, as the template does, and shorten it instead.")});
 }
 
 struct Strays {
@@ -89,19 +101,20 @@ void check_margins(const DocumentText& text, const PdfLayout& layout, Findings& 
         if (strays.at_sides >= kManyAtSides || strays.at_top >= kManyAtTop) {
             narrow.push_back(page);
         } else if (strays.at_sides > 0) {
-            overflows.push_back(
-                {"text-overflow", Severity::kHint, page, "",
-                 fmt::format("A line runs into the margin: \"{}\".", printable(strays.first->text(), 60)),
-                 "Break the formula, the table or the long word in it."});
+            overflows.push_back({"text-overflow", Severity::kHint, page, "",
+                                 Message("A line runs into the margin: \"{}\".", printable(strays.first->text(), 60)),
+                                 Message("Break the formula, the table or the long word in it.")});
         }
     }
     if (!narrow.empty()) {
         findings.push_back(
             {"margins", Severity::kRule, narrow.front(), "",
-             fmt::format("The margins are too narrow{}: text stands nearer than 15 mm to the sides or 12 mm "
-                         "to the top or bottom.",
-                         narrow.size() > 1 ? " (pages " + list_of(narrow) + ")" : ""),
-             "Use the template's margins of 25 mm and shorten the text instead."});
+             narrow.size() > 1 ? Message("The margins are too narrow (pages {}): text stands nearer than 15 mm to the "
+                                         "sides or 12 mm to the top or bottom.",
+                                         list_of(narrow))
+                               : Message("The margins are too narrow: text stands nearer than 15 mm to the sides or 12 "
+                                         "mm to the top or bottom."),
+             Message("Use the template's margins of 25 mm and shorten the text instead.")});
     }
     findings.insert(findings.end(), overflows.begin(), overflows.end());
 }
@@ -115,8 +128,8 @@ void check_edges(const PdfLayout& layout, Findings& findings) {
         if (cut == page.words.end()) continue;
         findings.push_back(
             {"text-cut-off", Severity::kRule, static_cast<int>(i) + 1, "",
-             fmt::format("Text runs over the edge of the page and is cut off near \"{}\".", printable(cut->text, 40)),
-             "Break or shorten what is too long there."});
+             Message("Text runs over the edge of the page and is cut off near \"{}\".", printable(cut->text, 40)),
+             Message("Break or shorten what is too long there.")});
     }
 }
 

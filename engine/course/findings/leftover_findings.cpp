@@ -1,7 +1,5 @@
 #include "course/findings/leftover_findings.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <functional>
 #include <iterator>
@@ -17,25 +15,47 @@ constexpr std::size_t kWordsToKnow = 6;  ///< a shorter sentence may stand in a 
 constexpr std::size_t kMostLeftovers = 10;
 
 struct Sign {
-    const char *text, *id, *what, *remedy;
+    const char *text, *id;
+    Message (*what)(const std::string& line);
+    Message remedy;
 };
-constexpr const char* kFill = "Report the value, table or figure in analysis.lua and make the PDF with dynlab report.";
-constexpr Sign kSigns[] = {
-    {"{.value}", "slot-unfilled", "A slot for a value was not filled", kFill},
-    {"{.table", "slot-unfilled", "A slot for a table was not filled", kFill},
-    {"{.text", "slot-unfilled", "A slot for a text was not filled", kFill},
-    {"(figure:", "slot-unfilled", "A slot for a figure was not filled", kFill},
-    {"{#fig:", "slot-unfilled", "A figure's label is left in the text", kFill},
-    {"{#tbl:", "slot-unfilled", "A table's label is left in the text", kFill},
-    {"{#eq:", "slot-unfilled", "An equation's label is left in the text", kFill},
-    {"@fig:", "slot-unfilled", "A reference to a figure was not resolved", kFill},
-    {"@tbl:", "slot-unfilled", "A reference to a table was not resolved", kFill},
-    {"@eq:", "slot-unfilled", "A reference to an equation was not resolved", kFill},
-    {"<!--", "guidance-left", "A comment is left in the text", "Close it with --> or take it out."},
-    {"??", "reference-unresolved", "A reference was not resolved", "Give the label that it names, or correct it."},
-    {"____", "placeholder-left", "A blank was not filled in", "Fill it in."},
-    {"lorem ipsum", "placeholder-left", "Filling text was left in", "Replace it by your own text."},
-};
+const std::vector<Sign>& signs() {
+    static const Message fill =
+        Message("Report the value, table or figure in {} and make the PDF with dynlab report.", "analysis.lua");
+    using Line = const std::string&;
+    static const std::vector<Sign> all = {
+        {"{.value}", "slot-unfilled",
+         [](Line line) { return Message("A slot for a value was not filled: \"{}\".", line); }, fill},
+        {"{.table", "slot-unfilled",
+         [](Line line) { return Message("A slot for a table was not filled: \"{}\".", line); }, fill},
+        {"{.text", "slot-unfilled",
+         [](Line line) { return Message("A slot for a text was not filled: \"{}\".", line); }, fill},
+        {"(figure:", "slot-unfilled",
+         [](Line line) { return Message("A slot for a figure was not filled: \"{}\".", line); }, fill},
+        {"{#fig:", "slot-unfilled",
+         [](Line line) { return Message("A figure's label is left in the text: \"{}\".", line); }, fill},
+        {"{#tbl:", "slot-unfilled",
+         [](Line line) { return Message("A table's label is left in the text: \"{}\".", line); }, fill},
+        {"{#eq:", "slot-unfilled",
+         [](Line line) { return Message("An equation's label is left in the text: \"{}\".", line); }, fill},
+        {"@fig:", "slot-unfilled",
+         [](Line line) { return Message("A reference to a figure was not resolved: \"{}\".", line); }, fill},
+        {"@tbl:", "slot-unfilled",
+         [](Line line) { return Message("A reference to a table was not resolved: \"{}\".", line); }, fill},
+        {"@eq:", "slot-unfilled",
+         [](Line line) { return Message("A reference to an equation was not resolved: \"{}\".", line); }, fill},
+        {"<!--", "guidance-left", [](Line line) { return Message("A comment is left in the text: \"{}\".", line); },
+         Message("Close it with --> or take it out.")},
+        {"??", "reference-unresolved", [](Line line) { return Message("A reference was not resolved: \"{}\".", line); },
+         Message("Give the label that it names, or correct it.")},
+        {"____", "placeholder-left", [](Line line) { return Message("A blank was not filled in: \"{}\".", line); },
+         Message("Fill it in.")},
+        {"lorem ipsum", "placeholder-left",
+         [](Line line) { return Message("Filling text was left in: \"{}\".", line); },
+         Message("Replace it by your own text.")},
+    };
+    return all;
+}
 
 bool is_placeholder(const std::string& word) {
     static const std::set<std::string> placeholders = {"TODO", "FIXME", "TBD", "XXX"};
@@ -46,24 +66,23 @@ bool is_placeholder(const std::string& word) {
     return placeholders.contains(letters);
 }
 
-Finding leftover(const char* id, int page, const std::string& what, const std::string& remedy) {
+Finding leftover(const char* id, int page, const Message& what, const Message& remedy) {
     return {id, Severity::kRule, page, "", what, remedy};
 }
 
 void check_line(const TextLine& line, Findings& findings) {
     const std::string text = line.text();
     const std::string lower = in_small_letters(text);
-    for (const Sign& sign : kSigns) {
+    for (const Sign& sign : signs()) {
         if (lower.find(sign.text) == std::string::npos) continue;
-        findings.push_back(
-            leftover(sign.id, line.page, fmt::format("{}: \"{}\".", sign.what, printable(text, 60)), sign.remedy));
+        findings.push_back(leftover(sign.id, line.page, sign.what(printable(text, 60)), sign.remedy));
         return;
     }
     const auto found = std::find_if(line.words.begin(), line.words.end(), is_placeholder);
     if (found == line.words.end()) return;
     findings.push_back(leftover("placeholder-left", line.page,
-                                fmt::format("A note to yourself was left in: \"{}\".", printable(text, 60)),
-                                "Do what it says, then take it out."));
+                                Message("A note to yourself was left in: \"{}\".", printable(text, 60)),
+                                Message("Do what it says, then take it out.")));
 }
 
 std::string spaced(const std::vector<std::string>& words) {
@@ -89,8 +108,8 @@ void check_guidance(const DocumentText& text, const std::vector<std::string>& gu
         for (const auto& [start, number] : page_starts) page = start <= found - all.begin() + 1 ? number : page;
         findings.push_back(
             leftover("guidance-left", page,
-                     fmt::format("Guidance of the template is left in the text: \"{}\".", printable(sentence, 60)),
-                     "Take it out; between <!-- and --> it is never printed."));
+                     Message("Guidance of the template is left in the text: \"{}\".", printable(sentence, 60)),
+                     Message("Take it out; between <!-- and --> it is never printed.")));
     }
 }
 

@@ -1,13 +1,11 @@
 #include "course/findings/section_findings.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <optional>
 #include <set>
 
+#include "base/message.h"
 #include "course/names/plain_words.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline course {
 namespace {
@@ -102,10 +100,28 @@ double filled_pages(const DocumentText& text, int pages) {
 
 Findings too_few_pages(const DocumentText& text, int pages, const DocumentRules& rules) {
     if (!rules.least_pages || filled_pages(text, pages) > *rules.least_pages - kMarginOfPage) return {};
+    const Number filled = decimals(filled_pages(text, pages), 1);
     return {{"pages-few", Severity::kHint, pages, "",
-             fmt::format("The text fills {:.1f} pages; at least {} {} asked for.", filled_pages(text, pages),
-                         counted(*rules.least_pages, "page", "pages"), *rules.least_pages == 1 ? "is" : "are"),
-             "Give reasons, places in the report, and for each weakness a way to mend it."}};
+             *rules.least_pages == 1
+                 ? Message("The text fills {} pages; at least {} page is asked for.", filled, 1)
+                 : Message("The text fills {} pages; at least {} pages are asked for.", filled, *rules.least_pages),
+             Message("Give reasons, places in the report, and for each weakness a way to mend it.")}};
+}
+
+Message pages_of_paper(int count) {
+    return plural(count, "{} page", "{} pages");
+}
+
+Message slides(int count) {
+    return plural(count, "{} slide", "{} slides");
+}
+
+Message too_many(Message (*counted)(int), int pages, int allowed, int in_appendix) {
+    if (in_appendix > 0)
+        return Message("The document has {}; at most {} and {} of appendix are allowed.", counted(pages),
+                       counted(allowed), counted(in_appendix));
+    return allowed == 1 ? Message("The document has {}; at most {} is allowed.", counted(pages), counted(allowed))
+                        : Message("The document has {}; at most {} are allowed.", counted(pages), counted(allowed));
 }
 
 }  // namespace
@@ -118,8 +134,8 @@ Findings section_findings(const DocumentText& text, const DocumentRules& rules, 
         if (!found) {
             if (section.optional) continue;
             findings.push_back({"section-missing", Severity::kRule, 0, "",
-                                fmt::format("The section \"{}\" is missing: no heading has these words.", title),
-                                "Add a heading with these words and your text below it."});
+                                Message("The section \"{}\" is missing: no heading has these words.", title),
+                                Message("Add a heading with these words and your text below it.")});
             continue;
         }
         const Heading& heading = text.headings[*found];
@@ -127,13 +143,13 @@ Findings section_findings(const DocumentText& text, const DocumentRules& rules, 
         const std::size_t words = words_below(text, *found);
         if (words < kEmptySectionWords) {
             findings.push_back({"section-empty", Severity::kRule, heading.page, "",
-                                fmt::format("The section \"{}\" is empty.", shown),
-                                section.optional ? "Write it, or take its heading out: it is optional."
-                                                 : "Write what you did and found there."});
+                                Message("The section \"{}\" is empty.", shown),
+                                section.optional ? Message("Write it, or take its heading out: it is optional.")
+                                                 : Message("Write what you did and found there.")});
         } else if (words < (text.is_slides() ? kShortSlideWords : kShortSectionWords)) {
             findings.push_back({"section-short", Severity::kHint, heading.page, "",
-                                fmt::format("The section \"{}\" has {} words only.", shown, words),
-                                "Say what was done, why, and what came out."});
+                                Message("The section \"{}\" has {} words only.", shown, words),
+                                Message("Say what was done, why, and what came out.")});
         }
     }
     return findings;
@@ -148,18 +164,11 @@ Findings page_findings(const DocumentText& text, int pages, const DocumentRules&
     }
     const int most = allowed + (appendix > 0 ? in_appendix : 0);
     if (pages <= most) return too_few_pages(text, pages, rules);
-    const char *one = text.is_slides() ? "slide" : "page", *many = text.is_slides() ? "slides" : "pages";
-    std::string limit = counted(allowed, one, many);
-    const char* verb = allowed == 1 && in_appendix == 0 ? "is" : "are";
-    std::string remedy = "Shorten the text, or drop figures that show nothing of their own.";
-    if (in_appendix > 0) {
-        limit += fmt::format(" and {} of appendix", counted(in_appendix, one, many));
-        if (appendix == 0)
-            remedy = "Shorten the text; a part beyond the limit must stand below a heading \"Appendix\".";
-    }
     return {{"pages", Severity::kRule, most + 1, "",
-             fmt::format("The document has {}; at most {} {} allowed.", counted(pages, one, many), limit, verb),
-             remedy}};
+             too_many(text.is_slides() ? slides : pages_of_paper, pages, allowed, in_appendix),
+             in_appendix > 0 && appendix == 0
+                 ? Message("Shorten the text; a part beyond the limit must stand below a heading \"Appendix\".")
+                 : Message("Shorten the text, or drop figures that show nothing of their own.")}};
 }
 
 }  // namespace dynlab::inline course

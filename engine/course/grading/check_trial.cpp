@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <future>
 
+#include "base/reader.h"
 #include "course/grading/feedback.h"
 #include "documents/solutions.h"
 #include "platform/atomic_file.h"
@@ -79,10 +80,10 @@ std::string points_of_script(const TriedScript& script) {
 /// A line for the script and one for each check that it does not pass wholly.
 std::string lines_of_script(const TriedScript& script) {
     std::string text = fmt::format("{}: {} points\n", script.name, points_of_script(script));
-    if (!script.trouble.empty()) text += fmt::format("    stopped: {}\n", script.trouble);
+    if (!script.trouble.empty()) text += fmt::format("    stopped: {}\n", message_text(script.trouble));
     for (const TriedCheck& one : script.checks) {
         if (full(one)) continue;
-        const std::string& told = one.for_instructor.empty() ? one.message : one.for_instructor;
+        const std::string told = message_text(one.for_instructor.empty() ? one.message : one.for_instructor);
         text += fmt::format("    {:<20} {:>3.0f} %  {}\n", one.check.id, 100 * one.share.value_or(0), told);
     }
     return text;
@@ -136,7 +137,7 @@ CheckTrial try_checks_of(const GradingSetup& setup, Mutants mutants) {
         }
     const std::vector<std::vector<TriedCheck>> verdicts = rules.tried(submissions);
     for (std::size_t k = 0; k < verdicts.size(); ++k) {
-        TriedScript script{names[k], submissions[k].runs.at(kMainRun).error.value_or(""), verdicts[k]};
+        TriedScript script{names[k], submissions[k].runs.at(kMainRun).error.value_or(Message()), verdicts[k]};
         if (k == 0)
             trial.solution = std::move(script);
         else

@@ -9,7 +9,7 @@ namespace dynlab::inline course {
 /// What one script, or one change of the worked solution's answers, gets from the checks.
 struct TriedScript {
     std::string name;
-    std::string trouble;             ///< why it did not run to its end
+    Message trouble;                 ///< why it did not run to its end
     std::vector<TriedCheck> checks;  ///< in the order of CheckTrial::checks
 };
 

@@ -1,7 +1,5 @@
 #include "course/grading/class_owners.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "platform/error.h"
@@ -54,8 +52,7 @@ std::vector<std::size_t> ClassOwners::chosen(const std::vector<Submission>& subm
         for (std::size_t i = 0; i < submissions.size(); ++i)
             if (is_meant(submissions[i], word)) indices.push_back(i);
         if (indices.size() == before)
-            throw EnvironmentError(
-                fmt::format("there is no submission \"{}\", nor one of a group or student of that name", word));
+            throw EnvironmentError("there is no submission \"{}\", nor one of a group or student of that name", word);
     }
     if (words.empty())
         for (std::size_t i = 0; i < submissions.size(); ++i) indices.push_back(i);

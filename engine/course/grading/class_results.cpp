@@ -6,12 +6,12 @@
 #include <cmath>
 #include <map>
 
+#include "base/reader.h"
 #include "course/grading/class_statistics.h"
 #include "course/grading/feedback.h"
 #include "data_io/text_table.h"
 #include "figures/gnuplot_renderer.h"
 #include "figures/histogram.h"
-#include "numerics/number_text.h"
 #include "numerics/signals/robust_statistics.h"
 #include "platform/atomic_file.h"
 #include "platform/temporary_folder.h"
@@ -88,7 +88,7 @@ std::vector<const Entry*> work_that_counts(const ClassResults& results) {
 }
 
 /// A sentence for each owner with several submissions.
-std::vector<std::string> several_of_one(const ClassResults& results) {
+std::vector<Message> several_of_one(const ClassResults& results) {
     if (!results.roster) return {};
     std::map<std::string, std::vector<const Entry*>> by_owner;
     for (const Entry& entry : results.entries)
@@ -96,7 +96,7 @@ std::vector<std::string> several_of_one(const ClassResults& results) {
             by_owner[entry.owner.group.empty() ? results.roster->students()[entry.owner.students.front()].id
                                                : entry.owner.group]
                 .push_back(&entry);
-    std::vector<std::string> sentences;
+    std::vector<Message> sentences;
     for (const auto& [owner, entries] : by_owner) {
         if (entries.size() < 2) continue;
         const Entry* counts = nullptr;
@@ -105,9 +105,12 @@ std::vector<std::string> several_of_one(const ClassResults& results) {
             counts = counting(counts, entry, results.newest_counts);
             names.push_back(fmt::format("\"{}\"", shown_name(entry->submission)));
         }
-        sentences.push_back(fmt::format("{} has several submissions, of which the {} one counts, \"{}\": {}", owner,
-                                        results.newest_counts ? "newest" : "better", shown_name(counts->submission),
-                                        fmt::join(names, ", ")));
+        const std::string counting_name = shown_name(counts->submission);
+        sentences.push_back(results.newest_counts
+                                ? Message("{} has several submissions, of which the newest one counts, \"{}\": {}",
+                                          owner, counting_name, listed(names))
+                                : Message("{} has several submissions, of which the better one counts, \"{}\": {}",
+                                          owner, counting_name, listed(names)));
     }
     return sentences;
 }
@@ -120,7 +123,7 @@ TextTable gradebook_of(const ClassResults& results) {
     if (results.deadlines) table.names.push_back("lateness");
     const auto row_for = [&](const std::string& id, const std::string& name, const Entry* entry) {
         std::vector<std::string> row = row_of(id, name, entry, ids);
-        if (results.deadlines) row.push_back(entry && entry->grade ? entry->grade->lateness : "");
+        if (results.deadlines) row.push_back(entry && entry->grade ? message_text(entry->grade->lateness) : "");
         table.rows.push_back(std::move(row));
     };
     if (!results.roster) {
@@ -145,8 +148,8 @@ TextTable open_marks(const ClassResults& results) {
         if (!entry.grade || entry.grade->without_marks()) continue;
         for (const CheckGrade& check : entry.grade->checks)
             if (check.by_hand && !check.graded)
-                table.rows.push_back(
-                    {entry.submission.name, check.id, "", "", points_text(check.points), check.about, check.rubric});
+                table.rows.push_back({entry.submission.name, check.id, "", "", points_text(check.points),
+                                      message_text(check.about), check.rubric});
     }
     return table;
 }
@@ -212,27 +215,29 @@ std::string mistakes_of(const std::vector<CheckStatistics>& checks) {
 
 std::string attention_of(const ClassResults& results) {
     std::string attention;
-    const auto add = [&](const std::string& sentence) { attention += "- " + escaped_markdown(sentence) + "\n"; };
-    for (const std::string& complaint : results.complaints) add(complaint);
-    for (const std::string& sentence : what_needs_the_eye(results).sentences) add(sentence);
-    for (const std::string& sentence : several_of_one(results)) add(sentence);
+    const auto add = [&](const Message& sentence) {
+        attention += "- " + escaped_markdown(message_text(sentence)) + "\n";
+    };
+    for (const Message& complaint : results.complaints) add(complaint);
+    for (const Message& sentence : what_needs_the_eye(results).sentences) add(sentence);
+    for (const Message& sentence : several_of_one(results)) add(sentence);
     for (const Entry& entry : results.entries) {
         if (!entry.grade || entry.grade->without_marks()) continue;
         const std::string name = shown_name(entry.submission);
-        if (!entry.grade->remark.empty()) add(fmt::format("\"{}\": {}", name, entry.grade->remark));
+        if (!entry.grade->remark.empty()) add(Message("\"{}\": {}", name, entry.grade->remark));
         if (!entry.grade->trouble.empty())
-            add(fmt::format("the script of \"{}\" {}: {}", name,
-                            entry.grade->began ? "did not run to its end" : "could not be begun",
-                            entry.grade->trouble));
+            add(entry.grade->began
+                    ? Message("the script of \"{}\" did not run to its end: {}", name, entry.grade->trouble)
+                    : Message("the script of \"{}\" could not be begun: {}", name, entry.grade->trouble));
         if (entry.grade->penalty > 0)
-            add(fmt::format("\"{}\" was late, which costs {} points: {}", name, points_text(entry.grade->penalty),
-                            entry.grade->lateness));
+            add(Message("\"{}\" was late, which costs {} points: {}", name, points_text(entry.grade->penalty),
+                        entry.grade->lateness));
     }
     return attention.empty() ? "Nothing.\n" : attention;
 }
 
 /// The points of those graded whole, sorted.
-Vector points_of(const ClassResults& results) {
+Vector points_by_group(const ClassResults& results) {
     std::vector<double> points;
     for (const Entry& entry : results.entries)
         if (entry.grade && entry.grade->whole()) points.push_back(entry.grade->earned());
@@ -250,7 +255,8 @@ void add_numbers(const ClassResults& results, const Vector& points, double possi
     const Index n = points.size();
     value("lesson", results.setup->lesson.slug);
     value("isolation", isolation_name(results.setup->isolation));
-    value("submissions", counted(results.entries.size(), "submission"));
+    value("submissions",
+          message_text(plural(static_cast<std::int64_t>(results.entries.size()), "{} submission", "{} submissions")));
     value("graded", std::to_string(n));
     value("not_whole", std::to_string(not_whole));
     value("unreadable", std::to_string(unreadable));
@@ -265,8 +271,8 @@ RecordedFigure histogram_of(const Vector& points, double possible) {
     const double width = std::max(1.0, std::ceil(possible / kMostBars)), bars = std::ceil(possible / width) + 1;
     HistogramOptions options;
     options.edges = Vector::LinSpaced(static_cast<Index>(bars) + 1, -0.5 * width, (bars - 0.5) * width);
-    options.x_label = fmt::format("points of {}", points_text(possible));
-    options.y_label = "submissions";
+    options.x_label = Message("points of {}", points_text(possible));
+    options.y_label = Message("submissions");
     RecordedFigure figure;
     figure.figure = std::make_shared<const Figure>(histogram(points, options));
     figure.caption = "Points";
@@ -286,31 +292,29 @@ NeedsTheEye what_needs_the_eye(const ClassResults& results) {
     std::map<std::string, const Entry*> by_content;
     for (const Entry& entry : results.entries) {
         const std::string name = shown_name(entry.submission);
-        const auto add = [&](const std::string& what) {
-            eye.sentences.push_back(fmt::format("\"{}\" {}", name, what));
-        };
+        const auto add = [&](Message sentence) { eye.sentences.push_back(std::move(sentence)); };
         if (results.roster && !entry.owner.anybody()) {
-            add(fmt::format("belongs to nobody in the roster: {}; write it into a list for --owners",
-                            entry.owner.trouble));
+            add(Message("\"{}\" belongs to nobody in the roster: {}; write it into a list for --owners", name,
+                        entry.owner.trouble));
             ++eye.unowned;
         }
         if (!entry.grade) continue;
         if (entry.grade->without_marks()) {
-            add("cannot be read: " + entry.grade->trouble);
+            add(Message("\"{}\" cannot be read: {}", name, entry.grade->trouble));
             ++eye.unreadable;
         } else if (waits_for_a_hand(*entry.grade)) {
-            add("is to be marked by hand: by_hand.csv");
+            add(Message("\"{}\" is to be marked by hand: by_hand.csv", name));
         } else if (!whole(entry) && some_whole) {
-            add("is not graded completely");
+            add(Message("\"{}\" is not graded completely", name));
         } else if (entry.grade->silent && entry.grade->trouble.empty()) {
-            add("ran to its end but gave no answer");
+            add(Message("\"{}\" ran to its end but gave no answer", name));
         }
         if (entry.content.empty()) continue;
         const auto [same, fresh] = by_content.emplace(entry.content, &entry);
         const bool others = !fresh && results.roster && same->second->owner.students != entry.owner.students;
         if (others)
-            add(fmt::format("is the same, byte for byte, as \"{}\" of somebody else",
-                            shown_name(same->second->submission)));
+            add(Message("\"{}\" is the same, byte for byte, as \"{}\" of somebody else", name,
+                        shown_name(same->second->submission)));
     }
     return eye;
 }
@@ -338,7 +342,7 @@ void write_class_results(const ClassResults& results) {
     double possible = 0;
     for (const Entry& entry : results.entries)
         if (entry.grade) possible = std::max(possible, entry.grade->possible());
-    const Vector points = points_of(results);
+    const Vector points = points_by_group(results);
     RunRecord record;
     add_numbers(results, points, possible, record);
     const std::vector<Grade> grades = grades_of(results);

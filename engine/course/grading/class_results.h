@@ -27,14 +27,14 @@ struct ClassResults {
     const GradingSetup* setup = nullptr;
     bool pdf = true;
     const BoxedDocuments* documents = nullptr;
-    std::vector<std::string> complaints;
+    std::vector<Message> complaints;
     bool deadlines = false;      ///< there are some: the gradebook tells the reason of each penalty
     bool newest_counts = false;  ///< of several hand-ins of one student; else the better one
 };
 
 /// What the instructor must look at.
 struct NeedsTheEye {
-    std::vector<std::string> sentences;       ///< one a submission: ""group-5" cannot be read: It is empty."
+    std::vector<Message> sentences;           ///< one a submission: ""group-5" cannot be read: It is empty."
     std::size_t unowned = 0, unreadable = 0;  ///< of those
 };
 NeedsTheEye what_needs_the_eye(const ClassResults& results);

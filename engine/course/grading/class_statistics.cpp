@@ -1,13 +1,13 @@
 #include "course/grading/class_statistics.h"
 
-#include <re2/re2.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <variant>
 
+#include "base/reader.h"
 #include "numerics/linalg/types.h"
 #include "numerics/signals/robust_statistics.h"
 
@@ -19,10 +19,16 @@ using nlohmann::json;
 constexpr std::size_t kFewestForCorrelation = 5;
 constexpr std::size_t kMostMistakes = 5;
 
-std::string without_numbers(std::string message) {
-    static const RE2 number(R"([-+]?\d+(\.\d+)?(e[-+]?\d+)?)", RE2::Latin1);
-    RE2::GlobalReplace(&message, number, "...");
-    return message;
+/// What two messages have in common that differ in their numbers only.
+Message without_numbers(const Message& message) {
+    std::vector<MessageArgument> arguments = message.arguments();
+    for (MessageArgument& argument : arguments) {
+        if (auto* const list = std::get_if<MessageList>(&argument))
+            for (Message& item : list->items) item = without_numbers(item);
+        else if (std::holds_alternative<Number>(argument) || std::holds_alternative<std::int64_t>(argument))
+            argument = std::string("...");
+    }
+    return Message::stored(message.many().empty() ? message.id() : message.many(), "", std::move(arguments));
 }
 
 double correlation(const std::vector<double>& x, const std::vector<double>& y) {
@@ -78,7 +84,7 @@ json json_of_work(const Grade& grade) {
     for (const CheckGrade& check : grade.checks) checks[check.id] = check.graded ? json(check.earned) : json();
     return {{"submission", grade.submission}, {"points", grade.whole() ? json(grade.earned()) : json()},
             {"possible", grade.possible()},   {"penalty", grade.penalty},
-            {"whole", grade.whole()},         {"trouble", grade.trouble},
+            {"whole", grade.whole()},         {"trouble", message_text(grade.trouble)},
             {"checks", std::move(checks)}};
 }
 
@@ -90,7 +96,7 @@ std::vector<CheckStatistics> statistics_of_checks(const std::vector<Grade>& grad
     if (first == grades.end()) return all;
     for (const CheckGrade& declared : first->checks) {
         CheckStatistics one;
-        one.id = declared.id, one.about = declared.about, one.points = declared.points;
+        one.id = declared.id, one.about = message_text(declared.about), one.points = declared.points;
         std::map<std::string, int> said;
         for (const Grade& grade : grades)
             for (const CheckGrade& check : grade.checks) {
@@ -98,7 +104,8 @@ std::vector<CheckStatistics> statistics_of_checks(const std::vector<Grade>& grad
                 ++one.graded;
                 one.passed += check.earned >= check.points;
                 one.mean_share += check.earned / check.points;
-                if (check.earned < check.points && !check.message.empty()) ++said[without_numbers(check.message)];
+                if (check.earned < check.points && !check.message.empty())
+                    ++said[message_text(without_numbers(check.message))];
             }
         if (one.graded > 0) one.mean_share /= one.graded;
         one.discrimination = discrimination(grades, one.id);

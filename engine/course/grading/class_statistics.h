@@ -17,8 +17,8 @@ struct CheckStatistics {
     /// item-total correlation): about 0 or less where those who are good fail it as often. NaN where it is not defined:
     /// fewer than five works, or all with the same points.
     double discrimination = 0;
-    /// What was said where points are missing, and how often; the most frequent first. Numbers in it are made "...", so
-    /// that what differs in a number only counts as one.
+    /// What was said where points are missing, and how often; the most frequent first. Numbers of
+    /// messages are made "...", so that what differs in a number only counts as one.
     std::vector<std::pair<std::string, int>> mistakes;
 };
 

@@ -11,7 +11,6 @@
 #include "course/hand_ins/course_clock.h"
 #include "course/hand_ins/owners.h"
 #include "data_io/text_table.h"
-#include "numerics/number_text.h"
 #include "platform/error.h"
 
 namespace dynlab::inline course {
@@ -58,8 +57,8 @@ class DeadlineTable {
   public:
     explicit DeadlineTable(const fs::path& file) : file_(file), table_(read_text_table(file)) {
         if (!table_.column("submission") || !table_.column("deadline"))
-            throw EnvironmentError(fmt::format("{}: the columns submission and deadline are needed; there are {}",
-                                               file.string(), fmt::join(table_.names, ", ")));
+            throw EnvironmentError("{}: the columns submission and deadline are needed; there are {}", file.string(),
+                                   listed(table_.names));
     }
 
     std::size_t rows() const { return table_.rows.size(); }
@@ -71,30 +70,30 @@ class DeadlineTable {
         const std::string text = cell(row, column);
         if (text.empty()) return fallback;
         const std::optional<double> value = number_in_cell(text);
-        if (!value || !(*value >= 0 && *value <= 100)) fail(row, column, "a number from 0 to 100");
+        if (!value || !(*value >= 0 && *value <= 100)) fail(row, column, Message("a number from 0 to 100"));
         return *value;
     }
     std::optional<long> time(std::size_t row, const char* column) const {
         const std::string text = cell(row, column);
         if (text.empty()) return {};
         const std::optional<ClockReading> value = plain_clock_reading(text);
-        if (!value) fail(row, column, "a time such as 2026-03-01 18:00");
-        if (!value->exists) fail(row, column, "a time that there is");
+        if (!value) fail(row, column, Message("a time such as 2026-03-01 18:00"));
+        if (!value->exists) fail(row, column, Message("a time that there is"));
         return static_cast<long>(value->instant);
     }
     std::optional<long> duration(std::size_t row, const char* column) const {
         const std::string text = cell(row, column);
         if (text.empty()) return {};
         const std::optional<std::int64_t> value = duration_of(text);
-        if (!value) fail(row, column, "a time such as 15 min, 3 h or 2 d");
+        if (!value) fail(row, column, Message("a time such as 15 min, 3 h or 2 d"));
         return static_cast<long>(*value);
     }
-    [[noreturn]] void fail(std::size_t row, const char* column, const char* wanted) const {
-        throw EnvironmentError(fmt::format("{}, line {}: {} must be {}, but \"{}\" was given", file_.string(),
-                                           table_.lines[row], column, wanted, cell(row, column)));
+    [[noreturn]] void fail(std::size_t row, const char* column, const Message& wanted) const {
+        throw EnvironmentError("{}, line {}: {} must be {}, but \"{}\" was given", file_.string(), table_.lines[row],
+                               column, wanted, cell(row, column));
     }
-    [[noreturn]] void fail(std::size_t row, const std::string& what) const {
-        throw EnvironmentError(fmt::format("{}, line {}: {}", file_.string(), table_.lines[row], what));
+    [[noreturn]] void fail(std::size_t row, const Message& what) const {
+        throw EnvironmentError("{}, line {}: {}", file_.string(), table_.lines[row], what);
     }
 
   private:
@@ -118,13 +117,13 @@ Deadlines::Deadlines(const fs::path& file) {
         if (who != kForAll) rule.received.reset();
         const std::optional<long> deadline = table.time(row, "deadline"), extra = table.duration(row, "extra");
         if (!deadline && (!extra || all == rules_.end()))
-            table.fail(row, "deadline", "a time such as 2026-03-01 18:00");
+            table.fail(row, "deadline", Message("a time such as 2026-03-01 18:00"));
         rule.deadline = deadline.value_or(rule.deadline) + extra.value_or(0);
         if (const auto received = table.time(row, "received")) rule.received = received;
         rule.grace = table.duration(row, "grace").value_or(rule.grace);
         rule.percent_per_day = table.number(row, "percent_per_day", rule.percent_per_day);
         rule.most_percent = table.number(row, "most_percent", rule.most_percent);
-        if (!rules_.emplace(who, rule).second) table.fail(row, fmt::format("\"{}\" has a deadline already", who));
+        if (!rules_.emplace(who, rule).second) table.fail(row, Message("\"{}\" has a deadline already", who));
     }
 }
 
@@ -166,23 +165,16 @@ Deadlines::Lateness Deadlines::of(const Submission& submission, const std::vecto
             rule->most_percent};
 }
 
-std::string Deadlines::Lateness::reason(const std::string& language) const {
-    if (percent == 0 && hours == 0) return "";
-    const bool french = language == "fr";
-    const auto number = [&](double value) {
-        std::string text = number_text(value, 4);
-        if (french) std::ranges::replace(text, '.', ',');
-        return text;
-    };
-    std::string duration = duration_text(came - deadline);
-    if (french && came - deadline >= static_cast<long>(kSecondsOfADay)) duration.replace(duration.find('d'), 1, "j");
-    std::string text = fmt::format(
-        fmt::runtime(french ? "reçu le {}, {} après l'échéance du {} ; chaque jour entamé coûte {} % des points"
-                            : "received {}, {} after the deadline of {}; each begun day costs {} % of the points"),
-        shown_instant(came), duration, shown_instant(deadline), number(percent_per_day));
+Message Deadlines::Lateness::reason() const {
+    if (percent == 0 && hours == 0) return {};
+    const std::string received = shown_instant(came), due = shown_instant(deadline);
+    const Message duration = duration_message(came - deadline);
     if (most_percent < 100)
-        text += fmt::format(fmt::runtime(french ? ", au plus {} %" : ", at most {} %"), number(most_percent));
-    return text;
+        return Message(
+            "received {}, {} after the deadline of {}; each begun day costs {} % of the points, at most {} %", received,
+            duration, due, significant(percent_per_day, 4), significant(most_percent, 4));
+    return Message("received {}, {} after the deadline of {}; each begun day costs {} % of the points", received,
+                   duration, due, significant(percent_per_day, 4));
 }
 
 std::vector<std::string> Deadlines::strays(const std::vector<Submission>& submissions,

@@ -25,8 +25,8 @@ class Deadlines {
         long came = 0, deadline = 0;    ///< seconds since 1970
         double percent_per_day = 0, most_percent = 100;
         /// "received 2026-03-01 18:20 CET, 20 min after the deadline of 2026-03-01 18:00 CET; each begun day costs 10 %
-        /// of the points", in French for "fr"; empty in time
-        std::string reason(const std::string& language) const;
+        /// of the points"; empty in time
+        Message reason() const;
     };
     /// `also`: by what else the submission may be named in the table: its owners' group, ids and names. A row of its
     /// own name goes first; of several others the one with the latest deadline holds.

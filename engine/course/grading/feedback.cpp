@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cctype>
 #include <string_view>
+#include <variant>
 
-#include "course/findings/french_sentences.h"
+#include "base/languages.h"
+#include "course/findings/lesson_reader.h"
 #include "documents/run_record.h"
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"
@@ -28,31 +30,39 @@ using Escape = std::string (*)(const std::string&);
 class FeedbackText {
   public:
     FeedbackText(const Grade& grade, Escape escape)
-        : grade_(grade), words_(feedback_words(grade.language)), escape_(escape) {
-        if (grade.language == "fr") sentences_ = french_sentences(grade.lesson);
-    }
+        : grade_(grade), reader_(grade.language, grade.lesson), escape_(escape) {}
 
-    std::string heading() const { return filled(words_.title, escape_(title())); }
+    std::string heading() const { return words(Message("Feedback for {}", escape_(title()))); }
     std::string title() const { return grade_.title.empty() ? grade_.submission : grade_.title; }
-    std::string plain_title() const { return filled(words_.title, title()); }
-    const char* checks_heading() const { return words_.checks; }
+    std::string plain_title() const { return words(Message("Feedback for {}", title())); }
+    std::string checks_heading() const { return words(Message("Checks")); }
 
     std::string result() const {
-        std::string text =
-            filled(words_.result, escape_(grade_.lesson), points(grade_.earned()), points(grade_.possible()));
-        if (grade_.penalty > 0) text += " " + filled(words_.late, points(grade_.penalty), grade_.lateness_told);
-        if (!grade_.counts_instead.empty())
-            text += "\n\n" + filled(grade_.newest_counts ? words_.newest_counts : words_.better_counts,
-                                    escape_(grade_.counts_instead));
+        std::string text = words(Message("Lesson {}: **{} of {} points.**", escape_(grade_.lesson),
+                                         points_number(grade_.earned()), points_number(grade_.possible())));
+        if (grade_.penalty > 0)
+            text += " " + words(Message("It was late, which costs {} points: {}.", points_number(grade_.penalty),
+                                        grade_.lateness));
+        const std::string other = escape_(grade_.counts_instead);
+        if (!other.empty())
+            text +=
+                "\n\n" + words(grade_.newest_counts ? Message("**This hand-in does not count.** Of several from you "
+                                                              "the newest one counts: {}.",
+                                                              other)
+                                                    : Message("**This hand-in does not count.** Of several from you "
+                                                              "the better one counts: {}.",
+                                                              other));
         return text;
     }
 
     std::string trouble() const {
-        if (grade_.trouble.empty()) return grade_.silent ? words_.silent : words_.ran;
-        const char* const what = grade_.unreadable ? words_.unreadable
-                                 : grade_.began    ? words_.not_ended
-                                                   : words_.not_begun;
-        return what + told_trouble();
+        if (grade_.trouble.empty())
+            return words(grade_.silent ? Message("Your script ran to its end but gave no answer.")
+                                       : Message("Your script ran to its end."));
+        const std::string why = shown_trouble();
+        return words(grade_.unreadable ? Message("**Your work could not be read, so it has no marks yet:** {}", why)
+                     : grade_.began    ? Message("**Your script did not run to its end:** {}", why)
+                                       : Message("**Your script could not be begun:** {}", why));
     }
 
     std::string checks() const {
@@ -61,40 +71,38 @@ class FeedbackText {
         return items;
     }
 
-    std::string closing() const { return words_.closing; }
+    std::string closing() const {
+        return words(Message(
+            "Points are given by programs that hold your answers against your data and against records that nobody has "
+            "seen. If you think that one of them is wrong, tell your instructor which, and why."));
+    }
 
   private:
-    template <class... Parts>
-    static std::string filled(const char* text, const Parts&... parts) {
-        return fmt::format(fmt::runtime(text), parts...);
-    }
-
-    std::string points(double number) const {
-        std::string text = points_text(number);
-        if (grade_.language == "fr") std::replace(text.begin(), text.end(), '.', ',');
-        return text;
-    }
+    std::string words(const Message& message) const { return reader_.text(message); }
 
     /// A list item.
     std::string item_of(const CheckGrade& check) const {
-        std::string item = fmt::format(
-            "- **{}** – {}", told(check.about),
-            check.graded ? filled(words_.of, points(check.earned), points(check.points)) : words_.not_graded);
-        if (check.visible && !check.message.empty()) item += "\\\n  " + told(check.message);
+        std::string item =
+            fmt::format("- **{}** – {}", escaped(words(check.about)),
+                        words(check.graded ? points_of(check.earned, check.points) : Message("not graded yet")));
+        if (check.visible && !check.message.empty()) item += "\\\n  " + escaped(words(check.message));
         if (check.earned < check.points && check.graded && !check.hint.empty())
-            item += "\\\n  *" + told(check.hint) + "*";
+            item += "\\\n  *" + escaped(words(check.hint)) + "*";
         return item + "\n";
     }
 
-    std::string told(const std::string& sentence) const { return escaped(sentences_.translated(sentence)); }
-
-    /// French sets a space before a colon, which is none of "analysis.lua:3": there the place is code.
-    std::string told_trouble() const {
-        static const RE2 kPlace(R"(^([\w.-]+\.lua:\d+): )", RE2::Latin1);
-        const std::string text = sentences_.translated(grade_.trouble);
+    /// In French, a space comes before a colon, which is none of "analysis.lua:3": as code the place stays as it is.
+    std::string shown_trouble() const {
+        static const RE2 kPlace(R"(([\w.-]+\.lua:\d+): )", RE2::Latin1);
+        const Message& trouble = grade_.trouble;
+        const bool placed = trouble.arguments().size() == 2;
+        const auto* const first = placed ? std::get_if<std::string>(&trouble.arguments()[0]) : nullptr;
+        const auto* const sentence = placed ? std::get_if<MessageList>(&trouble.arguments()[1]) : nullptr;
         std::string place;
-        if (grade_.language != "fr" || !RE2::PartialMatch(text, kPlace, &place)) return escaped(text);
-        return "`" + place + "`" + escaped(text.substr(place.size()));
+        if (reader_.reader().catalog == nullptr || first == nullptr || sentence == nullptr ||
+            !RE2::FullMatch(*first, kPlace, &place))
+            return escaped(words(trouble));
+        return "`" + place + "`: " + escaped(words(Message("{}", *sentence)));
     }
 
     /// Quotation marks stay straight on paper: hints quote code.
@@ -103,8 +111,7 @@ class FeedbackText {
     }
 
     const Grade& grade_;
-    const FeedbackWords& words_;
-    SentenceCatalogue sentences_;
+    LessonReader reader_;
     Escape escape_;
 };
 
@@ -125,53 +132,19 @@ std::string text_and_document(const std::string& markdown, const fs::path& pdf) 
                        sha256_of_file(pdf));
 }
 
-constexpr FeedbackWords kEnglishFeedback = {
-    "Feedback for {}",
-    "Lesson {}: **{} of {} points.**",
-    "{} of {} points.",
-    ": ",
-    "{} of {}",
-    "not graded yet",
-    "Checks",
-    "Your script ran to its end.",
-    "Your script ran to its end but gave no answer.",
-    "**Your work could not be read, so it has no marks yet:** ",
-    "**Your script could not be begun:** ",
-    "**Your script did not run to its end:** ",
-    "It was late, which costs {} points: {}.",
-    "**This hand-in does not count.** Of several from you the better one counts: {}.",
-    "**This hand-in does not count.** Of several from you the newest one counts: {}.",
-    "Points are given by programs that hold your answers against your data and against records that nobody has seen. "
-    "If you think that one of them is wrong, tell your instructor which, and why.",
-};
-
-constexpr FeedbackWords kFrenchFeedback = {
-    "Retour pour {}",
-    "Leçon {}, points : **{} sur {}.**",
-    "Points : {} sur {}.",
-    " : ",
-    "{} sur {}",
-    "pas encore noté",
-    "Contrôles",
-    "Votre script est allé jusqu'au bout.",
-    "Votre script est allé jusqu'au bout, mais n'a donné aucune réponse.",
-    "**Votre travail n'a pas pu être lu ; il n'a donc pas encore de note :** ",
-    "**Votre script n'a pas pu commencer :** ",
-    "**Votre script n'est pas allé jusqu'au bout :** ",
-    "Il est arrivé en retard ; points perdus : {} ({}).",
-    "**Cette remise ne compte pas.** De plusieurs remises de votre part, la meilleure compte : {}.",
-    "**Cette remise ne compte pas.** De plusieurs remises de votre part, la plus récente compte : {}.",
-    "Les points sont donnés par des programmes qui comparent vos réponses avec vos données et avec des enregistrements "
-    "que personne n'a vus. Si vous pensez que l'un d'eux se trompe, dites à votre enseignant lequel, et pourquoi.",
-};
-
 }  // namespace
 
+Number points_number(double points) {
+    const std::string text = fmt::format("{:.2f}", points);
+    return decimals(points, text.ends_with("00") ? 0 : text.ends_with('0') ? 1 : 2);
+}
+
 std::string points_text(double points) {
-    std::string text = fmt::format("{:.2f}", points);
-    while (text.ends_with('0')) text.pop_back();
-    if (text.ends_with('.')) text.pop_back();
-    return text;
+    return number_text(points_number(points));
+}
+
+Message points_of(double earned, double possible) {
+    return Message("{} of {}", points_number(earned), points_number(possible));
 }
 
 std::string readable_markdown(const std::string& text) {
@@ -216,14 +189,11 @@ void set_feedback(const Grade& grade, const fs::path& pdf, const fs::path& made,
     fs::remove(pdf);
     if (!documents) return;
     const FeedbackText text(grade, escaped_markdown);
-    documents->make(kTemplate, feedback_record(text), pdf,
-                    {{"title", text.plain_title()}, {"lang", grade.language == "fr" ? "fr" : "en"}});
+    documents->make(
+        kTemplate, feedback_record(text), pdf,
+        {{"title", text.plain_title()}, {"lang", catalog_of(grade.language) == nullptr ? "en" : grade.language}});
     fs::create_directories(made.parent_path());
     write_file_atomically(made, text_and_document(markdown, pdf));
-}
-
-const FeedbackWords& feedback_words(const std::string& language) {
-    return language == "fr" ? kFrenchFeedback : kEnglishFeedback;
 }
 
 }  // namespace dynlab::inline course

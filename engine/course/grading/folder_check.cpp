@@ -4,12 +4,13 @@
 #include <re2/re2.h>
 
 #include <algorithm>
-#include <csignal>
 #include <optional>
 #include <thread>
 
-#include "course/boxes/boxed_work.h"
+#include "base/reader.h"
+#include "course/boxes/told_reason.h"
 #include "course/grading/feedback.h"
+#include "course/grading/folder_report.h"
 #include "course/grading/grading_rules.h"
 #include "course/hand_ins/folder_copy.h"
 #include "course/hand_ins/notebooks.h"
@@ -33,10 +34,49 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMissingProgramCode = 3;  ///< dynlab's exit code when pandoc or the like is not installed
-constexpr std::uint64_t kMostCheckOutput = 16u << 20, kLargestMade = 200u << 20;
 constexpr const char *kOwnScript = "analysis.lua", *kOwnNotebook = "analysis.ipynb";
-constexpr char kInBox[] = "/box/submission";
+
+Message sentence_about(const UnplacedEntries& entries) {
+    const bool one = entries.names.size() == 1;
+    const MessageList names = entries.quoted_names();
+    switch (entries.kind) {
+        case UnplacedEntries::Kind::kTable:
+            return one ? Message("In {} the table {} is reported, but has no place in the text.", kOwnScript, names)
+                       : Message("In {} the tables {} are reported, but have no place in the text.", kOwnScript, names);
+        case UnplacedEntries::Kind::kText:
+            return one ? Message("In {} the text {} is reported, but has no place in the text.", kOwnScript, names)
+                       : Message("In {} the texts {} are reported, but have no place in the text.", kOwnScript, names);
+        case UnplacedEntries::Kind::kValue:
+            return one ? Message("In {} the value {} is reported, but has no place in the text.", kOwnScript, names)
+                       : Message("In {} the values {} are reported, but have no place in the text.", kOwnScript, names);
+        case UnplacedEntries::Kind::kFigure:
+            break;
+    }
+    return one ? Message("In {} the figure {} is reported, but has no place in the text.", kOwnScript, names)
+               : Message("In {} the figures {} are reported, but have no place in the text.", kOwnScript, names);
+}
+
+Message sentence_about_missing(const ExpectedAnswer& answer) {
+    const std::string &name = answer.name, &kind = answer.kind;
+    if (kind == "number") return Message("The answer \"{}\" (number) is not given.", name);
+    if (kind == "text") return Message("The answer \"{}\" (text) is not given.", name);
+    if (kind == "truth") return Message("The answer \"{}\" (truth) is not given.", name);
+    if (kind == "vector") return Message("The answer \"{}\" (vector) is not given.", name);
+    if (kind == "matrix") return Message("The answer \"{}\" (matrix) is not given.", name);
+    if (kind == "data") return Message("The answer \"{}\" (data) is not given.", name);
+    if (kind == "model") return Message("The answer \"{}\" (model) is not given.", name);
+    if (kind == "response") return Message("The answer \"{}\" (response) is not given.", name);
+    return Message("The answer \"{}\" (table) is not given.", name);
+}
+
+Message remedy_for(const UnplacedEntries& entries) {
+    const std::string& name = entries.names.front();
+    if (entries.kind == UnplacedEntries::Kind::kTable)
+        return Message("Write ::: {.table name={}} above and ::: below its caption there.", name);
+    if (entries.kind == UnplacedEntries::Kind::kText)
+        return Message("Write ::: {.text name={}} and ::: below there.", name);
+    return Message("Write {} there.", entries.slot());
+}
 
 /// One folder's check: a clean copy, what runs in it, and what is found.
 class FolderCheck {
@@ -81,8 +121,8 @@ class FolderCheck {
     fs::path report() const { return out() / "report.pdf"; }
     fs::path record() const { return out() / "record.json"; }
 
-    void add(const std::string& id, Severity severity, const std::string& place, const std::string& what,
-             const std::string& remedy) {
+    void add(const std::string& id, Severity severity, const std::string& place, const Message& what,
+             const Message& remedy) {
         result_.findings.push_back({id, severity, 0, place, what, remedy});
     }
 
@@ -90,8 +130,9 @@ class FolderCheck {
         for (const char* needed : {kOwnScript, "report.md"}) {
             if (fs::is_regular_file(fs::symlink_status(folder_ / needed))) continue;
             if (needed == kOwnScript && fs::is_regular_file(fs::symlink_status(folder_ / kOwnNotebook))) continue;
-            add("analysis-missing", Severity::kRule, needed, fmt::format("The folder has no file {}.", needed),
-                "Hand in the whole folder that dynlab new made, with analysis.lua and report.md directly in it.");
+            add("analysis-missing", Severity::kRule, needed, Message("The folder has no file {}.", needed),
+                Message(
+                    "Hand in the whole folder that dynlab new made, with analysis.lua and report.md directly in it."));
         }
         return result_.findings.empty();
     }
@@ -99,14 +140,15 @@ class FolderCheck {
     bool copied() {
         const FolderCopy outcome = copy_folder(folder_, copy(), limits_.folder_bytes, limits_.files);
         for (const std::string& name : outcome.left_out) {
-            add("link-left-out", Severity::kHint, name, "This is a link or not a regular file; it is not handed in.",
-                "Put the file itself there.");
+            add("link-left-out", Severity::kHint, name,
+                Message("This is a link or not a regular file; it is not handed in."),
+                Message("Put the file itself there."));
         }
         if (!outcome.too_large) return scripts_made();
         add("folder-too-large", Severity::kRule, "",
-            fmt::format("The folder is too large: at most {} files and {} MB are looked at.", limits_.files,
-                        limits_.folder_bytes >> 20),
-            "Take out what the report does not need.");
+            Message("The folder is too large: at most {} files and {} MB are looked at.", limits_.files,
+                    limits_.folder_bytes >> 20),
+            Message("Take out what the report does not need."));
         return false;
     }
 
@@ -116,7 +158,7 @@ class FolderCheck {
             of_notebook_ = !take_notebooks(copy()).empty();
             return true;
         } catch (const SubmissionError& error) {
-            add("analysis-fails", Severity::kRule, kOwnNotebook, error.what(), "Save it again in Jupyter.");
+            add("analysis-fails", Severity::kRule, kOwnNotebook, error.message(), Message("Save it again in Jupyter."));
             return false;
         }
     }
@@ -124,80 +166,49 @@ class FolderCheck {
     /// The cells of the notebook instead of lines that its author does not see.
     void tell_in_cells() {
         const std::string source = read_file(copy() / kOwnScript);
-        for (Finding& finding : result_.findings)
-            for (std::string* text : {&finding.place, &finding.what, &finding.remedy})
-                *text = with_places_in_notebook(*text, kOwnScript, kOwnNotebook, source);
+        const auto in_cells = [&source](const auto& text) {
+            return with_places_in_notebook(text, kOwnScript, kOwnNotebook, source);
+        };
+        for (Finding& finding : result_.findings) {
+            finding.place = in_cells(finding.place);
+            finding.what = in_cells(finding.what);
+            finding.remedy = in_cells(finding.remedy);
+        }
     }
 
     std::optional<PercentScript> readable_script() {
         try {
             return read_percent_script(copy() / "analysis.lua");
         } catch (const DocumentError& error) {
-            add_failure(error.what());
+            add_failure(told_outside(error.message(), copy()));
             return std::nullopt;
         }
     }
 
-    /// The report and the record of its run, made in a box as grading does: the analysis may be anybody's.
-    ChildResult run_report() const {
-        Box box(isolation_);
-        box.add_document_home(shared_folder() / "data");
-        const fs::path inside = box.add(copy(), kInBox), made = box.add_writable(out(), "/box/made");
-        const fs::path program = box.add_program(program_);
-        Box::Limits most;
-        most.time = limits_.time;
-        most.output_bytes = kMostCheckOutput;
-        most.file_bytes = kLargestMade;
-        return box.run({program.string(), "report", inside.string(), "-o", (made / "report.pdf").string(), "--record",
-                        (made / "record.json").string(), "--stay-in-folder"},
-                       made, "", most);
+    void add_failure(const Message& message) {
+        add("analysis-fails", Severity::kRule, "",
+            Message("From a clean copy of the folder no report comes out: {}", message),
+            Message("Mend it and try \"dynlab report FOLDER\"; every file the analysis reads must lie in the folder or "
+                    "in data."));
     }
 
-    /// The message as if the student's own folder had been used, without the lines of the script shown below it.
-    std::string in_folder(std::string message) const {
-        for (const std::string& place : {copy().string() + "/", std::string(kInBox) + "/", std::string("../folder/"),
-                                         std::string("../submission/")})
-            message = replaced(message, place, "");
-        std::string told;
-        for (const std::string& line : lines_of(message))
-            if (!line.starts_with("  ")) told += line + " ";
-        const std::string prefix = "dynlab: ";
-        return trimmed(told.starts_with(prefix) ? told.substr(prefix.size()) : told);
-    }
-
-    void add_failure(const std::string& message) {
-        const std::string told = in_folder(message);
-        if (told.find(kLeadsOutside) != std::string::npos) {
-            const std::string line = told.substr(0, told.find(' '));  // "analysis.lua:3:"
-            const bool located = line.starts_with("analysis.lua:") && line.ends_with(':');
-            add("file-outside", Severity::kRule, located ? line.substr(0, line.size() - 1) : "",
-                "The analysis reads a file that is not handed in, and stops there: " +
-                    (located ? trimmed(told.substr(line.size())) : told) + ".",
-                "Copy the file into the folder and load it by its name there.");
-            return;
-        }
-        add("analysis-fails", Severity::kRule, "", "From a clean copy of the folder no report comes out: " + told,
-            "Mend it and try \"dynlab report FOLDER\"; every file the analysis reads must lie in the folder or in "
-            "data.");
+    /// The script stopped.
+    void add_failure(const RecordedError& error) {
+        if (!is_refusal_outside(error.message)) return add_failure(with_place(error));
+        const int line = error.line_in(kOwnScript);
+        add("file-outside", Severity::kRule, line > 0 ? fmt::format("{}:{}", kOwnScript, line) : "",
+            Message("The analysis reads a file that is not handed in, and stops there: {}.",
+                    line > 0 ? error.message : with_place(error)),
+            Message("Copy the file into the folder and load it by its name there."));
     }
 
     bool makes_report() {
-        for (const auto& [name, package] : {std::pair("pandoc", "pandoc"), std::pair("pdflatex", "texlive-latex-base")})
-            if (!find_program(name)) throw MissingProgram(name, package);
-        const ChildResult made = run_report();
-        if (made.exit_code == 0) return true;
-        if (made.exit_code == kMissingProgramCode) throw MissingProgram(in_folder(made.error_output));
-        if (made.timed_out)
-            add_failure(reason_of_end(made, limits_.time) + ".");
-        else if (made.output_exceeded)
-            add_failure("it prints more than 16 MB.");
-        else if (made.exit_code == 128 + SIGXFSZ)
-            add_failure(fmt::format("it writes a file of more than {} MB.", kLargestMade >> 20));
-        else if (made.error_output.empty())
-            add_failure(fmt::format("it ends with code {} and without a message.", made.exit_code));
-        else
-            add_failure(made.error_output);
-        return false;
+        const FolderReport made = make_folder_report(copy(), out(), program_, isolation_, limits_.time);
+        if (made.stopped)
+            add_failure(*made.stopped);
+        else if (!made.made)
+            add_failure(made.failure);
+        return made.made;
     }
 
     /// What the checks say of a run that stopped there speaks of answers that are given further down.
@@ -215,11 +226,11 @@ class FolderCheck {
     /// Lines that a student's own take the place of: a question that has several is one finding.
     void check_blanks(const PercentScript& script) {
         struct Blanks {
-            std::string question;     ///< "Question 4"; empty above the first
+            std::string question;     ///< its number; empty above the first
             int line;                 ///< of the first
             std::string code, words;  ///< the marks that stand there
         };
-        static const RE2 kQuestion(R"(\*\*(Question \d{1,4})\b)", RE2::Latin1);
+        static const RE2 kQuestion(R"(\*\*Question (\d{1,4})\b)", RE2::Latin1);
         std::vector<Blanks> found;
         std::string question;
         int number = 0;
@@ -241,10 +252,11 @@ class FolderCheck {
             const std::string& one = code.empty() ? words : code;
             const bool both = !code.empty() && !words.empty();
             add("answer-open", Severity::kRule, fmt::format("analysis.lua:{}", line),
-                asked.empty() ? fmt::format("The line \"{}\" is still there.", one)
-                : both ? fmt::format("{} is open: the lines \"{}\" and \"{}\" are still there.", asked, code, words)
-                       : fmt::format("{} is open: the line \"{}\" is still there.", asked, one),
-                "Write your own there and take the line out.");
+                asked.empty() ? Message("The line \"{}\" is still there.", one)
+                : both
+                    ? Message("Question {} is open: the lines \"{}\" and \"{}\" are still there.", asked, code, words)
+                    : Message("Question {} is open: the line \"{}\" is still there.", asked, one),
+                Message("Write your own there and take the line out."));
         }
     }
 
@@ -252,19 +264,15 @@ class FolderCheck {
     void check_answers(const PercentScript& script, const RunRecord& run) {
         for (const ExpectedAnswer& answer : script.header.answers) {
             if (run.answers.contains(answer.name)) continue;
-            add("answer-missing", Severity::kRule, "analysis.lua",
-                fmt::format("The answer \"{}\" ({}) is not given.", answer.name, answer.kind),
-                fmt::format("Give it: answer(\"{}\", ...).", answer.name));
+            add("answer-missing", Severity::kRule, "analysis.lua", sentence_about_missing(answer),
+                Message("Give it: answer(\"{}\", ...).", answer.name));
         }
     }
 
     /// What the analysis reports and no reader would see.
     void check_places(const PercentScript& script, const RunRecord& run) {
-        for (const std::string& sentence : entries_without_place(script, run)) {
-            const std::size_t remedy = sentence.find("; write ");
-            add("not-shown", Severity::kHint, "report.md", "In analysis.lua " + sentence.substr(0, remedy) + ".",
-                "Write " + sentence.substr(remedy + 8) + " there.");
-        }
+        for (const UnplacedEntries& entries : entries_without_place(script, run))
+            add("not-shown", Severity::kHint, "report.md", sentence_about(entries), remedy_for(entries));
     }
 
     /// Where the lesson itself is not on this machine: the checks that came with the folder, and the answers that its
@@ -297,14 +305,16 @@ class FolderCheck {
         setup.jobs = static_cast<int>(std::thread::hardware_concurrency());
         const GradingRules::GroupSeed own = group_seed_of(copy() / "data");
         const Grade grade = GradingRules(setup).grade(folder_.filename().string(), copy(), own);
-        result_.checked.push_back(fmt::format("checks of lesson {}: {} of {} points", lesson->slug,
-                                              points_text(grade.earned()), points_text(grade.possible())));
+        const Message name = slug.empty() ? Message("of the folder") : Message::verbatim(lesson->slug);
+        result_.checked.push_back(Message("checks of lesson {}: {} of {} points", name, points_number(grade.earned()),
+                                          points_number(grade.possible())));
         for (const CheckGrade& check : grade.checks) {
             if (check.by_hand || check.earned >= check.points) continue;
+            const Message score = Message("{} of {} points for \"{}\".", points_number(check.earned),
+                                          points_number(check.points), check.about);
             add("check-failed", Severity::kHint, "",
-                fmt::format("{} of {} points for \"{}\". {}", points_text(check.earned), points_text(check.points),
-                            check.about, check.message),
-                check.hint.empty() ? "See checks.lua of the lesson." : check.hint);
+                message_text(check.message).empty() ? score : sentences({score, check.message}),
+                check.hint.empty() ? Message("See checks.lua of the lesson.") : check.hint);
         }
     }
 
@@ -333,8 +343,8 @@ class FolderCheck {
         for (const Student& member : members) names.add(member, true);
         if (members.empty() && fs::exists(copy() / "group.toml"))
             add("members-missing", Severity::kHint, "group.toml",
-                "No members stand there, so your names were not looked for in the report.",
-                "Write them in: members = [\"Ada Lovelace\", \"Rudolf Kalman\"].");
+                Message("No members stand there, so your names were not looked for in the report."),
+                Message("Write them in: members = [\"Ada Lovelace\", \"Rudolf Kalman\"]."));
         wishes.names = std::make_shared<const SoughtNames>(std::move(names));
     }
 
@@ -344,8 +354,8 @@ class FolderCheck {
         result_.language = found.language;
         result_.pages = found.pages;
         result_.checked.insert(result_.checked.begin(), found.checked.begin(), found.checked.end());
-        result_.checked.insert(result_.checked.begin(),
-                               file == report() ? "run from a clean copy" : file.filename().string());
+        result_.checked.insert(result_.checked.begin(), file == report() ? Message("run from a clean copy")
+                                                                         : Message("{}", file.filename().string()));
         result_.findings.insert(result_.findings.end(), found.findings.begin(), found.findings.end());
     }
 
@@ -360,14 +370,15 @@ class FolderCheck {
         return found.size() == 1 ? std::optional(found.front()) : std::nullopt;
     }
 
-    static std::string make_again(const std::string& name) {
-        return "Make it again: dynlab report FOLDER" + (name == "report.pdf" ? "" : " -o FOLDER/" + name);
+    static Message make_again(const std::string& name) {
+        if (name == "report.pdf") return Message("Make it again: dynlab report FOLDER");
+        return Message("Make it again: dynlab report FOLDER -o FOLDER/{}", name);
     }
 
     void compare_with(const fs::path& handed_in) {
         const std::string name = handed_in.filename().string();
         if (read_file(handed_in) == read_file(report())) {
-            result_.checked.push_back(name + " is up to date");
+            result_.checked.push_back(Message("{} is up to date", name));
             return;
         }
         const auto written = fs::last_write_time(folder_ / name);
@@ -375,9 +386,10 @@ class FolderCheck {
             written < fs::last_write_time(copy() / kOwnScript) || written < fs::last_write_time(copy() / "report.md");
         if (outdated) {
             add("pdf-outdated", Severity::kHint, name,
-                "The PDF is older than the analysis or the text it was made from.", make_again(name));
+                Message("The PDF is older than the analysis or the text it was made from."), make_again(name));
         } else {
-            add("pdf-differs", Severity::kHint, name, "The PDF is not what the folder gives now.", make_again(name));
+            add("pdf-differs", Severity::kHint, name, Message("The PDF is not what the folder gives now."),
+                make_again(name));
         }
     }
 

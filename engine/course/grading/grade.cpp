@@ -1,13 +1,13 @@
 #include "course/grading/grade.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/reader.h"
 #include "course/grading/grade_description.h"
 #include "data_io/values/json_values.h"
+#include "data_io/values/message_values.h"
 #include "platform/error.h"
 
 namespace dynlab::inline course {
@@ -22,18 +22,31 @@ double rounded(double points) {
 
 json test_of(const CheckGrade& check, std::size_t number) {
     const std::string state = !check.graded ? "ungraded" : check.earned >= check.points ? "passed" : "failed";
-    std::string shown = check.visible ? check.message : "";
-    if (state == "failed" && !check.hint.empty()) shown += (shown.empty() ? "" : "\n") + check.hint;
-    json test = {{"number", std::to_string(number)},
-                 {"name", check.about},
-                 {"max_score", check.points},
-                 {"output", shown},
-                 {"visibility", "visible"}};
+    MessageList shown{{}, Join::kLines};
+    if (check.visible && !check.message.empty()) shown.items.push_back(check.message);
+    if (state == "failed" && !check.hint.empty()) shown.items.push_back(check.hint);
+    const Message output = Message("{}", shown);
+    JsonWriter stored;
+    write_value(stored, output);
+    json test = {{"number", std::to_string(number)}, {"name", message_text(check.about)},
+                 {"max_score", check.points},        {"output", message_text(output)},
+                 {"visibility", "visible"},          {"extra_data", {{"dynlab", {{"output", stored.value()}}}}}};
     if (check.graded) {
         test["score"] = rounded(check.earned);
         test["status"] = state;
     }
     return test;
+}
+
+/// What `read` makes of the text of a file of results.
+template <class Read>
+auto read_results(const std::string& text, const Read& read) {
+    try {
+        return read(parsed_json(text));
+    } catch (const json::exception&) {
+    } catch (const ValueError&) {
+    }
+    throw EnvironmentError("this is not a result that dynlab grade wrote");
 }
 
 }  // namespace
@@ -59,16 +72,19 @@ std::string to_results_json(const Grade& grade, const Grade& marked) {
     for (const CheckGrade& check : marked.checks) tests.push_back(test_of(check, tests.size() + 1));
     Grade kept = grade;  // the file may be handed on to students
     for (CheckGrade& check : kept.checks)
-        if (!check.visible) check.message.clear();
+        if (!check.visible) check.message = Message();
     JsonWriter writer;
     write_value(writer, kept);
     json own = writer.value();
     own["format"] = 1;
     own["whole"] = marked.whole();
     const bool costs = marked.penalty > 0;
-    const std::string late =
-        costs ? fmt::format("Late, which costs {:.2f} points: {}.", marked.penalty, grade.lateness) : "";
-    json j = {{"output", grade.trouble + (costs && !grade.trouble.empty() ? "\n" : "") + late},
+    MessageList output{{}, Join::kLines};
+    if (!grade.trouble.empty()) output.items.push_back(grade.trouble);
+    if (costs)
+        output.items.push_back(
+            Message("Late, which costs {} points: {}.", decimals(marked.penalty, 2), grade.lateness));
+    json j = {{"output", message_text(Message("{}", output))},
               {"stdout_visibility", "hidden"},
               {"tests", std::move(tests)},
               {"extra_data", {{"dynlab", std::move(own)}}}};
@@ -77,12 +93,21 @@ std::string to_results_json(const Grade& grade, const Grade& marked) {
 }
 
 Grade from_results_json(const std::string& text) {
-    try {
-        return value_of_json<Grade>(parsed_json(text).at("extra_data").at("dynlab"));
-    } catch (const json::exception&) {
-    } catch (const ValueError&) {
-    }
-    throw EnvironmentError("this is not a result that dynlab grade wrote");
+    return read_results(
+        text, [](const json& results) { return value_of_json<Grade>(results.at("extra_data").at("dynlab")); });
+}
+
+std::vector<ShownResult> shown_results(const std::string& text) {
+    return read_results(text, [](const json& results) {
+        std::vector<ShownResult> shown;
+        for (const json& test : results.at("tests")) {
+            const double points = test.at("max_score");
+            shown.push_back({Message::verbatim(test.at("name")),
+                             value_of_json<Message>(test.at("extra_data").at("dynlab").at("output")), points,
+                             test.value("score", points)});
+        }
+        return shown;
+    });
 }
 
 }  // namespace dynlab::inline course

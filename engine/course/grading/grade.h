@@ -2,35 +2,38 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
+
 namespace dynlab::inline course {
 
 /// What one check gave a submission.
 struct CheckGrade {
-    std::string id, about, hint, message;
+    std::string id;
+    Message about, hint;  ///< as the author of the checks wrote them
+    Message message;
     double points = 0, earned = 0;
     bool visible = true;   ///< the student may see the message
     bool graded = true;    ///< false: the check itself is broken, or could not be run
     bool by_hand = false;  ///< the instructor marks it, in manual.csv, by the rubric
     std::string rubric = {};
-    std::string for_instructor = {};  ///< what the message must not say of secret records; not part of the result
+    Message for_instructor = {};  ///< what the message must not say of secret records; not part of the result
 };
 
 /// A submission's result.
 struct Grade {
     std::string submission, lesson, isolation;
     std::string fingerprint;  ///< of all that it depends on: an equal one need not be made again
-    std::string trouble;      ///< why the script did not run to its end, in a sentence for the student
+    Message trouble;          ///< why the script did not run to its end, in a sentence for the student
     bool unreadable = false;  ///< nothing could be run, as `trouble` says: no marks, which is not the mark 0
     bool began = true;        ///< false where the script could not even be begun
     bool silent = false;      ///< the script gave no answer at all
-    std::string remark;       ///< for the instructor: which version was taken
+    Message remark;           ///< for the instructor: which version was taken
     std::string printed;      ///< end of what the script printed
     std::vector<CheckGrade> checks;
     double late_hours = 0, penalty = 0;  ///< penalty in points
-    std::string lateness;                ///< why there is a penalty, as Deadlines tells it
-    std::string lateness_told;           ///< the same in the language of the feedback
+    Message lateness;                    ///< why there is a penalty, as Deadlines says
     std::string title;                   ///< whom the feedback is for: a group or a person
-    std::string language;                ///< of the feedback: "fr", else English
+    std::string language;                ///< of the feedback; English where it has no catalog
     std::string counts_instead;          ///< the hand-in of the same owner that counts; empty where this one does
     bool newest_counts = false;          ///< ... as it is the newest; else as it is the better one
     std::string log;                     ///< what was run and how long it took; not part of the result
@@ -46,5 +49,14 @@ struct Grade {
 std::string to_results_json(const Grade& grade, const Grade& marked);
 /// The `grade` of that text. Throws EnvironmentError for a text that to_results_json did not make.
 Grade from_results_json(const std::string& text);
+
+/// What that text shows of one check of `marked`.
+struct ShownResult {
+    Message about;
+    Message output;  ///< what the check said, and its hint where points are missing; may be empty text
+    double points = 0, earned = 0;
+};
+/// Throws as from_results_json.
+std::vector<ShownResult> shown_results(const std::string& text);
 
 }  // namespace dynlab::inline course

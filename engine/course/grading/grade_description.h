@@ -1,5 +1,6 @@
 #pragma once
 #include "course/grading/grade.h"
+#include "course/hand_ins/text_with_message.h"
 #include "data_io/values/described.h"
 
 namespace dynlab::inline course {
@@ -9,7 +10,10 @@ namespace dynlab::inline course {
 template <Is<CheckGrade> T, class V>
 void describe(T& object, V& member) {
     auto& [id, about, hint, message, points, earned, visible, graded, by_hand, rubric, for_instructor] = object;
-    member("id", id), member("about", about), member("hint", hint), member("message", message);
+    member("id", id);
+    store_text_of_author(member, "about", about);
+    store_text_of_author(member, "hint", hint);
+    store_text_with_message(member, "message", "stored_message", message);
     member("points", points), member("earned", earned), member("visible", visible), member("graded", graded);
     member("by_hand", by_hand), member("rubric", rubric);
 }
@@ -17,12 +21,14 @@ void describe(T& object, V& member) {
 template <Is<Grade> T, class V>
 void describe(T& object, V& member) {
     auto& [submission, lesson, isolation, fingerprint, trouble, unreadable, began, silent, remark, printed, checks,
-           late_hours, penalty, lateness, lateness_told, title, language, counts_instead, newest_counts, log] = object;
+           late_hours, penalty, lateness, title, language, counts_instead, newest_counts, log] = object;
     member("submission", submission), member("lesson", lesson), member("isolation", isolation);
-    member("fingerprint", fingerprint), member("trouble", trouble), member("unreadable", unreadable);
-    member("began", began), member("silent", silent), member("remark", remark), member("printed", printed);
+    member("fingerprint", fingerprint), member("unreadable", unreadable);
+    store_text_with_message(member, "trouble", "stored_trouble", trouble);
+    member("began", began), member("silent", silent), member("printed", printed);
+    store_text_with_message(member, "remark", "stored_remark", remark);
     member("checks", checks), member("late_hours", late_hours), member("penalty", penalty);
-    member("lateness", lateness), member("lateness_told", lateness_told);
+    store_text_with_message(member, "lateness", "stored_lateness", lateness);
     member("title", title), member("language", language);
     member("counts_instead", counts_instead), member("newest_counts", newest_counts);
 }

@@ -1,7 +1,5 @@
 #include "course/grading/grading.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <atomic>
 #include <exception>
@@ -13,6 +11,8 @@
 #include <thread>
 #include <utility>
 
+#include "base/error.h"
+#include "base/reader.h"
 #include "course/grading/class_owners.h"
 #include "course/grading/class_results.h"
 #include "course/grading/deadlines.h"
@@ -54,8 +54,8 @@ class ClassGrader {
         owners_.emplace(request);
         if (owners_->roster() != nullptr && owners_->roster()->converted())
             outcome_.complaints.push_back(
-                fmt::format("{} is not UTF-8; it was read as Latin-1 (Windows-1252)", request.roster->string()));
-        for (const std::string& clause : left_out_) outcome_.complaints.push_back(clause + "; it is left out");
+                Message("{} is not UTF-8; it was read as Latin-1 (Windows-1252)", request.roster->string()));
+        for (const Message& clause : left_out_) outcome_.complaints.push_back(Message("{}; it is left out", clause));
         grades_.resize(submissions_.size());
         contents_.resize(submissions_.size());
         remember_inputs(request);
@@ -72,12 +72,13 @@ class ClassGrader {
         if (failure_) std::rethrow_exception(failure_);
         if (shared_) {
             shared_->conclude();
-            std::ranges::copy(shared_->notes(), std::back_inserter(outcome_.notes));
+            for (Message& note : shared_->notes()) outcome_.notes.push_back(std::move(note));
         }
         take_the_others();
         tell_strays();
         tell_which_counts(results());
-        std::sort(outcome_.complaints.begin(), outcome_.complaints.end());  // threads end in any order
+        // Threads end in any order.
+        std::ranges::sort(outcome_.complaints, {}, [](const Message& complaint) { return message_text(complaint); });
         const ClassResults all = results();
         NeedsTheEye eye = what_needs_the_eye(all);
         outcome_.eye = std::move(eye.sentences);
@@ -91,8 +92,8 @@ class ClassGrader {
         fs::create_directories(request.out);
         FileLock lock(request.out / ".lock");
         if (!lock.held())
-            throw EnvironmentError(
-                fmt::format("another dynlab grade is at work in {}; wait until it is done", request.out.string()));
+            throw EnvironmentError("another dynlab grade is at work in {}; wait until it is done",
+                                   request.out.string());
         return lock;
     }
 
@@ -110,11 +111,11 @@ class ClassGrader {
         std::map<std::string, double> checks;  // and their points
         for (const Submission& submission : submissions_) names.insert(submission.name);
         for (const CheckDescription& check : rules_.checks()) checks[check.id] = check.points;
-        for (std::string& sentence : manual_.strays(names, checks)) outcome_.complaints.push_back(std::move(sentence));
+        for (Message& sentence : manual_.strays(names, checks)) outcome_.complaints.push_back(std::move(sentence));
         for (const std::string& name : deadlines_.strays(submissions_, owners_->all_names()))
-            outcome_.complaints.push_back(fmt::format("the deadline of \"{}\": there is no such submission", name));
+            outcome_.complaints.push_back(Message("the deadline of \"{}\": there is no such submission", name));
         for (const std::string& name : owners_->strays(submissions_))
-            outcome_.complaints.push_back(fmt::format("the owner of \"{}\": there is no such submission", name));
+            outcome_.complaints.push_back(Message("the owner of \"{}\": there is no such submission", name));
     }
 
     fs::path folder_of(const Submission& submission) const { return request_.out / "results" / submission.name; }
@@ -124,7 +125,8 @@ class ClassGrader {
     struct Started {
         std::size_t index;
         GradingRules::Work work;
-        std::string fingerprint, remark, language;
+        std::string fingerprint, language;
+        Message remark;
     };
 
     /// How many are judged in one box: enough to forget its start, few enough to keep all threads busy.
@@ -185,7 +187,7 @@ class ClassGrader {
         const auto batch = shared_->done();
         {
             const std::lock_guard lock(mutex_);
-            bar.message(fmt::format("grading on {}", shared_->sight()));
+            bar.message(message_text(Message("grading on {}", shared_->sight())));
         }
         if (!batch) return false;
         for (const SharedGrading::Done& done : batch->submissions)
@@ -209,7 +211,7 @@ class ClassGrader {
         } catch (const Interrupted&) {
             throw;
         } catch (const std::exception& error) {
-            leave_ungraded(index, error.what(), bar);
+            leave_ungraded(index, message_of(error), bar);
         }
     }
 
@@ -227,7 +229,7 @@ class ClassGrader {
         try {
             return with_runs(index, fingerprint, batch);
         } catch (const SubmissionError& error) {
-            Grade unreadable = rules_.unreadable(submission.name, error.what());
+            Grade unreadable = rules_.unreadable(submission.name, error.message());
             unreadable.fingerprint = fingerprint;
             complete(index, std::move(unreadable), false, bar);
             return {};
@@ -244,7 +246,7 @@ class ClassGrader {
         } catch (const Interrupted&) {
             throw;
         } catch (const std::exception& error) {  // of one of them: the others are judged without it
-            if (started.size() == 1) return leave_ungraded(started[0].index, error.what(), bar);
+            if (started.size() == 1) return leave_ungraded(started[0].index, message_of(error), bar);
             for (Started& one : started) judge({std::move(one)}, bar);
             return;
         }
@@ -263,8 +265,7 @@ class ClassGrader {
         owners_->address(submission, grade);
         const Deadlines::Lateness late = deadlines_.of(submission, owners_->names_of(submission));
         grade.late_hours = late.hours;
-        grade.lateness = late.reason("en");
-        grade.lateness_told = late.reason(grade.language);
+        grade.lateness = late.reason();
         finish(submission, std::move(grade), late.percent, index);
         advance(bar, kept ? &outcome_.kept : &outcome_.made);
     }
@@ -293,14 +294,14 @@ class ClassGrader {
 
     /// What the grader itself cannot do costs nobody points and stops nobody else; nothing is written, so that the next
     /// run tries again.
-    void leave_ungraded(std::size_t index, const std::string& reason, ProgressBar& bar) {
+    void leave_ungraded(std::size_t index, const Message& reason, ProgressBar& bar) {
         advance(bar);
         const std::string& name = submissions_[index].name;
-        Grade grade = rules_.unreadable(name, "");
+        Grade grade = rules_.unreadable(name, {});
         grade.unreadable = false;
         const std::lock_guard lock(mutex_);
         grades_[index] = std::move(grade);
-        outcome_.complaints.push_back(fmt::format("\"{}\" could not be graded: {}", name, reason));
+        outcome_.complaints.push_back(Message("\"{}\" could not be graded: {}", name, reason));
     }
 
     /// The runs of before where nothing that they depend on has changed; nothing where the submission goes into a batch
@@ -315,13 +316,13 @@ class ClassGrader {
             return Started{index,
                            {submission.name, std::move(kept->work), seed, "the runs are those of before\n"},
                            fingerprint,
-                           kept->remark,
-                           kept->language};
+                           kept->language,
+                           kept->remark};
         const TemporaryFolder work;
         const StagedWork staged =
             stage_submission(submission, work.path(), request_.setup.isolation, request_.setup.program);
         if (batch != nullptr) {
-            batch->push_back({index, fingerprint, of_runs, staged.remark, staged.language,
+            batch->push_back({index, fingerprint, of_runs, staged.language, staged.remark,
                               sent_submission(submission.name, staged, seed)});
             return {};
         }
@@ -329,7 +330,7 @@ class ClassGrader {
         CheckedSubmission checked = rules_.work_in(staged.folder, seed, log, staged.of_notebook);
         write_kept_runs(kept_file, {of_runs, checked, staged.remark, staged.language});
         return Started{
-            index, {submission.name, std::move(checked), seed, log}, fingerprint, staged.remark, staged.language};
+            index, {submission.name, std::move(checked), seed, log}, fingerprint, staged.language, staged.remark};
     }
 
     /// Marks, penalty and files; the file of results last, as it tells that the work is done.
@@ -350,7 +351,7 @@ class ClassGrader {
             set_feedback(marked, folder / "feedback.pdf", made, request_.pdf ? &documents_ : nullptr);
         } catch (const EnvironmentError& error) {  // one that cannot be set stops no other, and no mark
             const std::lock_guard lock(mutex_);
-            outcome_.complaints.push_back(fmt::format("\"{}\": {}", submission.name, error.what()));
+            outcome_.complaints.push_back(Message("\"{}\": {}", submission.name, error.message()));
         }
         std::vector<NewFile> files = {{folder / "feedback.md", feedback_markdown(marked)}};
         if (!grade.log.empty()) {
@@ -373,9 +374,9 @@ class ClassGrader {
             } catch (const fs::filesystem_error&) {  // cannot be looked into, so that its content is none
             }
             if (grade->fingerprint != rules_.fingerprint(contents_[i], owners_->seed_of(submissions_[i])))
-                outcome_.complaints.push_back(fmt::format(
-                    "the marks of \"{}\" are from before it, the checks or the program changed; grade it, too",
-                    submissions_[i].name));
+                outcome_.complaints.push_back(
+                    Message("the marks of \"{}\" are from before it, the checks or the program changed; grade it, too",
+                            submissions_[i].name));
             grades_[i] = manual_.applied(*std::move(grade));
         }
         for (const auto& grade : grades_)
@@ -411,7 +412,7 @@ class ClassGrader {
     GradingOutcome& outcome_;
     FileLock lock_;
     TemporaryFolder export_;
-    std::vector<std::string> left_out_;
+    std::vector<Message> left_out_;
     std::vector<Submission> submissions_;
     GradingRules rules_;
     ManualMarks manual_;

@@ -28,9 +28,9 @@ struct GradingRequest {
 struct GradingOutcome {
     int submissions = 0, made = 0, kept = 0, not_whole = 0;  ///< not_whole: a check is left ungraded
     int unowned = 0, unreadable = 0;
-    std::vector<std::string> complaints;  ///< whole sentences for the instructor
-    std::vector<std::string> notes;       ///< of the time that is given, and of machines that did not work along
-    std::vector<std::string> eye;         ///< submissions that need the instructor's eye, a sentence each
+    std::vector<Message> complaints;  ///< whole sentences for the instructor
+    std::vector<Message> notes;       ///< of the time that is given, and of machines that did not work along
+    std::vector<Message> eye;         ///< submissions that need the instructor's eye, a sentence each
 };
 
 /// Grades a class. In `out`: results/NAME/ with results.json and feedback.md and .pdf for each submission,

@@ -78,37 +78,39 @@ std::optional<GradingMemory> read_memory(const fs::path& out) {
     }
 }
 
-std::string shown_input(const RememberedInput& input) {
-    return input.hash.empty() ? "none" : input.name;
+Message shown_input(const RememberedInput& input) {
+    return input.hash.empty() ? Message("none") : Message("{}", input.name);
 }
 
-std::string named_input(const RememberedInput& then, const RememberedInput& now) {
+Message shown_zone(const std::string& zone) {
+    return zone.empty() ? Message("this machine's") : Message("{}", zone);
+}
+
+Message difference(const Message& what, const RememberedInput& then, const RememberedInput& now) {
     if (then.name == now.name && !then.hash.empty() && !now.hash.empty())
-        return fmt::format("({} has changed)", now.name);
-    return fmt::format("({} then, {} now)", shown_input(then), shown_input(now));
+        return Message("{} ({} has changed)", what, now.name);
+    return Message("{} ({} then, {} now)", what, shown_input(then), shown_input(now));
 }
 
 /// What differs so that marks of both kinds would stand side by side, a clause each: "the checks (own1 then, none
 /// now)".
-std::vector<std::string> differences_of(const GradingMemory& then, const GradingMemory& now, bool all_of_the_class) {
-    std::vector<std::string> clauses;
-    const auto compare = [&](const char* what, const RememberedInput& a, const RememberedInput& b, bool always) {
+std::vector<Message> differences_of(const GradingMemory& then, const GradingMemory& now, bool all_of_the_class) {
+    std::vector<Message> clauses;
+    const auto compare = [&](const Message& what, const RememberedInput& a, const RememberedInput& b, bool always) {
         const bool gone = !a.hash.empty() && b.hash.empty();
-        if (a.hash != b.hash && (always || gone || !all_of_the_class))
-            clauses.push_back(fmt::format("{} {}", what, named_input(a, b)));
+        if (a.hash != b.hash && (always || gone || !all_of_the_class)) clauses.push_back(difference(what, a, b));
     };
-    compare("the lesson's checks", then.lesson_checks, now.lesson_checks, true);
-    compare("your own checks", then.checks, now.checks, true);
-    compare("the secret", then.secret, now.secret, true);
-    compare("the roster", then.roster, now.roster, false);
-    compare("the list of owners", then.owners, now.owners, false);
-    compare("the deadlines", then.deadlines, now.deadlines, true);
+    compare(Message("the lesson's checks"), then.lesson_checks, now.lesson_checks, true);
+    compare(Message("your own checks"), then.checks, now.checks, true);
+    compare(Message("the secret"), then.secret, now.secret, true);
+    compare(Message("the roster"), then.roster, now.roster, false);
+    compare(Message("the list of owners"), then.owners, now.owners, false);
+    compare(Message("the deadlines"), then.deadlines, now.deadlines, true);
     if (then.keep != now.keep)
-        clauses.push_back(fmt::format("which hand-in counts ({} then, {} now)", then.keep, now.keep));
+        clauses.push_back(Message("which hand-in counts ({} then, {} now)", then.keep, now.keep));
     if (then.timezone != now.timezone)
-        clauses.push_back(fmt::format("the time zone ({} then, {} now)",
-                                      then.timezone.empty() ? "this machine's" : then.timezone,
-                                      now.timezone.empty() ? "this machine's" : now.timezone));
+        clauses.push_back(
+            Message("the time zone ({} then, {} now)", shown_zone(then.timezone), shown_zone(now.timezone)));
     return clauses;
 }
 
@@ -157,8 +159,8 @@ void refuse_other_lessons(const GradingRequest& request) {
         const std::optional<Grade> grade = earlier_grade(entry.path());
         if (!grade) continue;
         if (grade->lesson == request.setup.lesson.slug) return;  // as are all others, which were put beside it
-        throw EnvironmentError(fmt::format("{} holds the results of lesson {}; name another folder with --out",
-                                           request.out.string(), grade->lesson));
+        throw EnvironmentError("{} holds the results of lesson {}; name another folder with --out",
+                               request.out.string(), grade->lesson);
     }
 }
 
@@ -178,11 +180,18 @@ void remember_inputs(const GradingRequest& request) {
     if (request.again && !request.only.empty())
         throw EnvironmentError("--again grades all of the class anew; leave --only out");
     if (then && !request.again)
-        if (const auto differences = differences_of(*then, now, request.only.empty()); !differences.empty())
+        if (auto differences = differences_of(*then, now, request.only.empty()); !differences.empty()) {
+            const MessageList all{std::move(differences)};
+            if (request.only.empty())
+                throw EnvironmentError(
+                    "the marks in {} were made with other inputs: {}. Give the same again, or --again to grade all "
+                    "with "
+                    "these, or another --out",
+                    request.out.string(), all);
             throw EnvironmentError(
-                fmt::format("the marks in {} were made with other inputs: {}. Give the same again{}, or another --out",
-                            request.out.string(), fmt::join(differences, ", "),
-                            request.only.empty() ? ", or --again to grade all with these" : ""));
+                "the marks in {} were made with other inputs: {}. Give the same again, or another --out",
+                request.out.string(), all);
+        }
     write_file_atomically(request.out / kMemoryFile, json_of(now, 2) + "\n");
 }
 

@@ -33,7 +33,8 @@ void remember_inputs(const GradingRequest& request);
 struct KeptRuns {
     std::string fingerprint;  ///< of the submission and of all that its runs depend on
     CheckedSubmission work;
-    std::string remark, language;  ///< see StagedWork
+    Message remark;  ///< see StagedWork
+    std::string language;
 };
 
 std::optional<KeptRuns> read_kept_runs(const std::filesystem::path& file, const std::string& fingerprint);

@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <future>
 
+#include "base/reader.h"
 #include "course/boxes/boxed_work.h"
+#include "course/boxes/told_reason.h"
 #include "course/checks/check_descriptions.h"
 #include "course/findings/document_findings.h"
 #include "course/findings/findings_report.h"
 #include "course/grading/grading_memory.h"
 #include "data_io/values/json_values.h"
-#include "documents/words/sentence_catalogue.h"
 #include "numerics/rigs/catalogue.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
@@ -25,29 +26,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr char kDocumentFails[] = "document-fails";               // a finding
 constexpr auto kCheckTime = std::chrono::milliseconds(10000);     // of one check
 constexpr auto kSingleTime = std::chrono::milliseconds(60000);    // of all, where each needs a box of its own
 constexpr auto kDocumentTime = std::chrono::milliseconds(15000);  // beyond the script's own
-constexpr double kMuchOfTheTime = 0.5;                            // that a worked solution uses
-constexpr std::size_t kLongestTrouble = 2000;
 constexpr std::uint64_t kScriptMemory = 1ull << 30;
 constexpr std::uintmax_t kMostSource = 1u << 20;    // bytes of a script that checks may read
 constexpr std::uint64_t kMostAnswers = 4ull << 20;  // bytes of a run's result
-
-/// What an error says, however long.
-std::string shortened_trouble(const std::string& trouble) {
-    return trouble.size() > kLongestTrouble ? trouble.substr(0, kLongestTrouble) + " ..." : trouble;
-}
-
-/// What stopped a run that a check rests on, as the answers are missing for that reason; empty where none was stopped.
-std::string stop_told(const std::map<std::string, GradedRun>& runs, const std::string& rerun) {
-    for (const std::string& name : {std::string(kMainRun), rerun})
-        if (const auto run = runs.find(name); run != runs.end() && run->second.error)
-            return fmt::format("its run{} stopped: {}; ", name == kMainRun ? "" : " on " + name,
-                               shortened_trouble(*run->second.error));
-    return "";
-}
 
 /// The lesson's template where it demands something, else its report.
 std::string standard_for(const Lesson& lesson, const PercentScript& script) {
@@ -79,17 +63,9 @@ std::string hash_of_parts(const std::vector<std::string>& parts) {
     std::vector<std::string> names;
     for (const Rig& rig : rig_catalogue()) names.push_back(rig.name);
     throw EnvironmentError(
-        fmt::format("the check \"{}\" wants a rerun on \"{}\", but records are made of {}, by rigs that the checks "
-                    "declare, or taken from rerun/NAME.csv in the folder of the checks; the seed is changed with "
-                    "\"seed\"",
-                    check, rerun, fmt::join(names, ", ")));
-}
-
-/// Whether nothing stood in the way that may be gone another time, such as a busy machine.
-bool went_well(const CheckedSubmission& work) {
-    const auto failed = [](const auto& run) { return run.second.error.has_value(); };
-    const auto fails = [](const Finding& finding) { return finding.id == kDocumentFails; };
-    return std::ranges::none_of(work.runs, failed) && std::ranges::none_of(work.findings, fails);
+        "the check \"{}\" wants a rerun on \"{}\", but records are made of {}, by rigs that the checks declare, or "
+        "taken from rerun/NAME.csv in the folder of the checks; the seed is changed with \"seed\"",
+        check, rerun, listed(names));
 }
 
 }  // namespace
@@ -108,35 +84,34 @@ GradingRules::GradingRules(GradingSetup setup)
 
 void GradingRules::read_checks() {
     const fs::path own = setup_.lesson.folder / "checks.lua";
-    if (!fs::is_regular_file(own))
-        throw EnvironmentError(fmt::format("lesson {} has no checks.lua", setup_.lesson.slug));
+    if (!fs::is_regular_file(own)) throw EnvironmentError("lesson {} has no checks.lua", setup_.lesson.slug);
     files_.push_back({"checks.lua", read_text(own), true});
     if (setup_.more_checks) {
         std::vector<fs::path> more;
         if (!fs::is_directory(*setup_.more_checks))
-            throw EnvironmentError(fmt::format("there is no folder '{}'", setup_.more_checks->string()));
+            throw EnvironmentError("there is no folder '{}'", setup_.more_checks->string());
         for (const auto& entry : fs::directory_iterator(*setup_.more_checks))
             if (entry.path().extension() == ".lua") more.push_back(entry.path());
         if (more.empty())
-            throw EnvironmentError(fmt::format("the folder '{}' holds no checks: there is no file *.lua in it",
-                                               setup_.more_checks->string()));
+            throw EnvironmentError("the folder '{}' holds no checks: there is no file *.lua in it",
+                                   setup_.more_checks->string());
         std::ranges::sort(more);
         for (const fs::path& file : more) files_.push_back({file.filename().string(), read_text(file), false});
     }
     const BoxedResult<CheckResults> read = listed();
-    if (!read.output) throw EnvironmentError("the checks cannot be read: " + read.reason);
+    if (!read.output) throw EnvironmentError("the checks cannot be read: {}", read.reason);
     if (read.output->error) throw EnvironmentError(*read.output->error);
     for (const TriedCheck& one : read.output->checks) checks_.push_back(one.check);
     declared_rigs_ = read.output->rigs;
-    if (checks_.empty()) throw EnvironmentError(fmt::format("lesson {} declares no check", setup_.lesson.slug));
+    if (checks_.empty()) throw EnvironmentError("lesson {} declares no check", setup_.lesson.slug);
     for (const CheckDescription& check : checks_) {
         const std::string& rerun = check.rerun;
         document_ = document_ || check.document;
         if (check.document && !fs::exists(setup_.lesson.report("en")))
-            throw EnvironmentError(fmt::format(
+            throw EnvironmentError(
                 "the check \"{}\" looks at the document, but lesson {} ends with none: document = true is for lessons "
                 "with a report.en.md beside lesson.lua",
-                check.id, setup_.lesson.slug));
+                check.id, setup_.lesson.slug);
         if (rerun.empty()) continue;
         const bool declared = std::ranges::find(declared_rigs_, rerun) != declared_rigs_.end();
         if (rerun != kOtherSeedRun && !find_rig(rerun) && !declared && !own_record("rerun", rerun))
@@ -158,7 +133,6 @@ GradedRun GradingRules::run(const std::string& name, const fs::path& folder, con
     box.set_environment("DYNLAB_HOME", add_home(box, name, group_seed).string());
     RunJob job;
     job.script = box.add(folder, "/box/submission") / "analysis.lua";
-    job.french_sentences = box.add(file_of_french_engine_sentences(), "/box/words/engine_sentences.fr.txt");
     job.seed = name == kOtherSeedRun ? drawn("seed") : seed_;
     job.answers = answers_;
     job.memory_bytes = kScriptMemory;
@@ -170,12 +144,12 @@ GradedRun GradingRules::run(const std::string& name, const fs::path& folder, con
                             box.add_writable(*setup_.call_memory, "/box/caches/dynlab").parent_path());
     const auto result = run_boxed(box, setup_.program, job, setup_.time, kMostAnswers);
     GradedRun run = result.output.value_or(GradedRun());
-    if (!result.output) run.error = fmt::format("The script was ended: {}.", result.reason);
+    if (!result.output) run.error = Message("The script was ended: {}.", result.reason);
     const auto solution = solution_seconds_.find(name);
     log += fmt::format(
         "run {}: {:.3f} s of processor time{}, {:.3f} s by the clock in its box\n{}", name, run.seconds,
         solution == solution_seconds_.end() ? "" : fmt::format(" (the worked solution: {:.3f} s)", solution->second),
-        result.seconds, run.error ? "  " + shortened_trouble(*run.error) + "\n" : "");
+        result.seconds, run.error ? "  " + message_text(shortened_trouble(*run.error)) + "\n" : "");
     return run;
 }
 
@@ -213,8 +187,10 @@ Findings GradingRules::findings(const fs::path& folder, const GroupSeed& group_s
     try {
         return findings_from_json(child.output).findings;
     } catch (const EnvironmentError&) {
-        const std::string why = child.timed_out ? ": " + reason_of_end(child, limits.time) : "";
-        return {{kDocumentFails, Severity::kRule, 0, "", "The report cannot be made" + why + ".", ""}};
+        return {{kDocumentFails, Severity::kRule, 0, "",
+                 child.timed_out ? Message("The report cannot be made: {}.", reason_of_end(child, limits.time))
+                                 : Message("The report cannot be made."),
+                 Message()}};
     }
 }
 
@@ -259,10 +235,10 @@ std::vector<std::vector<TriedCheck>> GradingRules::tried(const std::vector<Check
     std::vector<Work> works;
     for (const CheckedSubmission& submission : submissions) works.push_back({"", submission, {}, ""});
     auto result = checked(works, kSingleTime);
-    if (!result.output) throw EnvironmentError("the checks come to no end: " + result.reason);
+    if (!result.output) throw EnvironmentError("the checks come to no end: {}", result.reason);
     std::vector<std::vector<TriedCheck>> all;
     for (JudgedSubmission& judged : result.output->judged) {
-        if (!judged.reason.empty()) throw EnvironmentError("the checks come to no end: " + judged.reason);
+        if (!judged.reason.empty()) throw EnvironmentError("the checks come to no end: {}", judged.reason);
         all.push_back(std::move(judged.checks));
     }
     return all;
@@ -270,16 +246,17 @@ std::vector<std::vector<TriedCheck>> GradingRules::tried(const std::vector<Check
 
 /// Each check in a box of its own; only those stay without a verdict that come to no end there.
 std::vector<GradingRules::Tried> GradingRules::verdicts_one_by_one(const Work& work) const {
+    const Message unreadable_result = Message("its result cannot be read");
     std::vector<Tried> all;
     for (std::size_t k = 0; k < checks_.size(); ++k) {
         const auto alone = checked({work}, kSingleTime / static_cast<int>(checks_.size()), k);
         const bool answered = alone.output && alone.output->judged.size() == 1;
         if (!answered)
-            all.push_back({{}, alone.output ? "its result cannot be read" : alone.reason});
+            all.push_back({{}, alone.output ? unreadable_result : alone.reason});
         else if (const JudgedSubmission& judged = alone.output->judged.front(); judged.checks.size() == 1)
-            all.push_back({judged.checks.front(), ""});
+            all.push_back({judged.checks.front(), {}});
         else
-            all.push_back({{}, judged.reason.empty() ? "its result cannot be read" : judged.reason});
+            all.push_back({{}, judged.reason.empty() ? unreadable_result : judged.reason});
     }
     return all;
 }
@@ -294,17 +271,17 @@ std::vector<std::vector<GradingRules::Tried>> GradingRules::verdicts(std::vector
         JudgedSubmission judged{{}, together.reason, together.seconds};
         if (answered) judged = together.output->judged[i];
         works[i].log += fmt::format("checks: {:.3f} s in their box{}\n", judged.seconds,
-                                    judged.reason.empty() ? "" : "; " + judged.reason);
+                                    judged.reason.empty() ? "" : "; " + message_text(judged.reason));
         if (judged.checks.size() != checks_.size()) {
             all[i] = verdicts_one_by_one(works[i]);
             continue;
         }
-        for (TriedCheck& one : judged.checks) all[i].push_back({std::move(one), ""});
+        for (TriedCheck& one : judged.checks) all[i].push_back({std::move(one), {}});
     }
     return all;
 }
 
-Grade GradingRules::unreadable(const std::string& name, const std::string& trouble) const {
+Grade GradingRules::unreadable(const std::string& name, const Message& trouble) const {
     Grade grade = ungraded(name);
     grade.trouble = trouble;
     grade.unreadable = true;
@@ -321,8 +298,8 @@ Grade GradingRules::ungraded(const std::string& name) const {
     for (const CheckDescription& check : checks_) {
         CheckGrade one;
         one.id = check.id;
-        one.about = check.about;
-        one.hint = check.hint;
+        one.about = Message::verbatim(check.about);
+        one.hint = Message::verbatim(check.hint);
         one.points = check.points;
         one.visible = check.visible;
         one.by_hand = check.by_hand;
@@ -366,7 +343,7 @@ Grade GradingRules::grade_of(Work&& work, const std::vector<Tried>& found) const
     grade.log = std::move(work.log);
     const GradedRun& main = work.submission.runs.at(kMainRun);
     if (!main.lesson.empty() && !lesson_.empty() && main.lesson != lesson_)
-        return unreadable(work.name, fmt::format("This is the script of lesson {}, not of {}.", main.lesson, lesson_));
+        return unreadable(work.name, Message("This is the script of lesson {}, not of {}.", main.lesson, lesson_));
     grade.began = main.began;
     grade.silent = main.answers.empty();
     if (main.error) grade.trouble = shortened_trouble(*main.error);
@@ -376,61 +353,20 @@ Grade GradingRules::grade_of(Work&& work, const std::vector<Tried>& found) const
         const auto& [verdict, reason] = found.at(k);
         if (check.by_hand) continue;
         check.for_instructor = verdict ? verdict->for_instructor : reason;
-        if (!check.for_instructor.empty()) grade.log += fmt::format("check {}: {}\n", check.id, check.for_instructor);
+        if (!check.for_instructor.empty())
+            grade.log += fmt::format("check {}: {}\n", check.id, message_text(check.for_instructor));
         if (!verdict) {
             check.graded = false;
-            check.message = "The check could not be run on these answers.";
+            check.message = Message("The check could not be run on these answers.");
             continue;
         }
         check.earned = check.points * verdict->share.value_or(0);
         check.message = verdict->message;
         if (!check.visible && !check.message.empty() && check.for_instructor.empty())
-            grade.log += fmt::format("check {}: {}\n", check.id, check.message);
+            grade.log += fmt::format("check {}: {}\n", check.id, message_text(check.message));
     }
     if (!grade.printed.empty()) grade.log += "\nprinted by the script, at its end:\n" + grade.printed;
     return grade;
-}
-
-std::vector<std::string> GradingRules::try_solution(const fs::path& memory, bool anew) {
-    const TemporaryFolder work;
-    fs::copy_file(setup_.lesson.script(), work.path() / "analysis.lua");
-    if (const fs::path report = setup_.lesson.report("en"); fs::exists(report))
-        fs::copy_file(report, work.path() / "report.md");
-    std::string log, content = sha256_of_file(work.path() / "analysis.lua");
-    if (fs::exists(work.path() / "report.md")) content += sha256_of_file(work.path() / "report.md");
-    const std::string fingerprint = run_fingerprint(content, {});
-    std::optional<KeptRuns> kept = anew || memory.empty() ? std::nullopt : read_kept_runs(memory, fingerprint);
-    if (!kept) {
-        kept = KeptRuns{fingerprint, work_in(work.path(), {}, log), "", ""};
-        if (!memory.empty() && went_well(kept->work)) write_kept_runs(memory, *kept, KeptTimes::kYes);
-    }
-    for (const auto& [name, run] : kept->work.runs) solution_seconds_[name] = run.seconds;
-    std::vector<std::string> complaints;
-    const std::map<std::string, GradedRun> runs = kept->work.runs;
-    const Grade solution = judged({{"solution", std::move(kept->work), {}, log}}).front();
-    if (!solution.trouble.empty())
-        complaints.push_back("the worked solution did not run to its end: " + solution.trouble);
-    for (std::size_t k = 0; k < solution.checks.size(); ++k) {
-        const CheckGrade& check = solution.checks[k];
-        if (check.by_hand || (check.graded && check.earned == check.points)) continue;
-        broken_.insert(check.id);
-        const std::string& told = check.for_instructor.empty() ? check.message : check.for_instructor;
-        complaints.push_back(
-            fmt::format("the worked solution does not pass the check \"{}\", which is left ungraded: {}{}", check.id,
-                        stop_told(runs, checks_.at(k).rerun), told.empty() ? "it returned false" : told));
-    }
-    return complaints;
-}
-
-std::optional<std::string> GradingRules::note_on_time() const {
-    const double most = std::chrono::duration<double>(setup_.time.processor).count();
-    double longest = 0;
-    for (const auto& [name, seconds] : solution_seconds_) longest = std::max(longest, seconds);
-    if (longest <= kMuchOfTheTime * most) return {};
-    return fmt::format(
-        "a run of the worked solution uses {:.1f} s of processor time, and submissions may use {:g} s ({:.1f} times as "
-        "much); give more with --timeout, or students with slower scripts lose marks",
-        longest, most, most / longest);
 }
 
 std::string GradingRules::fingerprint(const std::string& content_hash, const GroupSeed& group_seed) const {

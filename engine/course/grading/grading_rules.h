@@ -35,6 +35,8 @@ struct GradingSetup {
     std::optional<std::filesystem::path> call_memory;
 };
 
+inline constexpr char kDocumentFails[] = "document-fails";  ///< id of the finding that a report cannot be made
+
 /// What all submissions of a lesson are held against: the checks, the hidden records, and the check of the checks
 /// themselves, which are tried on the lesson's worked solution first.
 class GradingRules {
@@ -63,12 +65,12 @@ class GradingRules {
     /// Runs and checks the submission whose script stands in `folder`.
     Grade grade(const std::string& name, const std::filesystem::path& folder, const GroupSeed& group_seed = {}) const;
     /// Of a submission in which nothing can be run: no check is graded.
-    Grade unreadable(const std::string& name, const std::string& trouble) const;
+    Grade unreadable(const std::string& name, const Message& trouble) const;
 
     /// Tries the worked solution. Checks that it does not pass are broken: from now on they are left ungraded. Returns
     /// a sentence for each. The file `memory` keeps what it did (KeptRuns), which is not run again for other checks
     /// unless `anew`; an empty name keeps nothing.
-    std::vector<std::string> try_solution(const std::filesystem::path& memory = {}, bool anew = false);
+    std::vector<Message> try_solution(const std::filesystem::path& memory = {}, bool anew = false);
 
     /// Ids of the checks that are left ungraded. Who did not try the solution is told of them by who did.
     const std::set<std::string>& broken_checks() const { return broken_; }
@@ -88,7 +90,7 @@ class GradingRules {
     const std::map<std::string, double>& solution_seconds() const { return solution_seconds_; }
     void compare_with_solution(std::map<std::string, double> seconds) { solution_seconds_ = std::move(seconds); }
     /// A sentence where the worked solution leaves little time to slower ones.
-    std::optional<std::string> note_on_time() const;
+    std::optional<Message> note_on_time() const;
 
   private:
     void read_checks();
@@ -110,7 +112,7 @@ class GradingRules {
     /// Nothing of a check for which no verdict can be had, and why, instead of one.
     struct Tried {
         std::optional<TriedCheck> result;
-        std::string reason;
+        Message reason;
     };
     std::vector<std::vector<Tried>> verdicts(std::vector<Work>& works) const;
     std::vector<Tried> verdicts_one_by_one(const Work& work) const;

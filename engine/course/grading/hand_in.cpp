@@ -1,7 +1,5 @@
 #include "course/grading/hand_in.h"
 
-#include <fmt/format.h>
-
 #include <map>
 
 #include "course/boxes/zip_file.h"
@@ -57,13 +55,12 @@ std::map<std::string, std::string> contents_of(const fs::path& folder) {
 Pack pack_folder(const fs::path& folder, const fs::path& file) {
     const auto has = [&](const char* name) { return fs::is_regular_file(fs::symlink_status(folder / name)); };
     if (!has("analysis.lua") && !has("analysis.ipynb"))
-        throw EnvironmentError(
-            fmt::format("{} has no analysis.lua; pack the folder that dynlab new made", folder.string()));
+        throw EnvironmentError("{} has no analysis.lua; pack the folder that dynlab new made", folder.string());
     const TemporaryFolder copy;
     const FolderCopy copied = copy_folder(folder, copy.path(), kMostPackedBytes, kMostFiles);
     if (copied.too_large)
-        throw EnvironmentError(fmt::format("{} is too large: at most {} files and {} MB are handed in", folder.string(),
-                                           kMostFiles, kMostPackedBytes >> 20));
+        throw EnvironmentError("{} is too large: at most {} files and {} MB are handed in", folder.string(), kMostFiles,
+                               kMostPackedBytes >> 20);
     take_notebooks(copy.path());
     std::map<std::string, std::string> contents = contents_of(copy.path());
     std::erase_if(contents, [](const auto& entry) {

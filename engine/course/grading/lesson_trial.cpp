@@ -1,11 +1,13 @@
 #include "course/grading/lesson_trial.h"
 
-#include <fmt/format.h>
 #include <re2/re2.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "base/catalog.h"
+#include "base/error.h"
+#include "base/reader.h"
 #include "course/checks/check_functions.h"
 #include "course/findings/document_findings.h"
 #include "documents/document_rules.h"
@@ -36,7 +38,7 @@ class Faults {
   public:
     explicit Faults(const Lesson& lesson) : lesson_(lesson) {}
 
-    void add(const fs::path& file, int line, std::string what) {
+    void add(const fs::path& file, int line, Message what) {
         found_.push_back({file.filename().string(), line, std::move(what)});
     }
 
@@ -51,7 +53,8 @@ class Faults {
         } catch (const std::runtime_error& error) {
             const LocatedMessage told = take_apart(error.what());
             const bool here = told.line > 0 && fs::exists(lesson_.folder / fs::path(told.file).filename());
-            add(here ? fs::path(told.file) : file, here ? told.line : 0, here ? told.text : error.what());
+            add(here ? fs::path(told.file) : file, here ? told.line : 0,
+                here ? Message::verbatim(told.text) : message_of(error));
             return false;
         }
     }
@@ -81,12 +84,12 @@ void look_at_solutions(const Lesson& lesson, Faults& faults) {
         const std::string starter = without_solutions(script.source, lesson.script(), script.header.language);
         if (starter == script.source)
             faults.add(lesson.script(), 0,
-                       "nothing stands between BEGIN SOLUTION and END SOLUTION: students get it all");
-        if (script.header.title.empty()) faults.add(lesson.script(), 0, "the header has no title");
+                       Message("nothing stands between BEGIN SOLUTION and END SOLUTION: students get it all"));
+        if (script.header.title.empty()) faults.add(lesson.script(), 0, Message("the header has no title"));
         if (script.header.lesson != lesson.slug)
             faults.add(lesson.script(), 0,
-                       fmt::format("the header names the lesson \"{}\", but its folder is \"{}\"", script.header.lesson,
-                                   lesson.slug));
+                       Message("the header names the lesson \"{}\", but its folder is \"{}\"", script.header.lesson,
+                               lesson.slug));
     });
 }
 
@@ -108,6 +111,10 @@ std::vector<Intended> intended_failures(const fs::path& file) {
     return all;
 }
 
+int line_of_trouble(const TriedScript& script) {
+    return take_apart(message_text(script.trouble)).line;
+}
+
 bool is_full(const TriedCheck& one) {
     return one.check.by_hand || one.share == 1;
 }
@@ -116,32 +123,31 @@ void look_at_starter(const Lesson& lesson, const TriedScript& starter, Faults& f
     for (const TriedCheck& one : starter.checks)
         if (!one.check.by_hand && one.share.value_or(0) > 0)
             faults.add(lesson.script(), 0,
-                       fmt::format("the untouched starter gets points by the check \"{}\"", one.check.id));
+                       Message("the untouched starter gets points by the check \"{}\"", one.check.id));
 }
 
 /// Of wrong_*.lua and right_*.lua, which has nothing to expect.
 void look_at_attempt(const fs::path& file, const TriedScript& tried, Faults& faults) {
     const std::vector<Intended> intended = intended_failures(file);
-    if (!tried.trouble.empty()) faults.add(file, take_apart(tried.trouble).line, "it stops: " + tried.trouble);
+    if (!tried.trouble.empty()) faults.add(file, line_of_trouble(tried), Message("it stops: {}", tried.trouble));
     if (intended.empty() && tried.name.starts_with("wrong_"))
-        faults.add(file, 0, "no line \"-- expects: CHECK: words\" says which check it fails");
+        faults.add(file, 0, Message("no line \"-- expects: CHECK: words\" says which check it fails"));
     for (const Intended& one : intended) {
         const auto check = std::find_if(tried.checks.begin(), tried.checks.end(),
                                         [&](const TriedCheck& candidate) { return candidate.check.id == one.check; });
         if (check == tried.checks.end())
-            faults.add(file, one.line, fmt::format("there is no check \"{}\"", one.check));
+            faults.add(file, one.line, Message("there is no check \"{}\"", one.check));
         else if (is_full(*check))
-            faults.add(file, one.line, fmt::format("it passes the check \"{}\", which it is to fail", one.check));
-        else if (check->message.find(one.words) == std::string::npos)
-            faults.add(
-                file, one.line,
-                fmt::format("the check \"{}\" says \"{}\", without \"{}\"", one.check, check->message, one.words));
+            faults.add(file, one.line, Message("it passes the check \"{}\", which it is to fail", one.check));
+        else if (message_text(check->message).find(one.words) == std::string::npos)
+            faults.add(file, one.line,
+                       Message("the check \"{}\" says \"{}\", without \"{}\"", one.check, check->message, one.words));
     }
     for (const TriedCheck& one : tried.checks) {
         const bool meant = std::any_of(intended.begin(), intended.end(),
                                        [&](const Intended& line) { return line.check == one.check.id; });
         if (!meant && !is_full(one))
-            faults.add(file, 0, fmt::format("it fails the check \"{}\": {}", one.check.id, one.message));
+            faults.add(file, 0, Message("it fails the check \"{}\": {}", one.check.id, one.message));
     }
 }
 
@@ -157,11 +163,11 @@ void look_at_pdf(const fs::path& pdf, const fs::path& source, const DocumentStan
     for (const Finding& finding : check_pdf(pdf, wishes).findings)
         if (finding.severity == Severity::kRule && std::find(std::begin(kFindingsOfPages), std::end(kFindingsOfPages),
                                                              finding.id) != std::end(kFindingsOfPages))
-            faults.add(source, 0, fmt::format("its report, page {}: {}", finding.page, finding.what));
+            faults.add(source, 0, Message("its report, page {}: {}", finding.page, finding.what));
     for (const PdfPage& page : read_pdf_layout(pdf).pages)
         for (const PdfWord& word : page.words)
             if (word.text.find("SOLUTION") != std::string::npos)
-                return faults.add(source, 0, "a mark of a solution is printed in its report");
+                return faults.add(source, 0, Message("a mark of a solution is printed in its report"));
 }
 
 void look_at_report(const Lesson& lesson, const std::string& language, const std::string& own, const fs::path& folder,
@@ -173,7 +179,7 @@ void look_at_report(const Lesson& lesson, const std::string& language, const std
         const fs::path pdf = folder / (lesson.slug + "." + language + ".pdf");
         const ReportResult made = make_report(report_of(lesson.folder.string(), pdf, has_report ? language : ""));
         if (made.error) throw DocumentError(*made.error);
-        for (const std::string& gap : made.gaps) faults.add(source, 0, gap);
+        for (const Message& gap : made.gaps) faults.add(source, 0, gap);
         look_at_pdf(pdf, source, standard_of_report(lesson, language), faults);
     });
 }
@@ -186,13 +192,13 @@ void look_at_copy(const Lesson& lesson, const std::string& language, const fs::p
         request.record = folder / "record.json";
         const ReportResult made = make_report(request);
         if (made.error)
-            faults.add(lesson.script(), 0, fmt::format("the student's copy ({}) stops: {}", language, *made.error));
+            faults.add(lesson.script(), 0, Message("the student's copy ({}) stops: {}", language, *made.error));
         const auto record = nlohmann::json::parse(read_text(request.record));
         for (const char* kind : {"values", "answers"})
             if (record.contains(kind) && !record.at(kind).empty())
                 faults.add(lesson.script(), 0,
-                           fmt::format("the student's copy ({}) gives {} of the solution: {}", language, kind,
-                                       record.at(kind).begin().key()));
+                           Message("the student's copy ({}) gives {} of the solution: {}", language, kind,
+                                   record.at(kind).begin().key()));
     });
 }
 
@@ -220,10 +226,12 @@ LessonFaults faults_of_texts(const Lesson& lesson) {
                 if (file != lesson.script() || found.kind != "header") faults.add(file, found.line, found.message);
         });
     }
-    if (!fs::exists(lesson.folder / "checks.lua")) faults.add("checks.lua", 0, "there are no checks");
+    if (!fs::exists(lesson.folder / "checks.lua")) faults.add("checks.lua", 0, Message("there are no checks"));
     for (const char* language : kLanguages) {
         if (fs::exists(lesson.hints(language)))
             faults.attempt(lesson.hints(language), [&] { read_hints(lesson.hints(language)); });
+        if (const fs::path words = lesson.checks_in(language); fs::exists(words))
+            faults.attempt(words, [&words] { const Catalog catalog(read_text(words)); });
         if (fs::exists(lesson.tasks(language)))
             faults.attempt(lesson.tasks(language), [&] { lesson_script(lesson, language); });
         if (fs::exists(lesson.report(language)))
@@ -235,13 +243,13 @@ LessonFaults faults_of_texts(const Lesson& lesson) {
 LessonFaults faults_of_checks(const Lesson& lesson, const CheckTrial& trial) {
     Faults faults(lesson);
     if (!trial.solution.trouble.empty())
-        faults.add(lesson.script(), take_apart(trial.solution.trouble).line,
-                   "the worked solution stops: " + trial.solution.trouble);
+        faults.add(lesson.script(), line_of_trouble(trial.solution),
+                   Message("the worked solution stops: {}", trial.solution.trouble));
     for (const TriedCheck& one : trial.solution.checks)
         if (!is_full(one))
             faults.add(lesson.script(), 0,
-                       fmt::format("the worked solution does not pass the check \"{}\": {}", one.check.id,
-                                   one.for_instructor.empty() ? one.message : one.for_instructor));
+                       Message("the worked solution does not pass the check \"{}\": {}", one.check.id,
+                               one.for_instructor.empty() ? one.message : one.for_instructor));
     bool wrong = false;
     for (const TriedScript& script : trial.scripts) {
         wrong = wrong || script.name.starts_with("wrong_");
@@ -250,7 +258,7 @@ LessonFaults faults_of_checks(const Lesson& lesson, const CheckTrial& trial) {
         else
             look_at_starter(lesson, script, faults);
     }
-    if (!wrong) faults.add("checks.lua", 0, "no wrong_*.lua shows what the checks are to catch");
+    if (!wrong) faults.add("checks.lua", 0, Message("no wrong_*.lua shows what the checks are to catch"));
     return faults.found();
 }
 

@@ -10,7 +10,7 @@ namespace dynlab::inline course {
 struct LessonFault {
     std::string file;
     int line = 0;  ///< 0: the whole file
-    std::string what;
+    Message what;
 };
 using LessonFaults = std::vector<LessonFault>;
 

@@ -1,7 +1,5 @@
 #include "course/grading/manual_marks.h"
 
-#include <fmt/format.h>
-
 #include "course/grading/feedback.h"
 #include "data_io/text_table.h"
 #include "documents/text_lines.h"
@@ -18,7 +16,7 @@ ManualMarks::ManualMarks(const std::filesystem::path& file) {
     const auto submission = table.column("submission"), check = table.column("check"), points = table.column("points"),
                reason = table.column("reason") ? table.column("reason") : table.column("comment");
     if (!submission || !check || !points)
-        throw EnvironmentError(fmt::format("{}: the columns submission, check and points are needed", file.string()));
+        throw EnvironmentError("{}: the columns submission, check and points are needed", file.string());
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
         const auto& row = table.rows[i];
         // A decimal comma, as a spreadsheet writes it in much of Europe.
@@ -26,9 +24,8 @@ ManualMarks::ManualMarks(const std::filesystem::path& file) {
         if (text.empty()) continue;  // not marked yet
         const auto given = read_number<double>(text);
         if (!given || !(*given >= 0 && *given <= 1000))
-            throw EnvironmentError(
-                fmt::format("{}, line {}: points must be a number from 0 to 1000, but \"{}\" was given", file.string(),
-                            table.lines[i], text));
+            throw EnvironmentError("{}, line {}: points must be a number from 0 to 1000, but \"{}\" was given",
+                                   file.string(), table.lines[i], text);
         marks_[{row[*submission], row[*check]}] = {*given, reason ? row[*reason] : ""};
     }
 }
@@ -39,25 +36,25 @@ Grade ManualMarks::applied(Grade grade) const {
         if (found == marks_.end()) continue;
         check.earned = found->second.points;
         check.graded = true;
-        check.message = found->second.reason.empty() ? "Marked by the instructor." : found->second.reason;
+        check.message = found->second.reason.empty() ? Message("Marked by the instructor.")
+                                                     : Message::verbatim(found->second.reason);
         check.visible = true;
     }
     return grade;
 }
 
-std::vector<std::string> ManualMarks::strays(const std::set<std::string>& submissions,
-                                             const std::map<std::string, double>& checks) const {
-    std::vector<std::string> sentences;
+std::vector<Message> ManualMarks::strays(const std::set<std::string>& submissions,
+                                         const std::map<std::string, double>& checks) const {
+    std::vector<Message> sentences;
     for (const auto& [key, mark] : marks_) {
         const auto& [submission, check] = key;
         if (!submissions.contains(submission))
-            sentences.push_back(fmt::format("manual.csv: there is no submission \"{}\"", submission));
+            sentences.push_back(Message("manual.csv: there is no submission \"{}\"", submission));
         else if (!checks.contains(check))
-            sentences.push_back(fmt::format("manual.csv: there is no check \"{}\" (for \"{}\")", check, submission));
+            sentences.push_back(Message("manual.csv: there is no check \"{}\" (for \"{}\")", check, submission));
         else if (mark.points > checks.at(check))
-            sentences.push_back(fmt::format("manual.csv: \"{}\" gets {} points for the check \"{}\", which has {}",
-                                            submission, points_text(mark.points), check,
-                                            points_text(checks.at(check))));
+            sentences.push_back(Message("manual.csv: \"{}\" gets {} points for the check \"{}\", which has {}",
+                                        submission, points_text(mark.points), check, points_text(checks.at(check))));
     }
     return sentences;
 }

@@ -19,8 +19,8 @@ class ManualMarks {
     explicit ManualMarks(const std::filesystem::path& file);
     Grade applied(Grade grade) const;
     /// A sentence for each mark whose submission or check is not among these, or that is above the check's points.
-    std::vector<std::string> strays(const std::set<std::string>& submissions,
-                                    const std::map<std::string, double>& checks) const;
+    std::vector<Message> strays(const std::set<std::string>& submissions,
+                                const std::map<std::string, double>& checks) const;
 
   private:
     struct Mark {

@@ -89,8 +89,7 @@ void write_sent_files(const std::vector<SentFile>& files, const fs::path& folder
         if (file.path.ends_with("/"))
             fs::create_directories(folder / file.path);
         else if (std::ofstream to(folder / file.path, std::ios::binary); !(to << file.bytes).flush())
-            throw EnvironmentError(
-                fmt::format("cannot write {}: {} (in {})", file.path, system_reason(errno), folder.string()));
+            throw EnvironmentError("cannot write {}: {} (in {})", file.path, system_reason(errno), folder.string());
 }
 
 SharedRules shared_rules(const GradingRules& rules) {
@@ -124,7 +123,7 @@ class RulesOfClass {
         const auto there = fs::is_directory(folder) ? lesson_in(folder) : std::nullopt;
         setup.lesson = there ? *there : find_lesson(shared.lesson);
         if (digest_of_folder(setup.lesson.folder).hex() != shared.lesson_digest)
-            throw EnvironmentError(fmt::format("the lesson {} is another one on this machine", shared.lesson));
+            throw EnvironmentError("the lesson {} is another one on this machine", shared.lesson);
         if (shared.own_checks) {
             write_sent_files(shared.checks, checks_.path() / "checks");
             setup.more_checks = checks_.path() / "checks";
@@ -230,9 +229,9 @@ std::optional<SharedGrading::DoneBatch> SharedGrading::done() {
         const std::lock_guard lock(mutex_);
         batch = std::move(out_.extract(finished->key).mapped());
     }
-    std::string trouble = finished->trouble;
+    Message trouble = finished->trouble;
     if (finished->result && finished->result->trouble)
-        trouble = fmt::format("{} says: {}", finished->result->node, *finished->result->trouble);
+        trouble = Message("{} says: {}", finished->result->node, *finished->result->trouble);
     if (!trouble.empty() && batch.size() > 1) {
         for (Given& one : batch) give({std::move(one)});
         return done();

@@ -40,7 +40,8 @@ class SharedGrading {
     /// To be run and judged, together as far as nothing goes wrong.
     struct Given {
         std::size_t index = 0;
-        std::string fingerprint, of_runs, remark, language;  ///< for who gave it, when it comes back
+        std::string fingerprint, of_runs, language;  ///< for who gave it, when it comes back
+        Message remark;
         SentSubmission submission;
     };
     void give(std::vector<Given> batch);
@@ -49,7 +50,7 @@ class SharedGrading {
         Given given;             ///< without its files
         CheckedSubmission work;  ///< as GradingRules::work_in gives it
         Grade grade;             ///< as GradingRules::judged gives it
-        std::string trouble;     ///< why there is neither; empty where there is
+        Message trouble;         ///< why there is neither; empty where there is
     };
     struct DoneBatch {
         std::string key;
@@ -63,8 +64,8 @@ class SharedGrading {
     bool wait() { return coordinator_->wait(); }  ///< false where nothing is out
 
     void conclude() { coordinator_->conclude(); }
-    std::string sight() { return coordinator_->sight(); }
-    std::vector<std::string> notes() { return coordinator_->complaints(); }
+    Message sight() { return coordinator_->sight(); }
+    std::vector<Message> notes() { return coordinator_->complaints(); }
 
   private:
     void give_at_once(std::vector<Given> batch);

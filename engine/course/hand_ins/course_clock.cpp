@@ -1,12 +1,11 @@
 #include "course/hand_ins/course_clock.h"
 
-#include <fmt/format.h>
-
 #include <charconv>
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
 
+#include "base/reader.h"
 #include "numerics/error.h"
 
 namespace dynlab::inline course {
@@ -36,10 +35,10 @@ CourseClock::CourseClock(const std::string& zone) : zone_(zone) {
     const bool odd = zone.empty() || zone.front() == '/' || zone.find("..") != std::string::npos;
     std::error_code ignored;
     if (odd || (zone != "UTC" && !fs::is_regular_file(fs::path("/usr/share/zoneinfo") / zone, ignored)))
-        throw InvalidArgument(fmt::format(
+        throw InvalidArgument(
             "the time zone \"{}\" is not known here; give one such as Europe/Paris or UTC (list: timedatectl "
             "list-timezones; package tzdata)",
-            zone));
+            zone);
     ::setenv("TZ", zone.c_str(), 1);
     ::tzset();
 }
@@ -69,11 +68,10 @@ Instant CourseClock::parse(const std::string& text, const std::string& what) con
     const bool utc = text.ends_with('Z');
     const auto read = plain_clock_reading(utc ? text.substr(0, text.size() - 1) : text, utc);
     if (!read)
-        throw InvalidArgument(fmt::format("{} must be a time such as \"2026-03-01 18:00\" ({}), but \"{}\" was given",
-                                          what, zone_, text));
-    if (!read->exists)
-        throw InvalidArgument(
-            fmt::format("{} \"{}\" does not exist{}", what, text, utc ? "" : fmt::format(" in {}", zone_)));
+        throw InvalidArgument("{} must be a time such as \"2026-03-01 18:00\" ({}), but \"{}\" was given", what, zone_,
+                              text);
+    if (!read->exists && utc) throw InvalidArgument("{} \"{}\" does not exist", what, text);
+    if (!read->exists) throw InvalidArgument("{} \"{}\" does not exist in {}", what, text, zone_);
     return read->instant;
 }
 
@@ -92,12 +90,16 @@ std::string utc_text(Instant instant) {
     return formatted(time, "%Y-%m-%dT%H:%M:%SZ");
 }
 
-std::string duration_text(std::int64_t seconds) {
+Message duration_message(std::int64_t seconds) {
     const auto d = seconds / 86400, h = seconds / 3600 % 24, min = seconds / 60 % 60, s = seconds % 60;
-    if (d > 0) return h > 0 ? fmt::format("{} d {} h", d, h) : fmt::format("{} d", d);
-    if (h > 0) return min > 0 ? fmt::format("{} h {} min", h, min) : fmt::format("{} h", h);
-    if (min > 0) return s > 0 ? fmt::format("{} min {} s", min, s) : fmt::format("{} min", min);
-    return fmt::format("{} s", s);
+    if (d > 0) return h > 0 ? Message("{} d {} h", d, h) : Message("{} d", d);
+    if (h > 0) return min > 0 ? Message("{} h {} min", h, min) : Message("{} h", h);
+    if (min > 0) return s > 0 ? Message("{} min {} s", min, s) : Message("{} min", min);
+    return Message("{} s", s);
+}
+
+std::string duration_text(std::int64_t seconds) {
+    return message_text(duration_message(seconds));
 }
 
 std::optional<std::int64_t> duration_of(const std::string& text) {

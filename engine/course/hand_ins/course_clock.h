@@ -4,6 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "base/message.h"
+
 namespace dynlab::inline course {
 
 /// Seconds since 1970, UTC.
@@ -41,7 +43,8 @@ std::optional<ClockReading> plain_clock_reading(const std::string& text, bool ut
 
 std::string utc_text(Instant instant);  ///< "2026-03-01T17:00:05Z"
 /// "3 d 4 h", "2 h 5 min", "40 s": the two largest units.
-std::string duration_text(std::int64_t seconds);
+Message duration_message(std::int64_t seconds);
+std::string duration_text(std::int64_t seconds);  ///< in English
 /// Seconds in "90 s", "15 min" or "15m", "2 h", "1 d", "0"; nothing for anything else.
 std::optional<std::int64_t> duration_of(const std::string& text);
 

@@ -2,6 +2,8 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
+
 namespace dynlab::inline course {
 
 enum class Severity { kRule, kHint };  ///< a rule of the course is broken; something worth a look
@@ -10,10 +12,10 @@ enum class Severity { kRule, kHint };  ///< a rule of the course is broken; some
 struct Finding {
     std::string id;  ///< such as "figure-not-mentioned"
     Severity severity = Severity::kRule;
-    int page = 0;        ///< 1-based; 0 concerns the whole document
-    std::string place;   ///< "analysis.lua:12" when a source file is concerned, else empty
-    std::string what;    ///< one sentence
-    std::string remedy;  ///< one sentence
+    int page = 0;       ///< 1-based; 0 concerns the whole document
+    std::string place;  ///< "analysis.lua:12" when a source file is concerned, else empty
+    Message what;       ///< one sentence
+    Message remedy;     ///< one sentence
 };
 
 using Findings = std::vector<Finding>;

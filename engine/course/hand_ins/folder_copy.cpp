@@ -59,8 +59,8 @@ FolderCopy copy_folder(const fs::path& from, const fs::path& to, std::uint64_t m
         copying.copy(from, to, {}, 0);
         return copying.result();
     } catch (const fs::filesystem_error& error) {
-        throw EnvironmentError("cannot copy " + from.string() + ": " + error.code().message() + " (" +
-                               error.path1().string() + ")");
+        throw EnvironmentError("cannot copy {}: {} ({})", from.string(), error.code().message(),
+                               error.path1().string());
     }
 }
 

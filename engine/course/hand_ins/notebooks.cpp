@@ -1,7 +1,5 @@
 #include "course/hand_ins/notebooks.h"
 
-#include <fmt/format.h>
-
 #include "documents/error.h"
 #include "platform/atomic_file.h"
 #include "platform/guarded_call.h"
@@ -52,14 +50,18 @@ std::string script_of_handed_in(const fs::path& notebook) {
             }
         },
         limits);
+    if (read.time_limit() == TimeLimit::kProcessor)
+        throw SubmissionError("The notebook {} cannot be read: reading it used more than {} s of processor time.", name,
+                              limits.time.seconds(TimeLimit::kProcessor));
+    if (read.timed_out)
+        throw SubmissionError("The notebook {} cannot be read: reading it had not ended after {} s.", name,
+                              limits.time.seconds(TimeLimit::kClock));
     if (read.exit_code != 0 || read.output.empty())
-        throw SubmissionError(fmt::format(
-            "The notebook {} cannot be read: reading it {}.", name,
-            read.timed_out ? limits.time.told(read.time_limit()) : fmt::format("crashed (code {})", read.exit_code)));
+        throw SubmissionError("The notebook {} cannot be read: reading it crashed (code {}).", name, read.exit_code);
     if (read.output.front() == '+') return read.output.substr(1);
     std::string what = read.output.substr(1);
     if (const std::string path = notebook.string() + ": "; what.starts_with(path)) what = what.substr(path.size());
-    throw SubmissionError(fmt::format("The notebook {} cannot be read: {}.", name, what));
+    throw SubmissionError("The notebook {} cannot be read: {}.", name, what);
 }
 
 std::vector<fs::path> take_notebooks(const fs::path& folder) {

@@ -31,7 +31,7 @@ class Owners {
         std::vector<std::size_t> students;  ///< places in `students`: all of the group; may be none of an empty group
         std::string group;                  ///< empty for a student without one
         bool by_beginning = false;  ///< the name is, or begins with, the owner's; else it stands somewhere in it
-        std::string trouble;        ///< nobody, and why: "it fits several: group-1, group-2"
+        Message trouble;            ///< nobody, and why: "it fits several: group-1, group-2"
         bool doubtful = false;      ///< nobody, as more than one could be meant
         bool anybody() const { return trouble.empty(); }
     };

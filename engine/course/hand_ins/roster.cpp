@@ -1,7 +1,5 @@
 #include "course/hand_ins/roster.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <map>
 #include <set>
@@ -84,23 +82,21 @@ Roster::Roster(const std::filesystem::path& file) {
     converted_ = table.converted;
     translate_columns(table);
     const auto id = table.column("id"), seed = table.column("seed");
-    if (!id)
-        throw EnvironmentError(
-            fmt::format("{}: the column id is missing; there are {}", file.string(), fmt::join(table.names, ", ")));
+    if (!id) throw EnvironmentError("{}: the column id is missing; there are {}", file.string(), listed(table.names));
     columns_ = table.names;
     std::set<std::string> seen;
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
         const auto& row = table.rows[i];
-        const auto fail = [&](const std::string& what) {
-            throw EnvironmentError(fmt::format("{}, line {}: {}", file.string(), table.lines[i], what));
+        const auto fail = [&](const Message& what) {
+            throw EnvironmentError("{}, line {}: {}", file.string(), table.lines[i], what);
         };
         const auto cell = [&](const char* column) {
             const auto index = table.column(column);
             return index ? row[*index] : std::string();
         };
         if (row[*id].empty() && cell("name") == "Points Possible") continue;  // Canvas's second line
-        if (row[*id].empty()) fail("the id is empty");
-        if (!seen.insert(row[*id]).second) fail(fmt::format("the id \"{}\" occurs twice", row[*id]));
+        if (row[*id].empty()) fail(Message("the id is empty"));
+        if (!seen.insert(row[*id]).second) fail(Message("the id \"{}\" occurs twice", row[*id]));
         std::string name = cell("name");
         if (name.empty()) name = std::string(trimmed_cell(cell("first") + " " + cell("last")));
         Student student{row[*id],
@@ -114,11 +110,11 @@ Roster::Roster(const std::filesystem::path& file) {
             const std::string& text = row[*seed];
             student.seed = read_number<std::uint32_t>(text);
             if (student.seed.value_or(0) == 0)
-                fail(fmt::format("the seed must be a whole number from 1 to 4294967295, but \"{}\" was given", text));
+                fail(Message("the seed must be a whole number from 1 to 4294967295, but \"{}\" was given", text));
         }
         student.language = cell("language");
         if (!student.language.empty() && student.language != "en" && student.language != "fr")
-            fail(fmt::format("the language must be en or fr, but \"{}\" was given", student.language));
+            fail(Message("the language must be en or fr, but \"{}\" was given", student.language));
         students_.push_back(std::move(student));
     }
 }

@@ -98,19 +98,19 @@ void make_utf8(const fs::path& script) {
     const std::string bytes = read_file(script), mark = bytes.substr(0, 2);
     if (mark != "\xFF\xFE" && mark != "\xFE\xFF") return;
     const fs::file_time_type written = fs::last_write_time(script);
-    std::vector<std::string> notes;
+    std::vector<Message> notes;
     try {
-        write_file_atomically(script, decoded_text(bytes, notes));
+        write_file_atomically(script, decoded_text(script, bytes, notes));
     } catch (const EnvironmentError&) {
         throw SubmissionError("Its analysis.lua is no text: save it in UTF-8 and hand it in again.");
     }
     fs::last_write_time(script, written);
 }
 
-std::string listed_places(const std::vector<FoundScript>& found) {
+MessageList listed_places(const std::vector<FoundScript>& found) {
     std::vector<std::string> shown;
     for (const FoundScript& script : found) shown.push_back(fmt::format("\"{}\"", script.shown));
-    return fmt::format("{}", fmt::join(shown, ", "));
+    return listed(shown);
 }
 
 class Stager {
@@ -127,19 +127,18 @@ class Stager {
         std::vector<FoundScript> found = scripts_in(root_, "");
         if (found.empty()) open_archives(root_, "", 1, found);
         if (found.empty()) throw SubmissionError(obstacle());
-        if (found.size() == 1) return staged(found.front(), "");
+        if (found.size() == 1) return staged(found.front(), {});
         const std::optional<FoundScript> newest = newest_of(found);
         if (!newest)
-            throw SubmissionError(fmt::format(
-                "There are several folders with an analysis.lua, and which is the newest cannot be told: {}. "
-                "Hand in one.",
-                listed_places(found)));
-        return staged(*newest,
-                      fmt::format("of {}, \"{}\" was taken as the newest", listed_places(found), newest->shown));
+            throw SubmissionError(
+                "There are several folders with an analysis.lua, and which is the newest cannot be told: {}. Hand in "
+                "one.",
+                listed_places(found));
+        return staged(*newest, Message("of {}, \"{}\" was taken as the newest", listed_places(found), newest->shown));
     }
 
   private:
-    StagedWork staged(const FoundScript& script, const std::string& remark) const {
+    StagedWork staged(const FoundScript& script, const Message& remark) const {
         make_utf8(script.folder / kScript);
         return {script.folder, remark, "", of_notebooks_.contains(script.folder)};
     }
@@ -161,17 +160,17 @@ class Stager {
         const FolderCopy copy = copy_folder(submission_.path, root_, limits_.bytes, limits_.files);
         if (copy.too_large) too_large();
         for (const std::string& name : copy.left_out)
-            note_left_out({fmt::format("\"{}\" is a link or not a regular file", utf8_of_name(name))}, "");
+            note_left_out({Message("\"{}\" is a link or not a regular file", utf8_of_name(name))}, "");
     }
 
-    void note_left_out(const std::vector<std::string>& clauses, const std::string& archive) {
-        for (const std::string& clause : clauses)
-            left_out_.push_back(archive.empty() ? clause : fmt::format("in \"{}\", {}", archive, clause));
+    void note_left_out(const std::vector<Message>& clauses, const std::string& archive) {
+        for (const Message& clause : clauses)
+            left_out_.push_back(archive.empty() ? clause : Message("in \"{}\", {}", archive, clause));
     }
 
     [[noreturn]] void too_large() const {
-        throw SubmissionError(fmt::format("It is too large: at most {} files and {} MB are looked at.", limits_.files,
-                                          limits_.bytes >> 20));
+        throw SubmissionError("It is too large: at most {} files and {} MB are looked at.", limits_.files,
+                              limits_.bytes >> 20);
     }
 
     void copy_loose(const LooseFile& file) const {
@@ -204,7 +203,7 @@ class Stager {
                 note_left_out(unpack_submission(file, to, level_, program_, limits_), name);
                 take_notebooks_in(to);
             } catch (const SubmissionError& error) {
-                damage_ = fmt::format(" \"{}\": {}", name, error.what());
+                damage_ = Message("\"{}\": {}", name, error.message());
                 continue;
             }
             const std::vector<FoundScript> here = scripts_in(to, name);
@@ -214,7 +213,7 @@ class Stager {
     }
 
     /// What is there instead of a script.
-    std::string obstacle() const {
+    Message obstacle() const {
         std::vector<std::string> near, others;
         bool notebook = false;
         for (const auto& entry : fs::directory_iterator(to_))
@@ -227,34 +226,43 @@ class Stager {
             }
         std::sort(near.begin(), near.end());
         std::sort(others.begin(), others.end());
-        const std::string rest = told_left_out() + damage_;
         if (near.empty() && others.empty())
-            return left_out_.empty() ? "It is empty: there is no analysis.lua in it."
-                                     : "Nothing in it can be read, so that there is no analysis.lua in it." + rest;
+            return left_out_.empty()
+                       ? Message("It is empty: there is no analysis.lua in it.")
+                       : with_rest(Message("Nothing in it can be read, so that there is no analysis.lua in it."));
         if (!near.empty())
-            return fmt::format("There is no analysis.lua in it, but {}: hand it in under the name analysis.{}.{}",
-                               fmt::join(shortened_list(near), ", "), notebook ? "ipynb" : "lua", rest);
-        return fmt::format("There is no analysis.lua in it, only {}{}; hand in the folder that dynlab new made.{}",
-                           fmt::join(shortened_list(others), ", "), closed_kinds(others), rest);
+            return with_rest(Message("There is no analysis.lua in it, but {}: hand it in under the name {}.",
+                                     listed(shortened_list(near)), notebook ? "analysis.ipynb" : "analysis.lua"));
+        if (const std::string kind = closed_kind(others); !kind.empty())
+            return with_rest(
+                Message("There is no analysis.lua in it, only {} ({} archives cannot be opened here; zip and "
+                        "tar can); hand in the folder that dynlab new made.",
+                        listed(shortened_list(others)), kind));
+        return with_rest(Message("There is no analysis.lua in it, only {}; hand in the folder that dynlab new made.",
+                                 listed(shortened_list(others))));
     }
 
-    /// What was not unpacked or copied, and why: the script may be among it.
-    std::string told_left_out() const {
-        if (left_out_.empty()) return "";
-        return fmt::format(" Left out: {}.", fmt::join(shortened_list(left_out_), "; "));
+    /// And what was not unpacked or copied, and why: the script may be among it.
+    Message with_rest(Message obstacle) const {
+        std::vector<Message> said = {std::move(obstacle)};
+        if (!left_out_.empty())
+            said.push_back(Message("Left out: {}.", MessageList{shortened_list(left_out_), Join::kSemicolon}));
+        if (!damage_.empty()) said.push_back(damage_);
+        return sentences(std::move(said));
     }
 
-    static std::vector<std::string> shortened_list(std::vector<std::string> names) {
+    template <class Item>
+    static std::vector<Item> shortened_list(std::vector<Item> items) {
         constexpr std::size_t kMost = 3;
-        if (names.size() > kMost) names.resize(kMost), names.push_back("...");
-        return names;
+        if (items.size() > kMost) items.resize(kMost), items.push_back(Item("..."));
+        return items;
     }
 
-    static std::string closed_kinds(const std::vector<std::string>& names) {
+    /// The ending of an archive that cannot be opened; empty where there is none.
+    static std::string closed_kind(const std::vector<std::string>& names) {
         for (const std::string kind : {".rar", ".7z"})
             for (const std::string& name : names)
-                if (in_small_letters(name).ends_with(kind + "\""))
-                    return fmt::format(" ({} archives cannot be opened here; zip and tar can)", kind);
+                if (in_small_letters(name).ends_with(kind + "\"")) return kind;
         return "";
     }
 
@@ -264,9 +272,9 @@ class Stager {
     const fs::path& program_;
     SubmissionLimits limits_;
     int opened_ = 0;
-    std::set<fs::path> of_notebooks_;    ///< folders whose script was a notebook
-    std::vector<std::string> left_out_;  ///< and why, a clause each
-    std::string damage_;                 ///< of the last archive that could not be opened
+    std::set<fs::path> of_notebooks_;  ///< folders whose script was a notebook
+    std::vector<Message> left_out_;    ///< and why, a clause each
+    Message damage_;                   ///< of the last archive that could not be opened
 };
 
 }  // namespace

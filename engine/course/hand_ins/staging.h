@@ -2,13 +2,14 @@
 #include <filesystem>
 #include <string>
 
+#include "base/message.h"
 #include "course/hand_ins/submission.h"
 
 namespace dynlab::inline course {
 
 struct StagedWork {
     std::filesystem::path folder;  ///< holds analysis.lua
-    std::string remark;            ///< for the instructor: which of several versions was taken; else empty
+    Message remark;                ///< for the instructor: which of several versions was taken; else empty
     std::string language{};        ///< of the work, see language_of_work
     bool of_notebook = false;      ///< its analysis.lua was an analysis.ipynb
 };

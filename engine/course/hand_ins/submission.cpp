@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 
+#include "base/error.h"
 #include "course/boxes/boxed_work.h"
 #include "course/boxes/job_descriptions.h"
 #include "course/hand_ins/owners.h"
@@ -114,7 +115,7 @@ std::map<std::string, std::vector<Submitter>> submitters_in(const fs::path& list
 /// Reads a folder of submissions, entry by entry.
 class SubmissionReader {
   public:
-    SubmissionReader(const fs::path& folder, std::vector<std::string>& left_out, const fs::path& results)
+    SubmissionReader(const fs::path& folder, std::vector<Message>& left_out, const fs::path& results)
         : left_out_(left_out), results_(results), submitters_(submitters_in(folder / kGradescopeList)) {}
 
     void take(const fs::path& entry) {
@@ -133,14 +134,14 @@ class SubmissionReader {
 
   private:
     void leave_out(const std::string& name) {
-        left_out_.push_back(fmt::format("\"{}\" is neither a folder nor an archive (.zip, .tar.gz)", name));
+        left_out_.push_back(Message("\"{}\" is neither a folder nor an archive (.zip, .tar.gz)", name));
     }
 
     void take_folder(const fs::path& entry, const std::string& name) {
         std::error_code ignored;
         if (!results_.empty() && fs::equivalent(entry, results_, ignored)) return;
         if (holds_results(entry)) {
-            left_out_.push_back(fmt::format("\"{}\" holds the results of dynlab grade", name));
+            left_out_.push_back(Message("\"{}\" holds the results of dynlab grade", name));
             return;
         }
         Submission submission{name, entry};
@@ -197,7 +198,7 @@ class SubmissionReader {
         all_.push_back(std::move(submission));
     }
 
-    std::vector<std::string>& left_out_;
+    std::vector<Message>& left_out_;
     const fs::path results_;
     std::map<std::string, std::vector<Submitter>> submitters_;
     /// By person and number: where in `all_`, and the first file.
@@ -228,9 +229,9 @@ std::optional<std::string> read_lms_name(Submission& submission) {
     return own;
 }
 
-std::vector<Submission> submissions_in(const fs::path& folder, std::vector<std::string>& left_out,
+std::vector<Submission> submissions_in(const fs::path& folder, std::vector<Message>& left_out,
                                        const fs::path& results) {
-    if (!fs::is_directory(folder)) throw EnvironmentError(fmt::format("there is no folder '{}'", folder.string()));
+    if (!fs::is_directory(folder)) throw EnvironmentError("there is no folder '{}'", folder.string());
     const std::vector<fs::path> entries = entries_of(folder);
     const bool wrapped = entries.size() == 1 && is_folder(entries.front()) && !is_named_by_platform(entries.front());
     if (wrapped && is_export(entries.front())) return submissions_in(entries.front(), left_out, results);
@@ -238,13 +239,12 @@ std::vector<Submission> submissions_in(const fs::path& folder, std::vector<std::
     for (const fs::path& entry : entries) reader.take(entry);
     std::vector<Submission> all = reader.all();
     if (all.empty())
-        throw EnvironmentError(
-            fmt::format("'{}' holds no submissions: folders or archives (.zip, .tar.gz)", folder.string()));
+        throw EnvironmentError("'{}' holds no submissions: folders or archives (.zip, .tar.gz)", folder.string());
     return all;
 }
 
-std::vector<std::string> unpack_submission(const fs::path& archive, const fs::path& to, Isolation level,
-                                           const fs::path& program, const SubmissionLimits& limits) {
+std::vector<Message> unpack_submission(const fs::path& archive, const fs::path& to, Isolation level,
+                                       const fs::path& program, const SubmissionLimits& limits) {
     fs::create_directories(to);
     Box box(level);
     UnpackJob job;
@@ -254,19 +254,18 @@ std::vector<std::string> unpack_submission(const fs::path& archive, const fs::pa
     job.files = limits.files;
     job.keep_times = limits.keep_times;
     const auto result = run_boxed(box, program, job, {std::chrono::seconds(60)});
-    if (!result.output) throw SubmissionError("The archive cannot be unpacked: " + result.reason + ".");
-    if (result.output->error)
-        throw SubmissionError(fmt::format("The file cannot be unpacked: {}.", *result.output->error));
+    if (!result.output) throw SubmissionError("The archive cannot be unpacked: {}.", result.reason);
+    if (result.output->error) throw SubmissionError("The file cannot be unpacked: {}.", *result.output->error);
     return result.output->left_out;
 }
 
-std::vector<std::string> unpack_export(const fs::path& archive, const fs::path& to, Isolation level,
-                                       const fs::path& program) {
+std::vector<Message> unpack_export(const fs::path& archive, const fs::path& to, Isolation level,
+                                   const fs::path& program) {
     constexpr SubmissionLimits kOfAClass{4ull << 30, 200'000, true};
     try {
         return unpack_submission(archive, to, level, program, kOfAClass);
     } catch (const SubmissionError& error) {
-        throw EnvironmentError(fmt::format("{}: {}", archive.string(), error.what()));
+        throw EnvironmentError("{}: {}", archive.string(), message_of(error));
     }
 }
 

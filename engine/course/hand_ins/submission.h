@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/error.h"
 #include "platform/box.h"
 
 namespace dynlab::inline course {
@@ -39,7 +40,7 @@ struct Submission {
 /// "Name_ID_assignsubmission_file_...", Canvas's "name_LATE_ID_ID_file.zip", whose loose files of one sender are
 /// joined, and Gradescope's submission_metadata.yml; one folder around all of it is looked through. Throws
 /// EnvironmentError where there is none.
-std::vector<Submission> submissions_in(const std::filesystem::path& folder, std::vector<std::string>& left_out,
+std::vector<Submission> submissions_in(const std::filesystem::path& folder, std::vector<Message>& left_out,
                                        const std::filesystem::path& results = {});
 
 /// What a submission may take when it is copied or unpacked.
@@ -51,14 +52,14 @@ struct SubmissionLimits {
 
 /// Unpacks a submission's archive into `to`, which is made, in a box by `program`. Returns what was left out, each
 /// as a clause ("\"../x\" leads outside of the archive"). Throws SubmissionError.
-std::vector<std::string> unpack_submission(const std::filesystem::path& archive, const std::filesystem::path& to,
-                                           Isolation level, const std::filesystem::path& program,
-                                           const SubmissionLimits& limits = {});
+std::vector<Message> unpack_submission(const std::filesystem::path& archive, const std::filesystem::path& to,
+                                       Isolation level, const std::filesystem::path& program,
+                                       const SubmissionLimits& limits = {});
 
 /// Unpacks the one zip in which an LMS exports all submissions into `to`, an empty folder, in a box.
 /// Returns what was left out as unpack_submission does. Throws EnvironmentError.
-std::vector<std::string> unpack_export(const std::filesystem::path& archive, const std::filesystem::path& to,
-                                       Isolation level, const std::filesystem::path& program);
+std::vector<Message> unpack_export(const std::filesystem::path& archive, const std::filesystem::path& to,
+                                   Isolation level, const std::filesystem::path& program);
 
 /// The name without an archive's ending (.zip, .tar, .tar.gz, .tgz, .tar.xz, .tar.bz2); nothing for other files.
 std::optional<std::string> archive_stem(const std::string& name);
@@ -68,9 +69,9 @@ std::optional<std::string> archive_stem(const std::string& name);
 std::optional<std::string> read_lms_name(Submission& submission);
 
 /// A submission that cannot be graded as it is, through its sender's doing.
-class SubmissionError : public std::runtime_error {
+class SubmissionError : public ErrorOf<std::runtime_error> {
   public:
-    using std::runtime_error::runtime_error;
+    using ErrorOf::ErrorOf;
 };
 
 }  // namespace dynlab::inline course

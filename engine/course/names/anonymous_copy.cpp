@@ -1,10 +1,9 @@
 #include "course/names/anonymous_copy.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <csignal>
 
+#include "base/reader.h"
 #include "course/boxes/boxed_work.h"
 #include "course/boxes/told_reason.h"
 #include "course/hand_ins/staging.h"
@@ -70,7 +69,7 @@ class CopyingAnonymously {
             result_.hash = sha256_of(bytes);
         } catch (const PdfRefusal& refusal) {
             result_.made = false;
-            result_.trouble = refusal.what();
+            result_.trouble = refusal.message();
         }
         return std::move(result_);
     }
@@ -88,18 +87,18 @@ class CopyingAnonymously {
         try {
             source = stage_submission(submission, staged, setup_.isolation, setup_.program).folder;
         } catch (const SubmissionError& error) {
-            result_.trouble = error.what();
+            result_.trouble = error.message();
         }
         if (source && setup_.rebuild && fs::is_regular_file(*source / "report.md") && makes_report(*source)) {
             result_.rebuilt = true;
-            result_.trouble.clear();
+            result_.trouble = Message();
             return report();
         }
         const std::optional<fs::path> pdf = pdf_below(staged);
         if (pdf)
-            result_.trouble.clear();
+            result_.trouble = Message();
         else if (result_.trouble.empty())
-            result_.trouble = "There is neither a report that can be made again nor one PDF.";
+            result_.trouble = Message("There is neither a report that can be made again nor one PDF.");
         return pdf;
     }
 
@@ -119,16 +118,16 @@ class CopyingAnonymously {
             box.run({program.string(), "report", inside.string(), "-o", (out / "report.pdf").string()}, {}, "", limits);
         const bool made = child.exit_code == 0 && fs::is_regular_file(report());
         if (made && bytes_below(report().parent_path()) <= kMostMade) return true;
-        result_.trouble =
-            as_sentence("The report cannot be made again: " + (made ? "it is too large" : reason_of(child, inside)));
+        result_.trouble = Message("The report cannot be made again: {}",
+                                  made ? Message("it is too large") : reason_of(child, inside));
         return false;
     }
 
-    std::string reason_of(const ChildResult& child, const fs::path& folder) const {
+    Message reason_of(const ChildResult& child, const fs::path& folder) const {
         if (child.timed_out) return reason_of_end(child, setup_.report_time);
-        if (child.exit_code == 128 + SIGXFSZ)
-            return fmt::format("it writes a file of more than {} MB", kLargestFile >> 20);
-        return terminal_text(told_outside(child.error_output.substr(0, child.error_output.find('\n')), folder));
+        if (child.exit_code == 128 + SIGXFSZ) return Message("it writes a file of more than {} MB", kLargestFile >> 20);
+        const std::string first_line = child.error_output.substr(0, child.error_output.find('\n'));
+        return Message::verbatim(without_full_stop(terminal_text(told_outside(first_line, folder))));
     }
 
     fs::path handed_in_;

@@ -25,7 +25,7 @@ struct AnonymousCopy {
     bool rebuilt = false;  ///< from analysis.lua and report.md; else from the PDF that was handed in
     std::string hash;      ///< SHA-256 of the copy; empty when it was not made
     Findings findings;     ///< what stopped it (rules) and what the instructor may want to look at (hints)
-    std::string trouble;   ///< one sentence, when there was nothing to copy or making it failed
+    Message trouble;       ///< one sentence, when there was nothing to copy or making it failed
 };
 
 /// Makes `copy` (a PDF) from what a group handed in: a PDF, a pack or other archive (.zip, .tar.gz), or a folder.

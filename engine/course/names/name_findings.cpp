@@ -1,7 +1,5 @@
 #include "course/names/name_findings.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +10,7 @@
 #include "course/names/pdf_places.h"
 #include "course/names/plain_words.h"
 #include "data_io/values/cbor_values.h"
+#include "data_io/values/message_values.h"
 #include "documents/work_file.h"
 #include "platform/temporary_folder.h"
 #include "platform/text/shown_order.h"
@@ -38,31 +37,41 @@ constexpr double kNameGap = 0.2;  ///< of the size: more is a space
 constexpr const char* kEndMark = "%%EOF";
 
 struct PlaceWords {
-    const char *id, *where, *remedy;
+    const char* id;
+    Message where, remedy;
 };
 /// By PdfPlace.
-constexpr std::array<PlaceWords, 13> kPlaces = {{
-    {"name-in-text", "in the text", "Take it out: reports are read anonymously."},
-    {"name-hidden", "where no reader sees it (outside of the page, in a hidden layer or in a part not shown)",
-     "Take it out of the source; what is cut away or covered is still in the file."},
-    {"name-in-metadata", "in the metadata",
-     "Make the PDF with dynlab report, or empty author, title and keywords in the properties of the document "
-     "and of its figures."},
-    {"name-in-attachment", "in an embedded file", "Save the PDF without embedded files."},
-    {"name-in-annotation", "in a comment", "Delete the comments, or print them away into a new PDF."},
-    {"name-in-form", "in a form's field", "Empty the field, or print the document into a new PDF."},
-    {"name-in-link", "in the target of a link", "Take the link out or let it lead elsewhere."},
-    {"name-in-bookmark", "in a bookmark", "Change the heading, or save the PDF without bookmarks."},
-    {"name-in-layer", "in the name of a layer", "Rename the layer or save the figure without layers."},
-    {"name-in-image", "in the metadata of a picture",
-     "Save the picture without metadata, such as by exporting it as PNG, and make the PDF again."},
-    {"name-in-figure-file", "in the path of a figure's file",
-     "Give the figure's file another name or place and make the PDF again, best with dynlab report."},
-    {"name-in-remains", "in what remains of an earlier state of the file, or behind its end",
-     "Make the PDF anew instead of changing it, best with dynlab report."},
-    {"name-inside", "inside the file, in a part that is never printed",
-     "Make the PDF anew with dynlab report, or print it into a new PDF."},
-}};
+const PlaceWords& words_of(PdfPlace place) {
+    static const std::array<PlaceWords, 13> places = {{
+        {"name-in-text", Message("in the text"), Message("Take it out: reports are read anonymously.")},
+        {"name-hidden",
+         Message("where no reader sees it (outside of the page, in a hidden layer or in a part not shown)"),
+         Message("Take it out of the source; what is cut away or covered is still in the file.")},
+        {"name-in-metadata", Message("in the metadata"),
+         Message(
+             "Make the PDF with dynlab report, or empty author, title and keywords in the properties of the document "
+             "and of its figures.")},
+        {"name-in-attachment", Message("in an embedded file"), Message("Save the PDF without embedded files.")},
+        {"name-in-annotation", Message("in a comment"),
+         Message("Delete the comments, or print them away into a new PDF.")},
+        {"name-in-form", Message("in a form's field"),
+         Message("Empty the field, or print the document into a new PDF.")},
+        {"name-in-link", Message("in the target of a link"), Message("Take the link out or let it lead elsewhere.")},
+        {"name-in-bookmark", Message("in a bookmark"),
+         Message("Change the heading, or save the PDF without bookmarks.")},
+        {"name-in-layer", Message("in the name of a layer"),
+         Message("Rename the layer or save the figure without layers.")},
+        {"name-in-image", Message("in the metadata of a picture"),
+         Message("Save the picture without metadata, such as by exporting it as PNG, and make the PDF again.")},
+        {"name-in-figure-file", Message("in the path of a figure's file"),
+         Message("Give the figure's file another name or place and make the PDF again, best with dynlab report.")},
+        {"name-in-remains", Message("in what remains of an earlier state of the file, or behind its end"),
+         Message("Make the PDF anew instead of changing it, best with dynlab report.")},
+        {"name-inside", Message("inside the file, in a part that is never printed"),
+         Message("Make the PDF anew with dynlab report, or print it into a new PDF.")},
+    }};
+    return places[static_cast<std::size_t>(place)];
+}
 
 /// Something found, still without words.
 struct Found {
@@ -76,41 +85,44 @@ struct Found {
 struct SearchedObjects {
     std::vector<Found> found;
     std::vector<std::string> authors, nested;  ///< nested: PDFs embedded in it
-    std::string trouble;
+    Message trouble;
     std::string shown;  ///< the PDF with everything shown
 };
 
 DYNLAB_DESCRIBE(Found, place, page, detail, excerpt, hit)
 DYNLAB_DESCRIBE(SearchedObjects, found, authors, nested, trouble, shown)
 
-std::string what_is_named(const NameHit& hit) {
+Message sentence_about(const NameHit& hit, const Message& where, const std::string& excerpt) {
     const std::string who = printable(hit.who, 80);
+    const bool sure = hit.certain;
     switch (hit.kind) {
         case NameKind::kNumber:
-            return "The number of " + who;
+            return sure ? Message("The number of {} stands {}: \"{}\".", who, where, excerpt)
+                        : Message("The number of {} stands {}: \"{}\"; somebody else may be meant.", who, where,
+                                  excerpt);
         case NameKind::kMail:
-            return "The mail address or account of " + who;
+            return sure ? Message("The mail address or account of {} stands {}: \"{}\".", who, where, excerpt)
+                        : Message("The mail address or account of {} stands {}: \"{}\"; somebody else may be meant.",
+                                  who, where, excerpt);
         case NameKind::kGroup:
-            return "The group " + who;
+            return sure ? Message("The group {} stands {}: \"{}\".", who, where, excerpt)
+                        : Message("The group {} stands {}: \"{}\"; somebody else may be meant.", who, where, excerpt);
         case NameKind::kHome:
-            return "A home folder";
+            return sure ? Message("A home folder stands {}: \"{}\".", where, excerpt)
+                        : Message("A home folder stands {}: \"{}\"; somebody else may be meant.", where, excerpt);
         case NameKind::kName:
             break;
     }
-    return "The name of " + who;
+    return sure ? Message("The name of {} stands {}: \"{}\".", who, where, excerpt)
+                : Message("The name of {} stands {}: \"{}\"; somebody else may be meant.", who, where, excerpt);
 }
 
 Finding finding_of(const Found& found) {
-    const PlaceWords& words = kPlaces[static_cast<std::size_t>(found.place)];
-    const std::string detail = found.detail.empty() ? "" : fmt::format(" ({})", printable(found.detail, 40));
-    const std::string doubt = found.hit.certain ? "" : "; somebody else may be meant";
-    return {words.id,
-            found.hit.certain ? Severity::kRule : Severity::kHint,
-            found.page,
-            "",
-            fmt::format("{} stands {}{}: \"{}\"{}.", what_is_named(found.hit), words.where, detail,
-                        printable(found.excerpt, 60), doubt),
-            words.remedy};
+    const PlaceWords& words = words_of(found.place);
+    const Message where =
+        found.detail.empty() ? words.where : Message("{} ({})", words.where, printable(found.detail, 40));
+    return {words.id, found.hit.certain ? Severity::kRule : Severity::kHint,          found.page,
+            "",       sentence_about(found.hit, where, printable(found.excerpt, 60)), words.remedy};
 }
 
 std::string excerpt_of(const std::string& text, const NameHit& hit) {
@@ -153,17 +165,17 @@ class NameSearch {
         for (std::size_t i = 0; i < found_.size() && i < kMostFindings; ++i) result.push_back(finding_of(found_[i]));
         if (found_.size() > kMostFindings)
             result.push_back({"names-not-listed", Severity::kRule, 0, "",
-                              fmt::format("{} further places that name somebody, or may do so, are not listed here.",
-                                          found_.size() - kMostFindings),
-                              "Mend what is listed and check the document again."});
+                              Message("{} further places that name somebody, or may do so, are not listed here.",
+                                      found_.size() - kMostFindings),
+                              Message("Mend what is listed and check the document again.")});
         if (!trouble_.empty())
             result.push_back({"not-searched", Severity::kRule, 0, "",
-                              "The inside of the file cannot be searched for names. " + trouble_,
-                              "Make the PDF anew, best with dynlab report."});
+                              sentences({Message("The inside of the file cannot be searched for names."), trouble_}),
+                              Message("Make the PDF anew, best with dynlab report.")});
         for (const std::string& author : authors_)
             result.push_back({"author-named", Severity::kHint, 0, "",
-                              fmt::format("The metadata name an author: \"{}\".", printable(author, 60)),
-                              "Leave the author empty: reports are read anonymously."});
+                              Message("The metadata name an author: \"{}\".", printable(author, 60)),
+                              Message("Leave the author empty: reports are read anonymously.")});
         return result;
     }
 
@@ -188,10 +200,9 @@ class NameSearch {
             const std::vector<std::string>& nested = read.nested;
             for (std::size_t i = 0; i < nested.size() && i < kMostNested; ++i)
                 search_nested(nested[i], PdfPlace::kAttachment);
-            if (nested.size() > kMostNested)
-                trouble_ = fmt::format("More than {} PDFs are embedded in it.", kMostNested);
+            if (nested.size() > kMostNested) trouble_ = Message("More than {} PDFs are embedded in it.", kMostNested);
         } catch (const PdfRefusal& refusal) {
-            trouble_ = refusal.what();
+            trouble_ = refusal.message();
         }
         if (versions) search_versions(file);
     }
@@ -204,7 +215,7 @@ class NameSearch {
         try {
             return from_cbor<SearchedObjects>(answer);
         } catch (const ValueError&) {
-            throw PdfRefusal(PdfFault::kDamaged, "Searching it gives nothing that can be read.");
+            throw PdfRefusal(PdfFault::kDamaged, Message("Searching it gives nothing that can be read."));
         }
     }
 
@@ -300,7 +311,7 @@ class NameSearch {
     const NameSearchLimits& limits_;
     std::vector<Found> found_;
     std::set<std::string> authors_;
-    std::string trouble_;
+    Message trouble_;
     TemporaryFolder work_;
 };
 

@@ -1,7 +1,5 @@
 #include "course/names/name_patterns.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "platform/utf8.h"
@@ -269,12 +267,12 @@ bool is_sought_number(const std::string& id) {
     return letters >= kShortestSought;
 }
 
-std::string unsought_numbers_sentence(const std::vector<Student>& students) {
+Message unsought_numbers(const std::vector<Student>& students) {
     const auto unsought = [](const Student& student) { return !is_sought_number(student.id); };
     const auto first = std::ranges::find_if(students, unsought);
     if (first == students.end()) return {};
-    return fmt::format("ids of fewer than {} letters and digits ({}, such as {}) are not looked for in documents",
-                       kShortestSought, std::ranges::count_if(students, unsought), first->id);
+    return Message("ids of fewer than {} letters and digits ({}, such as {}) are not looked for in documents",
+                   kShortestSought, std::ranges::count_if(students, unsought), first->id);
 }
 
 std::vector<NamePattern> patterns_of_pair(const Student& one, const Student& other) {

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "course/hand_ins/roster.h"
 #include "course/names/name_tokens.h"
 
@@ -35,7 +36,7 @@ std::vector<NamePattern> patterns_of(const Student& student, bool own);
 /// Whether a student's number is looked for: one of fewer than three letters and digits stands in every document.
 bool is_sought_number(const std::string& id);
 /// Says whose numbers are not looked for; empty where all are.
-std::string unsought_numbers_sentence(const std::vector<Student>& students);
+Message unsought_numbers(const std::vector<Student>& students);
 
 /// Ways in which two authors of one document are named together, each by surname or given name only.
 std::vector<NamePattern> patterns_of_pair(const Student& one, const Student& other);

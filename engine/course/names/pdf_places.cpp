@@ -1,7 +1,5 @@
 #include "course/names/pdf_places.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <map>
 #include <qpdf/QPDF.hh>
@@ -131,7 +129,7 @@ class Places {
     }
 
     /// A sentence when something was too much to be looked at.
-    const std::string& trouble() const { return trouble_; }
+    const Message& trouble() const { return trouble_; }
 
   private:
     using Ids = std::set<QPDFObjGen>;
@@ -223,7 +221,7 @@ class Places {
             const Object file = description.getKey(key);
             if (!Object(file).isStream()) continue;
             if (codes.bytes == 0) {
-                trouble_ = "It has a font whose codes are not the numbers of its letters.";
+                trouble_ = Message("It has a font whose codes are not the numbers of its letters.");
                 return;
             }
             for (CodeMap& map : drawn_.read(content_of(file), codes, told)) note_map(std::move(map));
@@ -281,7 +279,7 @@ class Places {
             const bool is_own = !font.hasKey("/Encoding") && Object(font_file_of(font)).isStream();
             readable = !is_own && !numbers_its_letters(font);
         }
-        if (!readable) trouble_ = "It has text in a font that does not tell which letters it shows.";
+        if (!readable) trouble_ = Message("It has text in a font that does not tell which letters it shows.");
     }
 
     /// Each map once: figures that were made alike bring the same one.
@@ -290,14 +288,14 @@ class Places {
         if (maps_.size() < kMostMaps)
             maps_.push_back(std::move(map));
         else
-            trouble_ = fmt::format("More than {} of its fonts have codes of their own.", kMostMaps);
+            trouble_ = Message("More than {} of its fonts have codes of their own.", kMostMaps);
     }
 
     std::string content_of(const Object& stream) {
         try {
             return stream_content(stream, most_).bytes;
         } catch (const PdfRefusal& refusal) {
-            trouble_ = refusal.what();
+            trouble_ = refusal.message();
             return {};
         }
     }
@@ -426,15 +424,15 @@ class Places {
     Ids fonts_, attachments_, known_maps_;
     std::set<std::size_t> seen_;
     std::vector<CodeMap> maps_;
-    std::string trouble_;
+    Message trouble_;
     std::size_t samples_left_ = kMostSamples;
     int page_ = 0;
 };
 
 }  // namespace
 
-std::string visit_places(QPDF& pdf, const std::string& file, std::uint64_t most, const KnownFonts& known,
-                         const PlaceVisitor& visit, const NestedVisitor& nested) {
+Message visit_places(QPDF& pdf, const std::string& file, std::uint64_t most, const KnownFonts& known,
+                     const PlaceVisitor& visit, const NestedVisitor& nested) {
     Places places(pdf, file, most, known, visit, nested);
     places.visit_all();
     return places.trouble();

@@ -3,6 +3,7 @@
 #include <functional>
 #include <string>
 
+#include "base/message.h"
 #include "course/names/sought_names.h"
 
 class QPDF;
@@ -45,9 +46,9 @@ using NestedVisitor = std::function<void(const std::string& name, const std::str
 /// of their letters, by name or by a CMap of the identity, and simple TrueType fonts (9.6.3) are read by what they
 /// draw, too, as `known` fonts draw it. Returns a sentence when something was not looked at: a stream of more than
 /// `most` bytes, too many fonts whose codes a content might be written in, an embedded composite font with another
-/// CMap, a font that does not tell its letters; else "".
-std::string visit_places(QPDF& pdf, const std::string& file, std::uint64_t most, const KnownFonts& known,
-                         const PlaceVisitor& visit, const NestedVisitor& nested);
+/// CMap, a font that does not tell its letters; else an empty one.
+Message visit_places(QPDF& pdf, const std::string& file, std::uint64_t most, const KnownFonts& known,
+                     const PlaceVisitor& visit, const NestedVisitor& nested);
 
 /// Changes the PDF so that poppler reads what lies outside of the pages and in layers that are off.
 void show_everything(QPDF& pdf);

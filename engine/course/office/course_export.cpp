@@ -8,6 +8,8 @@
 #include <map>
 #include <variant>
 
+#include "base/error.h"
+#include "base/reader.h"
 #include "course/names/plain_words.h"
 #include "course/review/oral_marks.h"
 #include "course/review/review_marks.h"
@@ -108,7 +110,7 @@ StoredCell stored_cell(const SQLite::Column& cell) {
 const std::string& text_in(const StoredRow& row, const std::string& column) {
     const auto found = row.find(column);
     const auto* const text = found == row.end() ? nullptr : std::get_if<std::string>(&found->second.value);
-    if (!text) throw ValueError(fmt::format("a row lacks the text \"{}\"", column));
+    if (!text) throw ValueError("a row lacks the text \"{}\"", column);
     return *text;
 }
 
@@ -116,7 +118,7 @@ std::string column_list(const StoredRow& row) {
     std::string list;
     for (const auto& [name, cell] : row) {
         const bool plain = std::ranges::all_of(name, [](char c) { return c == '_' || (c >= 'a' && c <= 'z'); });
-        if (!plain || name.empty()) throw ValueError(fmt::format("there is no column \"{}\"", printable(name)));
+        if (!plain || name.empty()) throw ValueError("there is no column \"{}\"", printable(name));
         list += (list.empty() ? "" : ", ") + name;
     }
     return list;
@@ -167,7 +169,7 @@ void fill_imported(const fs::path& folder, const fs::path& from, std::map<std::s
 CourseExport read_export(const fs::path& file) {
     auto read = from_json<CourseExport>(read_file(file));
     for (const char* needed : {"course", "files"})
-        if (!read.tables.contains(needed)) throw ValueError(fmt::format("the table \"{}\" is missing", needed));
+        if (!read.tables.contains(needed)) throw ValueError("the table \"{}\" is missing", needed);
     return read;
 }
 
@@ -222,7 +224,7 @@ std::string marks_csv(Course& course, const Assignment& a) {
                 remark += (remark.empty() ? "" : "; ") + own->second;
             for (const GroupMark& mark : marks.groups)
                 if (mark.group == id)
-                    for (const std::string& cost : mark.costs) remark += (remark.empty() ? "" : "; ") + cost;
+                    for (const Message& cost : mark.costs) remark += (remark.empty() ? "" : "; ") + message_text(cost);
             const auto say = [&](const std::string& comment) {
                 if (!comment.empty()) remark += (remark.empty() ? "" : "; ") + comment;
             };
@@ -263,28 +265,24 @@ void import_course(const fs::path& file, const fs::path& from, const fs::path& f
             handed_in.push_back(from / "files" / hash.substr(0, 2) / hash);
         }
     } catch (const ValueError& error) {
-        throw EnvironmentError(
-            fmt::format("{}: this is not an export of dynlab course ({})", file.string(), error.what()));
+        throw EnvironmentError("{}: this is not an export of dynlab course ({})", file.string(), message_of(error));
     }
     for (const char* needed : {"name", "zone"})
-        if (!settings.contains(needed))
-            throw EnvironmentError(fmt::format("{}: the course's {} is missing", file.string(), needed));
+        if (!settings.contains(needed)) throw EnvironmentError("{}: the course's {} is missing", file.string(), needed);
     for (const fs::path& kept : handed_in)
         if (!fs::exists(kept))
-            throw EnvironmentError(
-                fmt::format("{} has no file {}; nothing was made", from.string(), kept.filename().string()));
+            throw EnvironmentError("{} has no file {}; nothing was made", from.string(), kept.filename().string());
     const fs::path place = fs::absolute(folder).lexically_normal();
     const fs::path whole = place.has_filename() ? place : place.parent_path();
     if (fs::exists(whole) && !(fs::is_directory(whole) && fs::is_empty(whole)))
-        throw EnvironmentError(
-            fmt::format("{} exists already and is not an empty folder; name a new one", folder.string()));
+        throw EnvironmentError("{} exists already and is not an empty folder; name a new one", folder.string());
     const fs::path growing = whole.string() + ".unfinished";
     fs::remove_all(growing);  // of an import that was interrupted
     try {
         fill_imported(growing, from, settings, handed_in, all);
     } catch (const EnvironmentError& error) {
         fs::remove_all(growing);
-        throw EnvironmentError(fmt::format("{}: {}; nothing was made", file.string(), error.what()));
+        throw EnvironmentError("{}: {}; nothing was made", file.string(), message_of(error));
     }
     if (fs::exists(whole)) fs::remove(whole);
     fs::rename(growing, whole);

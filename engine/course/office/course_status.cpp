@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <map>
 
+#include "base/reader.h"
 #include "course/review/review_pairs.h"
 #include "course/store/exceptions.h"
 #include "course/store/groups.h"
 #include "course/store/newest_versions.h"
-#include "numerics/number_text.h"
 #include "platform/terminal/aligned_table.h"
 
 namespace dynlab::inline course {
@@ -33,7 +33,7 @@ std::string cell_of(const HandedInParts& parts, const std::string& main) {
     if (!h.trouble.empty())
         cell += " " + h.trouble;
     else if (h.rules_broken > 0)
-        cell += ", " + counted(h.rules_broken, "rule") + " broken";
+        cell += ", " + message_text(plural(h.rules_broken, "{} rule broken", "{} rules broken"));
     return cell;
 }
 
@@ -223,7 +223,8 @@ class Status {
             else
                 ++open;
         }
-        if (open > 0 && due_over("review")) things.push_back("remind of " + counted(open, "review"));
+        if (open > 0 && due_over("review"))
+            things.push_back(message_text(plural(open, "remind of {} review", "remind of {} reviews")));
         only_pack(last, " of the final version");
         if (last.empty() && due_over("final")) things.push_back("ask for the final version");
         return join(things);
@@ -234,15 +235,16 @@ class Status {
     }
 
     std::string sums() const {
-        std::string text = fmt::format("{}: {} handed in", counted(groups_, "group"), present_);
-        if (late_ > 0) text += fmt::format(", {} late", late_);
-        if (unreadable_ > 0) text += fmt::format(", {} unreadable", unreadable_);
-        if (missing_ > 0) text += fmt::format(", {} missing", missing_);
-        if (assignment_.is_report() && !pairs_.empty())
-            text +=
-                fmt::format("; {} to come; {}", counted(open_reviews_, "review"), counted(finals_, "final version"));
-        text += ".\n";
-        return text;
+        MessageList counts{{plural(groups_, "{} group: {} handed in", "{} groups: {} handed in", present_)}};
+        if (late_ > 0) counts.items.push_back(Message("{} late", late_));
+        if (unreadable_ > 0) counts.items.push_back(Message("{} unreadable", unreadable_));
+        if (missing_ > 0) counts.items.push_back(Message("{} missing", missing_));
+        const Message sums =
+            assignment_.is_report() && !pairs_.empty()
+                ? Message("{}; {}; {}.", counts, plural(open_reviews_, "{} review to come", "{} reviews to come"),
+                          plural(finals_, "{} final version", "{} final versions"))
+                : Message("{}.", counts);
+        return message_text(sums) + "\n";
     }
 
     std::string next_step() const {
@@ -293,8 +295,11 @@ std::string assignment_status(Course& course, const Assignment& assignment, Inst
 std::string course_summary(Course& course, Instant now) {
     int active = 0, dropped_out = 0;
     for (const Group& group : groups_of(course)) ++(group.dropped_out ? dropped_out : active);
-    std::string text = fmt::format("{}: {}{}\n", course.name(), counted(active, "group"),
-                                   dropped_out > 0 ? fmt::format(", {} dropped out", dropped_out) : "");
+    const Message groups = plural(active, "{} group", "{} groups");
+    std::string text =
+        message_text(dropped_out > 0 ? Message("{}: {}, {} dropped out", course.name(), groups, dropped_out)
+                                     : Message("{}: {}", course.name(), groups)) +
+        "\n";
     std::vector<std::vector<std::string>> rows;
     for (const Assignment& a : assignments_of(course)) {
         const auto shown = [&](std::optional<Instant> due) { return due ? when(course.clock(), *due, now) : "-"; };

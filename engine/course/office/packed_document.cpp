@@ -1,7 +1,5 @@
 #include "course/office/packed_document.h"
 
-#include <fmt/format.h>
-
 #include <vector>
 
 #include "course/hand_ins/notebooks.h"
@@ -46,13 +44,15 @@ OpenedPack made_document(const std::vector<fs::path>& files, const std::string& 
     for (const fs::path& file : files)
         if (file.filename() == "analysis.lua") scripts.push_back(file);
     scripts = highest(scripts);
-    if (scripts.size() != 1) return {{}, "no PDF in the pack"};
+    if (scripts.size() != 1) return {{}, Message("no PDF in the pack")};
     fs::create_directories(to);
-    const std::string reason = make_version_in_box(scripts.front().parent_path(), to, true, level, program);
+    const Message reason = make_version_in_box(scripts.front().parent_path(), to, true, level, program);
     const fs::path pdf = to / "report.pdf";
     if (!reason.empty() || fs::symlink_status(pdf).type() != fs::file_type::regular)
-        return {{}, "no PDF in the pack, and none can be made of it" + (reason.empty() ? "" : " (" + reason + ")")};
-    return {PackedDocument{pdf, part + ".pdf", true}, ""};
+        return {{},
+                reason.empty() ? Message("no PDF in the pack, and none can be made of it")
+                               : Message("no PDF in the pack, and none can be made of it ({})", reason)};
+    return {PackedDocument{pdf, part + ".pdf", true}, {}};
 }
 
 }  // namespace
@@ -73,8 +73,8 @@ OpenedPack open_pack(const fs::path& pack, const std::string& part, const fs::pa
     if (pdfs.empty()) return made_document(files, part, to / "made", level, program);
     const std::vector<fs::path> meant = named.empty() ? pdfs : highest(named);
     if (meant.size() != 1)
-        return {{}, fmt::format("{} PDFs in the pack, of which none alone is {}.pdf", meant.size(), part)};
-    return {PackedDocument{meant.front(), meant.front().lexically_relative(unpacked).generic_string()}, ""};
+        return {{}, Message("{} PDFs in the pack, of which none alone is {}.pdf", meant.size(), part)};
+    return {PackedDocument{meant.front(), meant.front().lexically_relative(unpacked).generic_string()}, {}};
 }
 
 }  // namespace dynlab::inline course

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "base/message.h"
 #include "platform/box.h"
 
 namespace dynlab::inline course {
@@ -16,7 +17,7 @@ struct PackedDocument {
 
 struct OpenedPack {
     std::optional<PackedDocument> document;
-    std::string missing;  ///< where there is none, a clause: "no PDF in the pack"
+    Message missing;  ///< where there is none, a clause: "no PDF in the pack"
 };
 
 /// Unpacks a pack into `to`/pack, in a box by `program`, and finds the PDF that is its `part` ("report", "slides",

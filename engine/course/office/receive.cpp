@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "base/error.h"
 #include "course/office/packed_document.h"
 #include "course/review/pack_scores.h"
 #include "course/review/review_marks.h"
@@ -20,7 +21,6 @@
 #include "course/store/side_by_side.h"
 #include "documents/pdf/pdf_layout.h"
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/hash.h"
@@ -50,7 +50,7 @@ struct Candidate {
     std::optional<ReviewPair> pair;
     bool from_pack = false, made = false;  ///< a PDF that was taken out of the group's pack; made of it
     bool unreadable = false;               ///< no PDF, but the document all the same: kept, and told
-    std::string missing;                   ///< of a pack without the PDF that is wanted
+    Message missing;                       ///< of a pack without the PDF that is wanted
     Inspection inspection;
     std::map<std::string, double> scores;  ///< of a review's pack, by criterion
 };
@@ -82,8 +82,8 @@ class HandInReceiver {
         outcome_.assignment = assignment_named(course, request.assignment);
         due_for(course, outcome_.assignment, 0, request.stage);  // a presentation has no reviews
         if (request.of.size() > 1 && request.of.size() != request.files.size())
-            throw InvalidArgument(fmt::format("{} and {} times --of: say --of once for each file, in their order",
-                                              counted(request.files.size(), "file"), request.of.size()));
+            throw InvalidArgument("{} and {} times --of: say --of once for each file, in their order",
+                                  plural(request.files.size(), "{} file", "{} files"), request.of.size());
         if (!request.from.empty()) from_ = group_named(course, request.from);
         if (request.stage != "final") pairs_ = review_pairs(course, outcome_.assignment);
     }
@@ -113,8 +113,8 @@ class HandInReceiver {
         try {
             work();
         } catch (const std::runtime_error& error) {
-            if (!incoming_.batch()) throw EnvironmentError(fmt::format("{}: {}", file.source, error.what()));
-            outcome_.refused.push_back(fmt::format("{}: {}", file.source, error.what()));
+            if (!incoming_.batch()) throw EnvironmentError("{}: {}", file.source, message_of(error));
+            outcome_.refused.push_back(Message("{}: {}", file.source, message_of(error)));
         }
     }
 
@@ -152,13 +152,13 @@ class HandInReceiver {
         candidate.bytes = static_cast<std::int64_t>(fs::file_size(file.file));
         if (candidate.bytes == 0) throw EnvironmentError("the file is empty");
         if (static_cast<std::uintmax_t>(candidate.bytes) > kMostBytes)
-            throw EnvironmentError(fmt::format("the file has more than {} MB", kMostBytes >> 20));
+            throw EnvironmentError("the file has more than {} MB", kMostBytes >> 20);
         const std::string kind = kind_of_file_at(file.name, file.file);
         if (!is_wanted(kind))
             throw EnvironmentError(
                 outcome_.assignment.is_report()
-                    ? "this is neither a PDF nor a pack (.zip, .tar.gz); ask for one"
-                    : "this is not a PDF, no script (.lua) and no pack (.zip, .tar.gz); ask for one");
+                    ? Message("this is neither a PDF nor a pack (.zip, .tar.gz); ask for one")
+                    : Message("this is not a PDF, no script (.lua) and no pack (.zip, .tar.gz); ask for one"));
         candidate.part = part_of(outcome_.assignment, request_.stage, kind);
         candidate.unreadable = kind == "text";
         if (request_.stage == "first" && !request_.take_as_first) refuse_after_reviews(candidate);
@@ -184,10 +184,15 @@ class HandInReceiver {
         const bool over = a.review_due && candidate.at > *a.review_due + a.grace;
         if (!released && !(sent && over)) return;
         if (is_known(candidate, sha256_of(read_file(candidate.file->file)))) return;
-        throw EnvironmentError(fmt::format(
-            "the reviews of {} are {}: did you mean dynlab course final receive? --first takes it as a first "
-            "version all the same",
-            candidate.group.name, released ? "released" : "due"));
+        throw released
+            ? EnvironmentError(
+                  "the reviews of {} are released: did you mean dynlab course final receive? --first takes it "
+                  "as a first version all the same",
+                  candidate.group.name)
+            : EnvironmentError(
+                  "the reviews of {} are due: did you mean dynlab course final receive? --first takes it as a "
+                  "first version all the same",
+                  candidate.group.name);
     }
 
     bool is_known(const Candidate& c, const std::string& hash) const {
@@ -225,8 +230,8 @@ class HandInReceiver {
                 continue;
             }
             outcome_.refused.push_back(
-                fmt::format("{}: {} gave several files that could be the {}; receive the one that holds alone",
-                            c.file->source, c.group.name, c.part));
+                Message("{}: {} gave several files that could be the {}; receive the one that holds alone",
+                        c.file->source, c.group.name, c.part));
         }
         candidates_ = std::move(single);
     }

@@ -34,7 +34,7 @@ struct Received {
     bool withdrawn = false;    ///< known, and withdrawn by the instructor
     std::string twin;          ///< whose the same bytes are: "group-02's", "a review by group-02"
     bool made = false;         ///< that PDF was made here, as the pack has none
-    std::string missing;       ///< of a pack without the PDF that is wanted, a clause: "no PDF in the pack"
+    Message missing;           ///< of a pack without the PDF that is wanted, a clause: "no PDF in the pack"
     std::string earlier;       ///< when an earlier version with the same content came: "v1 of Sat 2026-02-28 12:00"
     std::string other_time;    ///< of a known file: when it came by `time_of`, where the store says another time
     bool marked_late = false;  ///< the platform wrote LATE into the name, though the time says nothing of it
@@ -47,8 +47,8 @@ struct Received {
 struct ReceiveOutcome {
     Assignment assignment;
     std::vector<Received> received;
-    std::vector<std::string> refused;  ///< sentences, one a file that was not taken
-    std::filesystem::path receipts;    ///< folder with a receipt for each
+    std::vector<Message> refused;    ///< sentences, one a file that was not taken
+    std::filesystem::path receipts;  ///< folder with a receipt for each
 };
 
 /// Takes hand-ins into the course: in one transaction all that can be taken. A group's wrong file never stops

@@ -5,15 +5,15 @@
 
 #include <algorithm>
 #include <map>
-#include <nlohmann/json.hpp>
+#include <optional>
 
-#include "course/findings/french_sentences.h"
+#include "base/reader.h"
+#include "course/findings/lesson_reader.h"
 #include "course/grading/feedback.h"
 #include "course/grading/grade.h"
 #include "course/hand_ins/roster.h"
 #include "course/returns/mailing.h"
 #include "data_io/text_table.h"
-#include "data_io/values/json_values.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/hash.h"
@@ -31,7 +31,7 @@ struct MarkedStudent : Recipient {
 
 std::size_t needed_column(const TextTable& table, const char* name, const fs::path& file) {
     if (const auto column = table.column(name)) return *column;
-    throw EnvironmentError(fmt::format("{} has no column {}; it is not what dynlab grade writes", file.string(), name));
+    throw EnvironmentError("{} has no column {}; it is not what dynlab grade writes", file.string(), name);
 }
 
 /// The participant's number and name in "Anna Müller_900000_assignsubmission_file_".
@@ -60,8 +60,8 @@ fs::path feedback_of(const fs::path& marks, const std::string& submission) {
 std::vector<MarkedStudent> marked_students(const HandBackRequest& request) {
     const fs::path file = request.marks / "gradebook.csv";
     if (!fs::exists(file))
-        throw EnvironmentError(fmt::format("{} holds no gradebook.csv; name the folder that dynlab grade --out wrote",
-                                           request.marks.string()));
+        throw EnvironmentError("{} holds no gradebook.csv; name the folder that dynlab grade --out wrote",
+                               request.marks.string());
     const TextTable table = read_text_table(file);
     const auto column = [&](const char* name) { return needed_column(table, name, file); };
     std::map<std::string, Student> known;
@@ -91,49 +91,33 @@ std::vector<MarkedStudent> marked_students(const HandBackRequest& request) {
     return all;
 }
 
-/// Numbers and sentences of a result in the language of its feedback.
-class ResultWords {
-  public:
-    explicit ResultWords(const nlohmann::json& result) {
-        const nlohmann::json& own = result.at("extra_data").at("dynlab");
-        french_ = own.value("language", "") == "fr";
-        if (french_) sentences_ = french_sentences(own.value("lesson", ""));
-    }
-
-    const FeedbackWords& words() const { return feedback_words(french_ ? "fr" : "en"); }
-    std::string told(const std::string& sentence) const { return sentences_.translated(sentence); }
-    std::string number(std::string points) const {
-        if (french_) std::replace(points.begin(), points.end(), '.', ',');
-        return points;
-    }
-    std::string share(const char* form, const std::string& points, const std::string& most) const {
-        return fmt::format(fmt::runtime(form), number(points), number(most));
-    }
-
-  private:
-    bool french_;
-    SentenceCatalogue sentences_;
-};
+/// Points as a table has them.
+Message points_in_cell(const std::string& cell) {
+    const std::optional<double> value = number_in_cell(cell);
+    return value ? Message("{}", points_number(*value)) : Message::verbatim(cell);
+}
 
 /// What Moodle shows beside the grade: a line for each check that lacks points.
 std::string comments_on(const fs::path& marks, const MarkedStudent& student) {
     const fs::path file = marks / "results" / student.submission / "results.json";
     if (student.submission.empty() || !fs::exists(file)) return "";
+    std::vector<ShownResult> shown;
+    Grade grade;
     try {
-        const nlohmann::json result = parsed_json(read_file(file));
-        const ResultWords in(result);
-        std::string text = in.share(in.words().points, student.points, student.possible);
-        for (const auto& test : result.at("tests")) {
-            const double most = test.at("max_score"), earned = test.value("score", most);
-            if (earned >= most) continue;
-            const std::string name = in.told(test.at("name")), said = in.told(test.at("output"));
-            text += "\n" + name + in.words().colon + in.share(in.words().of, points_text(earned), points_text(most)) +
-                    "." + (said.empty() ? "" : " " + said);
-        }
-        return text;
-    } catch (const nlohmann::json::exception&) {
-        throw EnvironmentError(fmt::format("{} is not a result that dynlab grade wrote", file.string()));
+        const std::string text = read_file(file);
+        shown = shown_results(text);
+        grade = from_results_json(text);
+    } catch (const EnvironmentError& error) {
+        throw EnvironmentError("{}: {}", file.string(), error.message());
     }
+    MessageList lines{{Message("{} of {} points.", points_in_cell(student.points), points_in_cell(student.possible))},
+                      Join::kLines};
+    for (const ShownResult& one : shown) {
+        if (one.earned >= one.points) continue;
+        const Message line = Message("{}: {} of {}.", one.about, points_number(one.earned), points_number(one.points));
+        lines.items.push_back(message_text(one.output).empty() ? line : sentences({line, one.output}));
+    }
+    return LessonReader(grade.language, grade.lesson).text(Message("{}", lines));
 }
 
 /// What is written, into the folder handed_back.
@@ -151,8 +135,8 @@ class Outbox {
         const bool marked = std::any_of(students_.begin(), students_.end(),
                                         [](const MarkedStudent& student) { return !student.points.empty(); });
         if (result_.unwritten.size() == 2 && marked)
-            result_.complaints.emplace_back(
-                "no marks could be entered for Moodle or Canvas; mail.csv tells whom the feedback belongs to");
+            result_.complaints.push_back(
+                Message("no marks could be entered for Moodle or Canvas; mail.csv tells whom the feedback belongs to"));
         return std::move(result_);
     }
 
@@ -169,13 +153,6 @@ class Outbox {
         result_.files.push_back(folder_ / name);
     }
 
-    void not_written(const char* files, const char* column) {
-        result_.unwritten.push_back(
-            fmt::format("without {}: of nobody with marks is a number there known, neither from the name of a "
-                        "submission nor from the roster's column {}",
-                        files, column));
-    }
-
     void moodle() {
         TextTable table;
         table.names = {"Identifier",       "Full name", "Grade", "Maximum Grade", "Last modified (grade)",
@@ -190,7 +167,12 @@ class Outbox {
             if (const fs::path answers = model_answers(); !student.feedback.empty() && !answers.empty())
                 feedback.add(student, answers.filename().string(), read_file(answers));
         }
-        if (table.rows.empty()) return not_written("moodle-grades.csv and moodle-feedback.zip", "moodle");
+        if (table.rows.empty()) {
+            result_.unwritten.push_back(Message(
+                "without moodle-grades.csv and moodle-feedback.zip: of nobody with marks is a number there known, "
+                "neither from the name of a submission nor from the roster's column moodle"));
+            return;
+        }
         write("moodle-grades.csv", table);
         if (!feedback.empty()) {
             feedback.write(folder_ / "moodle-feedback.zip");
@@ -198,10 +180,10 @@ class Outbox {
         }
         for (const MarkedStudent& student : students_)
             if (student.moodle.empty() && !student.points.empty())
-                result_.complaints.push_back(
-                    fmt::format("{} is missing in moodle-grades.csv: the participant's number is not known; write it "
-                                "into the roster's column moodle",
-                                student.shown()));
+                result_.complaints.push_back(Message(
+                    "{} is missing in moodle-grades.csv: the participant's number is not known; write it into the "
+                    "roster's column moodle",
+                    student.shown()));
     }
 
     void canvas() {
@@ -213,7 +195,12 @@ class Outbox {
             table.rows.push_back({student.name, student.canvas, student.id, student.mail, "", student.points});
             possible = student.possible;
         }
-        if (table.rows.empty()) return not_written("canvas-grades.csv", "canvas");
+        if (table.rows.empty()) {
+            result_.unwritten.push_back(Message(
+                "without canvas-grades.csv: of nobody with marks is a number there known, neither from the name of "
+                "a submission nor from the roster's column canvas"));
+            return;
+        }
         table.rows.insert(table.rows.begin(), {"    Points Possible", "", "", "", "", possible});
         write("canvas-grades.csv", table);
     }

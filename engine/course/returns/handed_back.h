@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
+
 namespace dynlab::inline course {
 
 /// What goes back to students and platforms from a folder of marks.
@@ -15,8 +17,8 @@ struct HandBackRequest {
 
 struct HandedBack {
     std::vector<std::filesystem::path> files;
-    std::vector<std::string> complaints;  ///< who could not be entered, in whole sentences
-    std::vector<std::string> unwritten;   ///< platforms whose files are not there, and why, in whole sentences
+    std::vector<Message> complaints;  ///< who could not be entered, in whole sentences
+    std::vector<Message> unwritten;   ///< platforms whose files are not there, and why, in whole sentences
 };
 
 /// Writes into `marks`/handed_back, from gradebook.csv and the feedback in `marks`:

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
+#include "base/reader.h"
 #include "course/office/receive.h"
 #include "course/returns/mailing.h"
 #include "course/store/groups.h"
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 #include "platform/atomic_file.h"
 #include "platform/hash.h"
 
@@ -33,7 +33,7 @@ class Returner {
 
     ReturnOutcome run() {
         if (fs::exists(request_.folder))
-            throw InvalidArgument(fmt::format("{} exists already; name a new folder", request_.folder.string()));
+            throw InvalidArgument("{} exists already; name a new folder", request_.folder.string());
         for (const Group& group : groups_of(course_)) collect(group);
         if (outcome_.files.empty()) return std::move(outcome_);
         lay_out();
@@ -109,16 +109,16 @@ class Returner {
 
     void remember() {
         Transaction transaction(course_.database());
-        std::size_t count = 0;
+        std::int64_t count = 0;
         for (const auto& [group, files] : groups_)
             for (const FileToReturn& file : files) {
                 course_.database().run("INSERT INTO returns (group_id, place, hash, made_at) VALUES (?, ?, ?, ?)",
                                        group.id, assignment_.name + "/" + file.place, file.hash, request_.now);
                 ++count;
             }
-        course_.note(fmt::format("{}: {} returned to {}", assignment_.name, counted(count, "file"),
-                                 counted(groups_.size(), "group")),
-                     request_.now);
+        const Message files = plural(count, "{} file", "{} files"),
+                      groups = plural(static_cast<std::int64_t>(groups_.size()), "{} group", "{} groups");
+        course_.note(message_text(Message("{}: {} returned to {}", assignment_.name, files, groups)), request_.now);
         transaction.commit();
     }
 

@@ -1,11 +1,8 @@
 #include "course/review/allocation.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline course {
 namespace {
@@ -81,10 +78,16 @@ class Allocator {
     void refuse_impossible() const {
         const int others = static_cast<int>(order_.size()) - 1;
         if (problem_.fixed.empty() && problem_.loose.empty() && problem_.reviews > others)
-            throw InvalidArgument(
-                fmt::format("each group should write {} reviews, but there {} only {} with a report, so {} to review: "
-                            "wait for more first versions, or give an assignment with fewer --reviews",
-                            problem_.reviews, order_.size() == 1 ? "is" : "are", order_.size(), std::max(0, others)));
+            throw order_.size() == 1 ? InvalidArgument(
+                                           "each group should write {} reviews, but there is only {} with a report, so "
+                                           "{} to review: wait for "
+                                           "more first versions, or give an assignment with fewer --reviews",
+                                           problem_.reviews, order_.size(), std::max(0, others))
+                                     : InvalidArgument(
+                                           "each group should write {} reviews, but there are only {} with a report, "
+                                           "so {} to review: wait for "
+                                           "more first versions, or give an assignment with fewer --reviews",
+                                           problem_.reviews, order_.size(), std::max(0, others));
     }
 
     void start_with_circle() {
@@ -250,10 +253,10 @@ class Allocator {
     }
 
     void explain(Allocation& allocation) const {
-        const auto say = [&](const std::string& sentence) { allocation.remarks.push_back(sentence); };
+        const auto say = [&](const Message& sentence) { allocation.remarks.push_back(sentence); };
         if (wanted_ < problem_.reviews)
-            say(fmt::format("Only {} groups are left, so that each can write at most {} of the {} reviews wanted.",
-                            order_.size(), wanted_, problem_.reviews));
+            say(Message("Only {} groups are left, so that each can write at most {} of the {} reviews wanted.",
+                        order_.size(), wanted_, problem_.reviews));
         int few_written = 0, few_got = 0, more = 0;
         for (const int i : order_) {
             few_written += board_.writes(i) < wanted_;
@@ -262,15 +265,16 @@ class Allocator {
         }
         if (few_written + few_got > 0)
             say(
-                fmt::format("{} groups write and {} reports get fewer than {} reviews: common members and reviews "
-                            "that are written or sent leave no other way.",
-                            few_written, few_got, wanted_));
+                Message("{} groups write and {} reports get fewer than {} reviews: common members and reviews that are "
+                        "written or sent leave no other way.",
+                        few_written, few_got, wanted_));
         if (more > 0)
-            say(fmt::format("{} groups write or get one review more than {}: what was written or sent stays.", more,
-                            wanted_));
+            say(Message("{} groups write or get one review more than {}: what was written or sent stays.", more,
+                        wanted_));
         if (allocation.swapped > 0)
-            say(fmt::format("{} of groups review each other; no exchange of two reviews avoids that.",
-                            counted(allocation.swapped, "couple")));
+            say(plural(allocation.swapped,
+                       "{} couple of groups review each other; no exchange of two reviews avoids that.",
+                       "{} couples of groups review each other; no exchange of two reviews avoids that."));
     }
 
     const AllocationProblem& problem_;

@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/message.h"
 #include "platform/keys/secure_random.h"
 
 namespace dynlab::inline course {
@@ -21,10 +22,10 @@ struct AllocationProblem {
 };
 
 struct Allocation {
-    std::vector<ReviewEdge> pairs;     ///< all that hold now: the fixed ones first, then the others, sorted
-    int open_reviews = 0;              ///< that active groups should write and for which nobody could be found
-    int swapped = 0;                   ///< couples who review each other
-    std::vector<std::string> remarks;  ///< whole sentences: what could not be had, and why
+    std::vector<ReviewEdge> pairs;  ///< all that hold now: the fixed ones first, then the others, sorted
+    int open_reviews = 0;           ///< that active groups should write and for which nobody could be found
+    int swapped = 0;                ///< couples who review each other
+    std::vector<Message> remarks;   ///< whole sentences: what could not be had, and why
 };
 
 /// Allots reviews at random: no group its own report, none twice the same, none of a group with a common member. Active

@@ -1,7 +1,5 @@
 #include "course/review/final_changes.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "course/review/review_pairs.h"
@@ -109,19 +107,19 @@ class TaskMaker {
     std::vector<ReviewPair> pairs_;
 };
 
-void gather_troubles(const ReadVersion& version, const char* which, std::vector<std::string>& troubles) {
-    for (const std::string& trouble : version.troubles) troubles.push_back(fmt::format("{}: {}", which, trouble));
+void gather_troubles(const ReadVersion& version, const Message& which, std::vector<Message>& troubles) {
+    for (const Message& trouble : version.troubles) troubles.push_back(Message("{}: {}", which, trouble));
     if (version.record_found)
-        troubles.push_back(fmt::format("{}: the values are those of the pack's own record.json.", which));
+        troubles.push_back(Message("{}: the values are those of the pack's own record.json.", which));
 }
 
 void read_remarks(const fs::path& file, AnsweredReview& review) {
     try {
         for (Remark& remark : remarks_in(text_of_layout(read_pdf_layout(file)), review_form()))
             review.remarks.push_back({std::move(remark), {}});
-        if (review.remarks.empty()) review.trouble = "It holds no text that can be read.";
+        if (review.remarks.empty()) review.trouble = Message("It holds no text that can be read.");
     } catch (const PdfRefusal& refusal) {
-        review.trouble = fmt::format("It cannot be read: {}.", refusal.what());
+        review.trouble = Message("It cannot be read: {}", refusal.message());
     }
 }
 
@@ -132,19 +130,21 @@ void compare(Task& task, Isolation level, const fs::path& program) {
     if (!changes.has_first || !changes.has_final) return;
     const ReadVersion first = read_version(task.first, level, program),
                       final = changes.same_files ? first : read_version(task.final, level, program);
-    gather_troubles(first, "First version", changes.troubles);
-    gather_troubles(final, "Final version", changes.troubles);
+    gather_troubles(first, Message("First version"), changes.troubles);
+    gather_troubles(final, Message("Final version"), changes.troubles);
     changes.pages_before = first.pages, changes.pages_after = final.pages;
     if (first.record && final.record) changes.values = value_changes(*first.record, *final.record);
     const bool sources = first.source && final.source;
     const std::optional<ReportText>&before = sources || !first.printed ? first.source : first.printed,
           &after = sources || !final.printed ? final.source : final.printed;
     if (!before || !after) return;
-    changes.compared = sources ? "Compared: the sources in both packs, their slots filled."
-                       : first.printed && final.printed
-                           ? "Compared: the text of both PDFs."
-                           : "Compared: a pack's source with a PDF's text, which differ in "
-                             "formulas and tables although nothing changed.";
+    changes.compared =
+        sources ? Message("Compared: the sources in both packs, their slots filled.")
+        : first.printed && final.printed
+            ? Message("Compared: the text of both PDFs.")
+            : Message(
+                  "Compared: a pack's source with a PDF's text, which differ in formulas and tables although nothing "
+                  "changed.");
     changes.text = text_changes(*before, *after);
     const RemarkMatcher finder(*before, *changes.text);
     for (AnsweredReview& review : changes.reviews)
@@ -157,7 +157,7 @@ void compare(Task& task, Isolation level, const fs::path& program) {
 std::vector<GroupChanges> final_changes(Course& course, const Assignment& assignment,
                                         const FinalChangesRequest& request) {
     if (!assignment.is_report())
-        throw InvalidArgument(fmt::format("{} is a presentation: it has no final version", assignment.name));
+        throw InvalidArgument("{} is a presentation: it has no final version", assignment.name);
     std::vector<Group> groups;
     for (const std::string& name : request.groups) groups.push_back(group_named(course, name));
     if (request.groups.empty()) groups = groups_of(course);

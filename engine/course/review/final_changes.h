@@ -31,7 +31,7 @@ struct AnsweredReview {
     std::string reviewer;  ///< the pseudonym
     Instant released = 0;
     std::vector<AnsweredRemark> remarks;
-    std::string trouble;  ///< a sentence, when its text cannot be read
+    Message trouble;  ///< a sentence, when its text cannot be read
 };
 
 /// What a group made of its report between the first and the final version.
@@ -42,10 +42,10 @@ struct GroupChanges {
     bool has_first = false, has_final = false, same_files = false;
     std::optional<int> pages_before, pages_after;
     std::optional<TextChanges> text;
-    std::string compared;                ///< what was compared: a sentence
+    Message compared;                    ///< what was compared: a sentence
     std::optional<ValueChanges> values;  ///< where both versions were handed in as packs
     std::vector<AnsweredReview> reviews;
-    std::vector<std::string> troubles;  ///< sentences
+    std::vector<Message> troubles;  ///< sentences
 
     int traced() const;    ///< remarks that ask for an answer and have a trace
     int untraced() const;  ///< those that have none

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "base/reader.h"
 #include "course/review/marked_text.h"
 #include "course/store/side_by_side.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline course {
 namespace {
@@ -45,17 +45,18 @@ class Composition {
 
   private:
     std::string summary() const {
-        std::vector<std::string> parts;
+        MessageList parts{{}, Join::kSemicolon};
         if (g_.pages_before && g_.pages_after)
-            parts.push_back(*g_.pages_before == *g_.pages_after
-                                ? fmt::format("{} as before", counted(*g_.pages_after, "page"))
-                                : fmt::format("{} instead of {}", counted(*g_.pages_after, "page"), *g_.pages_before));
-        if (g_.text) parts.push_back(fmt::format("{} of the text changed", percent(g_.text->share)));
+            parts.items.push_back(
+                *g_.pages_before == *g_.pages_after
+                    ? plural(*g_.pages_after, "{} page as before", "{} pages as before")
+                    : plural(*g_.pages_after, "{} page instead of {}", "{} pages instead of {}", *g_.pages_before));
+        if (g_.text) parts.items.push_back(Message("{} of the text changed", percent(g_.text->share)));
         const int wanted = g_.traced() + g_.untraced();
         if (g_.text && wanted > 0)
-            parts.push_back(fmt::format("{} of {} remarks have a trace in it", g_.traced(), wanted));
-        if (parts.empty()) return "There is nothing to compare.\n";
-        return fmt::format("{}.\n", fmt::join(parts, "; "));
+            parts.items.push_back(Message("{} of {} remarks have a trace in it", g_.traced(), wanted));
+        return message_text(parts.items.empty() ? Message("There is nothing to compare.") : Message("{}.", parts)) +
+               "\n";
     }
 
     RecordedTable received_files() const {
@@ -70,23 +71,23 @@ class Composition {
 
     std::string basis() const {
         std::string text;
-        const auto line = [&](const std::string& sentence) { text += text_.plain(sentence) + "\n\n"; };
-        if (!g_.has_first) line("There is no first version: nothing can be compared.");
-        if (g_.same_files) line("The final version is the first one, byte for byte.");
+        const auto line = [&](const Message& sentence) { text += text_.plain(message_text(sentence)) + "\n\n"; };
+        if (!g_.has_first) line(Message("There is no first version: nothing can be compared."));
+        if (g_.same_files) line(Message("The final version is the first one, byte for byte."));
         if (!g_.compared.empty()) line(g_.compared);
-        for (const std::string& trouble : g_.troubles) line(trouble);
+        for (const Message& trouble : g_.troubles) line(trouble);
         if (g_.text && g_.text->moved > 0)
-            line(fmt::format(
-                "{} elsewhere than before, otherwise unchanged; this counts as no change.",
-                g_.text->moved == 1 ? "One sentence stands" : fmt::format("{} sentences stand", g_.text->moved)));
+            line(plural(g_.text->moved,
+                        "{} sentence stands elsewhere than before, otherwise unchanged; this counts as no change.",
+                        "{} sentences stand elsewhere than before, otherwise unchanged; this counts as no change."));
         if (g_.text && !g_.text->renumbered.empty()) line(renumbering());
         return text.empty() ? "\n" : text;
     }
 
-    std::string renumbering() const {
-        std::vector<std::string> parts;
-        for (const auto& [was, now] : g_.text->renumbered) parts.push_back(fmt::format("{} is now {}", was, now));
-        return fmt::format("{}; another number alone counts as no change.", fmt::join(parts, ", "));
+    Message renumbering() const {
+        MessageList parts;
+        for (const auto& [was, now] : g_.text->renumbered) parts.items.push_back(Message("{} is now {}", was, now));
+        return Message("{}; another number alone counts as no change.", parts);
     }
 
     std::string sections() {
@@ -166,7 +167,7 @@ class Composition {
         std::string text;
         for (const AnsweredReview& review : g_.reviews) {
             text += fmt::format("## {}, released {}\n\n", review.reviewer, clock_.show(review.released));
-            if (!review.trouble.empty()) text += text_.plain(review.trouble) + "\n\n";
+            if (!review.trouble.empty()) text += text_.plain(message_text(review.trouble)) + "\n\n";
             std::string question;
             int number = 0;
             for (const AnsweredRemark& answered : review.remarks) {

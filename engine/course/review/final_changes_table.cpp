@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "base/reader.h"
 #include "course/review/final_changes.h"
-#include "numerics/number_text.h"
 #include "platform/terminal/aligned_table.h"
 
 namespace dynlab::inline course {
@@ -23,28 +23,28 @@ std::string sections_cell(const TextChanges& text) {
         gone += !section.after;
         renamed += section.renamed();
     }
-    std::vector<std::string> parts;
-    if (fresh > 0) parts.push_back(fmt::format("{} new", fresh));
-    if (gone > 0) parts.push_back(fmt::format("{} gone", gone));
-    if (renamed > 0) parts.push_back(fmt::format("{} renamed", renamed));
-    return parts.empty() ? "same" : fmt::format("{}", fmt::join(parts, ", "));
+    MessageList parts;
+    if (fresh > 0) parts.items.push_back(Message("{} new", fresh));
+    if (gone > 0) parts.items.push_back(Message("{} gone", gone));
+    if (renamed > 0) parts.items.push_back(Message("{} renamed", renamed));
+    return message_text(parts.items.empty() ? Message("same") : Message("{}", parts));
 }
 
 /// What the instructor may want to look at.
-std::string to_look_at(const GroupChanges& g) {
-    if (!g.has_final) return g.dropped_out ? "dropped out" : "no final version";
-    if (!g.has_first) return "no first version to compare with";
-    if (g.same_files) return "the final version is the first one, byte for byte";
-    if (!g.text) return g.troubles.empty() ? "cannot be compared" : g.troubles.back();
-    std::vector<std::string> things;
-    if (g.text->passages.empty()) things.push_back("no change in the text");
+Message to_look_at(const GroupChanges& g) {
+    if (!g.has_final) return g.dropped_out ? Message("dropped out") : Message("no final version");
+    if (!g.has_first) return Message("no first version to compare with");
+    if (g.same_files) return Message("the final version is the first one, byte for byte");
+    if (!g.text) return g.troubles.empty() ? Message("cannot be compared") : g.troubles.back();
+    MessageList things{{}, Join::kSemicolon};
+    if (g.text->passages.empty()) things.items.push_back(Message("no change in the text"));
     const auto unread = std::count_if(g.reviews.begin(), g.reviews.end(),
                                       [](const AnsweredReview& review) { return !review.trouble.empty(); });
-    if (unread > 0) things.push_back(counted(unread, "unreadable review"));
-    if (g.reviews.empty()) things.push_back("no review was released");
-    if (g.untraced() > 0) things.push_back(counted(g.untraced(), "remark") + " left?");
-    if (!g.troubles.empty()) things.push_back(g.troubles.front());
-    return fmt::format("{}", fmt::join(things, "; "));
+    if (unread > 0) things.items.push_back(plural(unread, "{} unreadable review", "{} unreadable reviews"));
+    if (g.reviews.empty()) things.items.push_back(Message("no review was released"));
+    if (g.untraced() > 0) things.items.push_back(plural(g.untraced(), "{} remark left?", "{} remarks left?"));
+    if (!g.troubles.empty()) things.items.push_back(g.troubles.front());
+    return Message("{}", things);
 }
 
 int count(const GroupChanges& g, bool with_trace) {
@@ -74,7 +74,8 @@ std::string final_changes_table(const Assignment& assignment, const std::vector<
         rows.push_back({g.group, both ? pages_cell(g) : "-", g.text ? sections_cell(*g.text) : "-",
                         g.values ? fmt::format("{} of {}", g.values->changed.size(), g.values->compared) : "-",
                         g.text ? fmt::format("{:.0f} %", 100 * g.text->share) : "-",
-                        both ? fmt::format("{} / {}", g.traced(), g.traced() + g.untraced()) : "-", to_look_at(g)});
+                        both ? fmt::format("{} / {}", g.traced(), g.traced() + g.untraced()) : "-",
+                        message_text(to_look_at(g))});
     }
     std::string text = fmt::format("{}: what changed from the first to the final version\n\n", assignment.name);
     text += aligned_table(

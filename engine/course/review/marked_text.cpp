@@ -6,8 +6,8 @@
 
 #include "course/grading/feedback.h"
 #include "course/names/plain_words.h"
-#include "documents/characters.h"
 #include "documents/text_lines.h"
+#include "documents/words/characters.h"
 #include "platform/atomic_file.h"
 #include "platform/program_lookup.h"
 #include "platform/utf8.h"

@@ -42,10 +42,10 @@ class RowOwners {
     RowOwner find(const std::string& group, const std::string& student) const {
         if (student.empty()) return {group_named(course_, group).id, ""};
         const Student& found = student_called(student);
-        if (found.group.empty()) throw InvalidArgument(fmt::format("{} is in no group", found.id));
+        if (found.group.empty()) throw InvalidArgument("{} is in no group", found.id);
         const Group own = group_named(course_, found.group);
         if (!group.empty() && group_named(course_, group).id != own.id)
-            throw InvalidArgument(fmt::format("{} is in {}, not in {}", found.id, own.name, group));
+            throw InvalidArgument("{} is in {}, not in {}", found.id, own.name, group);
         return {own.id, found.id};
     }
 
@@ -59,10 +59,10 @@ class RowOwners {
             known.push_back(s.id), known.push_back(s.name);
         }
         if (named.size() == 1) return *named.front();
-        if (!named.empty()) throw InvalidArgument(fmt::format("several students are called {}: give the id", words));
+        if (!named.empty()) throw InvalidArgument("several students are called {}: give the id", words);
         const auto near = nearest_word(words, known);
-        throw InvalidArgument(
-            fmt::format("there is no student \"{}\"{}", words, near ? fmt::format("; did you mean {}?", *near) : ""));
+        throw near ? InvalidArgument("there is no student \"{}\"; did you mean {}?", words, *near)
+                   : InvalidArgument("there is no student \"{}\"", words);
     }
 
     Course& course_;
@@ -138,8 +138,7 @@ class OralReader {
 };
 
 void refuse_report(const Assignment& a) {
-    if (a.is_report())
-        throw InvalidArgument(fmt::format("{} is a report: its marks come from reviews, not from an oral", a.name));
+    if (a.is_report()) throw InvalidArgument("{} is a report: its marks come from reviews, not from an oral", a.name);
 }
 
 void put_points(std::vector<std::string>& row, const CriterionPoints* points, std::size_t criteria) {

@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "base/reader.h"
 #include "course/review/allocation.h"
 #include "course/review/peer_review.h"
 #include "course/store/exceptions.h"
@@ -72,10 +73,11 @@ class ReviewAssigner {
             const bool both = problem_.active[static_cast<std::size_t>(edge.first)] &&
                               problem_.active[static_cast<std::size_t>(edge.second)];
             if (!both || refused_.contains(edge)) {
+                const std::string &reviewer = groups_[static_cast<std::size_t>(edge.first)].name,
+                                  &author = groups_[static_cast<std::size_t>(edge.second)].name;
                 outcome_.remarks.push_back(
-                    fmt::format("{} was to review {}, but {}.", groups_[static_cast<std::size_t>(edge.first)].name,
-                                groups_[static_cast<std::size_t>(edge.second)].name,
-                                both ? "they share a member, or are kept apart" : "one of them has handed in nothing"));
+                    both ? Message("{} was to review {}, but they share a member, or are kept apart.", reviewer, author)
+                         : Message("{} was to review {}, but one of them has handed in nothing.", reviewer, author));
                 continue;
             }
             std::erase(problem_.loose, edge);
@@ -124,7 +126,7 @@ class ReviewAssigner {
         outcome_.fresh = static_cast<int>(fresh.size());
         if (outcome_.fresh + outcome_.ended == 0) return;
         db_.run("INSERT INTO allocations (assignment, made_at, explanation) VALUES (?, ?, ?)", assignment_.id, now_,
-                fmt::format("{}", fmt::join(allocation.remarks, "\n")));
+                message_text(Message("{}", MessageList{allocation.remarks, Join::kLines})));
         const std::int64_t id = db_.getLastInsertRowid();
         for (const auto& [reviewer, author] : fresh)
             db_.run("INSERT INTO pairs (allocation, assignment, reviewer, author) VALUES (?, ?, ?, ?)", id,
@@ -167,11 +169,11 @@ void wish_pair(Course& course, const Assignment& assignment, const std::string& 
     refuse_without_reviews(assignment);
     Transaction transaction(course.database());
     const Group reads = group_named(course, reviewer), writes = group_named(course, author);
-    if (reads.id == writes.id) throw InvalidArgument(fmt::format("{} cannot review its own report", reads.name));
+    if (reads.id == writes.id) throw InvalidArgument("{} cannot review its own report", reads.name);
     if (wish == "set")
         for (const auto& [a, b] : kindred_groups(course))
             if ((a == reads.id && b == writes.id) || (a == writes.id && b == reads.id))
-                throw InvalidArgument(fmt::format("{} and {} share a member, or did", reads.name, writes.name));
+                throw InvalidArgument("{} and {} share a member, or did", reads.name, writes.name);
     const auto enter = [&](const Group& one, const Group& other, const std::string& what) {
         course.database().run(
             "INSERT INTO pair_wishes (assignment, reviewer, author, wish, reason, made_at) VALUES (?, ?, ?, ?, ?, ?)",
@@ -191,9 +193,8 @@ void wish_pair(Course& course, const Assignment& assignment, const std::string& 
 AssignOutcome assign_reviews(Course& course, const Assignment& assignment, Instant now, bool early) {
     refuse_without_reviews(assignment);
     if (!early && now <= assignment.first_due + assignment.grace)
-        throw InvalidArgument(fmt::format("the first versions of {} may still come until {}; wait, or say --early",
-                                          assignment.name,
-                                          course.clock().show(assignment.first_due + assignment.grace)));
+        throw InvalidArgument("the first versions of {} may still come until {}; wait, or say --early", assignment.name,
+                              course.clock().show(assignment.first_due + assignment.grace));
     Transaction transaction(course.database());
     AssignOutcome outcome = ReviewAssigner(course, assignment, now).run();
     transaction.commit();

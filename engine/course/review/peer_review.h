@@ -11,7 +11,7 @@ namespace dynlab::inline course {
 
 struct AssignOutcome {
     int pairs = 0, fresh = 0, ended = 0, groups = 0;
-    std::vector<std::string> remarks;
+    std::vector<Message> remarks;
 };
 /// Allots the reviews of an assignment, or mends the allotment after late-comers and drop-outs: what is written stays,
 /// and what is sent as long as both are in the course and nobody reviews work of their own. Repeating it changes
@@ -41,8 +41,8 @@ struct CopyRequest {
 };
 struct CopyOutcome {
     bool made = false;
-    std::vector<std::string> hits;   ///< why there is no copy: sentences with page and remedy
-    std::vector<std::string> hints;  ///< where somebody may be meant; they stop nothing
+    std::vector<Message> hits;   ///< why there is no copy: sentences with page and remedy
+    std::vector<Message> hints;  ///< where somebody may be meant; they stop nothing
 };
 /// Makes a clean copy and searches it for names; never gives one in which it found any.
 using AnonymousCopier = std::function<CopyOutcome(const CopyRequest&)>;
@@ -57,8 +57,8 @@ struct SendOutcome {
     int again = 0;                                       ///< of those now: newer versions of what had been sent before
     int held = 0;                                        ///< that the instructor holds back
     std::vector<std::string> removed;  ///< files of the outbox that nobody is to get any more: taken back, withdrawn
-    std::vector<std::string> hits;     ///< a line for each document that was stopped
-    std::vector<std::string> hints;    ///< a line for each that was sent and may name somebody
+    std::vector<Message> hits;         ///< a line for each document that was stopped
+    std::vector<Message> hints;        ///< a line for each that was sent and may name somebody
     std::filesystem::path folder;      ///< FOR/NAME.pdf for each receiver
 };
 /// Makes the copies that have not been made yet, or of which a newer version stands (of a report as long as its review

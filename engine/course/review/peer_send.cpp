@@ -67,8 +67,8 @@ class CopySender {
                                       to_reviewers() ? pair.author : pair.reviewer)
                                .next();
         if (named || sha256_of(copy) != hash)
-            throw EnvironmentError(fmt::format(
-                "the copy for {} is not as it was made; nothing more was sent: dynlab course verify", file.string()));
+            throw EnvironmentError("the copy for {} is not as it was made; nothing more was sent: dynlab course verify",
+                                   file.string());
         kept_.insert(file);
         fs::create_directories(file.parent_path());
         if (!fs::exists(file) || read_file(file) != copy) course_.write({{file, copy}});
@@ -130,15 +130,16 @@ class CopySender {
             request.pack = under_its_name(*pack);
         fs::create_directories(request.copy.parent_path());
         const CopyOutcome copy = copier_(request);
+        const Message document = to_reviewers() ? Message("report") : Message("review");
         if (!copy.made) {
             stopped_.insert(version->id);
             ++outcome_.stopped;
-            outcome_.hits.push_back(fmt::format("{} of {} was not sent: {}", part, author, fmt::join(copy.hits, " ")));
+            outcome_.hits.push_back(Message("{} of {} was not sent: {}", document, author, sentences(copy.hits)));
             return;
         }
         if (!copy.hints.empty() && doubted_.insert(version->id).second)
             outcome_.hints.push_back(
-                fmt::format("{} of {} was sent, but look at it: {}", part, author, fmt::join(copy.hints, " ")));
+                Message("{} of {} was sent, but look at it: {}", document, author, sentences(copy.hints)));
         record(pair, *version, read_file(request.copy));
     }
 
@@ -172,9 +173,8 @@ SendOutcome send_copies(Course& course, const Assignment& assignment, Way way, I
                         const AnonymousCopier& copier, bool early) {
     refuse_without_reviews(assignment);
     if (way == Way::kToAuthors && !early && now <= assignment.review_due.value_or(0) + assignment.grace)
-        throw InvalidArgument(fmt::format("the reviews of {} may still come until {}; wait, or say --early",
-                                          assignment.name,
-                                          course.clock().show(assignment.review_due.value_or(0) + assignment.grace)));
+        throw InvalidArgument("the reviews of {} may still come until {}; wait, or say --early", assignment.name,
+                              course.clock().show(assignment.review_due.value_or(0) + assignment.grace));
     return CopySender(course, assignment, way, now, copier).run();
 }
 

@@ -34,7 +34,7 @@ struct GroupMark {
     std::vector<std::optional<double>> medians;  ///< a criterion, over the reviews of its report
     std::optional<double> work, reviews;         ///< percent, from scores, costs taken off
     std::optional<double> final_version;         ///< percent, from the instructor's scores of it; within `work`
-    std::vector<std::string> costs;              ///< what was taken off, in words
+    std::vector<Message> costs;                  ///< what was taken off
     double work_costs = 0;                       ///< what was taken off the work, in percent points
     std::vector<StudentMark> students;           ///< those whose points differ from the group's
     std::optional<double> work_override, reviews_override;

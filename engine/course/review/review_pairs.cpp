@@ -74,18 +74,17 @@ ReviewPair reviewed_pair(const std::vector<ReviewPair>& pairs, const Group& revi
         reports.push_back(pair.report_pseudonym());
     }
     if (given.empty())
-        throw EnvironmentError(
-            fmt::format("{} was given no report to review; see dynlab course peer assign", reviewer.name));
+        throw EnvironmentError("{} was given no report to review; see dynlab course peer assign", reviewer.name);
     const std::vector<std::int64_t> named = report_numbers(name);
     for (const ReviewPair* pair : given)
         if (std::find(named.begin(), named.end(), pair->report_number) != named.end()) return *pair;
     if (given.size() == 1 && named.empty()) return *given.front();
     if (!named.empty())
-        throw EnvironmentError(fmt::format("it is of report-{:02}, which {} was not given; it was given {}",
-                                           named.front(), reviewer.name, fmt::join(reports, " and ")));
-    throw EnvironmentError(fmt::format(
+        throw EnvironmentError("it is of {}, which {} was not given; it was given {}",
+                               fmt::format("report-{:02}", named.front()), reviewer.name, listed(reports, Join::kAnd));
+    throw EnvironmentError(
         "it does not tell which report it reviews; {} was given {}: name the file review-{}.pdf or say --of {}",
-        reviewer.name, fmt::join(reports, " and "), reports.front(), reports.front()));
+        reviewer.name, listed(reports, Join::kAnd), reports.front(), reports.front());
 }
 
 }  // namespace dynlab::inline course

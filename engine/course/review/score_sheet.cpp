@@ -1,8 +1,6 @@
 #include "course/review/score_sheet.h"
 #include "platform/text/small_letters.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 namespace dynlab::inline course {
@@ -18,7 +16,7 @@ ScoreSheet::ScoreSheet(const Assignment& assignment, const std::filesystem::path
                        const std::vector<std::string>& owners, std::set<std::string> others)
     : assignment_(assignment), file_(file), table_(read_text_table(file)) {
     const auto has = [&](const std::string& name) { return table_.column(name).has_value(); };
-    if (std::ranges::none_of(owners, has)) fail(1, fmt::format("the column {} is missing", fmt::join(owners, " or ")));
+    if (std::ranges::none_of(owners, has)) fail(1, Message("the column {} is missing", listed(owners, Join::kOr)));
     others.insert(owners.begin(), owners.end());
     std::vector<std::string> criteria, unknown;
     bool any = false;
@@ -29,9 +27,9 @@ ScoreSheet::ScoreSheet(const Assignment& assignment, const std::filesystem::path
     }
     for (const std::string& name : table_.names)
         if (!others.contains(name)) unknown.push_back(name);
-    const std::string known = fmt::format("the criteria of {} are {}", assignment.name, fmt::join(criteria, ", "));
-    if (!unknown.empty()) fail(1, fmt::format("unknown columns: {}; {}", fmt::join(unknown, ", "), known));
-    if (!any) fail(1, "there is no column of a criterion; " + known);
+    const Message known = Message("the criteria of {} are {}", assignment.name, listed(criteria));
+    if (!unknown.empty()) fail(1, Message("unknown columns: {}; {}", listed(unknown), known));
+    if (!any) fail(1, Message("there is no column of a criterion; {}", known));
 }
 
 std::string ScoreSheet::cell(std::size_t row, const std::string& name) const {
@@ -50,12 +48,12 @@ std::optional<double> ScoreSheet::points(std::size_t row, std::size_t criterion)
     const std::optional<double> value = number_in_cell(text);
     if (!value || !(*value >= 0 && *value <= c.most))
         fail(table_.lines[row],
-             fmt::format("{} must be a number from 0 to {}, but \"{}\" was given", c.name, c.most, text));
+             Message("{} must be a number from 0 to {}, but \"{}\" was given", c.name, c.most, text));
     return value;
 }
 
-void ScoreSheet::fail(int line, const std::string& what) const {
-    throw EnvironmentError(fmt::format("{}, line {}: {}", file_.string(), line, what));
+void ScoreSheet::fail(int line, const Message& what) const {
+    throw EnvironmentError("{}, line {}: {}", file_.string(), line, what);
 }
 
 }  // namespace dynlab::inline course

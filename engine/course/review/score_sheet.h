@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/error.h"
 #include "course/store/assignments.h"
 #include "data_io/text_table.h"
 #include "platform/error.h"
@@ -38,14 +39,14 @@ class ScoreSheet {
         try {
             return work();
         } catch (const std::runtime_error& error) {
-            fail(table_.lines[row], error.what());
+            fail(table_.lines[row], message_of(error));
         } catch (const std::logic_error& error) {
-            fail(table_.lines[row], error.what());
+            fail(table_.lines[row], message_of(error));
         }
     }
 
   private:
-    [[noreturn]] void fail(int line, const std::string& what) const;
+    [[noreturn]] void fail(int line, const Message& what) const;
 
     const Assignment& assignment_;
     std::filesystem::path file_;

@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "base/reader.h"
 #include "course/review/oral_marks.h"
 #include "course/review/review_marks.h"
 #include "course/review/score_sheet.h"
@@ -9,7 +10,6 @@
 #include "course/store/groups.h"
 #include "course/store/newest_versions.h"
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline course {
 namespace {
@@ -62,7 +62,8 @@ int import_scores(Course& course, const Assignment& a, const ScoreSheet& sheet,
             ++fresh;
         }
     }
-    if (fresh > 0) course.note(fmt::format("{}: {} read", a.name, counted(fresh, "score")));
+    if (fresh > 0)
+        course.note(fmt::format("{}: {}", a.name, message_text(plural(fresh, "{} score read", "{} scores read"))));
     transaction.commit();
     return fresh;
 }
@@ -97,12 +98,12 @@ class CostTaker {
         return now_ > due_for(course_, a_, mark.group, stage) + a_.grace;
     }
 
-    void take(GroupMark& mark, std::optional<double>& from, double points, const std::string& why) const {
+    void take(GroupMark& mark, std::optional<double>& from, double points, const Message& why) const {
         const bool work = &from == &mark.work;  // of a talk, students may have points where their group has none
         if (points <= 0 || (!from && (!work || a_.is_report()))) return;
         if (from) from = std::max(0.0, *from - points);
         if (work) mark.work_costs += points;
-        mark.costs.push_back(fmt::format("{:g} off for {}", points, why));
+        mark.costs.push_back(Message("{} off for {}", significant(points, 6), why));
     }
 
     void take_off_work(GroupMark& mark) {
@@ -113,10 +114,12 @@ class CostTaker {
             if (found == parts.end() || !found->second.is_late()) continue;
             const std::int64_t days = (found->second.late + kDay - 1) / kDay;
             take(mark, mark.work, a_.costs.late_day * static_cast<double>(days),
-                 fmt::format("a {} version late by {}", stage, duration_text(found->second.late)));
+                 std::string_view(stage) == "first"
+                     ? Message("a first version late by {}", duration_message(found->second.late))
+                     : Message("a final version late by {}", duration_message(found->second.late)));
         }
         if (a_.is_report() && versions_[mark.group]["final"].empty() && over(mark, "final"))
-            take(mark, mark.work, a_.costs.missing_final, "a missing final version");
+            take(mark, mark.work, a_.costs.missing_final, Message("a missing final version"));
     }
 
     void take_off_reviews(GroupMark& mark) {
@@ -126,8 +129,9 @@ class CostTaker {
             written += pair.written, late += pair.late, missing += !pair.written && over(mark, "review");
         }
         if (missing > 0 && written == 0 && a_.costs.missing_review > 0 && !mark.reviews) mark.reviews = 0;
-        take(mark, mark.reviews, a_.costs.missing_review * missing, counted(missing, "missing review"));
-        take(mark, mark.reviews, a_.costs.late_review * late, counted(late, "late review"));
+        take(mark, mark.reviews, a_.costs.missing_review * missing,
+             plural(missing, "{} missing review", "{} missing reviews"));
+        take(mark, mark.reviews, a_.costs.late_review * late, plural(late, "{} late review", "{} late reviews"));
     }
 
     Course& course_;
@@ -181,8 +185,7 @@ void override_mark(Course& course, const Assignment& a, const std::string& group
     if (what == "reviews") refuse_without_reviews(a);
     if (reason.empty()) throw InvalidArgument("say why: --reason \"...\"; it stands in the export");
     if (!(percent >= 0 && percent <= kMostPercent))
-        throw InvalidArgument(
-            fmt::format("a mark is a number from 0 to {} percent, but {} was given", kMostPercent, percent));
+        throw InvalidArgument("a mark is a number from 0 to {} percent, but {} was given", kMostPercent, percent);
     Transaction transaction(course.database());
     const Group whose = group_named(course, group);
     course.database().run(
@@ -201,7 +204,7 @@ void take_back_override(Course& course, const Assignment& a, const std::string& 
         "SELECT percent FROM overrides WHERE assignment = ? AND group_id = ? AND what = ? ORDER BY id DESC LIMIT 1",
         a.id, whose.id, what);
     if (!newest.next() || newest.isColumnNull(0))
-        throw InvalidArgument(fmt::format("you have set no mark of {} for its {}", whose.name, what));
+        throw InvalidArgument("you have set no mark of {} for its {}", whose.name, what);
     course.database().run(
         "INSERT INTO overrides (assignment, group_id, what, percent, reason, made_at) VALUES (?, ?, ?, NULL, ?, ?)",
         a.id, whose.id, what, reason, now);

@@ -1,7 +1,6 @@
 #include "course/review/version_reading.h"
 
-#include <fmt/format.h>
-
+#include "base/error.h"
 #include "course/boxes/boxed_work.h"
 #include "course/boxes/told_reason.h"
 #include "course/hand_ins/staging.h"
@@ -46,7 +45,7 @@ class VersionReader {
 
     ReadVersion run() {
         if (files_.pack) read_pack();
-        if (files_.pdf) read_pdf(*files_.pdf, "The PDF");
+        if (files_.pdf) read_pdf(*files_.pdf, Message("The PDF"));
         return std::move(version_);
     }
 
@@ -60,12 +59,12 @@ class VersionReader {
         fs::create_directories(made);
         try {
             const fs::path folder = stage_submission(submission, staged, level_, program_).folder;
-            const std::string reason = make_version_in_box(folder, made, !files_.pdf, level_, program_);
+            const Message reason = make_version_in_box(folder, made, !files_.pdf, level_, program_);
             if (!reason.empty())
-                version_.troubles.push_back(as_sentence("The pack's report could not be made again: " + reason));
+                version_.troubles.push_back(Message("The pack's report could not be made again: {}.", reason));
             read_made(folder, made);
         } catch (const SubmissionError& error) {
-            version_.troubles.push_back(std::string("The pack: ") + error.what());
+            version_.troubles.push_back(Message("The pack: {}", error.message()));
         }
     }
 
@@ -81,22 +80,22 @@ class VersionReader {
         if (files_.pdf) return;
         for (const fs::path& pdf : {made / "report.pdf", folder / "report.pdf"}) {
             if (fs::symlink_status(pdf).type() != fs::file_type::regular) continue;
-            read_pdf(pdf, "The pack's PDF");
+            read_pdf(pdf, Message("The pack's PDF"));
             return;
         }
     }
 
-    void read_pdf(const fs::path& file, const std::string& what) {
+    void read_pdf(const fs::path& file, const Message& what) {
         try {
             const PdfLayout layout = read_pdf_layout(file);
             version_.pages = static_cast<int>(layout.pages.size());
             ReportText text = report_text_of_pdf(text_of_layout(layout));
             if (text.sentences.empty())
-                version_.troubles.push_back(fmt::format("{} holds no text that can be read.", what));
+                version_.troubles.push_back(Message("{} holds no text that can be read.", what));
             else
                 version_.printed = std::move(text);
         } catch (const PdfRefusal& refusal) {
-            version_.troubles.push_back(fmt::format("{} cannot be read: {}.", what, refusal.what()));
+            version_.troubles.push_back(Message("{} cannot be read: {}", what, refusal.message()));
         }
     }
 
@@ -135,15 +134,15 @@ BoxedOutcome make_version(const VersionJob& job) {
         write_work_file(to / "record.json", to_json(record));
         make_document(request, record, to / "report.md", FigureFormat::kSvg);
         if (job.pdf) make_document(request, record, to / "report.pdf", FigureFormat::kPdf);
-        if (record.error) return {record.error->message};
+        if (record.error) return {with_place(*record.error)};
         return {};
     } catch (const std::runtime_error& error) {
-        return {error.what()};
+        return {message_of(error)};
     }
 }
 
-std::string make_version_in_box(const fs::path& folder, const fs::path& made, bool pdf, Isolation level,
-                                const fs::path& program) {
+Message make_version_in_box(const fs::path& folder, const fs::path& made, bool pdf, Isolation level,
+                            const fs::path& program) {
     Box box(level);
     box.add_document_home(shared_folder() / "data");
     VersionJob job;
@@ -151,10 +150,10 @@ std::string make_version_in_box(const fs::path& folder, const fs::path& made, bo
     job.to = box.add_writable(made, "/box/made");
     job.pdf = pdf;
     const auto result = run_boxed(box, program, job, {kReadingTime});
-    std::string reason = result.reason;
-    if (result.output && result.output->error) reason = told_outside(first_line(*result.output->error), job.folder);
-    while (reason.ends_with('.')) reason.pop_back();
-    return reason;
+    const Message& reason = result.output && result.output->error ? *result.output->error : result.reason;
+    return with_changed_text(reason, [&job](const std::string& text) {
+        return without_full_stop(told_outside(first_line(text), job.folder));
+    });
 }
 
 ReadVersion read_version(const VersionFiles& files, Isolation level, const fs::path& program) {

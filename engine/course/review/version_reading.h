@@ -24,7 +24,7 @@ struct ReadVersion {
     std::optional<ReportText> printed;  ///< the PDF's text
     std::optional<ShownRecord> record;  ///< of a run of the pack's analysis
     bool record_found = false;          ///< it is the pack's own record.json, as the analysis could not be run
-    std::vector<std::string> troubles;  ///< sentences: what could not be read, and why
+    std::vector<Message> troubles;      ///< sentences: what could not be read, and why
 };
 
 /// Reads a version: unpacks the pack and runs its analysis in boxes, looks at the PDF in a guarded process. Without a
@@ -34,8 +34,8 @@ ReadVersion read_version(const VersionFiles& files, Isolation level, const std::
 
 /// Runs the analysis in `folder` and makes its record.json, report.md and, if wanted, report.pdf in `made`, an empty
 /// folder, in a box by `program`. Returns why that did not go to its end, without a full stop; empty where it did.
-std::string make_version_in_box(const std::filesystem::path& folder, const std::filesystem::path& made, bool pdf,
-                                Isolation level, const std::filesystem::path& program);
+Message make_version_in_box(const std::filesystem::path& folder, const std::filesystem::path& made, bool pdf,
+                            Isolation level, const std::filesystem::path& program);
 
 /// A version to be made inside a box; all paths are those in the box.
 struct VersionJob {

@@ -20,14 +20,14 @@ constexpr std::uintmax_t kMostComparedBytes = 1u << 20;  // of a script that is 
 
 /// Everything that can be compared below a folder of submissions, or of Lua files alone.
 void add_scripts(const fs::path& folder, const std::string& prefix, bool of_class, const SimilarityRequest& request,
-                 std::vector<ComparedScript>& scripts, std::vector<std::string>& complaints) {
+                 std::vector<ComparedScript>& scripts, std::vector<Message>& complaints) {
     std::vector<fs::path> plain;
     for (const auto& entry : fs::directory_iterator(folder))
         if (entry.is_regular_file() && entry.path().extension() == ".lua") plain.push_back(entry.path());
     std::sort(plain.begin(), plain.end());
     const auto add = [&](const std::string& name, const fs::path& file) {
         if (fs::file_size(file) > kMostComparedBytes)
-            complaints.push_back(fmt::format("\"{}\" is too large to be compared", name));
+            complaints.push_back(Message("\"{}\" is too large to be compared", name));
         else
             scripts.push_back({prefix + name, read_file(file), of_class});
     };
@@ -35,17 +35,17 @@ void add_scripts(const fs::path& folder, const std::string& prefix, bool of_clas
         for (const fs::path& file : plain) add(file.filename().string(), file);
         return;
     }
-    std::vector<std::string> left_out;
+    std::vector<Message> left_out;
     for (const Submission& submission : submissions_in(folder, left_out, request.out)) {
         const TemporaryFolder work;
         try {
             const StagedWork staged = stage_submission(submission, work.path(), request.isolation, request.program);
             add(submission.name, staged.folder / "analysis.lua");
         } catch (const SubmissionError& error) {
-            complaints.push_back(fmt::format("\"{}\": {}", prefix + submission.name, error.what()));
+            complaints.push_back(Message("\"{}\": {}", prefix + submission.name, error.message()));
         }
     }
-    for (const std::string& clause : left_out) complaints.push_back(clause + "; it is left out");
+    for (const Message& clause : left_out) complaints.push_back(Message("{}; it is left out", clause));
 }
 
 TextTable table_of(const std::vector<ComparedScript>& scripts, const std::vector<SimilarPair>& pairs) {

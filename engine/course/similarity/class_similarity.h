@@ -19,7 +19,7 @@ struct SimilarityRequest {
 
 struct SimilarityOutcome {
     std::size_t scripts = 0, pairs = 0;
-    std::vector<std::string> complaints;  ///< whole sentences: what could not be compared
+    std::vector<Message> complaints;  ///< whole sentences: what could not be compared
 };
 
 /// Compares the scripts of a class with one another, the worked solution and others, and writes similarity.md and

@@ -17,8 +17,8 @@ void refuse_odd_name(const std::string& what, const std::string& name) {
                      name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.") !=
                          std::string::npos;
     if (odd)
-        throw InvalidArgument(fmt::format(
-            "{} \"{}\" must be a short word of letters, digits, - _ and . such as crane-report", what, name));
+        throw InvalidArgument("{} \"{}\" must be a short word of letters, digits, - _ and . such as crane-report", what,
+                              name);
 }
 
 void refuse_bad_deadlines(const Assignment& a, const CourseClock& clock) {
@@ -31,8 +31,8 @@ void refuse_bad_deadlines(const Assignment& a, const CourseClock& clock) {
         throw InvalidArgument("a report needs three deadlines: --first, --review and --final");
     const auto in_order = [&](Instant before, Instant after, const char* first, const char* second) {
         if (before < after) return;
-        throw InvalidArgument(fmt::format("the deadline of the {} ({}) must come after that of the {} ({})", second,
-                                          clock.show(after), first, clock.show(before)));
+        throw InvalidArgument("the deadline of the {} ({}) must come after that of the {} ({})", second,
+                              clock.show(after), first, clock.show(before));
     };
     in_order(a.first_due, *a.review_due, "first version", "reviews");
     in_order(*a.review_due, *a.final_due, "reviews", "final version");
@@ -106,10 +106,10 @@ bool add_assignment(Course& course, Assignment wanted) {
         if (same(known, wanted)) return false;
         const bool used = db.query("SELECT 1 FROM versions WHERE assignment = ?", known.id).next();
         if (used && !only_later(known, wanted))
-            throw InvalidArgument(fmt::format(
-                "work was handed in for {} already: only deadlines may move, to later ones, and the grace grow; "
-                "dynlab course assignment change {} moves them both ways",
-                known.name, known.name));
+            throw InvalidArgument(
+                "work was handed in for {} already: only deadlines may move, to later ones, and the grace grow; dynlab "
+                "course assignment change {} moves them both ways",
+                known.name, known.name);
         db.run(
             "UPDATE assignments SET kind = ?, lesson = ?, first_due = ?, review_due = ?, final_due = ?, grace = ?, "
             "reviews = ?, costs = ?, final_weight = ? WHERE id = ?",
@@ -171,8 +171,8 @@ void remove_assignment(Course& course, const Assignment& assignment, const std::
     for (const char* table : {"versions", "pairs", "oral_scores", "student_scores", "oral_comments",
                               "instructor_scores", "overrides", "extensions"})
         if (db.query(fmt::format("SELECT 1 FROM {} WHERE assignment = ?", table), assignment.id).next())
-            throw InvalidArgument(fmt::format(
-                "{} cannot be removed: something hangs on it (its {}); nothing was changed", assignment.name, table));
+            throw InvalidArgument("{} cannot be removed: something hangs on it (its {}); nothing was changed",
+                                  assignment.name, table);
     for (const char* table : {"criteria", "pair_wishes", "holds", "pseudonyms", "allocations"})
         db.run(fmt::format("DELETE FROM {} WHERE assignment = ?", table), assignment.id);
     db.run("DELETE FROM assignments WHERE id = ?", assignment.id);
@@ -211,16 +211,18 @@ Assignment assignment_named(Course& course, const std::string& name) {
         if (::strcasecmp(assignment.name.c_str(), name.c_str()) == 0) return assignment;
         names.push_back(assignment.name);
     }
-    if (name.empty()) throw InvalidArgument(fmt::format("say which assignment: {}", fmt::join(names, ", ")));
+    if (name.empty()) throw InvalidArgument("say which assignment: {}", listed(names));
     const auto near = nearest_word(name, names);
-    throw InvalidArgument(fmt::format("there is no assignment \"{}\"; there {} {}{}", name,
-                                      names.size() == 1 ? "is" : "are", fmt::join(names, ", "),
-                                      near ? fmt::format("; did you mean {}?", *near) : ""));
+    const MessageList known = listed(names);
+    if (names.size() == 1)
+        throw near ? InvalidArgument("there is no assignment \"{}\"; there is {}; did you mean {}?", name, known, *near)
+                   : InvalidArgument("there is no assignment \"{}\"; there is {}", name, known);
+    throw near ? InvalidArgument("there is no assignment \"{}\"; there are {}; did you mean {}?", name, known, *near)
+               : InvalidArgument("there is no assignment \"{}\"; there are {}", name, known);
 }
 
 void refuse_without_reviews(const Assignment& assignment) {
-    if (!assignment.is_report())
-        throw InvalidArgument(fmt::format("{} is a presentation: it has no reviews", assignment.name));
+    if (!assignment.is_report()) throw InvalidArgument("{} is a presentation: it has no reviews", assignment.name);
 }
 
 std::vector<Criterion> criteria_of(const std::string& text) {
@@ -230,10 +232,10 @@ std::vector<Criterion> criteria_of(const std::string& text) {
         refuse_odd_name("the criterion", name);
         const std::optional<double> given = points.empty() ? 5.0 : read_number<double>(points);
         if (!given || !(*given > 0 && *given <= 1000))
-            throw InvalidArgument(fmt::format(
-                "the points of criterion {} must be a number from 0 to 1000, but \"{}\" was given", name, points));
+            throw InvalidArgument("the points of criterion {} must be a number from 0 to 1000, but \"{}\" was given",
+                                  name, points);
         const double most = *given;
-        if (!seen.insert(name).second) throw InvalidArgument(fmt::format("the criterion {} occurs twice", name));
+        if (!seen.insert(name).second) throw InvalidArgument("the criterion {} occurs twice", name);
         criteria.push_back({name, most});
     }
     if (criteria.empty()) throw InvalidArgument("give at least one criterion, such as clarity:5,methods:10");
@@ -252,10 +254,10 @@ Costs costs_of(const std::string& text) {
         const auto known = std::find_if(std::begin(kCosts), std::end(kCosts), is_named);
         const auto value = read_number<double>(points);
         if (known == std::end(kCosts) || !value || !(*value >= 0 && *value <= 100))
-            throw InvalidArgument(fmt::format(
+            throw InvalidArgument(
                 "costs are late-day, missing-final, late-review and missing-review with percent points from 0 to 100, "
                 "such as late-day:10,missing-review:25, but \"{}:{}\" was given",
-                name, points));
+                name, points);
         costs.*(known->second) = *value;
     }
     return costs;

@@ -162,12 +162,12 @@ bool migrate_course(Database& database, Database::Opening opening, const std::st
         const std::int64_t version = pragma(database, "user_version"), id = pragma(database, "application_id");
         const bool fresh = opening == Database::Opening::kNew && version == 0;
         if (!fresh && id != kApplicationId)
-            throw EnvironmentError(fmt::format("{}: this is not a course; make one with dynlab course init", file));
+            throw EnvironmentError("{}: this is not a course; make one with dynlab course init", file);
         if (version > newest)
-            throw EnvironmentError(fmt::format(
-                "{}: this course was made by a newer dynlab (its tables have version {}, this program knows {}); "
-                "use that program",
-                file, version, newest));
+            throw EnvironmentError(
+                "{}: this course was made by a newer dynlab (its tables have version {}, this program knows {}); use "
+                "that program",
+                file, version, newest);
         return version;
     };
     if (version_of() == newest) return false;

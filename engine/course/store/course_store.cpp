@@ -32,10 +32,6 @@ namespace fs = std::filesystem;
 
 constexpr char kDatabase[] = "course.db", kKey[] = "course.key";
 
-[[noreturn]] void fail_on(const fs::path& file, const char* verb) {
-    throw EnvironmentError(fmt::format("cannot {} {}: {}", verb, file.string(), system_reason(errno)));
-}
-
 /// 32 random bytes in hexadecimal digits, readable by their owner only.
 void make_key(const fs::path& file) {
     if (!fs::exists(file)) write_plain_file(file, secure_hex(32));
@@ -43,7 +39,8 @@ void make_key(const fs::path& file) {
 
 void sync_folder(const fs::path& folder) {
     const FileDescriptor fd(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-    if (!fd || ::fsync(fd.get()) != 0) fail_on(folder, "write into");
+    if (!fd || ::fsync(fd.get()) != 0)
+        throw EnvironmentError("cannot write into {}: {}", folder.string(), system_reason(errno));
 }
 
 /// A new one is its owner's alone: names, addresses and who reviews whom are below.
@@ -51,9 +48,7 @@ void make_folder(const fs::path& folder) {
     std::error_code error;
     const bool made = fs::create_directories(folder, error);
     if (made && !error) fs::permissions(folder, fs::perms::owner_all, error);
-    if (error)
-        throw EnvironmentError(
-            fmt::format("cannot make the folder {}: {}", folder.string(), system_reason(error.value())));
+    if (error) throw EnvironmentError("cannot make the folder {}: {}", folder.string(), system_reason(error.value()));
 }
 
 /// The folder itself or the nearest above it that holds a course.
@@ -64,20 +59,20 @@ fs::path course_folder(const fs::path& start) {
         if (fs::exists(folder / kDatabase, ignored)) return folder;
         if (folder == folder.root_path()) break;
     }
-    throw EnvironmentError(fmt::format(
-        "there is no course in {} or above it; go into its folder, name it with --course DIR, or make one with "
-        "dynlab course init DIR",
-        from.string()));
+    throw EnvironmentError(
+        "there is no course in {} or above it; go into its folder, name it with --course DIR, or make one with dynlab "
+        "course init DIR",
+        from.string());
 }
 
 std::string read_key(const fs::path& file) {
     if (!fs::exists(file))
-        throw EnvironmentError(fmt::format(
+        throw EnvironmentError(
             "{} is missing; without it receipts can neither be signed nor verified; put it back from a backup",
-            file.string()));
+            file.string());
     std::string key = read_file(file);
     while (!key.empty() && (key.back() == '\n' || key.back() == ' ')) key.pop_back();
-    if (key.size() < 32) throw EnvironmentError(fmt::format("{} is damaged; put it back from a backup", file.string()));
+    if (key.size() < 32) throw EnvironmentError("{} is damaged; put it back from a backup", file.string());
     return key;
 }
 
@@ -117,8 +112,7 @@ void Course::create(const fs::path& folder, const std::string& name, const std::
     migrate_course(database, Database::Opening::kNew, (folder / kDatabase).string());
     Transaction transaction(database);
     if (database.query("SELECT 1 FROM course").next())
-        throw EnvironmentError(
-            fmt::format("there is a course in {} already; nothing was changed", fs::absolute(folder).string()));
+        throw EnvironmentError("there is a course in {} already; nothing was changed", fs::absolute(folder).string());
     make_key(folder / kKey);
     const SigningKey signing_key = signing_key_of(read_key(folder / kKey));
     write_public_key(folder, name, signing_key);
@@ -153,8 +147,8 @@ fs::path Course::publish_key() const {
 std::string Course::setting(const char* key) {
     Rows rows = database_.query("SELECT value FROM course WHERE key = ?", key);
     if (!rows.next())
-        throw EnvironmentError(
-            fmt::format("{}: the course was not finished; repeat dynlab course init", (folder_ / kDatabase).string()));
+        throw EnvironmentError("{}: the course was not finished; repeat dynlab course init",
+                               (folder_ / kDatabase).string());
     return rows.text(0);
 }
 

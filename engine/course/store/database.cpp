@@ -1,7 +1,6 @@
 #include "course/store/database.h"
 
 #include <SQLiteCpp/Exception.h>
-#include <fmt/format.h>
 #include <sqlite3.h>
 
 #include <cerrno>
@@ -40,7 +39,7 @@ std::string reason_of(int code, const char* words) {
 }
 
 [[noreturn]] void fail(const std::string& file, int code, const char* words) {
-    throw EnvironmentError(fmt::format("{}: {}", file, reason_of(code, words)));
+    throw EnvironmentError("{}: {}", file, reason_of(code, words));
 }
 
 /// Does a piece of work with the open database.

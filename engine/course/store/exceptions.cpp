@@ -1,7 +1,5 @@
 #include "course/store/exceptions.h"
 
-#include <fmt/format.h>
-
 #include "numerics/error.h"
 
 namespace dynlab::inline course {
@@ -15,8 +13,8 @@ Instant due_for(Course& course, const Assignment& a, std::int64_t group, const s
                                           : stage == "review" ? a.review_due
                                                               : a.final_due;
     if (!common)
-        throw InvalidArgument(
-            fmt::format("{} is a presentation: it has no {}", a.name, stage == "review" ? "reviews" : "final version"));
+        throw stage == "review" ? InvalidArgument("{} is a presentation: it has no reviews", a.name)
+                                : InvalidArgument("{} is a presentation: it has no final version", a.name);
     Rows own = course.database().query(
         "SELECT due_at FROM extensions WHERE assignment = ? AND group_id = ? AND stage = ? ORDER BY id DESC LIMIT 1",
         a.id, group, stage);

@@ -1,7 +1,6 @@
 #include "course/store/graded_work.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -52,8 +51,8 @@ std::string archive_ending(const std::string& name) {
 std::size_t column_of(const TextTable& table, const fs::path& file, const char* name) {
     const std::optional<std::size_t> column = table.column(name);
     if (!column)
-        throw EnvironmentError(
-            fmt::format("{}: there is no column \"{}\"; give the gradebook.csv of dynlab grade", file.string(), name));
+        throw EnvironmentError("{}: there is no column \"{}\"; give the gradebook.csv of dynlab grade", file.string(),
+                               name);
     return *column;
 }
 
@@ -63,15 +62,14 @@ const Criterion& criterion_named(const Assignment& assignment, const std::string
         if (criterion.name == name) return criterion;
         names.push_back(criterion.name);
     }
-    throw InvalidArgument(
-        fmt::format("{} has no criterion \"{}\"; its criteria are {}", assignment.name, name, fmt::join(names, ", ")));
+    throw InvalidArgument("{} has no criterion \"{}\"; its criteria are {}", assignment.name, name, listed(names));
 }
 
 }  // namespace
 
 LaidOutWork lay_out_work(Course& course, const Assignment& assignment, const std::string& stage,
                          const fs::path& folder) {
-    if (fs::exists(folder)) throw InvalidArgument(fmt::format("{} exists already; name a new folder", folder.string()));
+    if (fs::exists(folder)) throw InvalidArgument("{} exists already; name a new folder", folder.string());
     fs::create_directories(folder);
     const std::map<std::int64_t, GradableVersion> newest = gradable_versions(course, assignment, stage);
     LaidOutWork work;

@@ -32,14 +32,14 @@ std::set<std::string> names_in(const std::string& cell) {
 void refuse_odd_group(const std::string& name) {
     constexpr std::size_t kMostBytes = 100;
     if (name.size() > kMostBytes)
-        throw EnvironmentError(fmt::format("the group's name \"{}...\" is too long: at most {} bytes, but it has {}",
-                                           terminal_text(name.substr(0, 40)), kMostBytes, name.size()));
+        throw EnvironmentError("the group's name \"{}...\" is too long: at most {} bytes, but it has {}",
+                               terminal_text(name.substr(0, 40)), kMostBytes, name.size());
     if (!name.starts_with('.') && name.find_first_of("/\\\n\r\t") == name.npos && terminal_text(name) == name) return;
-    throw EnvironmentError(fmt::format(
+    throw EnvironmentError(
         "the group's name \"{}\" cannot name a folder: it must not begin with a full stop, nor hold /, \\ or "
-        "characters "
-        "that cannot be seen. Correct the roster, where the id names the group of who has none; nothing was changed",
-        terminal_text(name)));
+        "characters that cannot be seen. Correct the roster, where the id names the group of who has none; nothing was "
+        "changed",
+        terminal_text(name));
 }
 
 class Import {
@@ -152,9 +152,9 @@ Group group_named(Course& course, const std::string& name) {
         names.push_back(group.name);
     }
     const auto near = nearest_word(name, names);
-    throw InvalidArgument(fmt::format(
-        "there is no group \"{}\" in this course{}", name,
-        near ? fmt::format("; did you mean {}?", *near) : "; see dynlab course status for those there are"));
+    throw near ? InvalidArgument("there is no group \"{}\" in this course; did you mean {}?", name, *near)
+               : InvalidArgument(
+                     "there is no group \"{}\" in this course; see dynlab course status for those there are", name);
 }
 
 std::vector<Student> students_of(Course& course) {
@@ -181,16 +181,15 @@ std::vector<Student> students_of(Course& course) {
 
 RosterChange import_roster(Course& course, const std::filesystem::path& file, bool no_groups) {
     const Roster roster(file);
-    if (roster.students().empty())
-        throw EnvironmentError(fmt::format("{}: there are no students below the header", file.string()));
+    if (roster.students().empty()) throw EnvironmentError("{}: there are no students below the header", file.string());
     if (!roster.has("group") && !no_groups)
-        throw EnvironmentError(fmt::format(
+        throw EnvironmentError(
             "{}: the column group is missing; there are {}, and known are id, name, group, email (or mail), moodle, "
             "canvas. Say --no-groups where each student works alone",
-            file.string(), fmt::join(roster.columns(), ", ")));
+            file.string(), listed(roster.columns()));
     RosterChange change = Import(course, roster).run();
     change.unknown_columns = roster.unknown_columns();
-    change.unsought_ids = unsought_numbers_sentence(roster.students());
+    change.unsought_ids = unsought_numbers(roster.students());
     change.converted = roster.converted();
     return change;
 }
@@ -199,8 +198,8 @@ void set_group_dropped_out(Course& course, const std::string& name, bool dropped
     Transaction transaction(course.database());
     const Group group = group_named(course, name);
     if (group.dropped_out == dropped_out)
-        throw InvalidArgument(
-            fmt::format("{} {} already", group.name, dropped_out ? "has dropped out" : "is in the course"));
+        throw dropped_out ? InvalidArgument("{} has dropped out already", group.name)
+                          : InvalidArgument("{} is in the course already", group.name);
     const Instant now = CourseClock::now();
     course.database().run("UPDATE groups SET left_at = ?, left_reason = ? WHERE id = ?",
                           dropped_out ? std::optional(now) : std::nullopt,

@@ -43,17 +43,16 @@ Submission sender_of(const std::string& name) {
 
 void IncomingFiles::add(const fs::path& given) {
     const std::string source = given.string();
-    if (!fs::exists(given)) throw EnvironmentError(fmt::format("there is no file or folder '{}'", source));
+    if (!fs::exists(given)) throw EnvironmentError("there is no file or folder '{}'", source);
     if (!files_.empty()) batch_ = true;
     ++given_;
     if (fs::is_directory(given)) {
         if (way_.one_sender)
-            throw EnvironmentError(
-                fmt::format("{} is a folder; with --from give the files themselves, or a pack", source));
+            throw EnvironmentError("{} is a folder; with --from give the files themselves, or a pack", source);
         add_batch(given, source);
         return;
     }
-    if (!fs::is_regular_file(given)) throw EnvironmentError(fmt::format("{} is not a regular file", source));
+    if (!fs::is_regular_file(given)) throw EnvironmentError("{} is not a regular file", source);
     const std::string name = given.filename();
     if (!archive_stem(name) || way_.one_sender || way_.knows(sender_of(name))) {
         add_file(given, source);
@@ -61,8 +60,8 @@ void IncomingFiles::add(const fs::path& given) {
     }
     const fs::path to = scratch_.path() / std::to_string(++unpacked_);
     fs::create_directories(to);
-    for (const std::string& clause : unpack_export(given, to, way_.level, way_.program))
-        left_out_.push_back(fmt::format("{}: {}; it was left out", source, clause));
+    for (const Message& clause : unpack_export(given, to, way_.level, way_.program))
+        left_out_.push_back(Message("{}: {}; it was left out", source, clause));
     add_batch(to, source);
 }
 
@@ -77,7 +76,7 @@ void IncomingFiles::add_file(const fs::path& file, const std::string& source) {
         write_file_atomically(script, script_of_handed_in(file));
         files_.push_back({script, fs::path(name).stem().string() + ".lua", source, sender_of(name), {}, given_ - 1});
     } catch (const SubmissionError& error) {
-        left_out_.push_back(fmt::format("{}: {} It was left out", source, error.what()));
+        left_out_.push_back(Message("{}: {} It was left out", source, error.message()));
     }
 }
 
@@ -87,8 +86,9 @@ void IncomingFiles::add_found(const fs::path& file, const std::string& source) {
     if (type == fs::file_type::regular)
         add_file(file, source);
     else
-        left_out_.push_back(fmt::format("{}: {}; it was left out", source,
-                                        type == fs::file_type::symlink ? "a link" : "not a regular file"));
+        left_out_.push_back(type == fs::file_type::symlink
+                                ? Message("{}: a link; it was left out", source)
+                                : Message("{}: not a regular file; it was left out", source));
 }
 
 void IncomingFiles::add_batch(const fs::path& folder, const std::string& source) {

@@ -35,7 +35,7 @@ class IncomingFiles {
     void add(const std::filesystem::path& given);
 
     const std::vector<IncomingFile>& files() const { return files_; }
-    const std::vector<std::string>& left_out() const { return left_out_; }  ///< sentences
+    const std::vector<Message>& left_out() const { return left_out_; }  ///< sentences
     bool batch() const { return batch_; }  ///< more than one file, so that one bad file need not stop the others
 
   private:
@@ -51,7 +51,7 @@ class IncomingFiles {
     std::size_t given_ = 0;
     bool batch_ = false;
     std::vector<IncomingFile> files_;
-    std::vector<std::string> left_out_;
+    std::vector<Message> left_out_;
 };
 
 }  // namespace dynlab::inline course

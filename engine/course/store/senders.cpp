@@ -1,7 +1,5 @@
 #include "course/store/senders.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "platform/spelling.h"
@@ -32,14 +30,17 @@ std::optional<Group> Senders::find(const Submission& submission) const {
     return group == groups_.end() ? std::nullopt : std::optional(*group);
 }
 
-std::string Senders::complaint(const Submission& submission) const {
+Message Senders::complaint(const Submission& submission) const {
     const std::string& own = submission.person.empty() ? submission.name : submission.person;
     const Owners::Found found = owners_.find(submission);
-    if (found.doubtful)
-        return fmt::format("whose \"{}\" is cannot be told: {}; say it: --from GROUP", own, found.trouble);
+    if (found.doubtful) return Message("whose \"{}\" is cannot be told: {}; say it: --from GROUP", own, found.trouble);
     const auto near = nearest_word(own, owners_.names());
-    return fmt::format("no group and no student of the course is called \"{}\"{}; say whose it is: --from GROUP", own,
-                       near ? fmt::format(" (the nearest is {})", *near) : "");
+    if (!near)
+        return Message("no group and no student of the course is called \"{}\"; say whose it is: --from GROUP", own);
+    return Message(
+        "no group and no student of the course is called \"{}\" (the nearest is {}); say whose it is: --from "
+        "GROUP",
+        own, *near);
 }
 
 }  // namespace dynlab::inline course

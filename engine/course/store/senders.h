@@ -17,7 +17,7 @@ class Senders {
     bool knows(const Submission& submission) const;
     /// Nothing when no group and no student fits, or several do.
     std::optional<Group> find(const Submission& submission) const;
-    std::string complaint(const Submission& submission) const;  ///< why find gave nothing, and what to do
+    Message complaint(const Submission& submission) const;  ///< why find gave nothing, and what to do
 
   private:
     std::vector<Group> groups_;

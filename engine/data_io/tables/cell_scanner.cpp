@@ -1,7 +1,5 @@
 #include "data_io/tables/cell_scanner.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "data_io/tables/number_cell.h"
@@ -14,10 +12,6 @@ bool is_comment(std::string_view line) {
     double number = 0;
     const std::string_view word = line.substr(0, line.find_first_of(" \t\r\n,;|"));
     return word.size() < 2 || parse_number(word, false, number) != NumberStatus::kMissing;
-}
-
-void CellScanner::fail(const std::string& what) const {
-    throw EnvironmentError(fmt::format("{}, line {}: {}", file_.string(), record_line_, what));
 }
 
 bool CellScanner::next_record() {
@@ -61,7 +55,9 @@ bool CellScanner::at_separator() const {
 std::string_view CellScanner::next_quoted_cell() {
     unquoted_.clear();
     for (++at_;; ++at_) {
-        if (at_end()) fail("a quotation mark is opened and never closed");
+        if (at_end())
+            throw EnvironmentError("{}, line {}: a quotation mark is opened and never closed", file_.string(),
+                                   record_line_);
         if (text_[at_] == '"') {
             if (at_ + 1 >= text_.size() || text_[at_ + 1] != '"') break;
             ++at_;
@@ -73,7 +69,8 @@ std::string_view CellScanner::next_quoted_cell() {
     if (separator_ != ' ')
         while (!at_end() && (is_blank(text_[at_]) || text_[at_] == '\r')) ++at_;
     if (!at_end() && !at_separator() && text_[at_] != '\n' && text_[at_] != '\r')
-        fail("there is text after a closing quotation mark");
+        throw EnvironmentError("{}, line {}: there is text after a closing quotation mark", file_.string(),
+                               record_line_);
     pass_cell_end();
     return trimmed_cell(unquoted_);
 }

@@ -26,9 +26,6 @@ class CellScanner {
     std::size_t place() const { return record_at_; }                 ///< byte at which it begins
     std::string_view last_comment() const { return last_comment_; }  ///< without its sign; empty when there was none
 
-    /// Throws EnvironmentError "FILE, line N: what".
-    [[noreturn]] void fail(const std::string& what) const;
-
   private:
     bool is_blank(char c) const { return c == ' ' || (c == '\t' && separator_ != '\t'); }
     bool at_end() const { return at_ >= text_.size(); }

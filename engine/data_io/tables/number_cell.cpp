@@ -1,5 +1,4 @@
 #include "data_io/tables/number_cell.h"
-#include "platform/text/small_letters.h"
 
 #include <fmt/format.h>
 
@@ -8,6 +7,9 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+
+#include "platform/error.h"
+#include "platform/text/small_letters.h"
 
 namespace dynlab::inline data_io {
 namespace {
@@ -67,23 +69,24 @@ NumberStatus parse_number(std::string_view cell, bool decimal_comma, double& num
     return std::isfinite(number) ? NumberStatus::kNumber : NumberStatus::kNotFinite;
 }
 
-std::string number_complaint(std::string_view cell, bool decimal_comma) {
+void refuse_cell(const CellPlace& place, std::string_view cell, bool decimal_comma) {
+    const std::string file = place.file.string(), given = shown(cell);
     double number = 0;
-    switch (parse_number(cell, decimal_comma, number)) {
-        case NumberStatus::kNumber:
-        case NumberStatus::kMissing:
-            return {};
-        case NumberStatus::kNotFinite:
-            return fmt::format("wanted a finite number, given {}; where a sample is missing, write nothing or NaN",
-                               shown(cell));
-        case NumberStatus::kOutOfRange:
-            return fmt::format("wanted a number that fits double precision, given {}", shown(cell));
-        case NumberStatus::kNotANumber:
-            break;
-    }
-    const char* remedy = looks_grouped(cell) ? "write it without a sign between the thousands"
-                                             : "where a sample is missing, write nothing or NaN";
-    return fmt::format("wanted a number, given {}; {}", shown(cell), remedy);
+    const NumberStatus status = parse_number(cell, decimal_comma, number);
+    if (status == NumberStatus::kNotFinite)
+        throw EnvironmentError(
+            "{}, line {}, column {}: wanted a finite number, given {}; where a sample is missing, write nothing or NaN",
+            file, place.line, place.column, given);
+    if (status == NumberStatus::kOutOfRange)
+        throw EnvironmentError("{}, line {}, column {}: wanted a number that fits double precision, given {}", file,
+                               place.line, place.column, given);
+    if (looks_grouped(cell))
+        throw EnvironmentError(
+            "{}, line {}, column {}: wanted a number, given {}; write it without a sign between the thousands", file,
+            place.line, place.column, given);
+    throw EnvironmentError(
+        "{}, line {}, column {}: wanted a number, given {}; where a sample is missing, write nothing or NaN", file,
+        place.line, place.column, given);
 }
 
 bool looks_grouped(std::string_view cell) {

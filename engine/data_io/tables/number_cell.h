@@ -1,4 +1,5 @@
 #pragma once
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -14,8 +15,15 @@ enum class NumberStatus { kNumber, kMissing, kNotANumber, kNotFinite, kOutOfRang
 /// and the error values of spreadsheets (#N/A, #DIV/0!, ...).
 NumberStatus parse_number(std::string_view cell, bool decimal_comma, double& number);
 
-/// What is wrong with a cell that is no number, and what to write; empty for a number and a missing one.
-std::string number_complaint(std::string_view cell, bool decimal_comma);
+/// Where a cell stands, for messages.
+struct CellPlace {
+    const std::filesystem::path& file;
+    std::size_t line;
+    const std::string& column;  ///< its name
+};
+
+/// Throws EnvironmentError for a cell that is no number: says what is wrong with it, and what to write.
+[[noreturn]] void refuse_cell(const CellPlace& place, std::string_view cell, bool decimal_comma);
 
 /// Digits with both points and commas, as in "1.234,5": a number with signs between its thousands, not a text.
 bool looks_grouped(std::string_view cell);

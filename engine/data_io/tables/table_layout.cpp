@@ -1,7 +1,5 @@
 #include "data_io/tables/table_layout.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -10,7 +8,6 @@
 #include "data_io/tables/cell_scanner.h"
 #include "data_io/tables/number_cell.h"
 #include "data_io/tables/unit_text.h"
-#include "numerics/number_text.h"
 #include "platform/error.h"
 
 namespace dynlab::inline data_io {
@@ -45,8 +42,9 @@ NumberStatus kind_of(const CellScanner& scanner, std::string_view cell, char sep
     return parse_number(cell, separator != ',' || scanner.cell_was_quoted(), number);
 }
 
-[[noreturn]] void fail_wide(const CellScanner& scanner) {
-    scanner.fail(fmt::format("there are more than {} cells in one row", kMostColumns));
+[[noreturn]] void fail_wide(const std::filesystem::path& file, const CellScanner& scanner) {
+    throw EnvironmentError("{}, line {}: there are more than {} cells in one row", file.string(), scanner.line(),
+                           kMostColumns);
 }
 
 /// Nothing when quotation marks, or rows of no sensible length, show that the separator is another.
@@ -59,7 +57,7 @@ std::optional<TableSample> sample_of(const std::filesystem::path& file, std::str
         if (sample.records.empty()) sample.last_comment = scanner.last_comment();
         TableRecord record{scanner.place(), scanner.line(), {}, {}};
         do {
-            if (record.cells.size() == kMostColumns) fail_wide(scanner);
+            if (record.cells.size() == kMostColumns) fail_wide(file, scanner);
             const std::string_view cell = scanner.next_cell();
             record.kinds.push_back(kind_of(scanner, cell, separator));
             record.cells.emplace_back(cell);
@@ -112,7 +110,7 @@ class LayoutFinder {
         }
         const std::size_t rows = header_ ? (units_ ? *units_ : *header_) + 1 : first_row_;
         if (rows >= records_.size())
-            throw EnvironmentError(fmt::format("{}: there are no rows below the header line", file_.string()));
+            throw EnvironmentError("{}: there are no rows below the header line", file_.string());
         layout.rows_at = records_[rows].at, layout.rows_line = records_[rows].line;
         layout.table_line = records_[first].line, layout.passed_over = first;
         if (!header_ && first_row_ == 0) take_names_of_comment();
@@ -229,10 +227,11 @@ class LayoutFinder {
 
     [[noreturn]] void fail_mismatch() const {
         const TableRecord& above = records_[first_row_ - 1];
-        throw EnvironmentError(fmt::format(
-            "{}, line {}: {}, but the rows below have {}; where that line does not belong to the table, "
-            "write load(file, {{skip = {}}})",
-            file_.string(), above.line, counted(above.cells.size(), "name"), counted(columns(), "cell"), above.line));
+        throw EnvironmentError(
+            "{}, line {}: {}, but the rows below have {}; where that line does not belong to the table, write "
+            "load(file, {skip = {}})",
+            file_.string(), above.line, plural(std::ssize(above.cells), "{} name", "{} names"),
+            plural(static_cast<std::int64_t>(columns()), "{} cell", "{} cells"), above.line);
     }
 
     const std::filesystem::path& file_;
@@ -267,11 +266,11 @@ double score_of(const std::filesystem::path& file, const TableSample& sample) {
     while (scanner.next_record()) {
         std::size_t cells = 0;
         do {
-            if (cells++ == kMostColumns) fail_wide(scanner);
+            if (cells++ == kMostColumns) fail_wide(file, scanner);
             scanner.next_cell();
         } while (!scanner.record_ended());
     }
-    throw EnvironmentError(fmt::format("{}: there is no header line with the names of the columns", file.string()));
+    throw EnvironmentError("{}: there is no header line with the names of the columns", file.string());
 }
 
 }  // namespace

@@ -1,7 +1,5 @@
 #include "data_io/tables/text_decoding.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 
@@ -67,16 +65,16 @@ std::string_view word_around(std::string_view text, std::size_t place) {
 
 }  // namespace
 
-std::string decoded_text(std::string bytes, std::vector<std::string>& notes) {
+std::string decoded_text(const std::filesystem::path& file, std::string bytes, std::vector<Message>& notes) {
     const std::string_view begin = std::string_view(bytes).substr(0, 2);
     if (begin == "\xFF\xFE" || begin == "\xFE\xFF") bytes = from_utf16(bytes, begin == "\xFE\xFF");
     bytes.erase(0, bytes.size() - without_byte_order_mark(bytes).size());
     if (bytes.find('\0') != std::string::npos)
-        throw EnvironmentError("it holds bytes that are no text; export the table as CSV in UTF-8");
+        throw EnvironmentError("{}: it holds bytes that are no text; export the table as CSV in UTF-8", file.string());
     if (const std::size_t place = end_of_utf8(bytes); place != std::string::npos) {
         const std::string word = from_windows(word_around(bytes, place));
         bytes = from_windows(bytes);
-        notes.push_back(fmt::format("the text is not UTF-8 and is read as Windows-1252, for example \"{}\"", word));
+        notes.push_back(Message("the text is not UTF-8 and is read as Windows-1252, for example \"{}\"", word));
     }
     if (bytes.find('\n') == std::string::npos) std::replace(bytes.begin(), bytes.end(), '\r', '\n');
     return bytes;

@@ -1,13 +1,16 @@
 #pragma once
+#include <filesystem>
 #include <string>
 #include <vector>
+
+#include "base/message.h"
 
 namespace dynlab::inline data_io {
 
 /// The text of a file's bytes in UTF-8 with \n between lines, whoever wrote it: UTF-8 and UTF-16 with or (UTF-8)
 /// without byte order mark; bytes that are no UTF-8 are read as Windows-1252, which a sentence in `notes` tells. Line
-/// ends of old Macs (CR alone) become \n; CR LF stays. Throws EnvironmentError, without naming the file, for bytes that
-/// are no text.
-std::string decoded_text(std::string bytes, std::vector<std::string>& notes);
+/// ends of old Macs (CR alone) become \n; CR LF stays. Throws EnvironmentError for bytes that are no text; `file` is
+/// for its message.
+std::string decoded_text(const std::filesystem::path& file, std::string bytes, std::vector<Message>& notes);
 
 }  // namespace dynlab::inline data_io

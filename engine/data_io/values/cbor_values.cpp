@@ -1,7 +1,6 @@
 #include "data_io/values/cbor_values.h"
 
 #include <cbor.h>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <bit>
@@ -63,21 +62,28 @@ cbor_callbacks make_callbacks() {
     return to;
 }
 
-const char* token_name(Token::Type type) {
-    constexpr const char* kNames[] = {"a whole number",
-                                      "a negative number",
-                                      "a number",
-                                      "a truth value",
-                                      "nothing",
-                                      "a text",
-                                      "bytes",
-                                      "a list",
-                                      "a map",
-                                      "an object",
-                                      "a tag",
-                                      "the object's end",
-                                      "something unknown"};
-    return kNames[static_cast<std::size_t>(type)];
+Message token_name(Token::Type type) {
+    const Message names[] = {Message("a whole number"),
+                             Message("a negative number"),
+                             Message("a number"),
+                             Message("a truth value"),
+                             Message("nothing"),
+                             Message("a text"),
+                             Message("bytes"),
+                             Message("a list"),
+                             Message("a map"),
+                             Message("an object"),
+                             Message("a tag"),
+                             Message("the object's end"),
+                             Message("something unknown")};
+    return names[static_cast<std::size_t>(type)];
+}
+
+Message array_name(std::optional<ArrayForm> form) {
+    if (!form) return Message("an array of numbers");
+    const Message names[] = {Message("a vector"), Message("a matrix"), Message("a complex vector"),
+                             Message("a complex matrix")};
+    return names[static_cast<std::size_t>(*form)];
 }
 
 }  // namespace
@@ -139,11 +145,11 @@ void CborWriter::end_object() {
 }
 
 CborReader::CborReader(std::string_view bytes, const ValueLimits& limits) : ValueReader(limits), rest_(bytes) {
-    if (bytes.size() > limits.bytes) refuse(fmt::format("it has more than the {} bytes that are read", limits.bytes));
+    if (bytes.size() > limits.bytes) refuse(Message("it has more than the {} bytes that are read", limits.bytes));
 }
 
 void CborReader::expect_end() const {
-    if (!at_end()) refuse("bytes are left behind its end");
+    if (!at_end()) refuse(Message("bytes are left behind its end"));
 }
 
 const CborReader::Token& CborReader::peek() {
@@ -153,18 +159,15 @@ const CborReader::Token& CborReader::peek() {
     const cbor_decoder_result result =
         cbor_stream_decode(reinterpret_cast<cbor_data>(rest_.data()), rest_.size(), &kCallbacks, &token_);
     if (result.status != CBOR_DECODER_FINISHED)
-        refuse(result.status == CBOR_DECODER_ERROR ? "these bytes are no CBOR" : "the bytes end too early");
+        refuse(result.status == CBOR_DECODER_ERROR ? Message("these bytes are no CBOR")
+                                                   : Message("the bytes end too early"));
     rest_.remove_prefix(result.read);
     has_token_ = true;
     return token_;
 }
 
-void CborReader::refuse_token(const char* wanted) {
-    refuse_kind(wanted, token_name(peek().type));
-}
-
-Token CborReader::take(Type wanted, const char* what) {
-    if (peek().type != wanted) refuse_token(what);
+Token CborReader::take(Type wanted) {
+    if (peek().type != wanted) refuse_kind(token_name(wanted), token_name(peek().type));
     has_token_ = false;
     return token_;
 }
@@ -196,80 +199,83 @@ ValueReader::Kind CborReader::next() {
 }
 
 void CborReader::nothing() {
-    take(Type::kNothing, "nothing");
+    take(Type::kNothing);
 }
 
 bool CborReader::truth() {
-    return take(Type::kTruth, "a truth value").value != 0;
+    return take(Type::kTruth).value != 0;
 }
 
 std::int64_t CborReader::whole(std::int64_t low, std::int64_t high) {
     const bool negative = peek().type == Type::kNegative;
-    const Token token = take(negative ? Type::kNegative : Type::kNatural, "a whole number");
+    const Token token = take(negative ? Type::kNegative : Type::kNatural);
     const bool fits = std::cmp_less_equal(token.value, std::numeric_limits<std::int64_t>::max());
     const auto size = static_cast<std::int64_t>(fits ? token.value : 0);
     const std::int64_t value = negative ? -1 - size : size;
     if (!fits || value < low || value > high)
-        refuse(fmt::format("a whole number from {} to {} was wanted, {}{} was given", low, high, negative ? "-" : "",
-                           fmt::to_string(token.value)));
+        refuse(Message("a whole number from {} to {} was wanted, {} was given", low, high,
+                       (negative ? "-" : "") + std::to_string(token.value)));
     return value;
 }
 
 double CborReader::number() {
-    if (peek().type == Type::kNatural) return static_cast<double>(take(Type::kNatural, "").value);
-    if (peek().type == Type::kNegative) return -1 - static_cast<double>(take(Type::kNegative, "").value);
-    return take(Type::kNumber, "a number").number;
+    if (peek().type == Type::kNatural) return static_cast<double>(take(Type::kNatural).value);
+    if (peek().type == Type::kNegative) return -1 - static_cast<double>(take(Type::kNegative).value);
+    return take(Type::kNumber).number;
 }
 
 std::string_view CborReader::take_text() {
-    return take(Type::kText, "a text").text;
+    return take(Type::kText).text;
 }
 
 NumberArray CborReader::take_array(std::optional<ArrayForm> wanted) {
     constexpr std::int64_t kMost = std::int64_t{1} << 31;
-    constexpr const char* kWhat[] = {"a vector", "a matrix", "a complex vector", "a complex matrix"};
-    const char* const what = wanted ? kWhat[static_cast<std::size_t>(*wanted)] : "an array of numbers";
-    std::uint64_t tag = take(Type::kTag, what).value;
+    const auto take_tag = [this, wanted] {
+        if (peek().type != Type::kTag) refuse_kind(array_name(wanted), token_name(peek().type));
+        return take(Type::kTag).value;
+    };
+    std::uint64_t tag = take_tag();
     NumberArray array{ArrayForm::kVector, 0, 1, nullptr};
     if (tag == kColumnsTag || tag == kRowsTag) {
-        if (open_list() != 2) refuse("an array has its dimensions and its numbers");
+        if (open_list() != 2) refuse(Message("an array has its dimensions and its numbers"));
         const std::size_t dimensions = open_list();
         const bool complex = tag == kRowsTag || dimensions == 3;
-        if (dimensions != (tag == kColumnsTag && complex ? 3 : 2)) refuse("an array has two dimensions");
+        if (dimensions != (tag == kColumnsTag && complex ? 3 : 2)) refuse(Message("an array has two dimensions"));
         if (tag == kColumnsTag && complex) whole(2, 2);
         array.rows = whole(0, kMost);
         array.columns = tag == kRowsTag ? whole(2, 2) - 1 : whole(0, kMost);
         array.form =
             tag == kRowsTag ? ArrayForm::kComplexVector : (complex ? ArrayForm::kComplexMatrix : ArrayForm::kMatrix);
-        tag = take(Type::kTag, what).value;
+        tag = take_tag();
     }
-    if (tag != kNumbersTag) refuse_kind(what, fmt::format("tag {}", tag));
-    const std::string_view numbers = take(Type::kBytes, "the numbers of an array").text;
+    if (tag != kNumbersTag) refuse_kind(array_name(wanted), Message("tag {}", std::to_string(tag)));
+    if (peek().type != Type::kBytes) refuse_kind(Message("the numbers of an array"), token_name(peek().type));
+    const std::string_view numbers = take(Type::kBytes).text;
     const std::size_t each = array.is_complex() ? sizeof(Complex) : sizeof(double);
     const auto count = static_cast<Index>(numbers.size() / each);
     if (array.form == ArrayForm::kVector) array.rows = count;
     const bool fits = array.columns == 0 ? count == 0 : array.rows <= count / array.columns;
     if (!fits || array.bytes() != numbers.size())
-        refuse(fmt::format("{} x {} numbers do not stand in {} bytes", array.rows, array.columns, numbers.size()));
-    if (wanted && *wanted != array.form) refuse_kind(what, kWhat[static_cast<std::size_t>(array.form)]);
+        refuse(Message("{} x {} numbers do not stand in {} bytes", array.rows, array.columns, numbers.size()));
+    if (wanted && *wanted != array.form) refuse_kind(array_name(wanted), array_name(array.form));
     array.numbers = numbers.data();
     return array;
 }
 
 std::size_t CborReader::open_list() {
-    const std::uint64_t count = take(Type::kList, "a list").value;
-    if (count > rest_.size()) refuse("it claims more elements than there are bytes");
+    const std::uint64_t count = take(Type::kList).value;
+    if (count > rest_.size()) refuse(Message("it claims more elements than there are bytes"));
     return count;
 }
 
 std::size_t CborReader::open_map() {
-    const std::uint64_t count = take(Type::kMap, "a map").value;
-    if (count > rest_.size()) refuse("it claims more entries than there are bytes");
+    const std::uint64_t count = take(Type::kMap).value;
+    if (count > rest_.size()) refuse(Message("it claims more entries than there are bytes"));
     return count;
 }
 
 void CborReader::open_object() {
-    take(Type::kObject, "an object");
+    take(Type::kObject);
 }
 
 bool CborReader::to_member(const char* name) {
@@ -279,8 +285,8 @@ bool CborReader::to_member(const char* name) {
 }
 
 void CborReader::close_object() {
-    if (peek().type == Type::kText) refuse("it has a member that is not known, or not in its place");
-    take(Type::kBreak, "the object's end");
+    if (peek().type == Type::kText) refuse(Message("it has a member that is not known, or not in its place"));
+    take(Type::kBreak);
 }
 
 }  // namespace dynlab::inline data_io

@@ -76,8 +76,7 @@ class CborReader final : public ValueReader {
   private:
     using Type = Token::Type;
     const Token& peek();
-    Token take(Type wanted, const char* what);
-    [[noreturn]] void refuse_token(const char* wanted);
+    Token take(Type wanted);
     std::string_view take_text() override;
     std::string take_json_text() override { return std::string(take_text()); }
     NumberArray take_array(std::optional<ArrayForm> wanted) override;

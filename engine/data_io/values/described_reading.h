@@ -44,7 +44,7 @@ auto with_location(const ValueReader& reader, const Make& make) {
     } catch (const ValueError&) {
         throw;
     } catch (const std::exception& error) {
-        reader.refuse(error.what());
+        reader.refuse(message_of(error));
     }
 }
 
@@ -99,7 +99,7 @@ void read_map(ValueReader& reader, T& value) {
 
 template <class T>
 void read_pair(ValueReader& reader, T& value) {
-    if (reader.begin_list(0) != 2) reader.refuse("two things were wanted");
+    if (reader.begin_list(0) != 2) reader.refuse(Message("two things were wanted"));
     reader.element();
     read_value(reader, value.first);
     reader.element();

@@ -1,8 +1,7 @@
 #pragma once
 #include "data_io/values/model_descriptions.h"
 #include "numerics/estimators/step_test.h"
-#include "numerics/fit/assessment.h"
-#include "numerics/fit/fit.h"
+#include "numerics/fit/diagnostics.h"
 #include "numerics/validation/monte_carlo.h"
 #include "numerics/validation/order_selection.h"
 
@@ -18,6 +17,10 @@ constexpr std::array<const char*, 4> names_of(InitialState) {
     return {"zero", "steady", "estimate", "auto"};
 }
 
+constexpr std::array<const char*, 3> names_of(MissedCode) {
+    return {"delay", "pole", "feedthrough"};
+}
+
 DYNLAB_DESCRIBE(Level, value, from, to)
 DYNLAB_DESCRIBE(StepRecord, t, u, y, step_index, step_time, input_before, input_after, initial, final, noise_std,
                 smoothed)
@@ -29,8 +32,16 @@ DYNLAB_DESCRIBE(TransferChannel, denominator, zeros, delay)
 DYNLAB_DESCRIBE(TransferStructure, outputs, inputs, poles, channels, free_delays)
 DYNLAB_DESCRIBE(StartCondition, state, offset)
 DYNLAB_DESCRIBE(FitIteration, theta, loss, change)
-DYNLAB_DESCRIBE(MissedOption, start, feedthrough, output, samples, fit_percent, better_fit_percent)
-DYNLAB_DESCRIBE(FitDoubts, missed_option, assessment)
+DYNLAB_DESCRIBE(MissedStructure, code, option, value, output, samples, fit_percent, better_fit_percent)
+DYNLAB_DESCRIBE(Diagnostics, missed, assessment)
+
+/// Computed when they are written, which is for programs only.
+template <>
+struct StoredAs<DeferredDiagnostics> {
+    using Form = Diagnostics;
+    static Diagnostics form(const DeferredDiagnostics& diagnostics) { return diagnostics.all(); }
+    static DeferredDiagnostics value(Diagnostics&& known) { return DeferredDiagnostics(std::move(known)); }
+};
 
 /// Of transfer functions: studies keep no other fits.
 template <Is<Fit> T, class V>
@@ -38,14 +49,14 @@ void describe(T& object, V& member) {
     auto& [structure, models, process, orders, polynomial, characteristic, noise, history, names, theta, std,
            covariance, noise_covariance, noise_variance, output_weights, fit_percent, prediction_fit_percent, loss,
            condition_number, at_bound, start, initial_values, offsets, removed, output, delay_grid, delay_loss,
-           termination, trace, doubts, warnings, message] = object;
+           termination, trace, warnings, message] = object;
     member("structure", structure), member("theta", theta), member("std", std), member("names", names);
     member("models", models), member("covariance", covariance), member("noise_variance", noise_variance);
     member("output_weights", output_weights);
     member("fit_percent", fit_percent), member("loss", loss), member("condition_number", condition_number);
     member("start", start), member("initial_values", initial_values), member("offsets", offsets);
     member("delay_grid", delay_grid), member("delay_loss", delay_loss), member("termination", termination);
-    member("trace", trace), member("doubts", doubts), member("warnings", warnings), member("message", message);
+    member("trace", trace), member("warnings", warnings), member("message", message);
 }
 
 DYNLAB_DESCRIBE(OrderCandidate, poles, zeros, delay, failure, estimate, r_squared, yic, aic, bic, fpe, log_condition,

@@ -169,8 +169,8 @@ JsonReader JsonReader::of_text(std::string_view text, const ValueLimits& limits)
     return JsonReader(std::make_unique<const json>(parsed_json(text, limits)), limits);
 }
 
-void JsonReader::refuse_json(const char* wanted) const {
-    refuse_kind(wanted, std::string("JSON of the type ") + at_->type_name());
+void JsonReader::refuse_json(const Message& wanted) const {
+    refuse_kind(wanted, Message("JSON of the type {}", at_->type_name()));
 }
 
 ValueReader::Kind JsonReader::next() {
@@ -183,31 +183,31 @@ ValueReader::Kind JsonReader::next() {
 }
 
 void JsonReader::nothing() {
-    if (!at_->is_null()) refuse_json("nothing");
+    if (!at_->is_null()) refuse_json(Message("nothing"));
 }
 
 bool JsonReader::truth() {
-    if (!at_->is_boolean()) refuse_json("a truth value");
+    if (!at_->is_boolean()) refuse_json(Message("a truth value"));
     return at_->get<bool>();
 }
 
 std::int64_t JsonReader::whole(std::int64_t low, std::int64_t high) {
-    if (!at_->is_number_integer()) refuse_json("a whole number");
+    if (!at_->is_number_integer()) refuse_json(Message("a whole number"));
     const bool fits = !at_->is_number_unsigned() || std::cmp_less_equal(at_->get<std::uint64_t>(), high);
     const auto value = at_->get<std::int64_t>();
     if (!fits || value < low || value > high)
-        refuse_kind("a whole number from " + std::to_string(low) + " to " + std::to_string(high), at_->dump());
+        refuse_kind(Message("a whole number from {} to {}", low, high), Message::verbatim(at_->dump()));
     return value;
 }
 
 double JsonReader::number() {
     const auto number = number_in(*at_);
-    if (!number) refuse_json("a number");
+    if (!number) refuse_json(Message("a number"));
     return *number;
 }
 
 std::string_view JsonReader::take_text() {
-    if (!at_->is_string()) refuse_json("a text");
+    if (!at_->is_string()) refuse_json(Message("a text"));
     return at_->get_ref<const std::string&>();
 }
 
@@ -218,17 +218,18 @@ std::string JsonReader::take_json_text() {
 void JsonReader::read_numbers(const json& list, bool complex) {
     const auto add = [this](const json& value) {
         const auto number = number_in(value);
-        if (!number) refuse_kind("a list of numbers", std::string("one with JSON of the type ") + value.type_name());
+        if (!number)
+            refuse_kind(Message("a list of numbers"), Message("one with JSON of the type {}", value.type_name()));
         numbers_.push_back(*number);
     };
-    if (!list.is_array()) refuse_json("a list of numbers");
+    if (!list.is_array()) refuse_json(Message("a list of numbers"));
     numbers_.clear();
     for (const json& value : list) {
         if (!complex) {
             add(value);
             continue;
         }
-        if (!value.is_array() || value.size() != 2) refuse("a complex number is a real and an imaginary part");
+        if (!value.is_array() || value.size() != 2) refuse(Message("a complex number is a real and an imaginary part"));
         add(value[0]), add(value[1]);
     }
 }
@@ -243,9 +244,9 @@ NumberArray JsonReader::take_array(std::optional<ArrayForm> wanted) {
         const auto size = [&](const char* name) {
             constexpr std::int64_t kMost = std::int64_t{1} << 31;
             if (!at_->is_object() || !at_->contains(name) || !at_->at(name).is_number_integer())
-                refuse_json("a matrix with rows, columns and values");
+                refuse_json(Message("a matrix with rows, columns and values"));
             const auto value = at_->at(name).get<std::int64_t>();
-            if (value < 0 || value > kMost) refuse(std::string("there is no such number of ") + name);
+            if (value < 0 || value > kMost) refuse(Message("there is no such number of {}", name));
             return static_cast<Index>(value);
         };
         array.rows = size("rows"), array.columns = size("columns");
@@ -254,21 +255,20 @@ NumberArray JsonReader::take_array(std::optional<ArrayForm> wanted) {
         const auto count = static_cast<Index>(numbers_.size()) / (array.is_complex() ? 2 : 1);
         const bool fits = array.columns == 0 ? count == 0 : array.rows <= count / array.columns;
         if (!fits || array.rows * array.columns != count)
-            refuse_kind(std::to_string(array.rows) + " x " + std::to_string(array.columns) + " numbers",
-                        "another number of them");
+            refuse_kind(Message("{} x {} numbers", array.rows, array.columns), Message("another number of them"));
     }
     array.numbers = numbers_.data();
     return array;
 }
 
 std::size_t JsonReader::open_list() {
-    if (!at_->is_array()) refuse_json("a list");
+    if (!at_->is_array()) refuse_json(Message("a list"));
     open_.push_back(at_);
     return at_->size();
 }
 
 std::size_t JsonReader::open_map() {
-    if (!at_->is_object()) refuse_json("an object");
+    if (!at_->is_object()) refuse_json(Message("an object"));
     open_.push_back(at_);
     entries_.push_back({at_->begin()});
     return at_->size();
@@ -280,7 +280,7 @@ void JsonReader::close_map() {
 }
 
 void JsonReader::open_object() {
-    if (!at_->is_object()) refuse_json("an object");
+    if (!at_->is_object()) refuse_json(Message("an object"));
     open_.push_back(at_);
 }
 

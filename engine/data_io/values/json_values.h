@@ -67,7 +67,7 @@ class JsonReader final : public ValueReader {
     double number() override;
 
   private:
-    [[noreturn]] void refuse_json(const char* wanted) const;
+    [[noreturn]] void refuse_json(const Message& wanted) const;
     void read_numbers(const nlohmann::json& list, bool complex);
     std::string_view take_text() override;
     std::string take_json_text() override;

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "data_io/values/array_descriptions.h"
+#include "data_io/values/message_values.h"
 #include "numerics/error.h"
 #include "numerics/models/frequency_data.h"
 #include "numerics/models/polynomial_model.h"

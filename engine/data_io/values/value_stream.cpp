@@ -17,7 +17,7 @@ std::string shown_key(const std::string& key) {
 
 }  // namespace
 
-std::string ValueReader::location_text() const {
+Message ValueReader::location() const {
     std::string text;
     for (const Step& step : steps_) {
         if (step.in == Step::In::kList && step.index > 0)
@@ -27,28 +27,28 @@ std::string ValueReader::location_text() const {
         else if (step.in == Step::In::kObject && step.name)
             text += (text.empty() ? "" : ".") + std::string(step.name);
     }
-    return text.empty() ? "the value" : text;
+    return text.empty() ? Message("the value") : Message::verbatim(text);
 }
 
-void ValueReader::refuse(const std::string& sentence) const {
-    throw ValueError(location_text() + ": " + sentence);
+void ValueReader::refuse(const Message& sentence) const {
+    throw ValueError(Message("{}: {}", location(), sentence));
 }
 
-void ValueReader::refuse_kind(const std::string& wanted, const std::string& given) const {
-    refuse(fmt::format("{} was wanted, {} was given", wanted, given));
+void ValueReader::refuse_kind(const Message& wanted, const Message& given) const {
+    refuse(Message("{} was wanted, {} was given", wanted, given));
 }
 
 void ValueReader::lacks(const char* member) const {
-    refuse(fmt::format("its member \"{}\" is missing", member));
+    refuse(Message("its member \"{}\" is missing", member));
 }
 
 void ValueReader::charge(std::size_t bytes) {
-    if (bytes > memory_left_) refuse(fmt::format("it takes more than the {} bytes that are allowed", limits_.memory));
+    if (bytes > memory_left_) refuse(Message("it takes more than the {} bytes that are allowed", limits_.memory));
     memory_left_ -= bytes;
 }
 
 void ValueReader::enter(Step step) {
-    if (steps_.size() >= limits_.depth) refuse(fmt::format("it is nested deeper than {}", limits_.depth));
+    if (steps_.size() >= limits_.depth) refuse(Message("it is nested deeper than {}", limits_.depth));
     charge(sizeof(Step));
     steps_.push_back(std::move(step));
 }
@@ -67,12 +67,9 @@ std::string ValueReader::json_text() {
 
 std::size_t ValueReader::one_of(std::span<const char* const> names) {
     const std::string_view name = take_text();
-    std::string known;
-    for (std::size_t i = 0; i < names.size(); ++i) {
+    for (std::size_t i = 0; i < names.size(); ++i)
         if (name == names[i]) return i;
-        known += (i == 0 ? "" : ", ") + std::string(names[i]);
-    }
-    refuse("one of " + known + " was wanted, another text was given");
+    refuse(Message("one of {} was wanted, another text was given", listed({names.begin(), names.end()})));
 }
 
 NumberArray ValueReader::array(std::optional<ArrayForm> wanted) {
@@ -83,7 +80,7 @@ NumberArray ValueReader::array(std::optional<ArrayForm> wanted) {
 
 std::size_t ValueReader::begin_list(std::size_t element_bytes) {
     const std::size_t count = open_list();
-    if (count > limits_.memory) refuse("it has too many elements");
+    if (count > limits_.memory) refuse(Message("it has too many elements"));
     enter({Step::In::kList});
     charge(count * element_bytes);
     return count;
@@ -101,7 +98,7 @@ void ValueReader::end_list() {
 std::size_t ValueReader::begin_map(std::size_t entry_bytes) {
     constexpr std::size_t kNodeBytes = 64;  // of a std::map, with its key
     const std::size_t count = open_map();
-    if (count > limits_.memory) refuse("it has too many entries");
+    if (count > limits_.memory) refuse(Message("it has too many entries"));
     enter({Step::In::kMap});
     charge(count * (entry_bytes + kNodeBytes));
     return count;

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/message.h"
 #include "data_io/values/value_limits.h"
 
 namespace dynlab::inline data_io {
@@ -85,12 +86,12 @@ class ValueReader {
     void end_members();             ///< what is refused from now on is the object itself
     void end_object();
 
-    [[noreturn]] void refuse(const std::string& sentence) const;
+    [[noreturn]] void refuse(const Message& sentence) const;
     [[noreturn]] void lacks(const char* member) const;
 
   protected:
     void charge(std::size_t bytes);  ///< before so much memory is taken
-    [[noreturn]] void refuse_kind(const std::string& wanted, const std::string& given) const;
+    [[noreturn]] void refuse_kind(const Message& wanted, const Message& given) const;
 
   private:
     virtual std::string_view take_text() = 0;
@@ -114,7 +115,7 @@ class ValueReader {
         const char* name = nullptr;
     };
     void enter(Step step);
-    std::string location_text() const;
+    Message location() const;
 
     ValueLimits limits_;
     std::size_t memory_left_;

@@ -7,11 +7,11 @@
 #include <optional>
 #include <set>
 
-#include "documents/characters.h"
 #include "documents/error.h"
 #include "documents/pandoc.h"
 #include "documents/pictures.h"
 #include "documents/text_lines.h"
+#include "documents/words/characters.h"
 #include "platform/hash.h"
 #include "platform/program_lookup.h"
 #include "platform/temporary_folder.h"
@@ -206,7 +206,7 @@ class ChunkJob {
         text.append(fmt::format("{} {{.chunk number={}}}\n", fence, number), chunk.origin.file, chunk.origin.line);
         int line = chunk.first_line;
         for (const std::string& content : lines_of(chunk.markdown)) {
-            const SourceLine origin = text_.markdown.origin_of(line++);
+            const Place origin = text_.markdown.origin_of(line++);
             text.append(content + "\n", origin.file, origin.line);
         }
         text.append("\n" + fence + "\n\n", chunk.origin.file, chunk.origin.line);
@@ -252,7 +252,7 @@ class ChunkJob {
         if (page.text.empty()) complaints.throw_if_any();
         const auto files = find_picture_files(page.pictures, text, source_.template_file, DocumentFormat::kHtml,
                                               kPicturePrefix, complaints);
-        told_ = complaints.sentences();
+        complained_ = complaints.messages();
         take_apart(page, files, wanted);
     }
 
@@ -321,12 +321,12 @@ class ChunkJob {
     bool agrees_with_known() const { return whole_document_ || all_labels(set_) == all_labels(memory_.chunks); }
 
     SetDocument result() {
-        SetDocument document{memory_.head, {}, memory_.notes, told_};
+        SetDocument document{memory_.head, {}, memory_.notes, complained_};
         for (std::size_t i = 0; i < chunks_.size(); ++i)
             document.chunks.push_back({std::move(chunks_[i]), set_[i].html, set_[i].pictures});
         memory_.chunks = std::move(set_);
         memory_.whole = whole_;
-        memory_.complained = !told_.empty();
+        memory_.complained = !complained_.empty();
         return document;
     }
 
@@ -341,7 +341,7 @@ class ChunkJob {
     std::vector<KnownChunk> set_;  ///< beside chunks_
     std::string bibliography_;
     Complaints complaints_;  ///< of the document as a whole
-    std::vector<std::string> told_;
+    std::vector<Message> complained_;
 };
 
 }  // namespace

@@ -28,8 +28,8 @@ struct SetChunk {
 struct SetDocument {
     std::string head;  ///< title and what belongs to it, HTML
     std::vector<SetChunk> chunks;
-    std::string notes;                    ///< footnotes, HTML
-    std::vector<std::string> complaints;  ///< what is wrong with it, "file:line: sentence"
+    std::string notes;                ///< footnotes, HTML
+    std::vector<Message> complaints;  ///< what is wrong with it, "file:line: sentence"
 };
 
 /// Sets documents as HTML, again and again: chunks that have not changed since the last time are not set anew, and

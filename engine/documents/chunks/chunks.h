@@ -9,7 +9,7 @@ namespace dynlab::inline documents {
 /// A piece of a document that can be set by itself: paragraphs, a whole list, table, block or formula.
 struct Chunk {
     std::string markdown;
-    SourceLine origin;                  ///< of its first line
+    Place origin;                       ///< of its first line
     int first_line = 1, last_line = 1;  ///< in the document's Markdown
 };
 

@@ -7,8 +7,8 @@
 #include "documents/figure_description.h"
 #include "documents/text_lines.h"
 #include "figures/curve_traces.h"
-#include "figures/french_texts.h"
 #include "figures/label_placement.h"
+#include "figures/readable_figure.h"
 #include "figures/style.h"
 #include "platform/utf8.h"
 
@@ -32,6 +32,10 @@ json pieces_of(const std::string& text) {
     }
     const bool plain = list.size() == 1 && pieces.front().level == TextPiece::Level::kLine;
     return plain ? json(utf8_of(pieces.front().text)) : list;
+}
+
+json pieces_of(const Message& label) {
+    return pieces_of(message_text(label));
 }
 
 double value_at(const Axis& axis, double position) {
@@ -128,7 +132,7 @@ class PlotWriter {
         }
     }
 
-    json axis_of(const Axis& axis, const std::string& label, bool numbers, double power_height) const {
+    json axis_of(const Axis& axis, const Message& label, bool numbers, double power_height) const {
         json ticks = json::array();
         for (const Tick& tick : axis.ticks)
             ticks.push_back({tick.value, pieces_of(comma_ ? with_decimal_commas(tick.label) : tick.label)});
@@ -273,9 +277,10 @@ class PlotWriter {
 
 }  // namespace
 
-std::string plot_data(const Figure& figure, bool decimal_comma) {
+std::string plot_data(const Figure& figure, const Reader& reader) {
     figure.validate();
-    const std::string text = PlotWriter(figure, decimal_comma).write().dump(-1, ' ', true);
+    const Figure shown = readable(figure, reader);
+    const std::string text = PlotWriter(shown, has_decimal_comma(reader)).write().dump(-1, ' ', true);
     return replaced(text, "<", "\\u003c");
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 #include <string>
 
+#include "base/reader.h"
+
 namespace dynlab::inline figures {
 struct Figure;
 }
@@ -12,8 +14,8 @@ namespace dynlab::inline documents {
 /// and the samples of its curves in their own units, rounded to 1e-5 of what the axis shows. Of curves with more than
 /// 4000 samples those remain that a frame of 1000 columns needs (figures/decimation.h), from half a frame left of it to
 /// half a frame right of it, and the curve tells how many there were. A figure with a rig that moves tells its parts
-/// and pieces, for motion.js. With `decimal_comma` numbers are written as French writes them. Of a figure that cannot
-/// be drawn: what Figure::validate throws.
-std::string plot_data(const Figure& figure, bool decimal_comma);
+/// and pieces, for motion.js. Texts and numbers are the reader's. Of a figure that cannot be drawn: what
+/// Figure::validate throws.
+std::string plot_data(const Figure& figure, const Reader& reader = {});
 
 }  // namespace dynlab::inline documents

@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "documents/html/script_catalogs.h"
 #include "platform/atomic_file.h"
 #include "platform/text/base64.h"
 #include "platform/text/small_letters.h"
@@ -28,6 +29,13 @@ std::string with_first(std::string page, const std::string& from, const std::str
     return at == std::string::npos ? page : page.replace(at, from.size(), to);
 }
 
+/// As html/document.html has it.
+std::string language_of_page(const std::string& html) {
+    const std::string sign = "<html lang=\"";
+    const std::size_t at = html.find(sign), begin = at + sign.size();
+    return at == std::string::npos ? "en" : html.substr(begin, html.find('"', begin) - begin);
+}
+
 }  // namespace
 
 std::string media_type(const std::string& extension) {
@@ -43,14 +51,15 @@ std::string plot_element(const std::string& plot) {
 
 std::string shown_scripts(const fs::path& shared_templates) {
     std::string scripts;
-    for (const char* name : {"plot_drawing.js", "motion.js", "plot_table.js", "plot.js", "choices.js"})
+    for (const char* name : {"words.js", "plot_drawing.js", "motion.js", "plot_table.js", "plot.js", "choices.js"})
         scripts += read_file(shared_templates / "html" / name);
     return scripts;
 }
 
-std::string scripts_of_pages(const fs::path& shared_templates) {
-    return shown_scripts(shared_templates) + read_file(shared_templates / "html/sliders.js") +
-           read_file(shared_templates / "html/document.js");
+std::string scripts_of_pages(const fs::path& shared_templates, const std::string& language) {
+    const std::string scripts = shown_scripts(shared_templates) + read_file(shared_templates / "html/sliders.js") +
+                                read_file(shared_templates / "html/document.js");
+    return script_catalogs(scripts, {language, language.substr(0, language.find('-'))}) + scripts;
 }
 
 std::string with_inlined_pictures(const std::string& html, const std::vector<PlacedPicture>& pictures) {
@@ -80,7 +89,7 @@ std::string with_inlined_pictures(const std::string& html, const std::vector<Pla
 std::string whole_web_page(const std::string& html, const fs::path& shared_templates,
                            const std::vector<PlacedPicture>& pictures) {
     // They go in here, not in the template: Pandoc takes 0.3 s to read them there.
-    const std::string script = "\n" + scripts_of_pages(shared_templates);
+    const std::string script = "\n" + scripts_of_pages(shared_templates, language_of_page(html));
     std::string page = with_first(html, "script-src 'none'", "script-src " + policy_hash(script));
     page = with_first(std::move(page), "<style></style>",
                       "<style>\n" + read_file(shared_templates / "html/document.css") + "</style>");

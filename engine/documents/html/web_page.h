@@ -23,9 +23,9 @@ std::string with_inlined_pictures(const std::string& html, const std::vector<Pla
 std::string whole_web_page(const std::string& html, const std::filesystem::path& shared_templates,
                            const std::vector<PlacedPicture>& pictures);
 
-/// The scripts of every page that shows documents, in their order.
+/// The scripts of every page that shows documents, in their order. script_catalogs() must stand before them.
 std::string shown_scripts(const std::filesystem::path& shared_templates);
-/// All scripts of a page that stands alone.
-std::string scripts_of_pages(const std::filesystem::path& shared_templates);
+/// All scripts of a page that stands alone, with the translations into its language, which may name a region.
+std::string scripts_of_pages(const std::filesystem::path& shared_templates, const std::string& language);
 
 }  // namespace dynlab::inline documents

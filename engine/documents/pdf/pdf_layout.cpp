@@ -1,6 +1,5 @@
 #include "documents/pdf/pdf_layout.h"
 
-#include <fmt/format.h>
 #include <poppler/cpp/poppler-document.h>
 #include <poppler/cpp/poppler-global.h>
 #include <poppler/cpp/poppler-page.h>
@@ -48,19 +47,19 @@ std::string bytes_at(const fs::path& file, std::uint64_t from, std::size_t count
 /// What can be said without reading the file as a PDF.
 void check_outside(const fs::path& file, const PdfLimits& limits) {
     std::error_code error;
-    if (!fs::is_regular_file(file, error)) throw PdfRefusal(PdfFault::kNotThere, "There is no such file.");
+    if (!fs::is_regular_file(file, error)) throw PdfRefusal(PdfFault::kNotThere, Message("There is no such file."));
     const std::uint64_t size = fs::file_size(file);
-    if (size == 0) throw PdfRefusal(PdfFault::kNotPdf, "The file is empty.");
+    if (size == 0) throw PdfRefusal(PdfFault::kNotPdf, Message("The file is empty."));
     if (size > limits.file_bytes) {
-        throw PdfRefusal(PdfFault::kTooLarge, fmt::format("The file has {} MB; at most {} MB are looked at.",
-                                                          size >> 20, limits.file_bytes >> 20));
+        throw PdfRefusal(PdfFault::kTooLarge, Message("The file has {} MB; at most {} MB are looked at.", size >> 20,
+                                                      limits.file_bytes >> 20));
     }
     const std::string start = bytes_at(file, 0, 1024);
-    if (start.empty()) throw PdfRefusal(PdfFault::kNotThere, "The file cannot be read: permission is denied.");
+    if (start.empty()) throw PdfRefusal(PdfFault::kNotThere, Message("The file cannot be read: permission is denied."));
     if (start.find("%PDF-") == std::string::npos)
-        throw PdfRefusal(PdfFault::kNotPdf, "The file is not a PDF, whatever its name says.");
+        throw PdfRefusal(PdfFault::kNotPdf, Message("The file is not a PDF, whatever its name says."));
     if (bytes_at(file, size > kEnd ? size - kEnd : 0, kEnd).find("%%EOF") == std::string::npos)
-        throw PdfRefusal(PdfFault::kDamaged, "The file is damaged: its end is missing.");
+        throw PdfRefusal(PdfFault::kDamaged, Message("The file is damaged: its end is missing."));
 }
 
 bool contains_any(const std::string& text, std::initializer_list<const char*> parts) {
@@ -83,8 +82,8 @@ PdfWord word_of(const poppler::text_box& box) {
             utf8_of(std::u16string(text.begin(), text.end()))};
 }
 
-[[noreturn]] void refuse(PdfFault fault, const std::string& sentence) {
-    throw PdfRefusal(fault, sentence);
+[[noreturn]] void refuse(PdfFault fault, const Message& message) {
+    throw PdfRefusal(fault, message);
 }
 
 void ignore_message(const std::string&, void*) {}
@@ -98,25 +97,25 @@ Document document_of(const std::string& pdf) {
 }
 
 PdfLayout layout_of(poppler::document* document, const PdfLimits& limits) {
-    if (!document) refuse(PdfFault::kDamaged, "The file is damaged: no page can be found in it.");
-    if (document->is_locked()) refuse(PdfFault::kEncrypted, "The file is encrypted: it opens only with a password.");
+    if (!document) refuse(PdfFault::kDamaged, Message("The file is damaged: no page can be found in it."));
+    if (document->is_locked())
+        refuse(PdfFault::kEncrypted, Message("The file is encrypted: it opens only with a password."));
     const int count = document->pages();
-    if (count < 1) refuse(PdfFault::kDamaged, "The file is damaged: no page can be found in it.");
+    if (count < 1) refuse(PdfFault::kDamaged, Message("The file is damaged: no page can be found in it."));
     if (count > limits.pages) {
-        refuse(PdfFault::kTooLarge,
-               fmt::format("The file has {} pages; at most {} are looked at.", count, limits.pages));
+        refuse(PdfFault::kTooLarge, Message("The file has {} pages; at most {} are looked at.", count, limits.pages));
     }
     PdfLayout layout{document->is_encrypted(), {}};
     int words = 0;
     for (int i = 0; i < count; ++i) {
         const std::unique_ptr<poppler::page> page(document->create_page(i));
-        if (!page) refuse(PdfFault::kDamaged, fmt::format("The file is damaged: page {} cannot be read.", i + 1));
+        if (!page) refuse(PdfFault::kDamaged, Message("The file is damaged: page {} cannot be read.", i + 1));
         const poppler::rectf size = page->page_rect();
         PdfPage& added = layout.pages.emplace_back(PdfPage{size.width(), size.height(), {}});
         for (const poppler::text_box& box : page->text_list(poppler::page::text_list_include_font)) {
             if (++words > limits.words) {
                 refuse(PdfFault::kTooLarge,
-                       fmt::format("The file has more than {} words, more than a report can have.", limits.words));
+                       Message("The file has more than {} words, more than a report can have.", limits.words));
             }
             added.words.push_back(word_of(box));
         }
@@ -161,7 +160,7 @@ PdfLayout read_pdf_layout(const fs::path& file, const PdfLimits& limits) {
         for (PdfPage& page : layout.pages) std::erase_if(page.words, [](const PdfWord& w) { return !is_placed(w); });
         return layout;
     } catch (const ValueError&) {
-        refuse(PdfFault::kDamaged, "The file is damaged: what is read in it makes no pages.");
+        refuse(PdfFault::kDamaged, Message("The file is damaged: what is read in it makes no pages."));
     }
 }
 

@@ -1,6 +1,4 @@
 #pragma once
-#include <string>
-
 #include "platform/error.h"
 
 namespace dynlab::inline documents {
@@ -11,7 +9,7 @@ enum class PdfFault { kNotThere, kNotPdf, kEncrypted, kDamaged, kTooLarge };
 /// Its sentence does not name the file.
 class PdfRefusal : public EnvironmentError {
   public:
-    PdfRefusal(PdfFault fault, const std::string& sentence) : EnvironmentError(sentence), fault_(fault) {}
+    PdfRefusal(PdfFault fault, const Message& message) : EnvironmentError(message), fault_(fault) {}
     PdfFault fault() const { return fault_; }
 
   private:

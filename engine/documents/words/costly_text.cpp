@@ -113,6 +113,12 @@ int blocks_opened(std::string_view line) {
 
 }  // namespace
 
+Message CostlyText::complaint() {
+    return Message(
+        "Pandoc would take minutes for this paragraph: too much in it opens and is never closed ([, ](, :::, <, &, "
+        "\", ' or `); close it, or put a backslash before a sign that stands for itself");
+}
+
 std::optional<int> CostlyText::line_of(std::string_view markdown) {
     constexpr double kFewSigns = 100;
     constexpr int kMostBlocks = 200;

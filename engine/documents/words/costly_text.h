@@ -2,6 +2,8 @@
 #include <optional>
 #include <string_view>
 
+#include "base/message.h"
+
 namespace dynlab::inline documents {
 
 /// Pandoc tries every way to read a sign that opens something and is never closed. Its time grows with the square of
@@ -13,9 +15,7 @@ class CostlyText {
     /// The line (1-based) on which the paragraph begins with which the document would take minutes, if there is one.
     std::optional<int> line_of(std::string_view markdown);
 
-    static constexpr const char* kSentence =
-        "Pandoc would take minutes for this paragraph: too much in it opens and is never closed ([, ](, :::, <, &, "
-        "\", ' or `); close it, or put a backslash before a sign that stands for itself";
+    static Message complaint();  ///< about that paragraph
 
   private:
     double left_ = 1500.0 * 1500.0;  ///< of the squares; 1500 signs in one paragraph take Pandoc some 10 s

@@ -36,11 +36,11 @@ Figure arx_order_plot(const ArxSelection& selection, ArxCriterion criterion, con
     const bool both = criterion == ArxCriterion::kLoss && selection.validated;
     if (both) {
         panel.curves.push_back(curve_over_parameters(selection, [](const ArxCandidate& c) { return c.loss; }));
-        panel.curves.back().label = "estimation data";
+        panel.curves.back().label = Message("estimation data");
     }
     panel.curves.push_back(
         curve_over_parameters(selection, [&](const ArxCandidate& c) { return criterion_value(c, criterion); }));
-    if (both) panel.curves.back().label = "validation data";
+    if (both) panel.curves.back().label = Message("validation data");
     Extent x_extent(false), y_extent(false);
     for (std::size_t i = 0; i < panel.curves.size(); ++i) {
         panel.curves[i].colour = static_cast<int>(i);
@@ -52,8 +52,10 @@ Figure arx_order_plot(const ArxSelection& selection, ArxCriterion criterion, con
     panel.x_range = x_extent.padded(0.08);
     panel.y_range = y_extent.padded(0.1);
     panel.x_tick_step = selection.candidates.back().parameters() > 20 ? 5 : 1;
-    panel.x_label = "number of parameters";
-    panel.y_label = criterion == ArxCriterion::kLoss ? "loss" : criterion == ArxCriterion::kAic ? "AIC" : "BIC";
+    panel.x_label = Message("number of parameters");
+    panel.y_label = criterion == ArxCriterion::kLoss
+                        ? Message("loss")
+                        : Message::verbatim(criterion == ArxCriterion::kAic ? "AIC" : "BIC");
     return Figure(std::move(panel));
 }
 

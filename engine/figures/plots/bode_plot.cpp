@@ -1,7 +1,5 @@
 #include "figures/plots/bode_plot.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -33,9 +31,10 @@ Vector shown_phase(const NamedModel& model, const Vector& w) {
     return phase_degrees_unwrapped(shown_response(model, w), w, model.G.delay());
 }
 
-std::string shown_name(const NamedModel& model) {
+Message shown_name(const NamedModel& model) {
     if (!is_held(model) || model.name.empty()) return model.name;
-    return model.name + (model.beside.inter_sample == InterSample::kZoh ? ", input held" : ", input on lines");
+    return model.beside.inter_sample == InterSample::kZoh ? Message("{}, input held", model.name)
+                                                          : Message("{}, input on lines", model.name);
 }
 
 /// As the measurements say that the models are drawn beside, if they all say the same.
@@ -55,8 +54,8 @@ Vector below_nyquist(const NamedModel& model, const Vector& w) {
     std::vector<double> kept;
     std::copy_if(w.begin(), w.end(), std::back_inserter(kept), [end](double value) { return value <= end; });
     if (kept.empty())
-        throw InvalidArgument(
-            fmt::format("all frequencies lie above pi/Ts = {:.4g} rad/s, where a discrete model and samples end", end));
+        throw InvalidArgument("all frequencies lie above pi/Ts = {} rad/s, where a discrete model and samples end",
+                              significant(end, 4));
     return Eigen::Map<const Vector>(kept.data(), static_cast<Index>(kept.size()));
 }
 
@@ -132,9 +131,9 @@ Vector joint_frequency_grid(const std::vector<NamedModel>& models, Index count) 
 FrequencyPanels frequency_panels() {
     FrequencyPanels panels;
     panels.magnitude.log_x = panels.phase.log_x = true;
-    panels.magnitude.y_label = "magnitude (dB)";
-    panels.phase.y_label = "phase (°)";
-    panels.phase.x_label = "frequency (rad/s)";
+    panels.magnitude.y_label = axis_label(Message("magnitude"), "dB");
+    panels.phase.y_label = axis_label(Message("phase"), "°");
+    panels.phase.x_label = axis_label(Message("frequency"), "rad/s");
     panels.phase.legend = LegendPlace::kNone;
     return panels;
 }
@@ -143,7 +142,7 @@ Figure bode_plot(const std::vector<NamedModel>& given, const Vector& w, const st
     const std::vector<NamedModel> models = beside(given, responses);
     if (models.empty() && responses.empty()) throw InvalidArgument("there are no models to plot");
     if (w.size() > 0 && !(w.minCoeff() > 0))
-        throw InvalidArgument(fmt::format("frequencies must be positive, but the smallest is {}", w.minCoeff()));
+        throw InvalidArgument("frequencies must be positive, but the smallest is {}", w.minCoeff());
     const Vector grid = w.size() > 0 ? w : chosen_frequencies(models, responses);
     auto [magnitude, phase] = frequency_panels();
     for (const NamedModel& model : models) {
@@ -155,7 +154,7 @@ Figure bode_plot(const std::vector<NamedModel>& given, const Vector& w, const st
         curve.y = shown_phase(model, curve.x);
         phase.curves.push_back(std::move(curve));
         if (model.G.continuous()) continue;
-        const ReferenceLine end{false, std::numbers::pi / model.G.Ts(), "", 2};
+        const ReferenceLine end{false, std::numbers::pi / model.G.Ts(), {}, 2};
         if (end.at <= grid.maxCoeff() * 1.001) magnitude.references.push_back(end), phase.references.push_back(end);
     }
     fix_colours(magnitude);

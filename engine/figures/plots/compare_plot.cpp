@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "figures/plots/id_plot.h"
 #include "figures/style.h"
 #include "numerics/error.h"
 
@@ -15,9 +14,9 @@ void check_model_output(const ModelOutput& model, const Matrix& measured) {
     if (model.y.rows() == measured.rows() && model.y.cols() == measured.cols() &&
         model.fit_percent.size() == measured.cols())
         return;
-    throw InvalidArgument(fmt::format(
+    throw InvalidArgument(
         "the output of model \"{}\" must be {} x {} with {} fits, as the data, but it is {} x {} with {}", model.name,
-        measured.rows(), measured.cols(), measured.cols(), model.y.rows(), model.y.cols(), model.fit_percent.size()));
+        measured.rows(), measured.cols(), measured.cols(), model.y.rows(), model.y.cols(), model.fit_percent.size());
 }
 
 constexpr double kMeasuredWidth = 2.4;  ///< points: seen on both sides of a model's line that lies upon it
@@ -27,8 +26,8 @@ Curve model_curve(const ModelOutput& model, Index output, const Vector& t, int i
     Curve curve;
     curve.x = t;
     curve.y = model.y.col(output);
-    curve.label = curve.y.allFinite() ? fmt::format("{}: {:.1f} %", model.name, model.fit_percent[output])
-                                      : fmt::format("{}: lost", model.name);
+    curve.label = curve.y.allFinite() ? Message("{}: {} %", model.name, decimals(model.fit_percent[output], 1))
+                                      : Message("{}: lost", model.name);
     curve.colour = kColours[index % 7];
     curve.dash = index % 8;
     return curve;
@@ -51,8 +50,7 @@ void keep_to_the_others(Panel& panel) {
 
 Figure compare_plot(const IdData& data, const std::vector<ModelOutput>& models, std::size_t experiment) {
     if (experiment >= data.experiments.size())
-        throw InvalidArgument(
-            fmt::format("there is no experiment {}; the data hold {}", experiment + 1, data.experiments.size()));
+        throw InvalidArgument("there is no experiment {}; the data hold {}", experiment + 1, data.experiments.size());
     const Matrix& measured = data.experiments[experiment].y;
     for (const ModelOutput& model : models) check_model_output(model, measured);
     const Vector t = data.time(experiment);
@@ -61,13 +59,14 @@ Figure compare_plot(const IdData& data, const std::vector<ModelOutput>& models, 
     for (Index output = 0; output < measured.cols(); ++output) {
         Panel panel;
         const auto index = static_cast<std::size_t>(output);
-        panel.y_label = axis_label(
-            index < data.output_names.size() ? data.output_names[index] : fmt::format("y_{{{}}}", output + 1),
-            index < data.output_units.size() ? data.output_units[index] : "");
+        panel.y_label =
+            axis_label(Message::verbatim(index < data.output_names.size() ? data.output_names[index]
+                                                                          : fmt::format("y_{{{}}}", output + 1)),
+                       index < data.output_units.size() ? data.output_units[index] : "");
         Curve curve;
         curve.x = t;
         curve.y = measured.col(output);
-        curve.label = "measured";
+        curve.label = Message("measured");
         curve.colour = style::kGreyColour;
         curve.dash = 0;
         curve.line_width = kMeasuredWidth;
@@ -77,7 +76,7 @@ Figure compare_plot(const IdData& data, const std::vector<ModelOutput>& models, 
         keep_to_the_others(panel);
         figure.panels.push_back(std::move(panel));
     }
-    figure.panels.back().x_label = axis_label("time", data.time_unit);
+    figure.panels.back().x_label = axis_label(Message("time"), data.time_unit);
     return figure;
 }
 

@@ -9,7 +9,7 @@ namespace dynlab::inline figures {
 
 /// What one model says about measured data.
 struct ModelOutput {
-    std::string name;
+    Message name;
     Matrix y;            ///< N x ny, at the sampling instants of the data
     Vector fit_percent;  ///< one per output, for the legend
 };

@@ -1,7 +1,5 @@
 #include "figures/plots/cross_validation_plot.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
 #include "numerics/error.h"
@@ -12,8 +10,8 @@ Figure cross_validation_plot(const CrossValidation& result, const std::vector<st
     const Index folds = result.fit_percent.rows(), outputs = result.fit_percent.cols();
     if (folds == 0) throw InvalidArgument("there is nothing to draw: no part was validated");
     Panel panel;
-    panel.x_label = "part left out";
-    panel.y_label = "fit of the simulation (%)";
+    panel.x_label = Message("part left out");
+    panel.y_label = axis_label(Message("fit of the simulation"), "%");
     const auto end = static_cast<double>(folds);
     panel.x_range = {0.5, end + 0.5};
     if (!result.fit_percent.array().isFinite().any())
@@ -26,7 +24,7 @@ Figure cross_validation_plot(const CrossValidation& result, const std::vector<st
         points.style = CurveStyle::kPoints;
         points.colour = static_cast<int>(i);
         points.line_width = 1.4;
-        if (outputs > 1) points.label = output_names[static_cast<std::size_t>(i)];
+        if (outputs > 1) points.label = Message::verbatim(output_names[static_cast<std::size_t>(i)]);
         panel.curves.push_back(std::move(points));
     }
     for (Index i = 0; i < outputs; ++i) {
@@ -37,7 +35,7 @@ Figure cross_validation_plot(const CrossValidation& result, const std::vector<st
         mean.colour = static_cast<int>(i);
         mean.dash = 1 + static_cast<int>(i);
         mean.line_width = 0.7;
-        mean.label = fmt::format("mean {:.1f} %", result.mean[i]);
+        mean.label = Message("mean {} %", decimals(result.mean[i], 1));
         panel.curves.push_back(std::move(mean));
     }
     return Figure(std::move(panel));

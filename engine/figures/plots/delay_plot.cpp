@@ -1,14 +1,11 @@
 #include "figures/plots/delay_plot.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "figures/axis.h"
 #include "figures/style.h"
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline figures {
 namespace {
@@ -20,11 +17,11 @@ Curve loss_curve(const DelaySearch& search) {
     curve.style = CurveStyle::kLinePoints;
     curve.line_width = 0.7;
     curve.colour = 0;
-    curve.label = "best model at each delay";
+    curve.label = Message("best model at each delay");
     return curve;
 }
 
-Curve mark(double x, double y, int marker, int colour, const std::string& label) {
+Curve mark(double x, double y, int marker, int colour, const Message& label) {
     Curve curve;
     curve.x = Vector::Constant(1, x);
     curve.y = Vector::Constant(1, y);
@@ -43,12 +40,12 @@ double loss_near(const DelaySearch& search, double delay) {
 }
 
 /// "0.1598 ± 0.0036": the error with two digits, the delay with as many decimals.
-std::string delay_text(const DelaySearch& search) {
-    if (!std::isfinite(search.std)) return number_text(search.delay);
+Message delay_text(const DelaySearch& search) {
+    if (!std::isfinite(search.std)) return Message("{}", search.delay);
     const double wanted = 1 - std::floor(std::log10(search.std));
-    if (wanted > 9) return number_text(search.delay) + " ± " + number_text(search.std, 2);
-    const int decimals = std::max(0, static_cast<int>(wanted));
-    return fmt::format("{:.{}f} ± {:.{}f}", search.delay, decimals, search.std, decimals);
+    if (wanted > 9) return Message("{} ± {}", search.delay, significant(search.std, 2));
+    const int places = std::max(0, static_cast<int>(wanted));
+    return Message("{} ± {}", decimals(search.delay, places), decimals(search.std, places));
 }
 
 }  // namespace
@@ -62,16 +59,16 @@ Figure delay_plot(const DelaySearch& search) {
     x_extent.include(search.delay);
     y_extent.include(panel.curves.front().y);
     y_extent.include(search.loss());
-    panel.references = {{false, search.delay, "", 1}};
+    panel.references = {{false, search.delay, {}, 1}};
     panel.curves.push_back(
-        mark(search.delay, search.loss(), style::kOpenCircle, 6, fmt::format("estimate, {} s", delay_text(search))));
+        mark(search.delay, search.loss(), style::kOpenCircle, 6, Message("estimate, {} s", delay_text(search))));
     if (search.rival)
         panel.curves.push_back(mark(*search.rival, loss_near(search, *search.rival), style::kCross, style::kGreyColour,
-                                    fmt::format("nearly as good, {} s", number_text(*search.rival))));
+                                    Message("nearly as good, {} s", *search.rival)));
     panel.x_range = x_extent.padded(0.03);
     panel.y_range = y_extent.padded(0.08);
-    panel.x_label = "delay (s)";
-    panel.y_label = "mean square error";
+    panel.x_label = axis_label(Message("delay"), "s");
+    panel.y_label = Message("mean square error");
     return Figure(std::move(panel));
 }
 

@@ -1,6 +1,5 @@
 #include "figures/plots/history_plot.h"
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
@@ -36,13 +35,13 @@ std::pair<double, double> settled_range(const Vector& values, const Vector& half
 Panel panel_of(const ParameterHistory& history, Index parameter, const std::string& name, const Vector& truth,
                double level) {
     Panel panel;
-    panel.y_label = with_marked_indices(name);
+    panel.y_label = Message::verbatim(with_marked_indices(name));
     Curve curve;
     curve.x = history.t;
     curve.y = history.theta.col(parameter);
     curve.colour = 0;
     curve.dash = 0;
-    curve.label = "estimate";
+    curve.label = Message("estimate");
     panel.curves.push_back(std::move(curve));
     if (truth.size() > 0) {
         Curve line;
@@ -50,7 +49,7 @@ Panel panel_of(const ParameterHistory& history, Index parameter, const std::stri
         line.y = truth.size() == 1 ? Vector(Vector::Constant(2, truth[0])) : truth;
         line.colour = style::kGreyColour;
         line.dash = 1;
-        line.label = "true value";
+        line.label = Message("true value");
         panel.curves.push_back(std::move(line));
     }
     const Vector half_width = normal_half_width(level) * history.std.col(parameter);
@@ -68,8 +67,7 @@ Figure history_plot(const ParameterHistory& history, const std::vector<std::stri
     if (history.t.size() == 0) throw InvalidArgument("there is no history to draw");
     for (const auto& [name, values] : truth)
         if (std::find(names.begin(), names.end(), name) == names.end())
-            throw InvalidArgument(
-                fmt::format("the truth of '{}' was given, but the parameters are {}", name, fmt::join(names, ", ")));
+            throw InvalidArgument("the truth of '{}' was given, but the parameters are {}", name, listed(names));
     Figure figure;
     for (Index i = 0; i < history.theta.cols(); ++i) {
         const std::string& name = names[static_cast<std::size_t>(i)];
@@ -77,7 +75,7 @@ Figure history_plot(const ParameterHistory& history, const std::vector<std::stri
         figure.panels.push_back(panel_of(history, i, name, known == truth.end() ? Vector() : known->second, level));
     }
     figure.rows = static_cast<int>(figure.panels.size());
-    figure.panels.back().x_label = "time (s)";
+    figure.panels.back().x_label = axis_label(Message("time"), "s");
     return figure;
 }
 

@@ -6,7 +6,6 @@
 
 #include "figures/style.h"
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline figures {
 namespace {
@@ -16,28 +15,29 @@ struct Channel {
     Index number;
 };
 
-std::string label_of(const Channel& channel, const IdData& data) {
+Message label_of(const Channel& channel, const IdData& data) {
     const auto& names = channel.output ? data.output_names : data.input_names;
     const auto& units = channel.output ? data.output_units : data.input_units;
     const auto index = static_cast<std::size_t>(channel.number);
     const std::string name = index < names.size() && !names[index].empty()
                                  ? names[index]
                                  : fmt::format("{}_{{{}}}", channel.output ? "y" : "u", channel.number + 1);
-    return axis_label(name, index < units.size() ? units[index] : "");
+    return axis_label(Message::verbatim(name), index < units.size() ? units[index] : "");
 }
 
 void check_channels(const std::vector<const IdData*>& data, const std::vector<std::string>& labels) {
     if (data.empty()) throw InvalidArgument("there are no data to plot");
     if (!labels.empty() && labels.size() != data.size())
-        throw InvalidArgument(fmt::format("{} data objects need as many labels, not {}", data.size(), labels.size()));
+        throw InvalidArgument("{} data objects need as many labels, not {}", data.size(), labels.size());
     for (const IdData* object : data)
         if (object->output_count() != data.front()->output_count() ||
             object->input_count() != data.front()->input_count())
-            throw InvalidArgument(fmt::format(
-                "data drawn over one another need the same channels, but one object has {} and {} and "
-                "another has {} and {}",
-                counted(data.front()->output_count(), "output"), counted(data.front()->input_count(), "input"),
-                object->output_count(), object->input_count()));
+            throw InvalidArgument(
+                "data drawn over one another need the same channels, but one object has {} and {} and another has {} "
+                "and {}",
+                plural(data.front()->output_count(), "{} output", "{} outputs"),
+                plural(data.front()->input_count(), "{} input", "{} inputs"), object->output_count(),
+                object->input_count());
 }
 
 bool draws_the_same(const Curve& a, const Curve& b) {
@@ -59,7 +59,7 @@ Curve reference_curve(const IdData& data, std::size_t experiment, Index number) 
     Curve curve;
     curve.x = data.time(experiment);
     curve.y = data.experiments[experiment].r.col(number);
-    curve.label = "reference";
+    curve.label = Message("reference");
     curve.colour = style::kGreyColour;
     if (data.hold == Hold::kZoh) curve.style = CurveStyle::kStairs;
     return curve;
@@ -77,13 +77,13 @@ Panel panel_of(const Channel& channel, const std::vector<const IdData*>& data, c
             curve.y = (channel.output ? experiment.y : experiment.u).col(channel.number);
             if (!channel.output && data[i]->hold == Hold::kZoh) curve.style = CurveStyle::kStairs;
             if (!labels.empty())
-                curve.label = labels[i];
+                curve.label = Message::verbatim(labels[i]);
             else if (data.size() > 1)
-                curve.label = fmt::format("data {}", i + 1);
+                curve.label = Message("data {}", i + 1);
             if (data[i]->experiments.size() > 1) {
-                const std::string name =
-                    experiment.name.empty() ? fmt::format("experiment {}", k + 1) : experiment.name;
-                curve.label += (curve.label.empty() ? "" : ", ") + name;
+                const Message name =
+                    experiment.name.empty() ? Message("experiment {}", k + 1) : Message::verbatim(experiment.name);
+                curve.label = curve.label.empty() ? name : Message("{}, {}", curve.label, name);
             }
             curve.colour = index++;
             add_curve(panel, std::move(curve), channel.output);
@@ -105,10 +105,6 @@ std::pair<double, double> common_time_range(const std::vector<const IdData*>& da
 
 }  // namespace
 
-std::string axis_label(const std::string& name, const std::string& unit) {
-    return unit.empty() ? name : fmt::format("{} ({})", name, unit);
-}
-
 Figure id_plot(const std::vector<const IdData*>& data, const std::vector<std::string>& labels) {
     check_channels(data, labels);
     std::vector<Channel> channels;
@@ -123,7 +119,7 @@ Figure id_plot(const std::vector<const IdData*>& data, const std::vector<std::st
         if (range.first < range.second) panel.x_range = range;
         if (figure.panels.size() > 1) panel.legend = LegendPlace::kNone;  // the uppermost panel's holds for all
     }
-    figure.panels.back().x_label = axis_label("time", data.front()->time_unit);
+    figure.panels.back().x_label = axis_label(Message("time"), data.front()->time_unit);
     return figure;
 }
 

@@ -7,9 +7,6 @@
 
 namespace dynlab::inline figures {
 
-/// Text of an axis: "name (unit)", or the name alone when the unit is empty.
-std::string axis_label(const std::string& name, const std::string& unit);
-
 /// Outputs above inputs over time, one panel per channel with its name and unit; inputs held between samples are drawn
 /// as stairs, an input that several curves share once, in grey. Several data objects lie over one another, told apart
 /// by `labels` (one each; "data 1".. unless given); a single object has a legend only when its label is given; several

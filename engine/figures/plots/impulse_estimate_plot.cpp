@@ -1,7 +1,5 @@
 #include "figures/plots/impulse_estimate_plot.h"
 
-#include <fmt/format.h>
-
 #include "figures/plots/time_response_plots.h"
 #include "figures/style.h"
 #include "numerics/error.h"
@@ -21,7 +19,7 @@ Curve stems_of(const ImpulseEstimate& estimate, double Ts) {
     stems.colour = 0;
     stems.dash = 0;
     stems.marker = 0;
-    stems.label = "estimate";
+    stems.label = Message("estimate");
     return stems;
 }
 
@@ -32,7 +30,7 @@ Curve band_of(const ImpulseEstimate& estimate, double Ts, double level) {
     band.y = -band.y_upper;
     band.style = CurveStyle::kBand;
     band.colour = style::kGreyColour;
-    band.label = fmt::format("{:.4g} % of chance", 100 * level);
+    band.label = Message("{} % of chance", significant(100 * level, 4));
     return band;
 }
 
@@ -58,18 +56,18 @@ Figure impulse_estimate_plot(const ImpulseEstimate& estimate, double Ts, const s
                              double level) {
     if (estimate.t.size() == 0) throw InvalidArgument("there is no impulse response to draw");
     Panel panel;
-    panel.x_label = "time (s)";
-    panel.y_label = "impulse response (per s)";
+    panel.x_label = axis_label(Message("time"), "s");
+    panel.y_label = Message("impulse response (per s)");
     panel.curves = {band_of(estimate, Ts, level), stems_of(estimate, Ts)};
     const double end = estimate.t[estimate.t.size() - 1];
     int colour = 1;
     for (const NamedModel& model : models) panel.curves.push_back(curve_of(model, end, colour++));
-    panel.references = {{true, 0, "", 0}};
+    panel.references = {{true, 0, {}, 0}};
     panel.x_range = {-0.02 * end, 1.02 * end};
-    if (estimate.first && *estimate.first > 1)
-        panel.references.push_back({false, static_cast<double>(*estimate.first - 1) * Ts,
-                                    fmt::format("dead time {:.4g} s", static_cast<double>(*estimate.first - 1) * Ts),
-                                    1});
+    if (estimate.first && *estimate.first > 1) {
+        const double dead_time = static_cast<double>(*estimate.first - 1) * Ts;
+        panel.references.push_back({false, dead_time, Message("dead time {} s", significant(dead_time, 4)), 1});
+    }
     return Figure(std::move(panel));
 }
 

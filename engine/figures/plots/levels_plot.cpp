@@ -7,8 +7,7 @@
 namespace dynlab::inline figures {
 namespace {
 
-void add_levels(Panel& panel, const std::string& label, const Vector& w, const Vector& power, CurveStyle style,
-                int look) {
+void add_levels(Panel& panel, const Message& label, const Vector& w, const Vector& power, CurveStyle style, int look) {
     if (power.size() == 0 || !(power.array() > 0).any()) return;
     Curve curve;
     curve.x = w;
@@ -25,13 +24,13 @@ Figure levels_plot(const FrequencyData& data) {
     if (data.excited.w.size() == 0) throw InvalidArgument("there are no levels of an output to draw");
     Panel panel;
     panel.log_x = true;
-    panel.x_label = "frequency (rad/s)";
-    panel.y_label = "level (dB)";
-    add_levels(panel, "output", data.excited.w, data.excited.power, CurveStyle::kLinePoints, 0);
-    add_levels(panel, "noise", data.excited.w, data.excited.noise, CurveStyle::kLine, 1);
-    add_levels(panel, "distortion", data.excited.w, data.excited.distortion, CurveStyle::kPoints, 2);
-    add_levels(panel, "odd lines without input", data.odd.w, data.odd.power, CurveStyle::kPoints, 3);
-    add_levels(panel, "even lines without input", data.even.w, data.even.power, CurveStyle::kPoints, 4);
+    panel.x_label = axis_label(Message("frequency"), "rad/s");
+    panel.y_label = axis_label(Message("level"), "dB");
+    add_levels(panel, Message("output"), data.excited.w, data.excited.power, CurveStyle::kLinePoints, 0);
+    add_levels(panel, Message("noise"), data.excited.w, data.excited.noise, CurveStyle::kLine, 1);
+    add_levels(panel, Message("distortion"), data.excited.w, data.excited.distortion, CurveStyle::kPoints, 2);
+    add_levels(panel, Message("odd lines without input"), data.odd.w, data.odd.power, CurveStyle::kPoints, 3);
+    add_levels(panel, Message("even lines without input"), data.even.w, data.even.power, CurveStyle::kPoints, 4);
     if (panel.curves.empty()) throw InvalidArgument("the output is zero at all lines: there is nothing to draw");
     return Figure(std::move(panel));
 }

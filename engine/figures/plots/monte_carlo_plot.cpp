@@ -1,6 +1,5 @@
 #include "figures/plots/monte_carlo_plot.h"
 
-#include <fmt/format.h>
 #include <re2/re2.h>
 
 #include <algorithm>
@@ -33,8 +32,8 @@ Vector estimates_of(const MonteCarloResult& result, Index column) {
 Index index_of_parameter(const MonteCarloResult& result, const std::string& name) {
     const auto found = std::find(result.names.begin(), result.names.end(), name);
     if (found == result.names.end())
-        throw InvalidArgument(fmt::format("{} has no parameter '{}'; its parameters are {}", result.label, name,
-                                          fmt::join(result.names, ", ")));
+        throw InvalidArgument("{} has no parameter '{}'; its parameters are {}", result.label, name,
+                              listed(result.names));
     return found - result.names.begin();
 }
 
@@ -50,12 +49,11 @@ void check_study(const MonteCarlo& study) {
     if (study.results.empty()) throw InvalidArgument("the study has no results to draw");
     for (const MonteCarloResult& result : study.results) {
         if (result.estimated == 0)
-            throw InvalidArgument(fmt::format("there is nothing to draw: {} gave no estimates", result.label));
+            throw InvalidArgument("there is nothing to draw: {} gave no estimates", result.label);
         if (result.names != study.results.front().names)
-            throw InvalidArgument(
-                fmt::format("{} and {} have different parameters ({} and {}): draw them in separate studies",
-                            study.results.front().label, result.label, fmt::join(study.results.front().names, ", "),
-                            fmt::join(result.names, ", ")));
+            throw InvalidArgument("{} and {} have different parameters ({} and {}): draw them in separate studies",
+                                  study.results.front().label, result.label, listed(study.results.front().names),
+                                  listed(result.names));
     }
 }
 
@@ -90,13 +88,13 @@ Panel histogram_panel(const Vector& values, std::pair<double, double> range, std
     const auto count = static_cast<Index>(shown.size());
     HistogramOptions options;
     options.truth = truth;
-    options.truth_label = "";
+    options.truth_label = {};
     // A method all of whose estimates lie outside keeps its panel, with its one bar at the edge.
     if (shown.empty()) shown.push_back(std::clamp(values[0], range.first, range.second));
     Figure figure = histogram(Eigen::Map<const Vector>(shown.data(), static_cast<Index>(shown.size())), options);
     Panel panel = std::move(figure.panels.front());
     if (const Index outside = values.size() - count; outside > 0)
-        panel.title = fmt::format("{} of {} outside", outside, values.size());
+        panel.title = Message("{} of {} outside", outside, values.size());
     panel.x_range = range;
     panel.curves.front().colour = colour;
     return panel;
@@ -131,7 +129,7 @@ Curve cloud(const MonteCarloResult& result, Index x, Index y, int colour) {
     curve.x = Eigen::Map<const Vector>(xs.data(), static_cast<Index>(xs.size()));
     curve.y = Eigen::Map<const Vector>(ys.data(), static_cast<Index>(ys.size()));
     curve.style = CurveStyle::kPoints;
-    curve.label = result.label;
+    curve.label = Message::verbatim(result.label);
     curve.colour = colour;
     curve.line_width = cloud_width(xs.size());
     return curve;
@@ -145,8 +143,8 @@ void add_truth(Panel& panel, const MonteCarloResult& result, Index x, Index y, d
     truth.marker = style::kCross;
     truth.colour = kTruthColour;
     truth.line_width = kTruthWidth;
-    truth.label = "true value";
-    panel.references = {{true, result.truth[y], "", 2}, {false, result.truth[x], "", 2}};
+    truth.label = Message("true value");
+    panel.references = {{true, result.truth[y], {}, 2}, {false, result.truth[x], {}, 2}};
     Eigen::Matrix2d covariance;
     if (result.bound.size() > 0) {
         covariance << result.bound(x, x), result.bound(x, y), result.bound(y, x), result.bound(y, y);
@@ -159,7 +157,7 @@ void add_truth(Panel& panel, const MonteCarloResult& result, Index x, Index y, d
             curve.colour = style::kGreyColour;
             curve.dash = 0;
             curve.line_width = 1.2;
-            curve.label = fmt::format("Cramér–Rao ellipse, {:.4g} %", 100 * level);
+            curve.label = Message("Cramér–Rao ellipse, {} %", significant(100 * level, 4));
             panel.curves.push_back(std::move(curve));
         }
     }
@@ -186,15 +184,16 @@ Figure monte_carlo_histograms(const MonteCarlo& study) {
             const auto index = static_cast<std::size_t>(i);
             Panel panel =
                 histogram_panel(estimates_of(result, i), ranges[index], truth_of(result, i), static_cast<int>(j));
-            panel.y_label = i == 0 ? result.label : "";
-            panel.x_label = j + 1 == study.results.size() ? symbol_of(result.names[index]) : "";
+            if (i == 0) panel.y_label = Message::verbatim(result.label);
+            panel.x_label =
+                j + 1 == study.results.size() ? Message::verbatim(symbol_of(result.names[index])) : Message();
             figure.panels.push_back(std::move(panel));
         }
     }
     return figure;
 }
 
-std::string outside_text(const Panel& panel) {
+Message outside_text(const Panel& panel) {
     const auto within = [](const std::optional<std::pair<double, double>>& range, double value) {
         return !range || (value >= range->first && value <= range->second);
     };
@@ -204,14 +203,14 @@ std::string outside_text(const Panel& panel) {
         for (Index k = 0; k < std::min(curve.x.size(), curve.y.size()); ++k, ++all)  // not validated yet
             if (!within(panel.x_range, curve.x[k]) || !within(panel.y_range, curve.y[k])) ++outside;
     }
-    return outside > 0 ? fmt::format("{} of {} outside", outside, all) : "";
+    return outside > 0 ? Message("{} of {} outside", outside, all) : Message();
 }
 
 Figure monte_carlo_scatter(const MonteCarlo& study, const std::string& x_name, const std::string& y_name,
                            double level) {
     if (x_name == y_name) throw InvalidArgument("the two parameters of a scatter figure must differ");
     if (!(level > 0 && level < 1))
-        throw InvalidArgument(fmt::format("level must be a probability between 0 and 1, but {} was given", level));
+        throw InvalidArgument("level must be a probability between 0 and 1, but {} was given", level);
     Panel panel;
     const MonteCarloResult* reference = nullptr;
     std::vector<Vector> xs, ys;
@@ -234,8 +233,8 @@ Figure monte_carlo_scatter(const MonteCarlo& study, const std::string& x_name, c
     panel.x_range = range_of(xs, true_x);
     panel.y_range = range_of(ys, true_y);
     panel.title = outside_text(panel);
-    panel.x_label = symbol_of(x_name);
-    panel.y_label = symbol_of(y_name);
+    panel.x_label = Message::verbatim(symbol_of(x_name));
+    panel.y_label = Message::verbatim(symbol_of(y_name));
     Figure figure(std::move(panel));
     figure.height_cm = 9;
     return figure;

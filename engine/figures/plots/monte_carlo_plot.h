@@ -19,6 +19,6 @@ Figure monte_carlo_scatter(const MonteCarlo& study, const std::string& x_name, c
                            double level = 0.95);
 
 /// What stands above such a figure's panel: how many of the estimates lie outside its ranges; empty where none do.
-std::string outside_text(const Panel& panel);
+Message outside_text(const Panel& panel);
 
 }  // namespace dynlab::inline figures

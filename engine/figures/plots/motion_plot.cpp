@@ -1,12 +1,9 @@
 #include "figures/plots/motion_plot.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <limits>
 
 #include "figures/figure_layout.h"
-#include "figures/plots/id_plot.h"
 #include "figures/style.h"
 #include "numerics/error.h"
 
@@ -15,23 +12,25 @@ namespace {
 
 constexpr double kRim = 0.3;  // around a drawing, cm of its own: moved parts may leave its frame
 constexpr Index kInstants = 4;
+constexpr int kInstantDigits = 15;                      // of messages: instants may differ late
 constexpr double kFirstHeight = 0.5, kNoNumbers = 1e3;  // of the axis of y of pictures, which has no numbers to show
 constexpr double kMeasuredLine = 1.6, kSimulatedLine = 0.8, kFixedLine = 0.4;  // points
 constexpr int kSimulatedColour = 0, kFixedColour = 2;
 
 void check_motion_record(const RigDrawing& rig, const MotionRecord& record) {
     const Index parts = static_cast<Index>(rig.parts.size()), count = record.t.size();
-    if (count < 2) throw InvalidArgument(fmt::format("a motion needs two instants at least, not {}", count));
+    if (count < 2) throw InvalidArgument("a motion needs two instants at least, not {}", count);
     for (Index i = 1; i < count; ++i)
         if (!(record.t[i] > record.t[i - 1]))
-            throw InvalidArgument(fmt::format("the instants must rise, but number {} is {} s and number {} is {} s", i,
-                                              record.t[i - 1], i + 1, record.t[i]));
+            throw InvalidArgument("the instants must rise, but number {} is {} s and number {} is {} s", i,
+                                  significant(record.t[i - 1], kInstantDigits), i + 1,
+                                  significant(record.t[i], kInstantDigits));
     if (record.measured.size() == 0 && record.simulated.size() == 0)
         throw InvalidArgument("a motion needs signals that were measured or simulated");
     for (const Matrix* signals : {&record.measured, &record.simulated})
         if (signals->size() > 0 && (signals->rows() != count || signals->cols() != parts))
-            throw InvalidArgument(fmt::format("the signals of a motion must be {} x {}, but they are {} x {}", count,
-                                              parts, signals->rows(), signals->cols()));
+            throw InvalidArgument("the signals of a motion must be {} x {}, but they are {} x {}", count, parts,
+                                  signals->rows(), signals->cols());
 }
 
 Vector spread_instants(const Vector& t) {
@@ -82,17 +81,17 @@ struct PicturePlace {
 
 Panel signal_panel(const RigPart& part, const MotionRecord& record, Index column) {
     Panel panel;
-    panel.y_label = axis_label(part.signal, part.unit);
-    const auto add = [&](const Matrix& signals, const char* label, int colour, double width) {
+    panel.y_label = axis_label(Message::verbatim(part.signal), part.unit);
+    const auto add = [&](const Matrix& signals, const Message& label, int colour, double width) {
         if (signals.size() == 0) return;
         Curve curve;
         curve.x = record.t, curve.y = signals.col(column);
-        curve.label = column == 0 ? label : "";
+        curve.label = column == 0 ? label : Message();
         curve.colour = colour, curve.dash = 0, curve.line_width = width;
         panel.curves.push_back(std::move(curve));
     };
-    add(record.measured, "measured", style::kGreyColour, kMeasuredLine);
-    add(record.simulated, "simulated", kSimulatedColour, kSimulatedLine);
+    add(record.measured, Message("measured"), style::kGreyColour, kMeasuredLine);
+    add(record.simulated, Message("simulated"), kSimulatedColour, kSimulatedLine);
     return panel;
 }
 
@@ -150,10 +149,11 @@ Figure motion_plot(const RigDrawing& rig, const MotionRecord& whole, const Motio
     const double first = record.t[0], last = record.t[record.t.size() - 1];
     for (const double instant : instants)
         if (!(instant >= first && instant <= last))
-            throw InvalidArgument(fmt::format("the instant {} s lies outside the record, which goes from {} s to {} s",
-                                              instant, first, last));
+            throw InvalidArgument("the instant {} s lies outside the record, which goes from {} s to {} s",
+                                  significant(instant, kInstantDigits), significant(first, kInstantDigits),
+                                  significant(last, kInstantDigits));
     if (const auto twice = std::adjacent_find(instants.begin(), instants.end()); twice != instants.end())
-        throw InvalidArgument(fmt::format("the instant {} s stands in the list twice", *twice));
+        throw InvalidArgument("the instant {} s stands in the list twice", significant(*twice, kInstantDigits));
     Figure figure;
     figure.title = look.title, figure.width_cm = look.width_cm, figure.height_cm = look.height_cm;
     figure.rows = static_cast<int>(rig.parts.size()) + 1;
@@ -165,9 +165,9 @@ Figure motion_plot(const RigDrawing& rig, const MotionRecord& whole, const Motio
     for (std::size_t k = 0; k < rig.parts.size(); ++k) {
         Panel& panel = figure.panels.emplace_back(signal_panel(rig.parts[k], record, static_cast<Index>(k)));
         panel.x_range = {first, last};
-        for (const double instant : instants) panel.references.push_back({false, instant, "", 2});
+        for (const double instant : instants) panel.references.push_back({false, instant, {}, 2});
     }
-    figure.panels.back().x_label = "time (s)";
+    figure.panels.back().x_label = axis_label(Message("time"), "s");
     const Rectangle frame = lay_out(figure).panels.front().box;
     draw_pictures(figure.panels.front(), rig, record, instants, frame.width(), frame.height());
     figure.motion = Motion{rig, 0, record.measured.size() > 0, record.simulated.size() > 0};

@@ -14,7 +14,7 @@ struct MotionRecord {
 
 struct MotionLook {
     Vector instants;  ///< of the pictures, s; four, evenly spread, unless given
-    std::string title;
+    Message title;
     double width_cm = 14, height_cm = 0;
 };
 

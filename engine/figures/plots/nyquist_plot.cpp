@@ -33,8 +33,12 @@ void add_direction(Panel& panel, const ComplexVector& response) {
     }
     for (Index end = start + 1; end < response.size(); ++end)
         if (std::abs(response[end] - response[start]) > 0.04 * extent) {
-            panel.arrows.push_back({response[start].real(), response[start].imag(), response[end].real(),
-                                    response[end].imag(), "", false});
+            panel.arrows.push_back({response[start].real(),
+                                    response[start].imag(),
+                                    response[end].real(),
+                                    response[end].imag(),
+                                    {},
+                                    false});
             return;
         }
 }
@@ -45,8 +49,8 @@ Figure nyquist_plot(const std::vector<NamedModel>& models, const Vector& w) {
     if (models.empty()) throw InvalidArgument("there are no models to plot");
     const Vector grid = w.size() > 0 ? w : joint_frequency_grid(models, kNyquistPoints);
     Panel panel;
-    panel.x_label = "real part";
-    panel.y_label = "imaginary part";
+    panel.x_label = Message("real part");
+    panel.y_label = Message("imaginary part");
     panel.equal_axes = true;
     int index = 0;
     for (const NamedModel& model : models) {
@@ -59,13 +63,13 @@ Figure nyquist_plot(const std::vector<NamedModel>& models, const Vector& w) {
         curve.colour = index++;
         panel.curves.push_back(curve);
         curve.y = -curve.y;
-        curve.label.clear();
+        curve.label = {};
         curve.line_width *= 0.5;
         panel.curves.push_back(std::move(curve));
         add_direction(panel, response);
     }
-    panel.references = {{true, 0, "", 2}, {false, 0, "", 2}};
-    panel.annotations = {{-1, 0, "−1", true}};
+    panel.references = {{true, 0, {}, 2}, {false, 0, {}, 2}};
+    panel.annotations = {{-1, 0, Message::verbatim("−1"), true}};
     return Figure(std::move(panel));
 }
 

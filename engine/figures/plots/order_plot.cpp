@@ -6,7 +6,6 @@
 #include "figures/axis.h"
 #include "figures/style.h"
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline figures {
 namespace {
@@ -16,6 +15,12 @@ const OrderMeasure& drawn_measure(OrderCriterion criterion, bool validated) {
         throw InvalidArgument("there is no validation fit to draw: no second record was given");
     if (criterion != OrderCriterion::kRecommended) return order_measure(criterion);
     return order_measure(validated ? OrderCriterion::kValidationFit : OrderCriterion::kBic);
+}
+
+Message label_of(const OrderMeasure& measure) {
+    if (measure.criterion == OrderCriterion::kFit) return axis_label(Message("fit"), "%");
+    if (measure.criterion == OrderCriterion::kValidationFit) return axis_label(Message("validation fit"), "%");
+    return Message::verbatim(measure.criterion == OrderCriterion::kRSquared ? "R_T^2" : measure.word);
 }
 
 bool only_delays_differ(const OrderSelection& selection) {
@@ -48,7 +53,7 @@ Curve curve_of(const std::map<double, double>& values, int zeros, int index) {
     for (const auto& [x, y] : values) curve.x[i] = x, curve.y[i++] = y;
     curve.style = CurveStyle::kLinePoints;
     curve.colour = index;
-    curve.label = zeros == 0 ? "no zero" : counted(zeros, "zero");
+    curve.label = zeros == 0 ? Message("no zero") : plural(zeros, "{} zero", "{} zeros");
     return curve;
 }
 
@@ -62,7 +67,7 @@ Curve mark_of_choice(double x, double y) {
     mark.marker = style::kOpenCircle;
     mark.colour = 6;
     mark.line_width = 3;
-    mark.label = "chosen";
+    mark.label = Message("chosen");
     return mark;
 }
 
@@ -85,8 +90,8 @@ Figure order_plot(const OrderSelection& selection, OrderCriterion criterion, con
     panel.x_range = x_extent.padded(0.08);
     panel.y_range = y_extent.padded(0.1);
     if (!over_delay) panel.x_tick_step = 1;
-    panel.x_label = over_delay ? "delay (s)" : "number of poles";
-    panel.y_label = std::string(measure.name) + measure.unit;
+    panel.x_label = over_delay ? axis_label(Message("delay"), "s") : Message("number of poles");
+    panel.y_label = label_of(measure);
     return Figure(std::move(panel));
 }
 

@@ -1,7 +1,5 @@
 #include "figures/plots/pole_zero_map.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <numbers>
 
@@ -48,7 +46,7 @@ void add_damping_rays(Panel& panel, double reach) {
     }
 }
 
-void add_roots(Panel& panel, const ComplexVector& roots, const std::string& label, int colour, int marker) {
+void add_roots(Panel& panel, const ComplexVector& roots, const Message& label, int colour, int marker) {
     if (roots.size() == 0) return;
     Curve curve;
     curve.x = roots.real();
@@ -61,7 +59,7 @@ void add_roots(Panel& panel, const ComplexVector& roots, const std::string& labe
     panel.curves.push_back(std::move(curve));
 }
 
-void add_regions(Panel& panel, const ModelConfidence& confidence, int colour, const std::string& label, Extent& real,
+void add_regions(Panel& panel, const ModelConfidence& confidence, int colour, const Message& label, Extent& real,
                  Extent& imaginary) {
     std::vector<RootUncertainty> roots = pole_uncertainty(confidence.model);
     for (const RootUncertainty& zero : zero_uncertainty(confidence.model)) roots.push_back(zero);
@@ -100,16 +98,18 @@ Figure pole_zero_map(const std::vector<NamedModel>& models) {
     for (const NamedModel& model : models) {
         if (model.G.continuous() != continuous)
             throw InvalidArgument("continuous and discrete models cannot share a pole-zero map");
-        const std::string prefix = model.name.empty() ? "" : model.name + ": ";
         const ComplexVector poles = model.G.poles(), zeros = model.G.zeros();
         for (const ComplexVector* roots : {&poles, &zeros})
             real.include(Vector(roots->real())), imaginary.include(Vector(roots->imag()));
         const int mark = colour % style::kPoleMarkers;
-        add_roots(panel, poles, prefix + "poles", colour, style::kCross + mark);
-        add_roots(panel, zeros, prefix + "zeros", colour, style::kOpenCircle + mark);
+        add_roots(panel, poles, model.name.empty() ? Message("poles") : Message("{}: poles", model.name), colour,
+                  style::kCross + mark);
+        add_roots(panel, zeros, model.name.empty() ? Message("zeros") : Message("{}: zeros", model.name), colour,
+                  style::kOpenCircle + mark);
         if (model.confidence) {
             const double level = model.confidence->level;
-            add_regions(panel, *model.confidence, colour, explained ? "" : confidence_text(level), real, imaginary);
+            add_regions(panel, *model.confidence, colour, explained ? Message() : confidence_text(level), real,
+                        imaginary);
             explained = true;
         }
         ++colour;
@@ -124,9 +124,9 @@ Figure pole_zero_map(const std::vector<NamedModel>& models) {
         add_damping_rays(panel, 10 * std::max({-left, right, -bottom, top}));
     else
         add_unit_circle_and_spirals(panel);
-    panel.references = {{true, 0, "", 0}, {false, 0, "", 0}};
-    panel.x_label = continuous ? "real axis (1/s)" : "real axis";
-    panel.y_label = continuous ? "imaginary axis (rad/s)" : "imaginary axis";
+    panel.references = {{true, 0, {}, 0}, {false, 0, {}, 0}};
+    panel.x_label = axis_label(Message("real axis"), continuous ? "1/s" : "");
+    panel.y_label = axis_label(Message("imaginary axis"), continuous ? "rad/s" : "");
     return Figure(std::move(panel));
 }
 

@@ -24,7 +24,7 @@ Curve rise_curve(const Profile& profile, double top) {
     curve.style = CurveStyle::kLinePoints;
     curve.line_width = 0.7;
     curve.colour = 0;
-    curve.label = "others fitted anew";
+    curve.label = Message("others fitted anew");
     return curve;
 }
 
@@ -35,7 +35,7 @@ Curve parabola(const Profile& profile, double low, double high) {
     curve.y = ((curve.x.array() - profile.estimate) / profile.std).square();
     curve.colour = style::kGreyColour;
     curve.dash = 1;
-    curve.label = "by the standard error";
+    curve.label = Message("by the standard error");
     return curve;
 }
 
@@ -48,12 +48,12 @@ Figure profile_plot(const Profile& profile, const std::string& unit) {
     const Vector& x = panel.curves.front().x;
     if (std::isfinite(profile.std) && profile.std > 0 && x.size() > 1)
         panel.curves.push_back(parabola(profile, x.minCoeff(), x.maxCoeff()));
-    panel.references.push_back({true, profile.level, "", 1});
+    panel.references.push_back({true, profile.level, {}, 1});
     for (const auto& end : {profile.low, profile.high})
-        if (end) panel.references.push_back({false, *end, "", 2});
+        if (end) panel.references.push_back({false, *end, {}, 2});
     panel.y_range = {-0.02 * top, top};
-    panel.x_label = profile.name + (unit.empty() ? "" : " (" + unit + ")");
-    panel.y_label = "rise of the loss, N ln(S/S_{min})";
+    panel.x_label = axis_label(Message::verbatim(profile.name), unit);
+    panel.y_label = Message("rise of the loss, N ln(S/S_{min})");
     return Figure(std::move(panel));
 }
 

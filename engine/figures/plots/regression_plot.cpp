@@ -1,13 +1,11 @@
 #include "figures/plots/regression_plot.h"
 
-#include <fmt/format.h>
-
 #include "numerics/error.h"
 
 namespace dynlab::inline figures {
 namespace {
 
-Curve curve_of(const Vector& x, const Vector& y, const std::string& label, CurveStyle style, int colour) {
+Curve curve_of(const Vector& x, const Vector& y, const Message& label, CurveStyle style, int colour) {
     Curve curve;
     curve.x = x;
     curve.y = y;
@@ -19,21 +17,21 @@ Curve curve_of(const Vector& x, const Vector& y, const std::string& label, Curve
 }
 
 void add_band(Panel& panel, const RegressionPicture& picture, const Vector& lower, const Vector& upper,
-              const std::string& label, int colour) {
+              const Message& label, int colour) {
     if (lower.size() == 0 && upper.size() == 0) return;
     if (lower.size() != picture.line_x.size() || upper.size() != picture.line_x.size())
-        throw InvalidArgument(fmt::format("the {} needs one value for each of the {} points of the line, not {} and {}",
-                                          label, picture.line_x.size(), lower.size(), upper.size()));
+        throw InvalidArgument("the {} needs one value for each of the {} points of the line, not {} and {}", label,
+                              picture.line_x.size(), lower.size(), upper.size());
     panel.curves.push_back(curve_of(picture.line_x, lower, label, CurveStyle::kBand, colour));
     panel.curves.back().y_upper = upper;
 }
 
 void add_forecast(Panel& panel, const ForecastPoint& forecast) {
     panel.curves.push_back(
-        curve_of(Vector::Constant(2, forecast.x), Vector{{forecast.lower, forecast.upper}}, "", CurveStyle::kLine, 6));
+        curve_of(Vector::Constant(2, forecast.x), Vector{{forecast.lower, forecast.upper}}, {}, CurveStyle::kLine, 6));
     panel.curves.back().line_width = 1.2;
-    panel.curves.push_back(
-        curve_of(Vector::Constant(1, forecast.x), Vector::Constant(1, forecast.y), "forecast", CurveStyle::kPoints, 6));
+    panel.curves.push_back(curve_of(Vector::Constant(1, forecast.x), Vector::Constant(1, forecast.y),
+                                    Message("forecast"), CurveStyle::kPoints, 6));
     panel.curves.back().marker = 3;
     if (!forecast.text.empty()) panel.annotations = {{forecast.x, forecast.y, forecast.text, false}};
 }
@@ -50,8 +48,10 @@ Figure regression_plot(const RegressionPicture& picture) {
     }
     if (picture.line_x.size() > 0)
         panel.curves.push_back(curve_of(picture.line_x, picture.line_y, picture.line_label, CurveStyle::kLine, 0));
-    add_band(panel, picture, picture.confidence_lower, picture.confidence_upper, picture.confidence_label, 0);
-    add_band(panel, picture, picture.prediction_lower, picture.prediction_upper, picture.prediction_label, 5);
+    add_band(panel, picture, picture.confidence_lower, picture.confidence_upper,
+             Message("{} % confidence band", 100 * picture.level), 0);
+    add_band(panel, picture, picture.prediction_lower, picture.prediction_upper,
+             Message("{} % prediction band", 100 * picture.level), 5);
     if (picture.forecast) add_forecast(panel, *picture.forecast);
     return Figure(std::move(panel));
 }

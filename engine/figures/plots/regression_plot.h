@@ -1,6 +1,5 @@
 #pragma once
 #include <optional>
-#include <string>
 
 #include "figures/figure.h"
 
@@ -9,7 +8,7 @@ namespace dynlab::inline figures {
 /// A forecast with its interval.
 struct ForecastPoint {
     double x, y, lower, upper;
-    std::string text;  ///< written beside it
+    Message text;  ///< written beside it
 };
 
 /// What a regression plot shows; empty vectors leave a part out.
@@ -19,9 +18,9 @@ struct RegressionPicture {
     Vector confidence_lower, confidence_upper;  ///< over line_x, of the line
     Vector prediction_lower, prediction_upper;  ///< over line_x, of a new observation
     std::optional<ForecastPoint> forecast;
-    std::string x_label, y_label;
-    std::string data_label = "data", line_label = "fitted line";
-    std::string confidence_label = "95 % confidence band", prediction_label = "95 % prediction band";
+    Message x_label, y_label;
+    Message data_label = Message("data"), line_label = Message("fitted line");
+    double level = 0.95;  ///< of both bands
 };
 
 /// Throws InvalidArgument for a band whose length differs from the line's.

@@ -1,12 +1,9 @@
 #include "figures/plots/residual_plot.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
 #include "figures/style.h"
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline figures {
 namespace {
@@ -15,7 +12,7 @@ constexpr int kInsideColour = 0, kOutsideColour = 6;
 constexpr int kInsideMarker = 0, kOutsideMarker = 5;  ///< a filled circle, an open square
 
 Curve stems(const std::vector<double>& lags, const std::vector<double>& values, int colour, int marker,
-            const std::string& label) {
+            const Message& label) {
     const auto count = static_cast<Index>(lags.size());
     Curve curve;
     curve.x = Eigen::Map<const Vector>(lags.data(), count);
@@ -39,7 +36,7 @@ Panel correlation_panel(const Vector& correlation, Index first, double bound, do
     band.y_upper = Vector::Constant(2, bound);
     band.style = CurveStyle::kBand;
     band.colour = style::kGreyColour;
-    band.label = fmt::format("{:.4g} % bound", 100 * confidence);
+    band.label = Message("{} % bound", significant(100 * confidence, 4));
     panel.curves = {std::move(band)};
     std::vector<double> lags[2], values[2];
     for (Index i = 0; i < correlation.size(); ++i) {
@@ -47,10 +44,10 @@ Panel correlation_panel(const Vector& correlation, Index first, double bound, do
         lags[outside].push_back(static_cast<double>(first + i));
         values[outside].push_back(correlation[i]);
     }
-    if (!lags[0].empty()) panel.curves.push_back(stems(lags[0], values[0], kInsideColour, kInsideMarker, ""));
+    if (!lags[0].empty()) panel.curves.push_back(stems(lags[0], values[0], kInsideColour, kInsideMarker, {}));
     if (!lags[1].empty())
-        panel.curves.push_back(stems(lags[1], values[1], kOutsideColour, kOutsideMarker, "beyond the bound"));
-    panel.references = {{true, 0, "", 0}};
+        panel.curves.push_back(stems(lags[1], values[1], kOutsideColour, kOutsideMarker, Message("beyond the bound")));
+    panel.references = {{true, 0, {}, 0}};
     return panel;
 }
 
@@ -58,8 +55,8 @@ Panel correlation_panel(const Vector& correlation, Index first, double bound, do
 
 Figure residual_plot(const ResidualTests& tests, const IdData& data, double confidence) {
     if (static_cast<Index>(tests.outputs.size()) != data.output_count())
-        throw InvalidArgument(fmt::format("the tests are of {}, but the data have {}",
-                                          counted(tests.outputs.size(), "output"), data.output_count()));
+        throw InvalidArgument("the tests are of {}, but the data have {}",
+                              plural(std::ssize(tests.outputs), "{} output", "{} outputs"), data.output_count());
     std::vector<std::vector<Panel>> columns;
     for (std::size_t i = 0; i < tests.outputs.size(); ++i) {
         const OutputResiduals& output = tests.outputs[i];
@@ -67,16 +64,16 @@ Figure residual_plot(const ResidualTests& tests, const IdData& data, double conf
         auto& column = columns.emplace_back();
         const Vector& own = output.whiteness.correlation;
         column.push_back(correlation_panel(own.tail(own.size() - 1), 1, output.whiteness.bound, confidence));
-        column.back().y_label = fmt::format("autocorrelation of the error in {}", data.output_names[i]);
+        column.back().y_label = Message("autocorrelation of the error in {}", data.output_names[i]);
         for (const IndependenceTest& test : output.inputs) {
             const Index lags = test.correlation.size() / 2;
             column.push_back(correlation_panel(test.correlation, -lags, test.bound, confidence));
             column.back().y_label =
-                fmt::format("correlation with {}", data.input_names[static_cast<std::size_t>(test.input)]);
+                Message("correlation with {}", data.input_names[static_cast<std::size_t>(test.input)]);
             const bool explained = output.whiteness.outside > 0 || column.back().curves.back().label.empty();
             if (explained) column.back().legend = LegendPlace::kNone;
         }
-        column.back().x_label = "lag (samples)";
+        column.back().x_label = Message("lag (samples)");
     }
     if (columns.empty())
         throw InvalidArgument("there is nothing to draw: the model reproduces every output to rounding");

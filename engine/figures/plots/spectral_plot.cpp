@@ -37,7 +37,7 @@ Vector known_phase(const SpectralEstimate& estimate, double half_width) {
     return phase;
 }
 
-Curve curve_of(const SpectralEstimate& estimate, const Vector& y, const std::string& label) {
+Curve curve_of(const SpectralEstimate& estimate, const Vector& y, const Message& label) {
     Curve curve;
     curve.x = estimate.w;
     curve.y = y;
@@ -70,7 +70,7 @@ void add_models(Figure& figure, const std::vector<NamedModel>& models, double fi
 
 }  // namespace
 
-Figure spectral_plot(const SpectralEstimate& estimate, const std::string& name, const std::vector<NamedModel>& models,
+Figure spectral_plot(const SpectralEstimate& estimate, const Message& name, const std::vector<NamedModel>& models,
                      double level) {
     if (!(estimate.w.size() > 0) || !(estimate.w.maxCoeff() > 0))
         throw InvalidArgument("there is no frequency above zero to draw");

@@ -1,7 +1,5 @@
 #include "figures/plots/time_response_plots.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -39,8 +37,8 @@ Figure time_response_figure(const std::vector<NamedModel>& models, const Vector&
     if (models.empty()) throw InvalidArgument("there are no models to plot");
     const double end = t.size() > 0 ? 0 : longest_window(models);
     Panel panel;
-    panel.x_label = "time (s)";
-    panel.y_label = "amplitude";
+    panel.x_label = axis_label(Message("time"), "s");
+    panel.y_label = Message("amplitude");
     for (const NamedModel& model : models) {
         const TimeResponse result = response(model.G, instants(model.G, t, end));
         Curve curve;
@@ -59,9 +57,8 @@ Index samples_within(double end, double Ts) {
     constexpr double kMost = 1e7;
     const double count = std::floor(end / Ts + 1e-9) + 1;
     if (!(count <= kMost))
-        throw InvalidArgument(
-            fmt::format("a window of {} s holds too many samples of a model with Ts = {} s for one figure: {:.3g}", end,
-                        Ts, count));
+        throw InvalidArgument("a window of {} s holds too many samples of a model with Ts = {} s for one figure: {}",
+                              end, Ts, significant(count, 3));
     return static_cast<Index>(count);
 }
 

@@ -2,23 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 #include "numerics/error.h"
 #include "numerics/linalg/decompositions.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 namespace {
 
-std::string size_text(Index rows, Index columns) {
-    return std::to_string(rows) + " x " + std::to_string(columns);
-}
-
 void require_size(const char* name, const MatrixView& M, Index rows, Index columns) {
     if (M.rows() == rows && M.cols() == columns && M.allFinite()) return;
-    throw InvalidArgument(std::string(name) + " must be a matrix of " + size_text(rows, columns) +
-                          " finite numbers, not " + size_text(M.rows(), M.cols()));
+    throw InvalidArgument("{} must be a matrix of {} x {} finite numbers, not {} x {}", name, rows, columns, M.rows(),
+                          M.cols());
 }
 
 void require_system(const MatrixView& A, const MatrixView& B) {
@@ -28,8 +22,7 @@ void require_system(const MatrixView& A, const MatrixView& B) {
 }
 
 void require_symmetric(const char* name, const MatrixView& M) {
-    if (!M.isApprox(M.transpose(), 1e-10) && M.norm() > 0)
-        throw InvalidArgument(std::string(name) + " must be symmetric");
+    if (!M.isApprox(M.transpose(), 1e-10) && M.norm() > 0) throw InvalidArgument("{} must be symmetric", name);
 }
 
 StateFeedback closed(const MatrixView& A, const MatrixView& B, Matrix K) {
@@ -105,11 +98,10 @@ StateFeedback pole_placement(const MatrixView& A, const MatrixView& B, const Com
     require_system(A, B);
     const Index n = A.rows();
     if (B.cols() != 1)
-        throw InvalidArgument("pole placement needs a system with one input, B has " + std::to_string(B.cols()) +
-                              " columns");
+        throw InvalidArgument("pole placement needs a system with one input, B has {} columns", B.cols());
     if (poles.size() != n || !poles.allFinite())
-        throw InvalidArgument("the system has " + counted(n, "state") + ", so as many finite poles are needed, not " +
-                              std::to_string(poles.size()));
+        throw InvalidArgument("the system has {}, so as many finite poles are needed, not {}",
+                              plural(n, "{} state", "{} states"), poles.size());
     const Vector c = monic_coefficients(poles);
 
     constexpr double kSingular = 1e-15;  // reciprocal of a condition number that leaves no digit

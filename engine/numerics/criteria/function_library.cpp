@@ -2,7 +2,6 @@
 
 #include "numerics/criteria/monomials.h"
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
@@ -24,18 +23,17 @@ FunctionLibrary polynomial_library(const std::vector<std::string>& states, const
 Matrix library_values(const FunctionLibrary& library, const Matrix& X, const Matrix& U) {
     Matrix values = library.values(X, U);
     if (values.rows() != X.rows() || values.cols() != library.count())
-        throw InvalidArgument("sindy: the library must give " + counted(library.count(), "function") + " of " +
-                              counted(X.rows(), "value") + " each, and gave " + std::to_string(values.cols()) + " of " +
-                              std::to_string(values.rows()));
+        throw InvalidArgument("sindy: the library must give {} of {} each, and gave {} of {}",
+                              plural(library.count(), "{} function", "{} functions"),
+                              plural(X.rows(), "{} value", "{} values"), values.cols(), values.rows());
     if (values.allFinite()) return values;
     for (Index j = 0; j < values.cols(); ++j)
         for (Index k = 0; k < values.rows(); ++k) {
             if (std::isfinite(values(k, j))) continue;
-            std::string at;
-            for (Index i = 0; i < X.cols(); ++i) at += (i > 0 ? ", " : "") + number_text(X(k, i));
-            throw InvalidArgument("sindy: the function " + library.names[static_cast<std::size_t>(j)] +
-                                  " of the library is " + number_text(values(k, j)) + " at sample " +
-                                  std::to_string(k + 1) + ", where the states are " + at);
+            MessageList at;
+            for (Index i = 0; i < X.cols(); ++i) at.items.push_back(Message("{}", X(k, i)));
+            throw InvalidArgument("sindy: the function {} of the library is {} at sample {}, where the states are {}",
+                                  library.names[static_cast<std::size_t>(j)], values(k, j), k + 1, at);
         }
     return values;
 }

@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "numerics/number_text.h"
 #include "numerics/simulation/sensitivity_solver.h"
 
 namespace dynlab::inline numerics {
@@ -19,8 +18,8 @@ const IdData& checked(const IdData& data, const GreyModel& model) {
     if (data.experiments.empty() || data.output_count() < 1)
         throw InvalidArgument("A grey-box model is fitted to a record with at least one output");
     if (data.input_count() < model.inputs)
-        throw InvalidArgument("The model has " + counted(model.inputs, "input") + ", and the record has " +
-                              std::to_string(data.input_count()));
+        throw InvalidArgument("The model has {}, and the record has {}", plural(model.inputs, "{} input", "{} inputs"),
+                              data.input_count());
     return data;
 }
 

@@ -30,23 +30,6 @@ Changes changes_of(const VectorView& u) {
 
 }  // namespace
 
-InitialState parse_initial_state(const std::string& text) {
-    if (text == "zero") return InitialState::kZero;
-    if (text == "steady") return InitialState::kSteady;
-    if (text == "estimate") return InitialState::kEstimate;
-    if (text == "auto") return InitialState::kAuto;
-    throw InvalidArgument("`initial_state` is \"zero\", \"steady\", \"estimate\" or \"auto\", and not \"" + text +
-                          "\"");
-}
-
-Offset parse_offset(const std::string& text) {
-    if (text == "none") return Offset::kNone;
-    if (text == "remove") return Offset::kRemove;
-    if (text == "estimate") return Offset::kEstimate;
-    if (text == "auto") return Offset::kAuto;
-    throw InvalidArgument("`offset` is \"none\", \"remove\", \"estimate\" or \"auto\", and not \"" + text + "\"");
-}
-
 JointOperatingPoint joint_operating_point(const MatrixView& u, const VectorView& y) {
     Index most = 0, first_step = u.rows();
     for (Index j = 0; j < u.cols(); ++j) {
@@ -62,12 +45,13 @@ JointOperatingPoint joint_operating_point(const MatrixView& u, const VectorView&
 std::vector<StartCondition> start_conditions(const MatrixView& u, InitialState state, Offset offset) {
     const bool flat = constant(u), zero_first = u.row(0).isZero(0);
     if (flat && state == InitialState::kSteady)
-        throw InvalidArgument(
-            "`initial_state` \"steady\" needs an input that changes, and this one is constant: use \"zero\"");
+        throw InvalidArgument("{} \"steady\" needs an input that changes, and this one is constant: use \"zero\"",
+                              OptionName{"initial_state"});
     if (flat && state == InitialState::kEstimate && offset == Offset::kEstimate)
         throw InvalidArgument(
-            "With a constant input, `initial_state` \"estimate\" and `offset` \"estimate\" together leave the gain "
-            "unknown: estimate one of them");
+            "With a constant input, {} \"estimate\" and {} \"estimate\" together leave the gain unknown: estimate one "
+            "of them",
+            OptionName{"initial_state"}, OptionName{"offset"});
     std::vector<StartCondition> conditions;
     const auto add = [&](InitialState candidate, bool with_offset) {
         const bool free_state = state == InitialState::kAuto;
@@ -94,11 +78,16 @@ std::vector<StartCondition> start_conditions(const IdData& data, InitialState st
     return start_conditions(summary, state, offset);
 }
 
-std::string description(const StartCondition& condition) {
-    const std::string tail = condition.offset ? ", with an estimated offset" : "";
-    if (condition.state == InitialState::kZero) return "from rest at zero input" + tail;
-    if (condition.state == InitialState::kSteady) return "from rest at the first input value" + tail;
-    return "from an estimated initial state" + tail;
+Message description(const StartCondition& condition) {
+    const bool offset = condition.offset;
+    if (condition.state == InitialState::kZero)
+        return offset ? Message("from rest at zero input, with an estimated offset")
+                      : Message("from rest at zero input");
+    if (condition.state == InitialState::kSteady)
+        return offset ? Message("from rest at the first input value, with an estimated offset")
+                      : Message("from rest at the first input value");
+    return offset ? Message("from an estimated initial state, with an estimated offset")
+                  : Message("from an estimated initial state");
 }
 
 double bic_of_loss(double mean_square, double output_power, Index samples, Index parameters) {
@@ -111,9 +100,10 @@ double bic_of_loss(double mean_square, double output_power, Index samples, Index
 void require_transient(const std::string& caller, const StepFit& fit) {
     const double constant = bic_of_loss(fit.spread, fit.output_power, fit.samples, fit.experiments);
     if (bic_of_loss(fit.loss, fit.output_power, fit.samples, fit.parameters) < constant) return;
-    throw InvalidArgument(caller +
-                          ": the input never changes and the output shows no transient, so there is no excitation: "
-                          "let the input vary, for instance as a prbs");
+    throw InvalidArgument(
+        "{}: the input never changes and the output shows no transient, so there is no excitation: let the input vary, "
+        "for instance as a prbs",
+        caller);
 }
 
 }  // namespace dynlab::inline numerics

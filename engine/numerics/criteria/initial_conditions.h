@@ -2,13 +2,14 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "numerics/signals/iddata.h"
 
 namespace dynlab::inline numerics {
 
 /// What a simulated system did before its record begins.
 enum class InitialState {
-    kZero,      ///< "zero": at rest with zero input
+    kZero,      ///< "none" or "zero": at rest with zero input
     kSteady,    ///< "steady": at rest with the record's first input value
     kEstimate,  ///< "estimate": as steady, plus a free motion whose initial values are estimated
     kAuto,      ///< "auto": whichever of these explains the output best (smallest BIC)
@@ -21,10 +22,6 @@ enum class Offset {
     kEstimate,  ///< "estimate": a constant is added to the model's output and estimated
     kAuto,      ///< "auto": none or estimate, by BIC
 };
-
-/// Throw InvalidArgument that lists the words. Messages write the names of options in backticks.
-InitialState parse_initial_state(const std::string& text);
-Offset parse_offset(const std::string& text);
 
 /// Where a record's signals rest. A step experiment (inputs, N x nu, that change at most once each) rests where it was
 /// before the step: the first input values, and the mean output up to the sample of the first step. Inputs that never
@@ -49,7 +46,7 @@ std::vector<StartCondition> start_conditions(const MatrixView& u, InitialState s
 std::vector<StartCondition> start_conditions(const IdData& data, InitialState state, Offset offset);
 
 /// "from rest at zero input, with an estimated offset" and the like, for messages.
-std::string description(const StartCondition& condition);
+Message description(const StartCondition& condition);
 
 /// ln V + d ln(N)/N for the mean square V, which is counted as no less than rounding leaves of outputs of mean
 /// square `output_power`.

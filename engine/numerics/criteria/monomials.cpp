@@ -15,8 +15,8 @@ constexpr std::size_t kMostMonomials = 2000;
 
 Monomials::Monomials(const std::string& caller, Index variables, int degree) : factors_{{}}, rest_{0} {
     if (degree < 0 || degree > kHighestDegree)
-        throw InvalidArgument(caller + ": `degree` must lie between 0 and " + std::to_string(kHighestDegree) +
-                              ", and is " + std::to_string(degree));
+        throw InvalidArgument("{}: {} must lie between 0 and {}, and is {}", caller, OptionName{"degree"},
+                              kHighestDegree, degree);
     std::size_t lower = 0;  // where those of the degree before begin
     for (int d = 1; d <= degree; ++d) {
         const std::size_t end = factors_.size();
@@ -28,9 +28,10 @@ Monomials::Monomials(const std::string& caller, Index variables, int degree) : f
                 factors_.push_back(std::move(factors));
                 rest_.push_back(static_cast<Index>(i));
                 if (factors_.size() > kMostMonomials)
-                    throw InvalidArgument(caller + ": " + std::to_string(variables) + " variables have more than " +
-                                          std::to_string(kMostMonomials) + " monomials up to degree " +
-                                          std::to_string(degree) + "; take fewer lags or a lower degree");
+                    throw InvalidArgument(
+                        "{}: {} variables have more than {} monomials up to degree {}; take fewer lags or a lower "
+                        "degree",
+                        caller, variables, kMostMonomials, degree);
             }
         }
         lower = end;

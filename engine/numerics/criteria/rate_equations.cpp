@@ -5,7 +5,6 @@
 
 #include "numerics/error.h"
 #include "numerics/linalg/decompositions.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
@@ -49,8 +48,7 @@ RateEquations derivative_equations(const IdData& data, std::size_t experiment, c
     const Experiment& record = data.experiments[experiment];
     const Index N = record.y.rows();
     if (N < window)
-        throw InvalidArgument("sindy: derivatives over " + std::to_string(window) +
-                              " samples need as many, and a record holds " + std::to_string(N));
+        throw InvalidArgument("sindy: derivatives over {} samples need as many, and a record holds {}", window, N);
     const Vector t = data.time(experiment);
     Matrix X(N, record.y.cols()), rates(N, record.y.cols()), U(N, record.u.cols()), weights;
     Index rows = 0, weights_at = -1;
@@ -99,8 +97,9 @@ RateEquations weak_equations(const IdData& data, std::size_t experiment, const F
             equations.B.row(row) -= bump_slope(s) / width * (before + after) * record.y.row(k);
         }
         if (inside < 3)
-            throw InvalidArgument("sindy: test functions of the half-length " + number_text(width, 4) + " " +
-                                  data.time_unit + " hold fewer than 3 samples: give a larger `width`");
+            throw InvalidArgument(
+                "sindy: test functions of the half-length {} {} hold fewer than 3 samples: give a larger {}",
+                significant(width, 4), data.time_unit, OptionName{"width"});
     }
     return equations;
 }

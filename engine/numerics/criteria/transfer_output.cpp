@@ -7,7 +7,6 @@
 #include "numerics/filters/transfer_filters.h"
 #include "numerics/linalg/polynomial.h"
 #include "numerics/linalg/side_by_side.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
@@ -50,9 +49,9 @@ TransferOutput::TransferOutput(const TransferStructure& structure, const StartCo
       hold_(data.hold),
       time_unit_(data.mean_step()) {
     if (data.output_count() != structure.outputs || data.input_count() != structure.inputs)
-        throw InvalidArgument("The model has " + std::to_string(structure.inputs) + " input(s) and " +
-                              std::to_string(structure.outputs) + " output(s), and the data have " +
-                              std::to_string(data.input_count()) + " and " + std::to_string(data.output_count()));
+        throw InvalidArgument(
+            "The model has {} and {}, and the data have {} and {}", plural(structure.inputs, "{} input", "{} inputs"),
+            plural(structure.outputs, "{} output", "{} outputs"), data.input_count(), data.output_count());
     for (Index output = 0; output < structure.outputs; ++output)
         denominators_.push_back(denominators_of(structure, output));
     Index row = 0;
@@ -206,7 +205,8 @@ void TransferOutput::fix(const std::map<std::string, double>& values) {
     for (const auto& [name, value] : values) {
         const auto known = std::ranges::find(names, name);
         if (known == names.end())
-            throw InvalidArgument("`fixed`: the model has no parameter " + name + "; it has " + enumerated(names));
+            throw InvalidArgument("{}: the model has no parameter {}; it has {}", OptionName{"fixed"}, name,
+                                  listed(names));
         const Index place = known - names.begin();
         lower_[place] = upper_[place] = value / seconds_[place];
     }

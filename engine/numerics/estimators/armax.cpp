@@ -7,8 +7,8 @@
 #include "numerics/estimators/iv4.h"
 #include "numerics/fit/discrete/discrete_fit.h"
 #include "numerics/fit/discrete/prediction_fit.h"
-#include "numerics/fit/doubts.h"
 #include "numerics/fit/equation_error.h"
+#include "numerics/fit/finished_fit.h"
 #include "numerics/linalg/polynomial.h"
 
 namespace dynlab::inline numerics {

@@ -11,7 +11,11 @@ Fit arx(const IdData& data, const PolynomialOrders& orders) {
     report_equation_error(estimate, data);
     estimate.covariance = estimate.noise_variance[0] * solution.inverse_gram;
     estimate.condition_number = solution.condition_number;
-    describe_equation_error(estimate, "Least squares", ArxEquations(data, orders).count());
+    describe_equation_error(estimate);
+    estimate.message = Message(
+        "Least squares over {} equations: fit {} % predicting one step, {} % simulating from the recorded past.",
+        ArxEquations(data, orders).count(), significant(estimate.prediction_fit_percent, 4),
+        significant(estimate.fit_percent[0], 4));
     return estimate;
 }
 

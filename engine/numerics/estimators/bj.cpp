@@ -3,7 +3,7 @@
 #include "numerics/error.h"
 #include "numerics/fit/discrete/discrete_fit.h"
 #include "numerics/fit/discrete/prediction_fit.h"
-#include "numerics/fit/doubts.h"
+#include "numerics/fit/finished_fit.h"
 #include "numerics/fit/operating_points.h"
 
 namespace dynlab::inline numerics {

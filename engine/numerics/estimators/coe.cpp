@@ -1,6 +1,6 @@
 #include "numerics/estimators/coe.h"
 
-#include "numerics/fit/doubts.h"
+#include "numerics/fit/finished_fit.h"
 #include "numerics/fit/transfer_search.h"
 
 namespace dynlab::inline numerics {
@@ -8,7 +8,7 @@ namespace dynlab::inline numerics {
 Fit coe(const IdData& data, const TransferStructure& structure, const FitOptions& options, const SearchAids& aids) {
     options.validate();
     return finished_fit(data, options, [&](const IdData& seen, const FitOptions& wanted) {
-        return search_transfer("coe", seen, structure, wanted, aids);
+        return search_with_chosen_start("coe", seen, structure, wanted, aids);
     });
 }
 

@@ -5,7 +5,6 @@
 
 #include "numerics/error.h"
 #include "numerics/fit/spectral_estimate.h"
-#include "numerics/number_text.h"
 #include "numerics/signals/correlation.h"
 #include "numerics/statistics/autoregression.h"
 #include "numerics/statistics/distributions.h"
@@ -47,8 +46,8 @@ void whiten(IdData& data, const Autoregression& filter) {
 
 void CraOptions::validate() const {
     if (whitening < 0 || whitening > 100)
-        throw InvalidArgument("cra: the order of the whitening filter must lie between 0 and 100, but it is " +
-                              std::to_string(whitening));
+        throw InvalidArgument("cra: the order of the whitening filter must lie between 0 and 100, but it is {}",
+                              whitening);
     normal_half_width(confidence);
 }
 
@@ -72,15 +71,15 @@ CorrelationAnalysis cra(const IdData& data, const CraOptions& options) {
     impulse.noise_variance = std::max(output - impulse.response.squaredNorm() * input[0], 0.0) / count;
     impulse.null_std = Vector::Constant(lags + 1, std::sqrt(output / (count * input[0])));
     impulse.std = impulse.null_std;
-    impulse.message = "Impulse response over " + counted(lags, "lag") + " by correlation analysis.";
+    impulse.message = Message("Impulse response over {} by correlation analysis.", plural(lags, "{} lag", "{} lags"));
     read_dead_time(impulse, data.Ts, data.hold, normal_half_width(options.confidence));
     const double limit = normal_half_width(options.confidence) / std::sqrt(count);
     const double worst = input.tail(lags).cwiseAbs().maxCoeff() / input[0];
     if (worst > std::max(2 * limit, 0.2))
         impulse.warnings.push_back(
-            "The whitened input still has a correlation of up to " + number_text(worst, 2) +
-            " over the lags, which blurs the response: the input is too regular for this method; "
-            "impulseest does not need a white input.");
+            Message("The whitened input still has a correlation of up to {} over the lags, which blurs the response: "
+                    "the input is too regular for this method; impulseest does not need a white input.",
+                    significant(worst, 2)));
     return result;
 }
 

@@ -6,7 +6,6 @@
 
 #include "numerics/error.h"
 #include "numerics/linalg/decompositions.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
@@ -17,29 +16,30 @@ constexpr double kRunaway = 1e12;  // times the first loss
 void check(const MatrixView& Phi, const VectorView& y, const GradientDescentOptions& options) {
     options.validate();
     if (Phi.rows() != y.size() || Phi.cols() == 0 || Phi.rows() == 0)
-        throw InvalidArgument("Phi must have one row per value of y and at least one column, and is " +
-                              std::to_string(Phi.rows()) + " x " + std::to_string(Phi.cols()) + " for " +
-                              counted(y.size(), "value"));
+        throw InvalidArgument("Phi must have one row per value of y and at least one column, and is {} x {} for {}",
+                              Phi.rows(), Phi.cols(), plural(y.size(), "{} value", "{} values"));
     if (!Phi.allFinite() || !y.allFinite()) throw InvalidArgument("Phi and y must hold finite numbers only");
     if (Phi.isZero(0)) throw InvalidArgument("All regressors are zero, so there is no slope to descend");
     if (options.start.size() != 0 && options.start.size() != Phi.cols())
-        throw InvalidArgument("The start must hold " + counted(Phi.cols(), "value") + ", and holds " +
-                              std::to_string(options.start.size()));
+        throw InvalidArgument("The start must hold {}, and holds {}", plural(Phi.cols(), "{} value", "{} values"),
+                              options.start.size());
 }
 
-std::string message_of(const GradientDescentResult& result) {
-    const std::string count = counted(result.iterations, "iteration");
+Message ending_of(const GradientDescentResult& result) {
+    const Message count = plural(result.iterations, "{} iteration", "{} iterations");
     switch (result.termination) {
         case Termination::kConverged:
-            return "Gradient descent converged after " + count + ".";
+            return Message("Gradient descent converged after {}.", count);
         case Termination::kDiverged:
-            return "Gradient descent diverged: the step size " + number_text(result.step_size) +
-                   " is too large, it must stay below " + number_text(result.largest_step) + ".";
+            return Message("Gradient descent diverged: the step size {} is too large, it must stay below {}.",
+                           result.step_size, result.largest_step);
         case Termination::kCancelled:
-            return "Gradient descent was stopped after " + count + "; the best point so far is given.";
+            return Message("Gradient descent was stopped after {}; the best point so far is given.", count);
         default:
-            return "Gradient descent had not converged after " + count + ": with a condition number of " +
-                   number_text(result.condition_number, 3) + " it needs many; centre and scale the regressors.";
+            return Message(
+                "Gradient descent had not converged after {}: with a condition number of {} it needs many; centre and "
+                "scale the regressors.",
+                count, significant(result.condition_number, 3));
     }
 }
 
@@ -47,12 +47,10 @@ std::string message_of(const GradientDescentResult& result) {
 
 void GradientDescentOptions::validate() const {
     if (step_size && (!(*step_size > 0) || !std::isfinite(*step_size)))
-        throw InvalidArgument("The step size must be positive, and is " + number_text(*step_size));
+        throw InvalidArgument("The step size must be positive, and is {}", *step_size);
     if (max_iterations < 0)
-        throw InvalidArgument("The number of iterations must not be negative, and is " +
-                              std::to_string(max_iterations));
-    if (!(tolerance >= 0))
-        throw InvalidArgument("The tolerance must not be negative, and is " + number_text(tolerance));
+        throw InvalidArgument("The number of iterations must not be negative, and is {}", max_iterations);
+    if (!(tolerance >= 0)) throw InvalidArgument("The tolerance must not be negative, and is {}", tolerance);
     if (!start.allFinite()) throw InvalidArgument("The start must hold finite numbers only");
 }
 
@@ -101,7 +99,7 @@ GradientDescentResult gradient_descent(const MatrixView& Phi, const VectorView& 
         }
     }
     result.loss = Vector::Map(losses.data(), static_cast<Index>(losses.size()));
-    result.message = message_of(result);
+    result.message = ending_of(result);
     return result;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 #include <functional>
 #include <optional>
-#include <string>
 
 #include "numerics/fit/fit.h"
 #include "numerics/linalg/types.h"
@@ -27,7 +26,7 @@ struct GradientDescentResult {
     double condition_number = 0;  ///< lambda_max/lambda_min of Phi'Phi/N; the iterations needed grow like it
     Termination termination = Termination::kIterationLimit;
     int iterations = 0;
-    std::string message;  ///< one sentence
+    Message message;  ///< one sentence
 };
 
 /// Least squares by steepest descent: J = |y - Phi theta|^2/(2 N), theta <- theta - step dJ/dtheta with

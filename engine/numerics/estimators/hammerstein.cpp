@@ -14,7 +14,6 @@
 #include "numerics/fit/operating_points.h"
 #include "numerics/fit/output_error.h"
 #include "numerics/fit/transfer_search.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
@@ -36,7 +35,7 @@ std::optional<Vector> few_values(const IdData& data, Index most) {
 }
 
 /// Edges that the input visits, of those asked for; the input's own values where these are too few for others.
-Vector visited_edges(const IdData& data, const HammersteinOptions& options, std::vector<std::string>& warnings) {
+Vector visited_edges(const IdData& data, const HammersteinOptions& options, std::vector<Message>& warnings) {
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const Experiment& experiment : data.experiments) {
         low = std::min(low, experiment.u.minCoeff());
@@ -47,9 +46,10 @@ Vector visited_edges(const IdData& data, const HammersteinOptions& options, std:
     const std::optional<Vector> values = few_values(data, edges.size());
     if (values && (values->size() != edges.size() || *values != edges)) {
         edges = *values;
-        warnings.push_back("The input takes only " + std::to_string(edges.size()) +
-                           " values, so these are the edges of the bins: between them the characteristic is not known, "
-                           "and runs on straight lines.");
+        warnings.push_back(
+            Message("The input takes only {} values, so these are the edges of the bins: between them the "
+                    "characteristic is not known, and runs on straight lines.",
+                    edges.size()));
     }
     Vector visits = Vector::Zero(edges.size());
     for (const Experiment& experiment : data.experiments)
@@ -58,12 +58,14 @@ Vector visited_edges(const IdData& data, const HammersteinOptions& options, std:
     for (Index i = 0; i < edges.size(); ++i)
         if (visits[i] >= kLeastVisits) kept.push_back(edges[i]);
     if (kept.size() < 2)
-        throw InvalidArgument("hammerstein: the input visits only " + std::to_string(kept.size()) +
-                              " of the edges of the bins, and two are wanted: excite the system with more levels, or "
-                              "give `breakpoints` where the input is");
+        throw InvalidArgument(
+            "hammerstein: the input visits only {} of the edges of the bins, and two are wanted: excite the system "
+            "with more levels, or give {} where the input is",
+            kept.size(), OptionName{"breakpoints"});
     if (static_cast<Index>(kept.size()) < edges.size())
-        warnings.push_back("Left out: " + counted(edges.size() - static_cast<Index>(kept.size()), "edge") +
-                           " of bins that the input is hardly ever near.");
+        warnings.push_back(plural(edges.size() - static_cast<Index>(kept.size()),
+                                  "Left out: {} edge of bins that the input is hardly ever near.",
+                                  "Left out: {} edges of bins that the input is hardly ever near."));
     return Vector::Map(kept.data(), static_cast<Index>(kept.size()));
 }
 
@@ -192,19 +194,19 @@ void set_parameters(Fit& fit, const Layout& at, double last_b, const Vector& sec
 void add_warnings(Fit& fit, const HammersteinOptions& options) {
     const double linear = fit.characteristic->linear_fit_percent;
     warn_of_search(fit, options);
-    if (!fit.models.front().stable()) fit.warnings.push_back("The linear part is unstable.");
-    if (fit.condition_number > kAmbiguousCondition) warn_of_doubtful_parameters(fit, "fewer bins");
+    if (!fit.models.front().stable()) fit.warnings.push_back(Message("The linear part is unstable."));
+    if (fit.condition_number > kAmbiguousCondition) warn_of_doubtful_parameters(fit, SimplerModel::kFewerBins);
     if (fit.fit_percent[0] < linear + 1)
-        fit.warnings.push_back("A linear model fits as well (" + number_text(linear, 4) +
-                               " %): the static characteristic is hardly bent.");
+        fit.warnings.push_back(Message("A linear model fits as well ({} %): the static characteristic is hardly bent.",
+                                       significant(linear, 4)));
 }
 
 void check(const IdData& data, const TransferStructure& structure, const HammersteinOptions& options) {
     options.validate();
     if (structure.channels.size() != 1 || data.input_count() > 1 || data.output_count() > 1)
-        throw InvalidArgument("hammerstein needs one input and one output, and the data hold " +
-                              std::to_string(data.input_count()) + " and " + std::to_string(data.output_count()) +
-                              ": select one of each");
+        throw InvalidArgument(
+            "hammerstein needs one input and one output, and the data hold {} and {}: select one of each",
+            data.input_count(), data.output_count());
     check_transfer_data("hammerstein", data, structure);
     if (data.hold != Hold::kZoh)
         throw InvalidArgument(
@@ -219,16 +221,18 @@ void check(const IdData& data, const TransferStructure& structure, const Hammers
 void HammersteinOptions::validate() const {
     FitOptions::validate();
     if (breakpoints.size() == 0 && (bins < 1 || bins > 1000))
-        throw InvalidArgument("`bins` must lie between 1 and 1000, and is " + std::to_string(bins));
-    if (breakpoints.size() == 1) throw InvalidArgument("`breakpoints` must hold two values at least, and holds one");
+        throw InvalidArgument("{} must lie between 1 and 1000, and is {}", OptionName{"bins"}, bins);
+    if (breakpoints.size() == 1)
+        throw InvalidArgument("{} must hold two values at least, and holds one", OptionName{"breakpoints"});
     for (Index i = 1; i < breakpoints.size(); ++i)
         if (!(breakpoints[i] > breakpoints[i - 1]))
-            throw InvalidArgument("`breakpoints` must increase, and value " + std::to_string(i + 1) + " is " +
-                                  number_text(breakpoints[i]) + " after " + number_text(breakpoints[i - 1]));
+            throw InvalidArgument("{} must increase, and value {} is {} after {}", OptionName{"breakpoints"}, i + 1,
+                                  breakpoints[i], breakpoints[i - 1]);
     if (initial_state != InitialState::kZero && initial_state != InitialState::kSteady)
-        throw InvalidArgument("`initial_state` must be \"zero\" or \"steady\" for hammerstein");
+        throw InvalidArgument("{} must be \"zero\" or \"steady\" for hammerstein", OptionName{"initial_state"});
     if (offset != Offset::kNone)
-        throw InvalidArgument("`offset` must be \"none\" for hammerstein: a constant is part of its characteristic");
+        throw InvalidArgument("{} must be \"none\" for hammerstein: a constant is part of its characteristic",
+                              OptionName{"offset"});
 }
 
 Matrix hat_functions(const VectorView& edges, const VectorView& u) {
@@ -249,7 +253,7 @@ Matrix hat_functions(const VectorView& edges, const VectorView& u) {
 
 Fit hammerstein(const IdData& data, const TransferStructure& structure, const HammersteinOptions& options) {
     check(data, structure, options);
-    std::vector<std::string> warnings;
+    std::vector<Message> warnings;
     StaticCharacteristic characteristic;
     characteristic.breakpoints = visited_edges(data, options, warnings);
     const Layout at{structure.poles[0], structure.channels[0].zeros, characteristic.breakpoints.size(),
@@ -292,9 +296,9 @@ Fit hammerstein(const IdData& data, const TransferStructure& structure, const Ha
         Vector::Constant(1, fit_percent_of_sums(fit.loss * static_cast<double>(y.size()), output_variations(data)[0]));
     fit.start = {options.initial_state, false};
     add_warnings(fit, options);
-    set_message(fit, "Hammerstein model with " + std::to_string(at.K) + " values of the characteristic, after " +
-                         counted(fit.trace.size(), "iteration") + ": " + simulation_text(fit) + ", against " +
-                         number_text(fit.characteristic->linear_fit_percent, 4) + " % of the best linear model.");
+    fit.message = Message(
+        "Hammerstein model with {} values of the characteristic, after {}: {}, against {} % of the best linear model.",
+        at.K, iteration_count(fit), simulation_text(fit), significant(fit.characteristic->linear_fit_percent, 4));
     return fit;
 }
 

@@ -9,7 +9,10 @@ struct HammersteinOptions : FitOptions {
     int bins = 10;       ///< equal bins between the smallest and the largest input
     Vector breakpoints;  ///< the bins' edges (increasing, two at least), when given instead of `bins`
 
-    HammersteinOptions() { initial_state = InitialState::kSteady; }
+    HammersteinOptions() {
+        initial_state = InitialState::kSteady;
+        offset = Offset::kNone;
+    }
     /// Throws InvalidArgument naming the option.
     void validate() const;
 };

@@ -97,15 +97,19 @@ Fit iv4(const IdData& data, const PolynomialOrders& orders) {
     const IdData whitened_data = filtered(data, L), instruments = filtered(simulated(data, second), L);
     const ArxEquations last(whitened_data, orders);
     if (last.count() <= last.parameters())
-        throw InvalidArgument("iv4: the record of " + std::to_string(data.sample_count()) +
-                              " samples is too short for the noise filter of order " + std::to_string(L.size() - 1));
+        throw InvalidArgument("iv4: the record of {} samples is too short for the noise filter of order {}",
+                              data.sample_count(), L.size() - 1);
     const InstrumentEstimate solution = solve_instruments(last, ArxEquations(instruments, orders));
 
     Fit estimate = polynomial_fit(orders, solution.theta, data.Ts);
     report_equation_error(estimate, data);
     estimate.covariance = mean_square(last.errors(solution.theta), last.parameters()) * solution.unscaled_covariance;
     estimate.condition_number = solution.condition_number;
-    describe_equation_error(estimate, "Instrumental variables", last.count());
+    describe_equation_error(estimate);
+    estimate.message = Message(
+        "Instrumental variables over {} equations: fit {} % predicting one step, {} % simulating from the recorded "
+        "past.",
+        last.count(), significant(estimate.prediction_fit_percent, 4), significant(estimate.fit_percent[0], 4));
     return estimate;
 }
 

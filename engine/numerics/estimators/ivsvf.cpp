@@ -35,8 +35,9 @@ Fit ivsvf(const IdData& data, const TransferStructure& structure, const SvfOptio
         }
         if (theta.size() == 0 || !theta.allFinite())
             throw InvalidArgument(
-                "ivsvf: the equations have no unique solution: the input does not excite the system enough for " +
-                std::to_string(d) + " parameters");
+                "ivsvf: the equations have no unique solution: the input does not excite the system enough for {} "
+                "parameters",
+                d);
         mirrored = mirrored || unstable;
         const double squares = std::max(
             0.0, least_squares.y_y - 2 * theta.dot(least_squares.z_y) + theta.dot(least_squares.z_phi * theta));
@@ -50,9 +51,9 @@ Fit ivsvf(const IdData& data, const TransferStructure& structure, const SvfOptio
     describe_models(estimate);
     if (mirrored)
         estimate.warnings.push_back(
-            "The first model, from least squares, was unstable; its poles were mirrored for the instruments.");
+            Message("The first model, from least squares, was unstable; its poles were mirrored for the instruments."));
     warn_of_cutoff(estimate, options.lambda);
-    set_message(estimate, "Instrumental variables on filtered signals.");
+    estimate.message = Message("Instrumental variables on filtered signals.");
     return estimate;
 }
 

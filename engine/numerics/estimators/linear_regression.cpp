@@ -9,7 +9,6 @@
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/least_squares.h"
 #include "numerics/linalg/polynomial.h"
-#include "numerics/number_text.h"
 #include "numerics/statistics/distributions.h"
 
 namespace dynlab::inline numerics {
@@ -72,12 +71,6 @@ Index distinct_values(const VectorView& x) {
 
 }  // namespace
 
-RegressionMethod parse_regression_method(const std::string& text) {
-    if (text == "qr") return RegressionMethod::kQr;
-    if (text == "normal") return RegressionMethod::kNormal;
-    throw InvalidArgument("The method is \"qr\" or \"normal\", and not \"" + text + "\"");
-}
-
 LinearRegression lsq(const MatrixView& Phi, const VectorView& y, RegressionMethod method) {
     const LeastSquares orthogonal = solve_least_squares(Phi, y);  // checks sizes and values, tells the rank
     Solution solution{orthogonal.solution, orthogonal.inverse_gram};
@@ -89,25 +82,26 @@ LinearRegression lsq(const MatrixView& Phi, const VectorView& y, RegressionMetho
     fit.rank = orthogonal.rank;
     fit.condition_number = condition_of(Phi);
     add_statistics(fit, solution.inverse_gram);
-    fit.message = fit.rank == Phi.cols()
-                      ? "Least squares with " + counted(Phi.rows(), "equation") + " and " +
-                            counted(Phi.cols(), "parameter") + ": RMSE " + number_text(fit.rmse) + "."
-                      : "The columns of Phi depend on each other (rank " + std::to_string(fit.rank) + " of " +
-                            std::to_string(Phi.cols()) + "), so this is only the smallest of many solutions.";
+    fit.message =
+        fit.rank == Phi.cols()
+            ? Message("Least squares with {} and {}: RMSE {}.", plural(Phi.rows(), "{} equation", "{} equations"),
+                      plural(Phi.cols(), "{} parameter", "{} parameters"), fit.rmse)
+            : Message(
+                  "The columns of Phi depend on each other (rank {} of {}), so this is only the smallest of many "
+                  "solutions.",
+                  fit.rank, Phi.cols());
     return fit;
 }
 
 PolynomialFit fit_polynomial(const VectorView& x, const VectorView& y, int degree, const PolyfitOptions& options) {
-    if (degree < 0) throw InvalidArgument("The degree must not be negative, and is " + std::to_string(degree));
+    if (degree < 0) throw InvalidArgument("The degree must not be negative, and is {}", degree);
     if (x.size() != y.size())
-        throw InvalidArgument("x and y must be equally long, and hold " + std::to_string(x.size()) + " and " +
-                              std::to_string(y.size()) + " values");
+        throw InvalidArgument("x and y must be equally long, and hold {} and {} values", x.size(), y.size());
     if (!x.allFinite()) throw InvalidArgument("x holds a value that is not finite");
     const Index distinct = distinct_values(x);
     if (distinct <= degree)
-        throw InvalidArgument("A polynomial of degree " + std::to_string(degree) + " needs at least " +
-                              std::to_string(degree + 1) + " different x, and " + std::to_string(distinct) +
-                              " were given");
+        throw InvalidArgument("A polynomial of degree {} needs at least {} different x, and {} were given", degree,
+                              degree + 1, distinct);
     PolynomialFit fit;
     fit.degree = degree;
     fit.centre = options.centred ? x.mean() : 0;
@@ -118,11 +112,11 @@ PolynomialFit fit_polynomial(const VectorView& x, const VectorView& y, int degre
 
 Forecast forecast(const LinearRegression& regression, const VectorView& phi, double level) {
     if (phi.size() != regression.theta.size())
-        throw InvalidArgument("The forecast needs " + counted(regression.theta.size(), "regressor") + ", and " +
-                              std::to_string(phi.size()) + " were given");
+        throw InvalidArgument("The forecast needs {}, and {} were given",
+                              plural(regression.theta.size(), "{} regressor", "{} regressors"), phi.size());
     if (!(level > 0 && level < 1))
-        throw InvalidArgument("The level of an interval lies between 0 and 1, and " + number_text(level) +
-                              " was given; 0.95 means 95 %");
+        throw InvalidArgument("The level of an interval lies between 0 and 1, and {} was given; 0.95 means 95 %",
+                              level);
     const Index degrees = regression.residuals.size() - regression.rank;
     if (degrees < 1)
         throw InvalidArgument(

@@ -1,6 +1,5 @@
 #pragma once
-#include <string>
-
+#include "base/message.h"
 #include "numerics/linalg/types.h"
 
 namespace dynlab::inline numerics {
@@ -9,9 +8,6 @@ enum class RegressionMethod {
     kQr,      ///< "qr": orthogonal factorisation of the column-scaled regressors; accurate, works at any rank
     kNormal,  ///< "normal": (Phi'Phi) theta = Phi'y by Cholesky, as on the blackboard; squares the condition number
 };
-
-/// Throws InvalidArgument that lists the words.
-RegressionMethod parse_regression_method(const std::string& text);
 
 /// y = Phi theta + e with white e, theta by least squares.
 struct LinearRegression {
@@ -22,7 +18,7 @@ struct LinearRegression {
     double rmse = 0;              ///< sqrt(residuals^2/N)
     double condition_number = 0;  ///< of Phi as given
     Index rank = 0;               ///< numerical rank of Phi; below d, theta is the solution of least norm
-    std::string message;          ///< one sentence
+    Message message;              ///< one sentence
 };
 
 /// Phi is N x d with N >= d. Throws InvalidArgument for sizes that do not fit, values that are not finite, and for

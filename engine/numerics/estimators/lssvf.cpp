@@ -6,7 +6,6 @@
 #include "numerics/error.h"
 #include "numerics/fit/diagnosis.h"
 #include "numerics/linalg/decompositions.h"
-#include "numerics/number_text.h"
 #include "numerics/statistics/robust_covariance.h"
 
 namespace dynlab::inline numerics {
@@ -15,21 +14,20 @@ void SvfOptions::validate() const {
     if (!(lambda > 0) || !std::isfinite(lambda))
         throw InvalidArgument(
             "lambda, the cut-off frequency of the filter, must be a positive number of rad/s, a bit above the "
-            "bandwidth of the system, and is " +
-            number_text(lambda));
+            "bandwidth of the system, and is {}",
+            lambda);
     if (beta && (!(*beta > 0) || !std::isfinite(*beta)))
-        throw InvalidArgument("beta must be positive, and is " + number_text(*beta));
+        throw InvalidArgument("beta must be positive, and is {}", *beta);
 }
 
 void check_carx(const char* method, const TransferStructure& structure) {
-    if (structure.free_delays)
-        throw InvalidArgument(std::string(method) + ": delays are fixed here; srivc and coe estimate them");
+    if (structure.free_delays) throw InvalidArgument("{}: delays are fixed here; srivc and coe estimate them", method);
     for (Index output = 0; output < structure.outputs; ++output)
         for (Index input = 1; input < structure.inputs; ++input)
             if (structure.channel(output, input).denominator != structure.channel(output, 0).denominator)
-                throw InvalidArgument(std::string(method) +
-                                      ": the inputs of an output share their denominator here; srivc and coe give each "
-                                      "its own");
+                throw InvalidArgument(
+                    "{}: the inputs of an output share their denominator here; srivc and coe give each its own",
+                    method);
 }
 
 void warn_of_cutoff(Fit& estimate, double lambda) {
@@ -37,16 +35,17 @@ void warn_of_cutoff(Fit& estimate, double lambda) {
     double fastest = 0;
     for (const TransferFunction& G : estimate.models) fastest = std::max(fastest, G.poles().cwiseAbs().maxCoeff());
     if (lambda > kFar * fastest || lambda < fastest / kFar)
-        estimate.warnings.push_back("The cut-off frequency lambda = " + number_text(lambda) +
-                                    " rad/s lies far from the poles found (fastest " + number_text(fastest, 3) +
-                                    " rad/s): the usual choice is a bit above the bandwidth.");
+        estimate.warnings.push_back(
+            Message("The cut-off frequency lambda = {} rad/s lies far from the poles found (fastest {} rad/s): the "
+                    "usual choice is a bit above the bandwidth.",
+                    lambda, significant(fastest, 3)));
 }
 
 void colour_covariance(Fit& fit, const IdData& data, const SvfOptions& options, bool instruments) {
     if (data.sample_count() > kMostColoured) {
-        fit.warnings.push_back("Standard errors of more than " + std::to_string(kMostColoured) +
-                               " samples take the equation error as white, though the filters colour it.");
-        fit.message += " " + fit.warnings.back();
+        fit.warnings.push_back(Message(
+            "Standard errors of more than {} samples take the equation error as white, though the filters colour it.",
+            kMostColoured));
         return;
     }
     for (std::size_t g = 0; g < fit.structure.poles.size(); ++g) {
@@ -91,8 +90,9 @@ Fit lssvf(const IdData& data, const TransferStructure& structure, const SvfOptio
         const Vector theta = solve_equations(sums, &condition);
         if (!theta.allFinite())
             throw InvalidArgument(
-                "lssvf: the equations have no unique solution: the input does not excite the system enough for " +
-                std::to_string(d) + " parameters");
+                "lssvf: the equations have no unique solution: the input does not excite the system enough for {} "
+                "parameters",
+                d);
         const double squares = std::max(0.0, sums.y_y - 2 * theta.dot(sums.z_y) + theta.dot(sums.z_phi * theta));
         const double variance = squares / static_cast<double>(group.sample_count() - d);
         estimate.theta.segment(group.place(), d) = theta;
@@ -102,7 +102,7 @@ Fit lssvf(const IdData& data, const TransferStructure& structure, const SvfOptio
     estimate.termination = Termination::kConverged;
     describe_models(estimate);
     warn_of_cutoff(estimate, options.lambda);
-    set_message(estimate, "Least squares on filtered signals.");
+    estimate.message = Message("Least squares on filtered signals.");
     return estimate;
 }
 

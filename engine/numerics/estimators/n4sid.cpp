@@ -8,7 +8,6 @@
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/least_squares.h"
 #include "numerics/linalg/triangular_factor.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
@@ -41,14 +40,14 @@ Index chosen_block_rows(const IdData& data, int order, int wanted) {
     const Index least = order + 1;
     Index s = wanted > 0 ? wanted : std::max(kUsualBlockRows, 2 * least - 2);
     if (wanted > 0 && wanted < least)
-        throw InvalidArgument("n4sid: `block_rows` must be greater than the order, " + std::to_string(order) +
-                              ", and is " + std::to_string(wanted));
+        throw InvalidArgument("n4sid: {} must be greater than the order, {}, and is {}", OptionName{"block_rows"},
+                              order, wanted);
     while (wanted == 0 && s > least && !fits(data, s)) --s;
     if (fits(data, s)) return s;
-    throw InvalidArgument("n4sid: the record of " + std::to_string(data.sample_count()) +
-                          " samples is too short for order " + std::to_string(order) + " and " + std::to_string(s) +
-                          " block rows: it gives " + std::to_string(places(data, s)) + " equations for " +
-                          std::to_string(2 * s * (data.input_count() + data.output_count())) + " values");
+    throw InvalidArgument(
+        "n4sid: the record of {} samples is too short for order {} and {} block rows: it gives {} equations for {} "
+        "values",
+        data.sample_count(), order, s, places(data, s), 2 * s * (data.input_count() + data.output_count()));
 }
 
 /// Divides every output by its largest value, which is returned.
@@ -89,10 +88,10 @@ void require_rich_inputs(const Matrix& R, const Sizes& sizes) {
     const Index f = sizes.future_inputs();
     const Matrix inputs = R.topLeftCorner(f, f);
     if (solve_least_squares(inputs, Vector::Zero(f)).condition_number < kAmbiguousCondition) return;
-    throw InvalidArgument("n4sid: the input is not persistently exciting enough to determine " +
-                          std::to_string(sizes.s) +
-                          " samples of its effect (a constant or a few sines are not): excite the system with an input "
-                          "that changes more, or lower `block_rows`");
+    throw InvalidArgument(
+        "n4sid: the input is not persistently exciting enough to determine {} samples of its effect (a constant or a "
+        "few sines are not): excite the system with an input that changes more, or lower {}",
+        sizes.s, OptionName{"block_rows"});
 }
 
 struct Observability {
@@ -229,39 +228,29 @@ void describe(SubspaceFit& found, bool reflected) {
     Fit& fit = found.fit;
     const auto seen = (found.singular_values.array() > kNoSignal * found.singular_values[0]).count();
     if (seen < found.system.order())
-        fit.warnings.push_back("The data show " + counted(seen, "state") +
-                               " only: the others are rounding, so a lower order suffices.");
-    if (reflected) fit.warnings.push_back("Eigenvalues outside the unit circle were mirrored into it.");
+        fit.warnings.push_back(
+            plural(seen, "The data show {} state only: the others are rounding, so a lower order suffices.",
+                   "The data show {} states only: the others are rounding, so a lower order suffices."));
+    if (reflected) fit.warnings.push_back(Message("Eigenvalues outside the unit circle were mirrored into it."));
     if (fit.condition_number > kAmbiguousCondition)
-        fit.warnings.push_back("The data do not determine all entries of B separately (condition number " +
-                               number_text(fit.condition_number, 2) + ").");
-    std::string fits;
-    for (Index i = 0; i < fit.fit_percent.size(); ++i)
-        fits += (i > 0 ? " % and " : "") + number_text(fit.fit_percent[i], 4);
-    set_message(fit, "Subspace with " + std::to_string(found.block_rows) + " block rows, order " +
-                         std::to_string(found.system.order()) + ": fit " + fits +
-                         " %, simulating from estimated initial states.");
+        fit.warnings.push_back(Message("The data do not determine all entries of B separately (condition number {}).",
+                                       significant(fit.condition_number, 2)));
+    fit.message = Message("Subspace with {} block rows, order {}: fit {} %, simulating from estimated initial states.",
+                          found.block_rows, found.system.order(), fits_text(fit));
 }
 
 }  // namespace
 
-SubspaceWeighting parse_subspace_weighting(const std::string& text) {
-    if (text == "MOESP") return SubspaceWeighting::kMoesp;
-    if (text == "N4SID") return SubspaceWeighting::kN4sid;
-    if (text == "CVA") return SubspaceWeighting::kCva;
-    throw InvalidArgument("`weighting` must be \"MOESP\", \"N4SID\" or \"CVA\", and is \"" + text + "\"");
-}
-
 void SubspaceOptions::validate() const {
     if (block_rows < 0)
-        throw InvalidArgument("`block_rows` must not be negative, and is " + std::to_string(block_rows));
+        throw InvalidArgument("{} must not be negative, and is {}", OptionName{"block_rows"}, block_rows);
 }
 
 SubspaceFit n4sid(const IdData& data, int order, const SubspaceOptions& options) {
     options.validate();
     if (order < 1 || order > kMostStates)
-        throw InvalidArgument("n4sid: the order, a number of states, must lie between 1 and " +
-                              std::to_string(kMostStates) + ", and is " + std::to_string(order));
+        throw InvalidArgument("n4sid: the order, a number of states, must lie between 1 and {}, and is {}", kMostStates,
+                              order);
     check_sampled_data("n4sid", data);
     const Sizes sizes{order, data.input_count(), data.output_count(),
                       chosen_block_rows(data, order, options.block_rows)};
@@ -279,8 +268,8 @@ SubspaceFit n4sid(const IdData& data, int order, const SubspaceOptions& options)
 
     const InputEquations equations(scaled, sizes, A, C, options.feedthrough);
     if (data.sample_count() * sizes.ny <= equations.unknowns())
-        throw InvalidArgument("n4sid needs more samples than the " + counted(equations.unknowns(), "value") +
-                              " it estimates, and the record holds " + std::to_string(data.sample_count()));
+        throw InvalidArgument("n4sid needs more samples than the {} it estimates, and the record holds {}",
+                              plural(equations.unknowns(), "{} value", "{} values"), data.sample_count());
     const LeastSquares solution = equations.solve();
     SubspaceFit found;
     found.system = equations.system(solution.solution);

@@ -1,6 +1,4 @@
 #pragma once
-#include <string>
-
 #include "numerics/fit/fit.h"
 #include "numerics/models/state_space.h"
 
@@ -12,9 +10,6 @@ enum class SubspaceWeighting {
     kN4sid,  ///< "N4SID": the same, future inputs left in (Van Overschee and De Moor 1994)
     kCva,    ///< "CVA": by their correlation with the future outputs (Larimore 1990)
 };
-
-/// Throws InvalidArgument that lists the words.
-SubspaceWeighting parse_subspace_weighting(const std::string& text);
 
 struct SubspaceOptions {
     int block_rows = 0;  ///< s: samples of past and of future; 0 for 15, or 2 order if that is more, or what fits

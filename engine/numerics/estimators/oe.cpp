@@ -1,7 +1,7 @@
 #include "numerics/estimators/oe.h"
 
 #include "numerics/fit/discrete/discrete_fit.h"
-#include "numerics/fit/doubts.h"
+#include "numerics/fit/finished_fit.h"
 
 namespace dynlab::inline numerics {
 

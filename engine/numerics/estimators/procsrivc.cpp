@@ -8,13 +8,11 @@
 #include "numerics/error.h"
 #include "numerics/fit/delay_scan.h"
 #include "numerics/fit/diagnosis.h"
-#include "numerics/fit/doubts.h"
 #include "numerics/fit/first_estimate.h"
 #include "numerics/fit/operating_points.h"
 #include "numerics/fit/output_error.h"
 #include "numerics/fit/process_start.h"
 #include "numerics/fit/transfer_refinement.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
@@ -52,9 +50,10 @@ struct ProcessProblem {
 
 void check_process_data(const IdData& data) {
     if (data.experiments.empty() || data.input_count() != 1 || data.output_count() != 1)
-        throw InvalidArgument("procsrivc: the data must have one input and one output, and have " +
-                              std::to_string(data.input_count()) + " input(s) and " +
-                              std::to_string(data.output_count()) + " output(s): select one of each");
+        throw InvalidArgument(
+            "procsrivc: the data must have one input and one output, and have {} and {}: select one of each",
+            plural(data.input_count(), "{} input", "{} inputs"),
+            plural(data.output_count(), "{} output", "{} outputs"));
     check_signals("procsrivc", data);
 }
 
@@ -68,12 +67,14 @@ std::vector<StartCondition> conditions_for(const IdData& data, const ProcessStru
         std::ranges::all_of(data.experiments, [](const Experiment& experiment) { return experiment.u(0, 0) == 0; });
     if (options.initial_state == InitialState::kSteady && !rests)
         throw InvalidArgument(
-            "A process with an integrator rests at zero input only, so `initial_state` \"steady\" does not suit: use "
-            "\"zero\", \"estimate\" or \"auto\"");
+            "A process with an integrator rests at zero input only, so {} \"steady\" does not suit: use \"zero\", "
+            "\"estimate\" or \"auto\"",
+            OptionName{"initial_state"});
     if (options.initial_state == InitialState::kEstimate && options.offset == Offset::kEstimate)
         throw InvalidArgument(
-            "The initial state of a process with an integrator holds its level already: with `initial_state` "
-            "\"estimate\", let `offset` be \"none\", \"remove\" or \"auto\"");
+            "The initial state of a process with an integrator holds its level already: with {} \"estimate\", let {} "
+            "be \"none\", \"remove\" or \"auto\"",
+            OptionName{"initial_state"}, OptionName{"offset"});
     std::erase_if(conditions, [&](const StartCondition& condition) {
         return (condition.state == InitialState::kEstimate && condition.offset) ||
                (condition.state == InitialState::kSteady && options.initial_state == InitialState::kAuto);
@@ -226,23 +227,23 @@ void warn_of_times(Fit& result, double Ts, double longest) {
         const double value = result.theta[static_cast<Index>(i)];
         if (name.front() != 'T' || name == "Td" || name == "Tz") continue;
         if (value < 0.1 * Ts)
-            result.warnings.push_back(name +
-                                      " is far below the sampling time: a structure with fewer poles is enough.");
+            result.warnings.push_back(
+                Message("{} is far below the sampling time: a structure with fewer poles is enough.", name));
         if (value > longest)
-            result.warnings.push_back(name +
-                                      " is longer than the record, which cannot tell it from the gain: record longer.");
+            result.warnings.push_back(
+                Message("{} is longer than the record, which cannot tell it from the gain: record longer.", name));
     }
     const Index lags = real_lag_count(structure);
     for (Index i = 1; i < lags; ++i)
         if (result.theta[i] < 1.05 * result.theta[i + 1]) {
             result.warnings.push_back(
-                "Two time constants are nearly equal, so their standard errors mean little: a structure with U may "
-                "suit better.");
+                Message("Two time constants are nearly equal, so their standard errors mean little: a structure with U "
+                        "may suit better."));
             break;
         }
     if (structure.underdamped && result.theta[lags + 2] >= 1)
-        result.warnings.push_back("Zeta is at least 1, so the system does not swing: P" +
-                                  std::to_string(structure.poles) + " without U suits it.");
+        result.warnings.push_back(
+            Message("Zeta is at least 1, so the system does not swing: P{} without U suits it.", structure.poles));
 }
 
 void warn_of_zero(Fit& result) {
@@ -250,14 +251,18 @@ void warn_of_zero(Fit& result) {
     for (std::size_t i = 1; i < result.names.size(); ++i) {
         const double value = result.theta[static_cast<Index>(i)];
         if (result.names[i].starts_with("Tp") && std::abs(Tz - value) < 0.02 * value)
-            result.warnings.push_back("The zero nearly cancels " + result.names[i] +
-                                      ": a structure with one pole less and without Z is enough.");
+            result.warnings.push_back(
+                Message("The zero nearly cancels {}: a structure with one pole less and without Z is enough.",
+                        result.names[i]));
     }
 }
 
-std::string process_message(const Fit& fit) {
-    return "Output error " + ending_text(fit) + ", simulating " + description(fit.start) + ": fit " +
-           number_text(fit.fit_percent[0], 4) + " %.";
+Message process_message(const Fit& fit) {
+    const Number percent = significant(fit.fit_percent[0], 4);
+    return has_settled(fit) ? Message("Output error converged after {}, simulating {}: fit {} %.", iteration_count(fit),
+                                      description(fit.start), percent)
+                            : Message("Output error stopped after {}, simulating {}: fit {} %.", iteration_count(fit),
+                                      description(fit.start), percent);
 }
 
 /// The model of a fit, with its time constants in order.
@@ -289,9 +294,8 @@ Fit procsrivc(const IdData& data, const ProcessStructure& structure, const Procs
     const auto conditions = conditions_for(record.data, structure, options);
     const Index values = problem.value_count(data, conditions[0]), fewest = kSamplesPerProcessParameter * values;
     if (data.sample_count() < fewest)
-        throw InvalidArgument("procsrivc: at least " + std::to_string(fewest) + " samples are needed for " +
-                              std::to_string(values) + " values, and the data hold " +
-                              std::to_string(data.sample_count()));
+        throw InvalidArgument("procsrivc: at least {} samples are needed for {} values, and the data hold {}", fewest,
+                              values, data.sample_count());
     Fit fit = best_fit_to_long(problem, record.data, conditions);
     fit = without_unheard_inputs(problem, record.data, std::move(fit));
     set_process(fit, structure);
@@ -303,9 +307,8 @@ Fit procsrivc(const IdData& data, const ProcessStructure& structure, const Procs
     for (std::size_t e = 0; e < data.experiments.size(); ++e) longest = std::max(longest, data.duration(e));
     warn_of_times(fit, data.mean_step(), longest);
     if (structure.zero) warn_of_zero(fit);
-    if (structure.delay) warn_of_delay(fit, fit.theta[fit.theta.size() - 1], problem.range, "");
-    set_message(fit, process_message(fit));
-    add_assessment(fit, data, options);
+    if (structure.delay) warn_of_delay(fit, fit.theta[fit.theta.size() - 1], problem.range);
+    fit.message = process_message(fit);
     return fit;
 }
 

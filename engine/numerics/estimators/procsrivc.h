@@ -4,14 +4,9 @@
 
 namespace dynlab::inline numerics {
 
-/// Those of every fit but lambda and hold_y, with every start condition tried unless told otherwise; a free delay lies
-/// within a quarter of the record unless largest_delay is given.
-struct ProcsrivcOptions : FitOptions {
-    ProcsrivcOptions() {
-        initial_state = InitialState::kAuto;
-        offset = Offset::kAuto;
-    }
-};
+/// Those of every fit but lambda and hold_y; a free delay lies within a quarter of the record unless largest_delay is
+/// given. Every start condition that the options and the input allow is fitted.
+struct ProcsrivcOptions : FitOptions {};
 
 /// Output-error estimate of a process model of any structure (P1, P2, P3, P2U, P3U, each with any of D, I, Z) from one
 /// or several experiments with one input and one output, sampled regularly or not (y = G u + e with white e; the SRIVC

@@ -7,7 +7,7 @@
 #include "numerics/error.h"
 #include "numerics/estimators/srivc.h"
 #include "numerics/fit/diagnosis.h"
-#include "numerics/fit/doubts.h"
+#include "numerics/fit/finished_fit.h"
 #include "numerics/fit/operating_points.h"
 #include "numerics/fit/output_error.h"
 #include "numerics/fit/transfer_refinement.h"
@@ -28,13 +28,13 @@ void check(const IdData& data, const NoiseOrders& orders, const TransferStructur
             "srivc, which takes any sampling");
     if (structure.outputs != 1 || data.output_count() != 1)
         throw InvalidArgument(
-            "rivc: one output is wanted, because each has a noise model of its own, and the data have " +
-            std::to_string(data.output_count()) + ": select them one by one");
+            "rivc: one output is wanted, because each has a noise model of its own, and the data have {}: select them "
+            "one by one",
+            data.output_count());
     const Index wanted = 3 * (structure.parameter_count() + orders.nc + orders.nd);
     if (data.sample_count() < wanted)
-        throw InvalidArgument("rivc: at least " + std::to_string(wanted) +
-                              " samples are needed for the model and its noise, and the data hold " +
-                              std::to_string(data.sample_count()));
+        throw InvalidArgument("rivc: at least {} samples are needed for the model and its noise, and the data hold {}",
+                              wanted, data.sample_count());
 }
 
 /// The simulated output of all experiments and its sensitivities, filtered by D/C.
@@ -201,16 +201,17 @@ void fill_noise(Fit& result, const Passes& passes, const NoiseOrders& orders, do
     noise.D_std.tail(orders.nd) = std.tail(orders.nd);
     const bool asked = orders.nc + orders.nd > 0;
     if (asked && passes.without_noise_)
-        result.warnings.push_back("Nothing but rounding is left of the output, so there is no noise to model.");
+        result.warnings.push_back(
+            Message("Nothing but rounding is left of the output, so there is no noise to model."));
     for (const auto& [name, p] : {std::pair{"C", noise.C}, std::pair{"D", noise.D}})
         if (p.tail(p.size() - 1).any() && roots(p).cwiseAbs().maxCoeff() > kNearUnitCircle)
-            result.warnings.push_back(std::string("A root of ") + name +
-                                      " lies nearly on the unit circle: the noise drifts, or its orders do not suit.");
+            result.warnings.push_back(Message(
+                "A root of {} lies nearly on the unit circle: the noise drifts, or its orders do not suit.", name));
 }
 
 Fit rivc_fit(const IdData& data, const TransferStructure& structure, const NoiseOrders& orders,
              const FitOptions& options) {
-    check_transfer_data("rivc", data, structure);
+    check_transfer_data("rivc", data, structure, options.offset);
     const Fit start = srivc(data, structure, options);
     FitOptions wanted = options;
     if (structure.free_delays && !wanted.largest_delay)
@@ -232,7 +233,12 @@ Fit rivc_fit(const IdData& data, const TransferStructure& structure, const Noise
     result.delay_grid = start.delay_grid;
     result.delay_loss = start.delay_loss;
     fill_noise(result, passes, orders, data.Ts);
-    describe_search(result, data, "RIVC", wanted, range);
+    describe_search(result, data, wanted, range);
+    result.message = has_settled(result)
+                         ? Message("RIVC converged after {}, simulated {}: {}.", iteration_count(result),
+                                   description(result.start), simulation_text(result))
+                         : Message("RIVC stopped after {}, simulated {}: {}.", iteration_count(result),
+                                   description(result.start), simulation_text(result));
     return result;
 }
 
@@ -240,8 +246,8 @@ Fit rivc_fit(const IdData& data, const TransferStructure& structure, const Noise
 
 void NoiseOrders::validate() const {
     if (nc < 0 || nd < 0)
-        throw InvalidArgument("nc and nd, the orders of the noise model, must not be negative, and are " +
-                              std::to_string(nc) + " and " + std::to_string(nd));
+        throw InvalidArgument("nc and nd, the orders of the noise model, must not be negative, and are {} and {}", nc,
+                              nd);
 }
 
 Fit rivc(const IdData& data, const TransferStructure& structure, const NoiseOrders& orders, const FitOptions& options) {

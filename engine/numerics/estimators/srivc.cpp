@@ -6,13 +6,13 @@
 
 #include "numerics/error.h"
 #include "numerics/fit/diagnosis.h"
-#include "numerics/fit/doubts.h"
+#include "numerics/fit/finished_fit.h"
 #include "numerics/fit/first_estimate.h"
 #include "numerics/fit/search_starts.h"
 #include "numerics/fit/simulation_error.h"
 #include "numerics/fit/srivc_iteration.h"
+#include "numerics/fit/start_choice.h"
 #include "numerics/fit/transfer_search.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
@@ -71,12 +71,12 @@ Fit srivc_by_passes(const IdData& data, const TransferStructure& structure, cons
     measure_simulation(estimate, data);
     set_covariance(estimate, data, options, solution.mirrored ? Matrix() : solution.gram);
     describe_models(estimate);
-    const std::string passes = counted(estimate.trace.size(), "pass", "passes");
+    const Message passes = plural(static_cast<std::int64_t>(estimate.trace.size()), "{} pass", "{} passes");
     if (estimate.termination == Termination::kConverged)
-        set_message(estimate, "SRIVC converged after " + passes + ": " + simulation_text(estimate) + ".");
+        estimate.message = Message("SRIVC converged after {}: {}.", passes, simulation_text(estimate));
     else
-        set_message(estimate, "SRIVC had not settled after " + passes +
-                                  "; the best of them is given: " + simulation_text(estimate) + ".");
+        estimate.message = Message("SRIVC had not settled after {}; the best of them is given: {}.", passes,
+                                   simulation_text(estimate));
     return estimate;
 }
 
@@ -111,12 +111,13 @@ Fit better_by_search(Fit estimate, const IdData& data, const FitOptions& options
     Fit searched = search_transfer("srivc", data, estimate.structure, options, aids);
     const bool settled = estimate.termination == Termination::kConverged;
     if (!(searched.loss < (settled ? 1 - kNoGain : 1) * estimate.loss)) return estimate;
-    const std::string passes = std::to_string(estimate.trace.size()) + " passes";
-    set_message(searched, (settled ? "SRIVC converged after " + passes +
-                                         " to a local minimum; a further search found this lower one: "
-                                   : "SRIVC had not settled after " + passes +
-                                         "; this is the minimum of the output error, which they aim at: ") +
-                              simulation_text(searched) + ".");
+    const Message passes = plural(static_cast<std::int64_t>(estimate.trace.size()), "{} pass", "{} passes");
+    searched.message =
+        settled
+            ? Message("SRIVC converged after {} to a local minimum; a further search found this lower one: {}.", passes,
+                      simulation_text(searched))
+            : Message("SRIVC had not settled after {}; this is the minimum of the output error, which they aim at: {}.",
+                      passes, simulation_text(searched));
     return searched;
 }
 
@@ -181,11 +182,17 @@ bool srivc_passes_suffice(const TransferStructure& structure, const FitOptions& 
 Fit srivc(const IdData& data, const TransferStructure& structure, const FitOptions& options, const SearchAids& aids) {
     options.validate();
     return finished_fit(data, options, [&](const IdData& seen, const FitOptions& wanted) {
-        if (!srivc_passes_suffice(structure, wanted) || aids.start.size() > 0)
-            return search_transfer("srivc", seen, structure, wanted, aids);
-        Fit estimate = srivc_by_passes(seen, structure, wanted);
-        if (estimate.termination == Termination::kCancelled) return estimate;
-        return search_where_passes_fail(std::move(estimate), seen, wanted, aids);
+        const FitOptions plain = start_is_open(wanted) ? wanted.from_rest() : wanted;
+        if (!srivc_passes_suffice(structure, plain) || aids.start.size() > 0)
+            return search_with_chosen_start("srivc", seen, structure, wanted, aids);
+        const auto passes = [&](const FitOptions& how) { return srivc_by_passes(seen, structure, how); };
+        const auto finish = [&](Fit estimate, const FitOptions& how) {
+            if (estimate.termination == Termination::kCancelled) return estimate;
+            return search_where_passes_fail(std::move(estimate), seen, how, aids);
+        };
+        if (!start_is_open(wanted)) return finish(passes(wanted), wanted);
+        const auto search = [&](const FitOptions& how) { return search_transfer("srivc", seen, structure, how, aids); };
+        return with_chosen_start(seen, wanted, {passes, finish, search});
     });
 }
 

@@ -17,11 +17,12 @@ namespace dynlab::inline numerics {
 /// each output. With a free delay, an estimated or steady initial state, an offset, or inputs with denominators of
 /// their own they give no more than a start: the estimate is then one Levenberg-Marquardt search of the output error
 /// over all parameters, the very same as coe makes (fit/transfer_search.h), with the same result. That search is tried
-/// as well where the passes do not settle, and its end is given if it lies lower. Non-convergence and doubtful results
-/// are told in `warnings`, and the fit ends with its doubts (Fit::doubts): the option that it misses, whether its
-/// errors are white, and robust standard errors. Throws InvalidArgument for unsuitable data (check_transfer_data) or
-/// options. References: Young and Jakeman (1980); Young, Garnier and Gilson in Garnier and Wang (2008), chapter 4.
-/// `aids`: what is known already.
+/// as well where the passes do not settle, and its end is given if it lies lower. WHERE THE OPTIONS LEAVE THE START
+/// OPEN ("auto", the default), the fit from rest without offset stays unless the data promise more of another start
+/// (fit/start_choice.h); the message names the start that was chosen. Non-convergence and doubtful results are told in
+/// `warnings`; diagnose() computes the rest (fit/diagnostics.h). Throws InvalidArgument for unsuitable data
+/// (check_transfer_data) or options. References: Young and Jakeman (1980); Young, Garnier and Gilson in Garnier and
+/// Wang (2008), chapter 4. `aids`: what is known already.
 Fit srivc(const IdData& data, const TransferStructure& structure, const FitOptions& options = {},
           const SearchAids& aids = {});
 

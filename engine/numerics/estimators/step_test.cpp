@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <sstream>
 
 #include "numerics/error.h"
 #include "numerics/linalg/least_squares.h"
@@ -12,6 +11,8 @@
 namespace dynlab::inline numerics {
 
 namespace {
+
+constexpr int kDigits = 6;  // of readings in messages
 
 StepTestResult begin_reading(const IdData& data, std::vector<std::string> names, double widest_window) {
     StepTestResult result;
@@ -71,12 +72,11 @@ ReadingPoint overshoot_point(const StepRecord& record) {
         if (record.rise(k) > record.rise(top)) top = k;
     // The level of rounding and of what the smoothing leaves of the noise; below it a peak means nothing.
     const double least = std::max(0.01, 2 * record.noise_std / std::abs(record.output_change()));
-    if (record.rise(top) - 1 < least || top == N - 1) {
-        std::ostringstream text;
-        text << "The response does not overshoot its final level by more than " << 100 * least
-             << " %, so no damping can be read from it: use step_first_order or step_delayed";
-        throw InvalidArgument(text.str());
-    }
+    if (record.rise(top) - 1 < least || top == N - 1)
+        throw InvalidArgument(
+            "The response does not overshoot its final level by more than {} %, so no damping can be read from it: use "
+            "step_first_order or step_delayed",
+            significant(100 * least, kDigits));
     if (top < record.step_index + 3)
         throw InvalidArgument("The response peaks within three samples after the step: sample faster");
     return peak_around(record, top);
@@ -95,11 +95,12 @@ StepTestResult step_first_order(const IdData& data) {
     result.parameters << K, T;
     result.points = {settling};
     result.model = TransferFunction(Vector::Constant(1, K), Vector{{T, 1.0}});
-    std::ostringstream text;
-    text << "The smoothed response stays within 5 % of its final value from " << settling_time
-         << " s after the step on, three time constants.";
-    if (highest_rise(record) > 1.05) text << " It overshoots: a second-order model would suit it better.";
-    result.message = text.str();
+    const Message reading = Message(
+        "The smoothed response stays within 5 % of its final value from {} s after the step on, three time constants.",
+        significant(settling_time, kDigits));
+    result.message = highest_rise(record) > 1.05
+                         ? sentences({reading, Message("It overshoots: a second-order model would suit it better.")})
+                         : reading;
     return result;
 }
 
@@ -118,10 +119,8 @@ StepTestResult step_second_order(const IdData& data) {
     result.parameters << K, z, w0;
     result.points = {peak};
     result.model = TransferFunction(Vector::Constant(1, K * w0 * w0), Vector{{1.0, 2 * z * w0, w0 * w0}});
-    std::ostringstream text;
-    text << "The first overshoot is " << 100 * D1 << " % of the change, " << peak.time - record.step_time
-         << " s after the step.";
-    result.message = text.str();
+    result.message = Message("The first overshoot is {} % of the change, {} s after the step.",
+                             significant(100 * D1, kDigits), significant(peak.time - record.step_time, kDigits));
     return result;
 }
 
@@ -137,11 +136,13 @@ StepTestResult step_delayed(const IdData& data) {
     result.parameters << K, T, D;
     result.points = {{"28.3 %", t1, output_at(record, rise1)}, {"63.2 %", t2, output_at(record, rise2)}};
     result.model = TransferFunction(Vector::Constant(1, K), Vector{{T, 1.0}}, 0, D);
-    std::ostringstream text;
-    text << "The smoothed response reaches 28.3 % and 63.2 % of its change " << t1 - record.step_time << " s and "
-         << t2 - record.step_time << " s after the step.";
-    if (D == 0) text << " The points leave no room for a delay: step_first_order suits this response.";
-    result.message = text.str();
+    const Message reading =
+        Message("The smoothed response reaches 28.3 % and 63.2 % of its change {} s and {} s after the step.",
+                significant(t1 - record.step_time, kDigits), significant(t2 - record.step_time, kDigits));
+    result.message =
+        D == 0 ? sentences({reading, Message("The points leave no room for a delay: step_first_order suits this "
+                                             "response.")})
+               : reading;
     return result;
 }
 

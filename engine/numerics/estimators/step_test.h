@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "numerics/models/transfer_function.h"
 #include "numerics/signals/step_record.h"
 
@@ -20,7 +21,7 @@ struct StepTestResult {
     Vector parameters;                 ///< one for each name
     StepRecord record;                 ///< levels with their intervals, step, noise, smoothed response
     std::vector<ReadingPoint> points;  ///< in the order of time
-    std::string message;               ///< one sentence
+    Message message;                   ///< one sentence or two
 };
 
 /// Parameters of a transfer function read off a step response as one does with a ruler: K = output change over

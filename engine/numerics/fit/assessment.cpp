@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "numerics/criteria/process_output.h"
 #include "numerics/error.h"
@@ -135,29 +136,29 @@ Linearised linearise(const AssessedRecord& record, std::span<const ChannelPlaces
     return result;
 }
 
-// Why standard errors of the model mean little, however they are worked out; nothing where they do not.
-std::string worthlessness(const Fit& fit) {
-    if (std::any_of(fit.models.begin(), fit.models.end(), has_unstable_pole)) return "the model is unstable";
+// Why standard errors of the model mean little, however they are worked out; empty where they do not.
+Message worthlessness(const Fit& fit) {
+    if (std::any_of(fit.models.begin(), fit.models.end(), has_unstable_pole))
+        return Message("Its standard errors mean little: the model is unstable.");
     for (const double percent : fit.fit_percent)
-        if (explains_little(percent)) return "the model explains little of the output";
-    return "";
+        if (explains_little(percent))
+            return Message("Its standard errors mean little: the model explains little of the output.");
+    return Message();
 }
 
-std::string verdict_of(const Assessment& assessment, const Fit& fit, const std::vector<std::string>& names) {
-    std::string text;
+Message verdict_of(const Assessment& assessment, const Fit& fit, const std::vector<std::string>& names) {
+    std::vector<Message> all;
     for (std::size_t i = 0; i < assessment.whiteness.size(); ++i) {
         const WhitenessTest& test = assessment.whiteness[i];
         if (test.verdict.empty()) continue;
-        if (!text.empty()) text += ' ';
-        if (assessment.whiteness.size() > 1) text += names[i] + ": ";
-        text += test.verdict;
+        all.push_back(assessment.whiteness.size() > 1 ? Message("{}: {}", names[i], test.verdict) : test.verdict);
     }
-    const std::string worthless = fit.polynomial ? "" : worthlessness(fit);
+    const Message worthless = fit.polynomial ? Message() : worthlessness(fit);
     if (!worthless.empty())
-        text += " Its standard errors mean little: " + worthless + ".";
+        all.push_back(worthless);
     else if (!assessment.white)
-        text += " The robust standard errors are the ones to use.";
-    return text;
+        all.push_back(Message("The robust standard errors are the ones to use."));
+    return sentences(std::move(all));
 }
 
 // Robust covariance and standard errors, with the whiteness known. Psi and errors hold one block for each output.
@@ -193,8 +194,9 @@ Assessment assess_channels(const IdData& data, const std::vector<ChannelPlaces>&
                            const MatrixView& by_parameter, const ResidualOptions& options) {
     const Index ny = data.output_count(), nu = data.input_count(), q = by_parameter.cols();
     if (static_cast<Index>(channels.size()) != ny * nu)
-        throw InvalidArgument("The estimate has " + std::to_string(channels.size()) + " channel(s) and the data have " +
-                              std::to_string(ny) + " output(s) and " + std::to_string(nu) + " input(s)");
+        throw InvalidArgument("The estimate has {} and the data have {} and {}",
+                              plural(static_cast<std::int64_t>(channels.size()), "{} channel", "{} channels"),
+                              plural(ny, "{} output", "{} outputs"), plural(nu, "{} input", "{} inputs"));
     const Index N = data.sample_count();
     Matrix Psi(N * ny, q);
     Vector errors(N * ny);
@@ -229,8 +231,9 @@ IdData counted_data(const IdData& data, const Fit& fit) {
     IdData counted = data;
     if (fit.removed.empty()) return counted;
     if (fit.removed.size() != counted.experiments.size())
-        throw InvalidArgument("The estimate comes from " + std::to_string(fit.removed.size()) +
-                              " experiment(s) and the data hold " + std::to_string(counted.experiments.size()));
+        throw InvalidArgument("The estimate comes from {} and the data hold {}",
+                              plural(static_cast<std::int64_t>(fit.removed.size()), "{} experiment", "{} experiments"),
+                              counted.experiments.size());
     for (std::size_t e = 0; e < fit.removed.size(); ++e) {
         const auto& points = fit.removed[e];
         counted.experiments[e].u.rowwise() -= points.front().inputs.transpose();

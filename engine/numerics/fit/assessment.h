@@ -19,7 +19,7 @@ struct Assessment {
     Index bandwidth = 1;  ///< samples, of its window
     /// One sentence per output, and which standard errors to use; none for an unstable model or one that explains
     /// little.
-    std::string verdict;
+    Message verdict;
 };
 
 /// Sensitivities and output errors are worked out again at the estimate, from its start condition and with the values

@@ -5,17 +5,12 @@
 #include <limits>
 
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
 namespace {
 
 constexpr Index kSamplesPerParameter = 3;
-
-std::string numbered(const char* what, Index place, Index count) {
-    return count == 1 ? std::string("the ") + what : std::string(what) + " " + std::to_string(place + 1);
-}
 
 bool is_constant(const Eigen::Ref<const Vector>& x) {
     return (x.array() == x[0]).all();
@@ -32,19 +27,22 @@ bool starts_from_rest(const Eigen::Ref<const Vector>& y) {
 }
 
 void check_inputs(const std::string& method, const IdData& data) {
-    if (data.input_count() == 0) throw InvalidArgument(method + " needs an input, and the data have no input");
+    if (data.input_count() == 0) throw InvalidArgument("{} needs an input, and the data have no input", method);
     for (Index input = 0; input < data.input_count(); ++input)
         if (in_all_experiments(data, [&](const Experiment& e) { return e.u.col(input).isZero(0); }))
-            throw InvalidArgument(method + ": the input " + data.input_names[static_cast<std::size_t>(input)] +
-                                  " is zero throughout: it does not excite the system, and its effect cannot be "
-                                  "estimated");
+            throw InvalidArgument(
+                "{}: the input {} is zero throughout: it does not excite the system, and its effect cannot be "
+                "estimated",
+                method, data.input_names[static_cast<std::size_t>(input)]);
 }
 
 void check_outputs(const std::string& method, const IdData& data) {
     for (Index output = 0; output < data.output_count(); ++output)
         if (in_all_experiments(data, [&](const Experiment& e) { return is_constant(e.y.col(output)); }))
-            throw InvalidArgument(method + ": " + numbered("output", output, data.output_count()) +
-                                  " never changes, so no dynamics can be estimated");
+            throw InvalidArgument(
+                data.output_count() == 1
+                    ? Message("{}: the output never changes, so no dynamics can be estimated", method)
+                    : Message("{}: output {} never changes, so no dynamics can be estimated", method, output + 1));
 }
 
 }  // namespace
@@ -59,39 +57,44 @@ void check_transfer_data(const std::string& method, const IdData& data, const Tr
     structure.validate();
     check_inputs(method, data);
     if (data.input_count() != structure.inputs || data.output_count() != structure.outputs)
-        throw InvalidArgument(method + ": the model has " + std::to_string(structure.inputs) + " input(s) and " +
-                              std::to_string(structure.outputs) + " output(s), and the data have " +
-                              std::to_string(data.input_count()) + " and " + std::to_string(data.output_count()));
+        throw InvalidArgument("{}: the model has {} and {}, and the data have {} and {}", method,
+                              plural(structure.inputs, "{} input", "{} inputs"),
+                              plural(structure.outputs, "{} output", "{} outputs"), data.input_count(),
+                              data.output_count());
     const Index wanted = kSamplesPerParameter * structure.parameter_count();
     if (data.sample_count() < wanted)
-        throw InvalidArgument(method + ": at least " + std::to_string(wanted) + " samples are needed for " +
-                              std::to_string(structure.parameter_count()) + " parameters, and the data hold " +
-                              std::to_string(data.sample_count()));
+        throw InvalidArgument("{}: at least {} samples are needed for {} parameters, and the data hold {}", method,
+                              wanted, structure.parameter_count(), data.sample_count());
     for (const TransferChannel& channel : structure.channels)
         for (std::size_t e = 0; e < data.experiments.size(); ++e)
             if (channel.delay >= data.duration(e))
-                throw InvalidArgument(method + ": the delay of " + number_text(channel.delay) +
-                                      " s is not shorter than the record of " + number_text(data.duration(e)) + " s");
+                throw InvalidArgument("{}: the delay of {} s is not shorter than the record of {} s", method,
+                                      channel.delay, data.duration(e));
     for (Index input = 0; input < data.input_count(); ++input)
         if (in_all_experiments(data, [&](const Experiment& e) {
                 return is_constant(e.u.col(input)) && !starts_from_rest(e.y.col(0)) && offset == Offset::kNone;
             }))
-            throw InvalidArgument(method + ": " + numbered("input", input, data.input_count()) +
-                                  " never changes and the output does not start from rest, so there is no excitation: "
-                                  "let the input vary, for instance as a prbs");
+            throw InvalidArgument(
+                data.input_count() == 1
+                    ? Message("{}: the input never changes and the output does not start from rest, so there is no "
+                              "excitation: let the input vary, for instance as a prbs",
+                              method)
+                    : Message("{}: input {} never changes and the output does not start from rest, so there is no "
+                              "excitation: let the input vary, for instance as a prbs",
+                              method, input + 1));
     check_outputs(method, data);
 }
 
 void check_sampled_data(const std::string& method, const IdData& data) {
     if (data.input_count() > 0 && !data.regular())
-        throw InvalidArgument(method + " needs regularly sampled data, and these are not: resample them first");
+        throw InvalidArgument("{} needs regularly sampled data, and these are not: resample them first", method);
     check_signals(method, data);
 }
 
 void check_sample_count(const std::string& method, Index samples, Index values) {
     if (samples > values) return;
-    throw InvalidArgument(method + " needs more samples than the " + counted(values, "value") +
-                          " it estimates, and the record holds " + std::to_string(samples));
+    throw InvalidArgument("{} needs more samples than the {} it estimates, and the record holds {}", method,
+                          plural(values, "{} value", "{} values"), samples);
 }
 
 void check_transient(const std::string& method, const IdData& data, const Fit& fit, Index values) {
@@ -115,8 +118,8 @@ DelayRange delay_range(const IdData& data, const FitOptions& options) {
     const double shortest = shortest_record(data);
     const double largest = options.largest_delay.value_or(std::max(options.least_delay, shortest / 4));
     if (largest >= shortest)
-        throw InvalidArgument("`largest_delay` must be shorter than the record of " + number_text(shortest) +
-                              " s, and is " + number_text(largest) + " s");
+        throw InvalidArgument("{} must be shorter than the record of {} s, and is {} s", OptionName{"largest_delay"},
+                              shortest, largest);
     return {options.least_delay, largest};
 }
 
@@ -124,50 +127,94 @@ namespace {
 
 constexpr double kCancellation = 0.02;  // distance of a pole from a zero, relative to the pole
 
-bool has_settled(const Fit& fit) {
-    return fit.termination == Termination::kConverged || fit.termination == Termination::kNoProgress;
-}
-
 void warn_of_cancellation(Fit& fit) {
     for (const TransferFunction& G : fit.models) {
         const ComplexVector poles = G.poles(), zeros = G.zeros();
         for (const Complex& zero : zeros)
             for (const Complex& pole : poles)
                 if (std::abs(zero - pole) < kCancellation * std::abs(pole)) {
-                    fit.warnings.push_back("A pole near " + number_text(pole.real(), 3) +
-                                           " and a zero nearly cancel: fewer poles and zeros may be enough.");
+                    fit.warnings.push_back(
+                        Message("A pole near {} and a zero nearly cancel: fewer poles and zeros may be enough.",
+                                significant(pole.real(), 3)));
                     return;
                 }
     }
 }
 
-void warn_of_instability(Fit& fit, const std::string& remedy) {
-    for (std::size_t i = 0; i < fit.models.size(); ++i)
-        if (has_unstable_pole(fit.models[i]))
-            fit.warnings.push_back("The model" + channel_text(fit.structure, i) + " is unstable" +
-                                   (remedy.empty() ? "" : ": unless the system is unstable, too, " + remedy) + ".");
+Message instability_of_only_channel(UnstableAdvice advice) {
+    switch (advice) {
+        case UnstableAdvice::kNone:
+            return Message("The model is unstable.");
+        case UnstableAdvice::kStableOption:
+            return Message(
+                "The model is unstable: unless the system is unstable, too, {} = true finds the best stable one.",
+                OptionName{"stable"});
+        case UnstableAdvice::kStableSrivc:
+            return Message(
+                "The model is unstable: unless the system is unstable, too, srivc with {} = true finds the best stable "
+                "one.",
+                OptionName{"stable"});
+        default:
+            return Message(
+                "The model is unstable: unless the system is unstable, too, look at the controller, the orders and the "
+                "cut-off frequency.");
+    }
+}
+
+/// Loops have one channel: there is no advice about their controller.
+Message instability_of_channel(const ChannelPlace& channel, UnstableAdvice advice) {
+    const auto& [input, output] = channel;
+    if (advice == UnstableAdvice::kStableOption)
+        return Message(
+            "The model from input {} to output {} is unstable: unless the system is unstable, too, {} = true finds the "
+            "best stable one.",
+            input, output, OptionName{"stable"});
+    if (advice == UnstableAdvice::kStableSrivc)
+        return Message(
+            "The model from input {} to output {} is unstable: unless the system is unstable, too, srivc with {} = "
+            "true finds the best stable one.",
+            input, output, OptionName{"stable"});
+    return Message("The model from input {} to output {} is unstable.", input, output);
+}
+
+void warn_of_instability(Fit& fit, UnstableAdvice advice) {
+    for (std::size_t i = 0; i < fit.models.size(); ++i) {
+        if (!has_unstable_pole(fit.models[i])) continue;
+        const auto channel = channel_place(fit.structure, i);
+        fit.warnings.push_back(channel ? instability_of_channel(*channel, advice)
+                                       : instability_of_only_channel(advice));
+    }
 }
 
 /// A step of a held input reaches the output through the direct term at the next sampling instant, wherever between
 /// two instants it arrives, and n + 1 weights of the sampled response cannot tell n + 1 coefficients and a delay.
 void warn_of_ambiguous_delays(Fit& fit, const IdData& data) {
     if (!fit.structure.free_delays || data.hold != Hold::kZoh || !data.regular()) return;
-    for (std::size_t i = 0; i < fit.models.size(); ++i)
-        if (fit.models[i].zero_count() == fit.models[i].pole_count() && fit.models[i].delay() > 0)
-            fit.warnings.push_back("The delay" + channel_text(fit.structure, i) +
-                                   " is only known to within one sampling time, and its standard error means nothing: "
-                                   "the input is held and the model has as many zeros as poles. Fix the delay with "
-                                   "`delay`, or take one zero fewer.");
+    for (std::size_t i = 0; i < fit.models.size(); ++i) {
+        if (fit.models[i].zero_count() != fit.models[i].pole_count() || !(fit.models[i].delay() > 0)) continue;
+        const auto channel = channel_place(fit.structure, i);
+        fit.warnings.push_back(
+            channel
+                ? Message("The delay from input {} to output {} is only known to within one sampling time, and its "
+                          "standard error means nothing: the input is held and the model has as many zeros as poles. "
+                          "Fix the delay with {}, or take one zero fewer.",
+                          channel->input, channel->output, OptionName{"delay"})
+                : Message("The delay is only known to within one sampling time, and its standard error means nothing: "
+                          "the input is held and the model has as many zeros as poles. Fix the delay with {}, or take "
+                          "one zero fewer.",
+                          OptionName{"delay"}));
+    }
 }
 
 }  // namespace
 
 void warn_of_search(Fit& fit, const FitOptions& options) {
     if (fit.termination == Termination::kIterationLimit)
-        fit.warnings.push_back("The search had not settled after `max_iterations` = " +
-                               std::to_string(options.max_iterations) + " iterations; the best point so far is given.");
+        fit.warnings.push_back(
+            Message("The search had not settled after {} = {} iterations; the best point so far is given.",
+                    OptionName{"max_iterations"}, options.max_iterations));
     if (fit.termination == Termination::kCancelled)
-        fit.warnings.push_back("The search was stopped before its end; the best point so far is given.");
+        fit.warnings.push_back(Message("The search was stopped before its end; the best point so far is given."));
 }
 
 std::vector<std::string> undetermined_parameters(const std::vector<std::string>& names, const VectorView& theta,
@@ -180,29 +227,72 @@ std::vector<std::string> undetermined_parameters(const std::vector<std::string>&
     return undetermined;
 }
 
-void warn_of_doubtful_parameters(Fit& fit, const std::string& simpler) {
-    if (!(fit.condition_number < kAmbiguousCondition)) {
-        fit.warnings.push_back("The data do not determine all parameters separately (badly conditioned: " +
-                               number_text(fit.condition_number, 2) + "): " + simpler +
-                               " or a richer input is wanted.");
-        return;
+namespace {
+
+Message ambiguity(SimplerModel simpler, Number condition) {
+    switch (simpler) {
+        case SimplerModel::kFewerBins:
+            return Message(
+                "The data do not determine all parameters separately (badly conditioned: {}): fewer bins or a richer "
+                "input is wanted.",
+                condition);
+        case SimplerModel::kFewerTerms:
+            return Message(
+                "The data do not determine all parameters separately (badly conditioned: {}): fewer terms or a richer "
+                "input is wanted.",
+                condition);
+        case SimplerModel::kFewerFreeParameters:
+            return Message(
+                "The data do not determine all parameters separately (badly conditioned: {}): fewer free parameters or "
+                "a richer input is wanted.",
+                condition);
+        default:
+            return Message(
+                "The data do not determine all parameters separately (badly conditioned: {}): a simpler structure or a "
+                "richer input is wanted.",
+                condition);
     }
-    const std::string names = enumerated(undetermined_parameters(fit.names, fit.theta, fit.std));
-    if (!names.empty())
-        fit.warnings.push_back("The data hardly determine " + names + ": the standard error is larger than the value.");
 }
 
-void warn_of_delay(Fit& fit, double delay, const DelayRange& range, const std::string& channel) {
+/// At an edge of the range.
+Message delay_at(const OptionName& edge, double value, bool largest, const std::optional<ChannelPlace>& channel) {
+    if (channel && largest)
+        return Message(
+            "The delay from input {} to output {} lies at {} = {} s, the edge of what was searched: raise {}.",
+            channel->input, channel->output, edge, value, edge);
+    if (channel)
+        return Message(
+            "The delay from input {} to output {} lies at {} = {} s, the edge of what was searched: lower {}.",
+            channel->input, channel->output, edge, value, edge);
+    return largest
+               ? Message("The delay lies at {} = {} s, the edge of what was searched: raise {}.", edge, value, edge)
+               : Message("The delay lies at {} = {} s, the edge of what was searched: lower {}.", edge, value, edge);
+}
+
+}  // namespace
+
+void warn_of_doubtful_parameters(Fit& fit, SimplerModel simpler) {
+    if (!(fit.condition_number < kAmbiguousCondition)) {
+        fit.warnings.push_back(ambiguity(simpler, significant(fit.condition_number, 2)));
+        return;
+    }
+    const std::vector<std::string> names = undetermined_parameters(fit.names, fit.theta, fit.std);
+    if (!names.empty())
+        fit.warnings.push_back(
+            Message("The data hardly determine {}: the standard error is larger than the value.", listed(names)));
+}
+
+void warn_of_delay(Fit& fit, double delay, const DelayRange& range, const std::optional<ChannelPlace>& channel) {
     const double edge = 1e-9 * range.largest;
-    const std::string subject = "The delay" + channel + " lies at ", searched = " s, the edge of what was searched: ";
     if (delay >= range.largest - edge && range.largest > range.least)
-        fit.warnings.push_back(subject + "`largest_delay` = " + number_text(range.largest) + searched +
-                               "raise `largest_delay`.");
+        fit.warnings.push_back(delay_at(OptionName{"largest_delay"}, range.largest, true, channel));
     else if (delay <= range.least + edge && range.least > 0)
-        fit.warnings.push_back(subject + "`least_delay` = " + number_text(range.least) + searched +
-                               "lower `least_delay`.");
+        fit.warnings.push_back(delay_at(OptionName{"least_delay"}, range.least, false, channel));
     else if (delay <= edge && range.largest > 0 && std::ranges::none_of(fit.fit_percent, explains_little))
-        fit.warnings.push_back("No delay" + channel + " is visible: a model without one suits.");
+        fit.warnings.push_back(
+            channel ? Message("No delay from input {} to output {} is visible: a model without one suits.",
+                              channel->input, channel->output)
+                    : Message("No delay is visible: a model without one suits."));
 }
 
 bool explains_little(double fit_percent) {
@@ -218,51 +308,46 @@ bool has_unstable_pole(const TransferFunction& G) {
                           : (sizes.array() > 1 + kRounding).any();
 }
 
-std::string channel_text(const TransferStructure& structure, std::size_t channel) {
-    if (structure.single_channel()) return "";
-    const std::size_t inputs = static_cast<std::size_t>(structure.inputs);
-    return " from input " + std::to_string(channel % inputs + 1) + " to output " + std::to_string(channel / inputs + 1);
+std::optional<ChannelPlace> channel_place(const TransferStructure& structure, std::size_t channel) {
+    if (structure.single_channel()) return std::nullopt;
+    const auto inputs = static_cast<std::size_t>(structure.inputs);
+    return ChannelPlace{channel % inputs + 1, channel / inputs + 1};
 }
 
-void describe_models(Fit& fit, const std::string& when_unstable) {
+void describe_models(Fit& fit, UnstableAdvice advice) {
     fit.names = fit.structure.parameter_names();
     fit.models = fit.structure.models(fit.theta);
     fit.std = fit.covariance.diagonal().cwiseMax(0).cwiseSqrt();
     warn_of_cancellation(fit);
     warn_of_doubtful_parameters(fit);
-    warn_of_instability(fit, when_unstable);
+    warn_of_instability(fit, advice);
 }
 
-void describe_search(Fit& fit, const IdData& data, const std::string& method, const FitOptions& options,
-                     const DelayRange& range) {
+void describe_search(Fit& fit, const IdData& data, const FitOptions& options, const DelayRange& range) {
     warn_of_search(fit, options);
-    describe_models(fit, options.stable ? "" : "`stable` = true finds the best stable one");
+    describe_models(fit, options.stable ? UnstableAdvice::kNone : UnstableAdvice::kStableOption);
     for (std::size_t i = 0; i < fit.models.size() && fit.structure.free_delays && range.largest > range.least; ++i)
-        warn_of_delay(fit, fit.models[i].delay(), range, channel_text(fit.structure, i));
+        warn_of_delay(fit, fit.models[i].delay(), range, channel_place(fit.structure, i));
     warn_of_ambiguous_delays(fit, data);
-    set_message(fit, method + " " + ending_text(fit) + ", simulated " + description(fit.start) + ": " +
-                         simulation_text(fit) + ".");
 }
 
-std::string ending_text(const Fit& fit) {
-    return (has_settled(fit) ? "converged after " : "stopped after ") + counted(fit.trace.size(), "iteration");
+bool has_settled(const Fit& fit) {
+    return fit.termination == Termination::kConverged || fit.termination == Termination::kNoProgress;
 }
 
-void set_message(Fit& fit, const std::string& first) {
-    fit.message = first;
-    for (const std::string& warning : fit.warnings) fit.message += " " + warning;
+Message iteration_count(const Fit& fit) {
+    return plural(static_cast<std::int64_t>(fit.trace.size()), "{} iteration", "{} iterations");
 }
 
-void add_warning(Fit& fit, const std::string& sentence) {
-    fit.warnings.push_back(sentence);
-    fit.message += " " + sentence;
+Message fits_text(const Fit& fit) {
+    Message fits = Message("{}", significant(fit.fit_percent[0], 4));
+    for (Index output = 1; output < fit.fit_percent.size(); ++output)
+        fits = Message("{} % and {}", fits, significant(fit.fit_percent[output], 4));
+    return fits;
 }
 
-std::string simulation_text(const Fit& fit) {
-    std::string fits;
-    for (Index output = 0; output < fit.fit_percent.size(); ++output)
-        fits += (output == 0 ? "fit " : " % and ") + number_text(fit.fit_percent[output], 4);
-    return fits + " % (simulation)";
+Message simulation_text(const Fit& fit) {
+    return Message("fit {} % (simulation)", fits_text(fit));
 }
 
 }  // namespace dynlab::inline numerics

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 
 #include "numerics/fit/fit.h"
@@ -35,7 +36,7 @@ struct DelayRange {
 /// shortest record. Throws InvalidArgument for a largest delay that is not shorter than the shortest record.
 DelayRange delay_range(const IdData& data, const FitOptions& options);
 
-/// What is told of a fit: warnings are whole sentences, added to those that are there already.
+/// What is reported of a fit. Warnings are added to those of the fit.
 
 /// Beyond this condition number the parameters are not told apart.
 inline constexpr double kAmbiguousCondition = 1e10;
@@ -45,9 +46,11 @@ void warn_of_search(Fit& fit, const FitOptions& options);
 /// Names of the parameters (but for delays) whose standard error is larger than their value or not a number.
 std::vector<std::string> undetermined_parameters(const std::vector<std::string>& names, const VectorView& theta,
                                                  const VectorView& std);
+/// What may help against parameters that are not told apart, apart from a richer input.
+enum class SimplerModel { kStructure, kFewerBins, kFewerTerms, kFewerFreeParameters };
 /// Of an ambiguous condition number, otherwise of parameters (but for delays) whose standard error is larger than their
-/// value. `simpler` is what may help, apart from a richer input.
-void warn_of_doubtful_parameters(Fit& fit, const std::string& simpler = "a simpler structure");
+/// value.
+void warn_of_doubtful_parameters(Fit& fit, SimplerModel simpler = SimplerModel::kStructure);
 /// A model of an output that explains less than so many per cent of its variance is poor: what its parameters are says
 /// little of the system. With white noise as strong as the answer to the input, the true model explains half.
 inline constexpr double kLittleExplained = 25;
@@ -55,31 +58,36 @@ inline constexpr double kLittleExplained = 25;
 bool explains_little(double fit_percent);
 /// A continuous-time pole to the right of the imaginary axis, a discrete-time one outside the unit circle.
 bool has_unstable_pole(const TransferFunction& G);
+
+/// Input and output of a channel, from 1.
+struct ChannelPlace {
+    std::size_t input, output;
+};
+/// For messages; nothing for the only channel.
+std::optional<ChannelPlace> channel_place(const TransferStructure& structure, std::size_t channel);
+
 /// Of an estimated delay (s) at an edge of the `range` it was looked for in, or of zero where the model explains more
-/// than a little; `channel` as channel_text.
-void warn_of_delay(Fit& fit, double delay, const DelayRange& range, const std::string& channel);
+/// than a little.
+void warn_of_delay(Fit& fit, double delay, const DelayRange& range, const std::optional<ChannelPlace>& channel = {});
 
-/// " from input 2 to output 1" for messages, nothing for the only channel.
-std::string channel_text(const TransferStructure& structure, std::size_t channel);
-
+/// What a warning of an unstable model advises: nothing; the option `stable`; srivc with that option; a look at the
+/// controller, the orders and the cut-off frequency.
+enum class UnstableAdvice { kNone, kStableOption, kStableSrivc, kController };
 /// Fills names, models and std of a continuous-time fit from structure, theta and covariance, and warns of poles and
-/// zeros that nearly cancel, of doubtful parameters, and of unstable channels, with what helps then, if anything does.
-void describe_models(Fit& fit,
-                     const std::string& when_unstable = "srivc with `stable` = true finds the best stable one");
+/// zeros that nearly cancel, of doubtful parameters, and of unstable channels.
+void describe_models(Fit& fit, UnstableAdvice advice = UnstableAdvice::kStableSrivc);
 
-/// The same, with the message, for an output-error search (`method` begins the sentence) over the given range of
-/// delays: warns of its end, of free delays at an edge of the range, and of those known only to within one sampling
-/// time of `data`.
-void describe_search(Fit& fit, const IdData& data, const std::string& method, const FitOptions& options,
-                     const DelayRange& range);
+/// The same for an output-error search over the given range of delays: warns of its end, of free delays at an edge of
+/// the range, and of those known only to within one sampling time of `data`.
+void describe_search(Fit& fit, const IdData& data, const FitOptions& options, const DelayRange& range);
 
-/// "converged after 5 iterations", or "stopped after".
-std::string ending_text(const Fit& fit);
-/// The message: a first sentence, then all warnings.
-void set_message(Fit& fit, const std::string& first);
-/// One more warning, at the end of a message that stands already.
-void add_warning(Fit& fit, const std::string& sentence);
+/// Whether the search came to an end by itself.
+bool has_settled(const Fit& fit);
+/// "5 iterations".
+Message iteration_count(const Fit& fit);
+/// "93.21", or "93.21 % and 88 %" without the last sign, of all outputs.
+Message fits_text(const Fit& fit);
 /// "fit 93.21 % (simulation)", of all outputs.
-std::string simulation_text(const Fit& fit);
+Message simulation_text(const Fit& fit);
 
 }  // namespace dynlab::inline numerics

@@ -4,7 +4,6 @@
 
 #include "numerics/error.h"
 #include "numerics/linalg/least_squares.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
@@ -18,10 +17,9 @@ void require_rich_inputs(const std::string& method, const MatrixView& R, const P
         const Matrix columns = R.middleCols(orders.b_start(input), orders.nb[input]);
         if (solve_least_squares(columns, Vector::Zero(R.rows())).condition_number < kAmbiguousCondition) continue;
         throw InvalidArgument(
-            method + ": the input " + data.input_names[input] +
-            " is not persistently exciting enough to determine nb = " + counted(orders.nb[input], "coefficient") +
-            " (a constant or a single sine is not): excite the system with an input "
-            "that changes more, or lower nb");
+            "{}: the input {} is not persistently exciting enough to determine nb = {} (a constant or a single sine is "
+            "not): excite the system with an input that changes more, or lower nb",
+            method, data.input_names[input], plural(orders.nb[input], "{} coefficient", "{} coefficients"));
     }
 }
 
@@ -49,14 +47,15 @@ Sums sums_of_squares(const IdData& data, const ArxEquations& equations, const Fi
 void check_equation_error(const std::string& method, const IdData& data, const PolynomialOrders& orders) {
     orders.validate();
     if (orders.nc + orders.nd > 0 || std::any_of(orders.nf.begin(), orders.nf.end(), [](int nf) { return nf > 0; }))
-        throw InvalidArgument(method + " has the orders na, nb and nk only: nc, nd and nf must be zero");
+        throw InvalidArgument("{} has the orders na, nb and nk only: nc, nd and nf must be zero", method);
     check_polynomial_data(method, data, orders);
     const Index d = orders.parameter_count(), equations = ArxEquations(data, orders).count();
     if (equations > d) return;
-    throw InvalidArgument(method + " needs more equations than its " + counted(d, "parameter") +
-                          ", and the record gives " + std::to_string(equations) + ": it has " +
-                          counted(data.sample_count(), "sample") + ", and the past takes the first " +
-                          std::to_string(orders.past()) + " of each experiment");
+    throw InvalidArgument(
+        "{} needs more equations than its {}, and the record gives {}: it has {}, and the past takes the first {} of "
+        "each experiment",
+        method, plural(d, "{} parameter", "{} parameters"), equations,
+        plural(data.sample_count(), "{} sample", "{} samples"), orders.past());
 }
 
 ArxSolution solve_rich_arx(const std::string& method, const IdData& data, const PolynomialOrders& orders) {
@@ -79,13 +78,10 @@ void report_equation_error(Fit& estimate, const IdData& data) {
     estimate.offsets = Matrix::Zero(static_cast<Index>(data.experiments.size()), 1);
 }
 
-void describe_equation_error(Fit& estimate, const std::string& how, Index equations) {
+void describe_equation_error(Fit& estimate) {
     estimate.std = estimate.covariance.diagonal().cwiseMax(0).cwiseSqrt();
     warn_of_doubtful_parameters(estimate);
     warn_of_unstable_polynomials(estimate);
-    set_message(estimate, how + " over " + std::to_string(equations) + " equations: fit " +
-                              number_text(estimate.prediction_fit_percent, 4) + " % predicting one step, " +
-                              number_text(estimate.fit_percent[0], 4) + " % simulating from the recorded past.");
 }
 
 }  // namespace dynlab::inline numerics

@@ -19,7 +19,7 @@ ArxSolution solve_rich_arx(const std::string& method, const IdData& data, const 
 /// recorded past of the first sample.
 void report_equation_error(Fit& estimate, const IdData& data);
 
-/// Standard errors from the covariance, warnings and message, whose first words are `how`.
-void describe_equation_error(Fit& estimate, const std::string& how, Index equations);
+/// Standard errors from the covariance, and warnings.
+void describe_equation_error(Fit& estimate);
 
 }  // namespace dynlab::inline numerics

@@ -155,8 +155,9 @@ Vector best_cutoff_start(const IdData& data, const TransferStructure& structure,
         consider(trial.theta, simulation_loss(data, structure, trial));
     }
     if (!best.allFinite())
-        throw InvalidArgument("no first estimate could be found: the input does not excite the system enough for " +
-                              std::to_string(structure.parameter_count()) + " parameters");
+        throw InvalidArgument(
+            "no first estimate could be found: the input does not excite the system enough for {} parameters",
+            structure.parameter_count());
     return best;
 }
 

@@ -1,9 +1,9 @@
 #include "numerics/fit/fit.h"
 
 #include <cmath>
+#include <utility>
 
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
@@ -14,27 +14,40 @@ Fit& Fit::operator=(const Fit&) = default;
 Fit& Fit::operator=(Fit&&) noexcept = default;
 Fit::~Fit() = default;
 
+Message Fit::full_message() const {
+    std::vector<Message> all;
+    if (!message.empty()) all.push_back(message);
+    all.insert(all.end(), warnings.begin(), warnings.end());
+    return sentences(std::move(all));
+}
+
 void FitOptions::validate() const {
     if (lambda && (!(*lambda > 0) || !std::isfinite(*lambda)))
-        throw InvalidArgument("lambda must be a positive number of rad/s, and is " + number_text(*lambda));
+        throw InvalidArgument("lambda must be a positive number of rad/s, and is {}", *lambda);
     if (!(least_delay >= 0) || !std::isfinite(least_delay))
-        throw InvalidArgument("`least_delay` must not be negative, and is " + number_text(least_delay));
+        throw InvalidArgument("{} must not be negative, and is {}", OptionName{"least_delay"}, least_delay);
     if (largest_delay && (!(*largest_delay >= least_delay) || !std::isfinite(*largest_delay)))
-        throw InvalidArgument("`largest_delay` must be at least `least_delay` = " + number_text(least_delay) +
-                              ", and is " + number_text(*largest_delay));
+        throw InvalidArgument("{} must be at least {} = {}, and is {}", OptionName{"largest_delay"},
+                              OptionName{"least_delay"}, least_delay, *largest_delay);
     if (delay_count < 1)
-        throw InvalidArgument("`delay_count` must be at least 1, and is " + std::to_string(delay_count));
+        throw InvalidArgument("{} must be at least 1, and is {}", OptionName{"delay_count"}, delay_count);
     if (max_iterations < 0)
-        throw InvalidArgument("`max_iterations` must not be negative, and is " + std::to_string(max_iterations));
+        throw InvalidArgument("{} must not be negative, and is {}", OptionName{"max_iterations"}, max_iterations);
     if (!(tolerance > 0) || !std::isfinite(tolerance))
-        throw InvalidArgument("`tolerance` must be positive, and is " + number_text(tolerance));
+        throw InvalidArgument("{} must be positive, and is {}", OptionName{"tolerance"}, tolerance);
+}
+
+FitOptions FitOptions::started(const StartCondition& condition) const {
+    FitOptions other = *this;
+    other.initial_state = condition.state;
+    other.offset = condition.offset ? Offset::kEstimate : Offset::kNone;
+    return other;
 }
 
 FitOptions FitOptions::limited(int iterations, double limit) const {
     FitOptions other = *this;
     other.max_iterations = iterations;
     other.goes_on = false;
-    other.doubts = false;
     other.tolerance = limit;
     return other;
 }

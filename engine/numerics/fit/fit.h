@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "numerics/criteria/initial_conditions.h"
 #include "numerics/fit/further_results.h"
 #include "numerics/models/transfer_structure.h"
@@ -17,7 +18,6 @@ namespace dynlab::inline numerics {
 struct PolynomialOrders;
 struct PolynomialModel;
 struct ProcessModel;
-struct Assessment;
 
 /// Why an iteration ended. None of these is an error: the best point found is always returned.
 enum class Termination {
@@ -35,10 +35,10 @@ struct FitIteration {
 };
 
 /// What all iterative estimators ask. Methods for difference equations have no use for lambda, hold_y and delays.
-/// Messages write the names of options in backticks: `max_iterations`.
 struct FitOptions {
-    InitialState initial_state = InitialState::kZero;
-    Offset offset = Offset::kNone;
+    /// With kAuto a model that starts from rest is kept where no other start promises a lower BIC (fit/start_choice.h).
+    InitialState initial_state = InitialState::kAuto;
+    Offset offset = Offset::kAuto;
     double least_delay = 0;               ///< s; of a free delay
     std::optional<double> largest_delay;  ///< s; from the data unless given
     int delay_count = 100;                ///< most delays on the grid between the two
@@ -53,10 +53,6 @@ struct FitOptions {
     std::map<std::string, double> fixed;  ///< searches: parameters that are not estimated, by name, in seconds
     Vector output_weights;                ///< of each output's errors; one over their standard deviations when empty
     bool precision = true;                ///< a search ends with the covariance
-    /// A fit ends with its doubts: srivc, coe, rivc, oe, sriv, bj, armax and procsrivc. Studies of many fits ask for
-    /// none.
-    bool doubts = true;
-    bool start_is_given = false;  ///< initial state and offset are the user's own choice: no others are suggested
     /// The model has an integrator besides its poles (fit/integrated_input.h): srivc, coe, rivc, oe, sriv, bj and
     /// armax.
     bool integration = false;
@@ -64,27 +60,13 @@ struct FitOptions {
 
     /// Throws InvalidArgument naming the option.
     void validate() const;
-    /// The same with other limits, for a step on the way to a fit: without doubts.
+    /// The same for data that begin at rest at zero input and without offset, such as simulated ones.
+    FitOptions from_rest() const { return started({InitialState::kZero, false}); }
+    FitOptions started(const StartCondition& condition) const;
+    /// The same with other limits, for a step on the way to a fit.
     FitOptions limited(int iterations, double limit) const;
     /// The same for a search that only shows where another begins: without covariance.
     FitOptions rough(int iterations, double limit) const;
-};
-
-/// An option that a fit by the defaults misses, and the fit that it leads to (fit/missed_options.h).
-struct MissedOption {
-    StartCondition start{InitialState::kZero, false};  ///< initial state and offset to ask for
-    bool feedthrough = false;                          ///< to ask for as many zeros as poles instead
-    std::string output = {};                           ///< name of the output whose fit rises, where there are several
-    Index samples = 0;              ///< of a long record: of its beginning, which both fits are of; 0 for all
-    double fit_percent = 0;         ///< as it is; -infinity where the model's simulation overflows
-    double better_fit_percent = 0;  ///< with the option
-};
-
-/// What speaks against a fit: second opinions on it, which the estimators ask for unless FitOptions say otherwise.
-struct FitDoubts {
-    std::optional<MissedOption> missed_option;
-    /// Whether its errors are white, and robust standard errors; none for long records (fit/assessment.h).
-    std::shared_ptr<const Assessment> assessment;
 };
 
 /// The result of every estimator of transfer functions and difference equations. e are the errors that its model takes
@@ -122,9 +104,11 @@ struct Fit {
 
     Termination termination = Termination::kConverged;
     std::vector<FitIteration> trace;
-    FitDoubts doubts;
-    std::vector<std::string> warnings;  ///< whole sentences
-    std::string message;                ///< one sentence, then the warnings
+    std::vector<Message> warnings;  ///< whole sentences
+    Message message;                ///< one sentence: how the estimation ended
+
+    /// The message, then the warnings.
+    Message full_message() const;
 
     // Compiled once (fit.cpp): most sources of the later layers copy or destroy fits.
     Fit();

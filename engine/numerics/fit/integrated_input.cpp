@@ -8,7 +8,8 @@ namespace dynlab::inline numerics {
 
 IdData integrated_inputs(const IdData& data) {
     if (data.hold != Hold::kZoh)
-        throw InvalidArgument("`integration` needs a held input (zoh), whose integral runs on straight lines");
+        throw InvalidArgument("{} needs a held input (zoh), whose integral runs on straight lines",
+                              OptionName{"integration"});
     IdData integrated = data;
     integrated.hold = Hold::kFoh;
     for (std::size_t e = 0; e < data.experiments.size(); ++e) {
@@ -32,8 +33,9 @@ IdData summed_inputs(const IdData& data) {
 FitOptions options_with_integrator(FitOptions options) {
     if (options.offset == Offset::kRemove)
         throw InvalidArgument(
-            "`offset` \"remove\" does not go with `integration`, because an integrator rests at no operating point: "
-            "\"estimate\" adds a constant to its output");
+            "{} \"remove\" does not go with {}, because an integrator rests at no operating point: \"estimate\" adds a "
+            "constant to its output",
+            OptionName{"offset"}, OptionName{"integration"});
     if (options.initial_state == InitialState::kEstimate) options.offset = Offset::kEstimate;
     if (options.initial_state == InitialState::kAuto && options.offset == Offset::kNone) options.offset = Offset::kAuto;
     return options;

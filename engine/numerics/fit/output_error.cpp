@@ -4,14 +4,12 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <sstream>
 
 #include "numerics/error.h"
 #include "numerics/fit/diagnosis.h"
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/least_squares.h"
 #include "numerics/linalg/side_by_side.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
@@ -204,11 +202,11 @@ Matrix covariance_of_unequal_rows(const Matrix& covariance, double variance, con
 void check_output_weights(const Vector& weights, Index outputs) {
     if (weights.size() == 0) return;
     if (weights.size() != outputs)
-        throw InvalidArgument("`output_weights` holds a positive number for each of the " + counted(outputs, "output") +
-                              ", but has " + std::to_string(weights.size()));
+        throw InvalidArgument("{} holds a positive number for each of the {}, but has {}", OptionName{"output_weights"},
+                              plural(outputs, "{} output", "{} outputs"), weights.size());
     for (const double weight : weights)
         if (!(weight > 0) || !std::isfinite(weight))
-            throw InvalidArgument("`output_weights` must be positive, and one of them is " + number_text(weight));
+            throw InvalidArgument("{} must be positive, and one of them is {}", OptionName{"output_weights"}, weight);
 }
 
 namespace {
@@ -216,15 +214,12 @@ namespace {
 Search search_for(const OutputErrorModel& model, const VectorView& y, const Vector& start, const FitOptions& options) {
     options.validate();
     const Index count = model.parameter_count();
-    std::ostringstream text;
     if (start.size() != count)
-        text << "The search needs " << count << " start values, and " << start.size() << " were given";
-    else if (y.size() <= count)
-        text << "The record holds " << y.size() << " samples, and more than " << count
-             << " are needed for as many parameters";
-    else
-        return Search(model, y, options);
-    throw InvalidArgument(text.str());
+        throw InvalidArgument("The search needs {} start values, and {} were given", count, start.size());
+    if (y.size() <= count)
+        throw InvalidArgument("The record holds {} samples, and more than {} are needed for as many parameters",
+                              y.size(), count);
+    return Search(model, y, options);
 }
 
 }  // namespace

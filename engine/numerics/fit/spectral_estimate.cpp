@@ -13,13 +13,15 @@ namespace {
 
 void check_channels(const std::string& caller, const IdData& data) {
     if (data.input_count() == 0)
-        throw InvalidArgument(caller + ": the data have no input, so there is no response to estimate");
+        throw InvalidArgument("{}: the data have no input, so there is no response to estimate", caller);
     if (data.input_count() != 1 || data.output_count() != 1)
-        throw InvalidArgument(caller + ": the data must have one input and one output, but they have " +
-                              std::to_string(data.input_count()) + " and " + std::to_string(data.output_count()) +
-                              "; take a pair with data:select(output, input)");
+        throw InvalidArgument(
+            "{}: the data must have one input and one output, but they have {} and {}; take a pair with "
+            "data:select(output, input)",
+            caller, data.input_count(), data.output_count());
     if (!data.regular())
-        throw InvalidArgument(caller + ": the data are sampled irregularly; interpolate them to equal steps (interp1)");
+        throw InvalidArgument("{}: the data are sampled irregularly; interpolate them to equal steps (interp1)",
+                              caller);
 }
 
 bool changes(const Matrix& signal) {
@@ -47,13 +49,14 @@ IdData nonparametric_data(const std::string& caller, const IdData& data, Index f
     bool input_changes = false, output_changes = false;
     for (const Experiment& experiment : data.experiments) {
         if (experiment.y.rows() < fewest)
-            throw InvalidArgument(caller + ": an experiment needs at least " + std::to_string(fewest) +
-                                  " samples, but one has " + std::to_string(experiment.y.rows()));
+            throw InvalidArgument("{}: an experiment needs at least {} samples, but one has {}", caller, fewest,
+                                  experiment.y.rows());
         input_changes = input_changes || changes(experiment.u);
         output_changes = output_changes || changes(experiment.y);
     }
-    if (!input_changes) throw InvalidArgument(caller + ": the input never changes, so it does not excite the dynamics");
-    if (!output_changes) throw InvalidArgument(caller + ": the output never changes, so no dynamics can be estimated");
+    if (!input_changes)
+        throw InvalidArgument("{}: the input never changes, so it does not excite the dynamics", caller);
+    if (!output_changes) throw InvalidArgument("{}: the output never changes, so no dynamics can be estimated", caller);
     return remove_means ? remove_mean(data) : data;
 }
 

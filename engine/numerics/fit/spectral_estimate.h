@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "numerics/models/frequency_data.h"
 #include "numerics/signals/iddata.h"
 
@@ -16,8 +17,8 @@ struct SpectralEstimate {
     Vector coherence;  ///< 0 to 1: part of the output's power that the input explains; empty like std
     Vector
         noise_spectrum;  ///< Phi_v(w), power per sample (its mean over -pi..pi is the noise variance); empty like std
-    std::string message;
-    std::vector<std::string> warnings;
+    Message message;
+    std::vector<Message> warnings;
 };
 
 /// The estimate as a measured response, which models are fitted to; `smoothed`: over the frequencies, so that

@@ -369,15 +369,20 @@ Fit refine_output_error(const IdData& data, const TransferStructure& structure, 
                         const Vector& theta_start, const FitOptions& options, double unheard) {
     check_transfer_data("Output error", data, structure, condition.offset ? Offset::kEstimate : options.offset);
     if (theta_start.size() != structure.parameter_count())
-        throw InvalidArgument("The search needs " + std::to_string(structure.parameter_count()) +
-                              " start values, and " + std::to_string(theta_start.size()) + " were given");
+        throw InvalidArgument("The search needs {} start values, and {} were given", structure.parameter_count(),
+                              theta_start.size());
     const Index values = value_count(structure, condition, static_cast<Index>(data.experiments.size()));
     check_sample_count("Output error", data.sample_count() * structure.outputs, values);
     Fit estimate = structure.outputs > 1 && options.fixed.empty() && outputs_are_separate(structure)
                        ? refine_each_output(data, structure, condition, theta_start, options, unheard)
                        : refine_jointly(data, structure, condition, theta_start, options, unheard);
     const DelayRange range = structure.free_delays ? delay_range(data, options) : DelayRange{};
-    describe_search(estimate, data, "Output error", options, range);
+    describe_search(estimate, data, options, range);
+    estimate.message = has_settled(estimate)
+                           ? Message("Output error converged after {}, simulated {}: {}.", iteration_count(estimate),
+                                     description(estimate.start), simulation_text(estimate))
+                           : Message("Output error stopped after {}, simulated {}: {}.", iteration_count(estimate),
+                                     description(estimate.start), simulation_text(estimate));
     return estimate;
 }
 

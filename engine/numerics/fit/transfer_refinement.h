@@ -63,7 +63,7 @@ OutputProblem output_problem(const IdData& data, const TransferStructure& struct
 
 /// The estimates of all outputs as one estimate of the whole structure: covariance block by block, the worst
 /// termination and condition number; iteration k of the trace has each output at its k-th or last iteration. Standard
-/// errors, warnings and message are left empty: describe_search writes them.
+/// errors, warnings and message are left empty: refine_output_error writes them.
 Fit join_outputs(const TransferStructure& structure, const std::vector<OutputProblem>& problems,
                  const std::vector<Fit>& estimates);
 

@@ -13,9 +13,9 @@
 #include "numerics/fit/search_starts.h"
 #include "numerics/fit/simulation_error.h"
 #include "numerics/fit/srivc_iteration.h"
+#include "numerics/fit/start_choice.h"
 #include "numerics/fit/transfer_refinement.h"
 #include "numerics/linalg/side_by_side.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
@@ -165,7 +165,9 @@ Vector start_at_delays(const IdData& data, const TransferStructure& structure, c
 
 void check_search(const TransferStructure& structure, const FitOptions& options) {
     for (const auto& [name, value] : options.fixed)
-        if (name.starts_with("Td")) throw InvalidArgument("`fixed`: a delay is fixed with `delay`, and not as " + name);
+        if (name.starts_with("Td"))
+            throw InvalidArgument("{}: a delay is fixed with {}, and not as {}", OptionName{"fixed"},
+                                  OptionName{"delay"}, name);
     check_output_weights(options.output_weights, structure.outputs);
 }
 
@@ -277,8 +279,9 @@ Fit search_transfer(const char* method, const IdData& data, const TransferStruct
         stable.stable = true;
         starts.insert(starts.end(), {first_end, best.theta});
         if (Fit other = further(stable, search(stable, {})); other.loss <= kClearly * best.loss) {
-            add_warning(other, "An unstable model has a loss " + number_text(100 * (1 - best.loss / other.loss), 2) +
-                                   " % smaller, which is no evidence for it: `stable` = false gives it.");
+            other.warnings.push_back(
+                Message("An unstable model has a loss {} % smaller, which is no evidence for it: {} = false gives it.",
+                        significant(100 * (1 - best.loss / other.loss), 2), OptionName{"stable"}));
             best = std::move(other);
         }
     }
@@ -288,6 +291,13 @@ Fit search_transfer(const char* method, const IdData& data, const TransferStruct
     best.delay_grid = scan.delays;
     best.delay_loss = scan.losses;
     return best;
+}
+
+Fit search_with_chosen_start(const char* method, const IdData& data, const TransferStructure& structure,
+                             const FitOptions& options, const SearchAids& aids) {
+    const auto search = [&](const FitOptions& how) { return search_transfer(method, data, structure, how, aids); };
+    if (aids.start.size() > 0) return search(options);
+    return with_chosen_start(data, options, {search, [](Fit found, const FitOptions&) { return found; }, search});
 }
 
 }  // namespace dynlab::inline numerics

@@ -24,5 +24,9 @@ struct SearchAids {
 /// fit_output_error(), and for fixed parameters or weights that do not suit the structure.
 Fit search_transfer(const char* method, const IdData& data, const TransferStructure& structure,
                     const FitOptions& options, const SearchAids& aids = {});
+/// The same; start conditions that the options leave open are tried only where a fit from rest gives reason to
+/// (fit/start_choice.h), or where the search begins at a given theta.
+Fit search_with_chosen_start(const char* method, const IdData& data, const TransferStructure& structure,
+                             const FitOptions& options, const SearchAids& aids = {});
 
 }  // namespace dynlab::inline numerics

@@ -1,11 +1,9 @@
 #include "numerics/linalg/least_squares.h"
 
 #include <limits>
-#include <string>
 
 #include "numerics/error.h"
 #include "numerics/linalg/decompositions.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
@@ -13,12 +11,13 @@ namespace {
 
 void check_sizes(const MatrixView& A, const VectorView& b) {
     if (A.rows() != b.size())
-        throw InvalidArgument("least squares: the matrix has " + counted(A.rows(), "row") +
-                              " but the right-hand side has " + counted(b.size(), "value"));
+        throw InvalidArgument("least squares: the matrix has {} but the right-hand side has {}",
+                              plural(A.rows(), "{} row", "{} rows"), plural(b.size(), "{} value", "{} values"));
     if (A.cols() == 0) throw InvalidArgument("least squares: the matrix has no columns");
     if (A.rows() < A.cols())
-        throw InvalidArgument("least squares: " + counted(A.rows(), "equation") + " cannot determine " +
-                              counted(A.cols(), "parameter") + "; more data are needed");
+        throw InvalidArgument("least squares: {} cannot determine {}; more data are needed",
+                              plural(A.rows(), "{} equation", "{} equations"),
+                              plural(A.cols(), "{} parameter", "{} parameters"));
     if (!A.allFinite()) throw InvalidArgument("least squares: the matrix holds a value that is not finite");
     if (!b.allFinite()) throw InvalidArgument("least squares: the right-hand side holds a value that is not finite");
 }

@@ -7,14 +7,13 @@
 #include "numerics/error.h"
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/short_step.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
 Matrix matrix_exponential(const MatrixView& A) {
     if (A.rows() != A.cols())
-        throw InvalidArgument("matrix exponential: the matrix must be square, but it has " + counted(A.rows(), "row") +
-                              " and " + counted(A.cols(), "column"));
+        throw InvalidArgument("matrix exponential: the matrix must be square, but it has {} and {}",
+                              plural(A.rows(), "{} row", "{} rows"), plural(A.cols(), "{} column", "{} columns"));
     if (!A.allFinite()) throw InvalidArgument("matrix exponential: the matrix holds a value that is not finite");
     if (A.size() == 0) return A;
     Matrix balanced = A;

@@ -8,7 +8,6 @@
 #include "numerics/linalg/matrix_exponential.h"
 #include "numerics/linalg/polynomial.h"
 #include "numerics/models/sampled_system.h"
-#include "numerics/number_text.h"
 #include "numerics/signals/checks.h"
 
 namespace dynlab::inline numerics {
@@ -17,8 +16,9 @@ namespace {
 
 void check_convertible(const std::string& caller, const TransferFunction& G) {
     if (G.proper()) return;
-    throw InvalidArgument(caller + ": the transfer function has " + counted(G.zero_count(), "zero") + " but only " +
-                          counted(G.pole_count(), "pole") + "; it needs at least as many poles as zeros");
+    throw InvalidArgument("{}: the transfer function has {} but only {}; it needs at least as many poles as zeros",
+                          caller, plural(G.zero_count(), "{} zero", "{} zeros"),
+                          plural(G.pole_count(), "{} pole", "{} poles"));
 }
 
 Hold hold_of(Discretisation method) {
@@ -69,14 +69,16 @@ bool has_root(const Vector& p, double x) {
 }
 
 [[noreturn]] void report_pole_without_image(double Ts) {
-    throw InvalidArgument("c2d: the tustin method has no result for a pole at 2/Ts = " + number_text(2 / Ts) +
-                          " rad/s; choose another Ts");
+    throw InvalidArgument("c2d: the tustin method has no result for a pole at 2/Ts = {} rad/s; choose another Ts",
+                          2 / Ts);
 }
 
 TransferFunction tustin_c2d(const TransferFunction& G, double Ts) {
     if (split_delay(G.delay(), Ts).rest > 0)
-        throw InvalidArgument("c2d: the tustin method needs a delay that is a multiple of Ts = " + number_text(Ts) +
-                              " s, but it is " + number_text(G.delay()) + " s; zoh and foh take any delay");
+        throw InvalidArgument(
+            "c2d: the tustin method needs a delay that is a multiple of Ts = {} s, but it is {} s; zoh and foh take "
+            "any delay",
+            Ts, G.delay());
     const Vector top = 2 / Ts * Eigen::Vector2d(1, -1), bottom = Eigen::Vector2d(1, 1);
     if (has_root(G.den(), 2 / Ts)) report_pole_without_image(Ts);
     const Vector den = substitute(G.den(), top, bottom, G.pole_count());
@@ -108,9 +110,9 @@ TransferFunction exact_d2c(const TransferFunction& G, Hold hold) {
     for (const Complex& pole : discrete_poles)
         if (pole.imag() == 0 && pole.real() <= 0)
             throw InvalidArgument(
-                "d2c: the pole z = " + number_text(pole.real()) +
-                " is not the sample of a continuous-time pole of this order; with zoh and foh no "
-                "pole may lie on the negative real axis or at zero; noise, or a pole too many, puts it there");
+                "d2c: the pole z = {} is not the sample of a continuous-time pole of this order; with zoh and foh no "
+                "pole may lie on the negative real axis or at zero; noise, or a pole too many, puts it there",
+                pole.real());
     // The discrete numerator is linear in the continuous one: solve for its coefficients, with time in samples.
     const Vector den = polynomial_from_roots(discrete_poles.array().log().matrix());
     const Matrix map = discrete_numerators(derivative_filter(den, 1, hold), G.den());
@@ -131,16 +133,14 @@ TransferFunction tustin_d2c(const TransferFunction& G) {
 }  // namespace
 
 TransferFunction c2d(const TransferFunction& G, double Ts, Discretisation method) {
-    if (!G.continuous())
-        throw InvalidArgument("c2d: the model is already discrete, with Ts = " + number_text(G.Ts()) + " s");
+    if (!G.continuous()) throw InvalidArgument("c2d: the model is already discrete, with Ts = {} s", G.Ts());
     check_sampling_time("c2d", Ts);
     check_convertible("c2d", G);
     return method == Discretisation::kTustin ? tustin_c2d(G, Ts) : exact_c2d(G, Ts, hold_of(method));
 }
 
 StateSpace c2d(const StateSpace& system, double Ts, Discretisation method) {
-    if (system.Ts > 0)
-        throw InvalidArgument("c2d: the model is already discrete, with Ts = " + number_text(system.Ts) + " s");
+    if (system.Ts > 0) throw InvalidArgument("c2d: the model is already discrete, with Ts = {} s", system.Ts);
     check_sampling_time("c2d", Ts);
     const Matrix &A = system.A, &B = system.B, &C = system.C;
     if (method == Discretisation::kTustin) {
@@ -168,16 +168,16 @@ TransferFunction d2c(const TransferFunction& G, Discretisation method) {
 TransferFunction with_rational_delay(const std::string& caller, const TransferFunction& G) {
     if (G.delay() == 0) return G;
     if (G.continuous())
-        throw InvalidArgument(caller + ": with the delay of " + number_text(G.delay()) +
-                              " s this is not a rational transfer function: give pade(G, n), which approximates it, "
-                              "or c2d(G, Ts), which is exact at the samples");
+        throw InvalidArgument(
+            "{}: with the delay of {} s this is not a rational transfer function: give pade(G, n), which approximates "
+            "it, or c2d(G, Ts), which is exact at the samples",
+            caller, G.delay());
     const auto samples = static_cast<Index>(std::lround(G.delay() / G.Ts()));
     return TransferFunction(G.num(), multiply(G.den(), Vector::Unit(samples + 1, 0)), G.Ts());
 }
 
 TransferFunction pade(const TransferFunction& G, int order) {
-    if (order < 1 || order > 10)
-        throw InvalidArgument("pade: the order must lie between 1 and 10, and is " + std::to_string(order));
+    if (order < 1 || order > 10) throw InvalidArgument("pade: the order must lie between 1 and 10, and is {}", order);
     if (G.delay() == 0 || !G.continuous()) return with_rational_delay("pade", G);
     // P(s) = sum_k c_k (delay s)^k with c_0 = 1, c_k/c_(k-1) = (order - k + 1)/((2 order - k + 1) k), highest power
     // first

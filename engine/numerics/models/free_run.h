@@ -2,6 +2,7 @@
 #include <optional>
 #include <string>
 
+#include "base/message.h"
 #include "numerics/signals/iddata.h"
 
 namespace dynlab::inline numerics {
@@ -10,7 +11,7 @@ namespace dynlab::inline numerics {
 struct FreeRun {
     Matrix output;                 ///< N x ny; from a divergence on NaN
     std::optional<Index> lost_at;  ///< 0-based sample at which it left all bounds
-    std::string start;             ///< how it began, for messages: "from the recorded first 2 samples"
+    Message start;                 ///< how it began, for messages: "from the recorded first 2 samples"
 };
 
 /// A model that is simulated and not written as transfer functions: polynomial difference equations, differential
@@ -33,7 +34,7 @@ class FreeRunModel {
 void check_channels(const std::string& model, const FreeRunModel& wanted, const IdData& data);
 
 /// "The free run leaves all bounds at t = 3.2 s." with the time of that sample.
-std::string divergence_text(const IdData& data, std::size_t experiment, Index sample);
+Message divergence_text(const IdData& data, std::size_t experiment, Index sample);
 
 /// Inputs alone, regularly sampled every Ts seconds, as free_run() takes them from rest or from an x0.
 IdData inputs_alone(const MatrixView& u, double Ts, Hold hold);

@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
@@ -14,34 +13,29 @@ namespace {
 
 constexpr double kNyquistRounding = 1e-9;  // of frequencies that were computed to lie at pi/Ts
 
-std::string place_of(Index k) {
-    return "frequency " + std::to_string(k + 1);
-}
-
 void check_sizes(const std::string& caller, const FrequencyData& data) {
-    if (data.w.size() == 0) throw InvalidArgument(caller + ": there is no frequency, so no response is known");
+    if (data.w.size() == 0) throw InvalidArgument("{}: there is no frequency, so no response is known", caller);
     if (data.response.size() != data.w.size())
-        throw InvalidArgument(caller + ": the response needs one value for each frequency (" +
-                              std::to_string(data.w.size()) + "), and has " + std::to_string(data.response.size()));
+        throw InvalidArgument("{}: the response needs one value for each frequency ({}), and has {}", caller,
+                              data.w.size(), data.response.size());
     if (data.variance.size() != 0 && data.variance.size() != data.w.size())
-        throw InvalidArgument(caller + ": the variance needs one value, or one for each frequency (" +
-                              std::to_string(data.w.size()) + "), and has " + std::to_string(data.variance.size()));
+        throw InvalidArgument("{}: the variance needs one value, or one for each frequency ({}), and has {}", caller,
+                              data.w.size(), data.variance.size());
 }
 
 void check_frequencies(const std::string& caller, const FrequencyData& data) {
     const double end = data.Ts > 0 ? std::numbers::pi / data.Ts * (1 + kNyquistRounding) : kInfinity;
     for (Index k = 0; k < data.w.size(); ++k) {
         const double w = data.w[k];
-        if (!std::isfinite(w)) throw InvalidArgument(caller + ": " + place_of(k) + " is not a finite number");
+        if (!std::isfinite(w)) throw InvalidArgument("{}: frequency {} is not a finite number", caller, k + 1);
         if (!(w > 0))
-            throw InvalidArgument(caller + ": frequencies must be above zero (rad/s), but " + place_of(k) + " is " +
-                                  number_text(w) + "; leave it out");
+            throw InvalidArgument("{}: frequencies must be above zero (rad/s), but frequency {} is {}; leave it out",
+                                  caller, k + 1, w);
         if (k > 0 && !(w > data.w[k - 1]))
-            throw InvalidArgument(caller + ": each frequency may occur once, but " + number_text(w) +
-                                  " rad/s occurs more often");
+            throw InvalidArgument("{}: each frequency may occur once, but {} rad/s occurs more often", caller, w);
         if (w > end)
-            throw InvalidArgument(caller + ": frequencies end at pi/Ts = " + number_text(std::numbers::pi / data.Ts) +
-                                  " rad/s, but " + place_of(k) + " is " + number_text(w));
+            throw InvalidArgument("{}: frequencies end at pi/Ts = {} rad/s, but frequency {} is {}", caller,
+                                  std::numbers::pi / data.Ts, k + 1, w);
     }
 }
 
@@ -54,18 +48,18 @@ InterSample inter_sample_of(Hold hold) {
 void check_frequency_data(const std::string& caller, const FrequencyData& data) {
     check_sizes(caller, data);
     if (!(data.Ts >= 0) || !std::isfinite(data.Ts))
-        throw InvalidArgument(caller + ": the sampling time must not be negative, and is " + number_text(data.Ts));
+        throw InvalidArgument("{}: the sampling time must not be negative, and is {}", caller, data.Ts);
     if (data.Ts == 0 && data.inter_sample != InterSample::kBandLimited)
-        throw InvalidArgument(caller + ": an input that is held between samples needs their sampling time Ts");
+        throw InvalidArgument("{}: an input that is held between samples needs their sampling time Ts", caller);
     check_frequencies(caller, data);
     for (Index k = 0; k < data.w.size(); ++k)
         if (!std::isfinite(data.response[k].real()) || !std::isfinite(data.response[k].imag()))
-            throw InvalidArgument(caller + ": the response at " + place_of(k) + ", " + number_text(data.w[k]) +
-                                  " rad/s, is not a finite number");
+            throw InvalidArgument("{}: the response at frequency {}, {} rad/s, is not a finite number", caller, k + 1,
+                                  data.w[k]);
     for (Index k = 0; k < data.variance.size(); ++k)
         if (!(data.variance[k] > 0) || !std::isfinite(data.variance[k]))
-            throw InvalidArgument(caller + ": variances must be positive, but that at " + place_of(k) + ", " +
-                                  number_text(data.w[k]) + " rad/s, is " + number_text(data.variance[k]));
+            throw InvalidArgument("{}: variances must be positive, but that at frequency {}, {} rad/s, is {}", caller,
+                                  k + 1, data.w[k], data.variance[k]);
 }
 
 FrequencyData frequency_data(const ComplexVector& response, const VectorView& w, const VectorView& variance, double Ts,

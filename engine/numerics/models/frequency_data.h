@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "numerics/linalg/types.h"
 #include "numerics/signals/iddata.h"
 
@@ -35,15 +36,16 @@ struct FrequencyData {
 
     bool neighbours_share_errors = false;  ///< the response was smoothed over the frequencies
 
-    Vector noise_variance;        ///< of bla: the part of `variance` that noise makes
-    Vector distortion;            ///< of bla: variance of the response of one realisation that nonlinearity makes
-    Eigen::MatrixXcd realised;    ///< of bla: the response of each realisation, a column each; empty with one
-    Vector coherence;             ///< of spa and etfe: 0 to 1
-    Vector noise_spectrum;        ///< of spa and etfe: power per sample
-    OutputLevels excited;         ///< of bla: at the lines of w
-    OutputLevels odd, even;       ///< of bla: at odd and even lines without input
-    std::string method, message;  ///< that gave it, and its sentence
-    std::vector<std::string> warnings;
+    Vector noise_variance;      ///< of bla: the part of `variance` that noise makes
+    Vector distortion;          ///< of bla: variance of the response of one realisation that nonlinearity makes
+    Eigen::MatrixXcd realised;  ///< of bla: the response of each realisation, a column each; empty with one
+    Vector coherence;           ///< of spa and etfe: 0 to 1
+    Vector noise_spectrum;      ///< of spa and etfe: power per sample
+    OutputLevels excited;       ///< of bla: at the lines of w
+    OutputLevels odd, even;     ///< of bla: at odd and even lines without input
+    std::string method;         ///< that gave it
+    Message message;            ///< its sentence
+    std::vector<Message> warnings;
 };
 
 /// The response of a list of frequencies (rad/s), in rising order. `variance` may be empty or one value for all. Throws

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
@@ -22,14 +21,14 @@ std::vector<Index> GreyModel::free_parameters() const {
 
 void GreyModel::validate() const {
     for (const GreyParameter& p : parameters) {
-        const std::string name = "The parameter " + p.name;
-        if (!std::isfinite(p.start)) throw InvalidArgument(name + " starts from " + number_text(p.start));
+        if (!std::isfinite(p.start)) throw InvalidArgument("The parameter {} starts from {}", p.name, p.start);
         if (std::isnan(p.lower) || std::isnan(p.upper) || p.lower > p.upper)
-            throw InvalidArgument(name + " has the bounds " + number_text(p.lower) + " and " + number_text(p.upper) +
-                                  ", and the first must not be above the second");
+            throw InvalidArgument(
+                "The parameter {} has the bounds {} and {}, and the first must not be above the second", p.name,
+                p.lower, p.upper);
         if (p.start < p.lower || p.start > p.upper)
-            throw InvalidArgument(name + " starts from " + number_text(p.start) + ", outside its bounds " +
-                                  number_text(p.lower) + " and " + number_text(p.upper));
+            throw InvalidArgument("The parameter {} starts from {}, outside its bounds {} and {}", p.name, p.start,
+                                  p.lower, p.upper);
     }
     if (state_names.empty()) throw InvalidArgument("The model needs at least one state");
 }

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
@@ -21,25 +20,27 @@ void read_dead_time(ImpulseEstimate& estimate, double Ts, Hold hold, double half
     for (Index i = 0; i + 1 < g.size() && !estimate.first; ++i)
         if (beyond(i) && beyond(i + 1) && g[i] * g[i + 1] > 0) estimate.first = i;
     if (!estimate.first) {
-        estimate.message += " No part of it stands out of the noise: the input does not visibly move the output.";
+        estimate.message =
+            sentences({estimate.message,
+                       Message("No part of it stands out of the noise: the input does not visibly move the output.")});
         return;
     }
     const Index first = *estimate.first, dead = std::max<Index>(first - (hold == Hold::kZoh ? 1 : 0), 0);
-    estimate.message += " It first stands out of the noise at lag " + std::to_string(first) + " (" +
-                        number_text(static_cast<double>(first) * Ts) + " s); ";
-    estimate.message += dead == 0 ? "no dead time is visible."
-                                  : "the dead time is about " + number_text(static_cast<double>(dead) * Ts) + " s (" +
-                                        counted(dead, "sample") + ").";
+    const double first_time = static_cast<double>(first) * Ts, dead_time = static_cast<double>(dead) * Ts;
+    const Message found =
+        dead == 0
+            ? Message("It first stands out of the noise at lag {} ({} s); no dead time is visible.", first, first_time)
+            : Message("It first stands out of the noise at lag {} ({} s); the dead time is about {} s ({}).", first,
+                      first_time, dead_time, plural(dead, "{} sample", "{} samples"));
+    estimate.message = sentences({estimate.message, found});
 }
 
 Index lags_or_default(const std::string& caller, Index lags, Index shortest) {
-    if (lags < 0)
-        throw InvalidArgument(caller + ": the number of lags must be positive, but it is " + std::to_string(lags));
+    if (lags < 0) throw InvalidArgument("{}: the number of lags must be positive, but it is {}", caller, lags);
     if (lags == 0) lags = std::max<Index>(1, std::min(kDefaultLags, shortest / 5));
     if (kSamplesPerLag * lags > shortest)
-        throw InvalidArgument(caller + ": over " + counted(lags, "lag") + " at least " +
-                              std::to_string(kSamplesPerLag * lags) +
-                              " samples are needed, but the shortest experiment has " + std::to_string(shortest));
+        throw InvalidArgument("{}: over {} at least {} samples are needed, but the shortest experiment has {}", caller,
+                              plural(lags, "{} lag", "{} lags"), kSamplesPerLag * lags, shortest);
     return lags;
 }
 

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "numerics/linalg/types.h"
 #include "numerics/signals/iddata.h"
 
@@ -18,8 +19,8 @@ struct ImpulseEstimate {
     double noise_variance = 0;
     Matrix covariance;           ///< of g; empty where a method knows none
     std::optional<Index> first;  ///< lag of the first response that is no chance
-    std::string message;
-    std::vector<std::string> warnings;
+    Message message;
+    std::vector<Message> warnings;
 };
 
 /// Finds the first lag that together with the next lies beyond `half_width` of its null_std on the same side, and

@@ -5,7 +5,6 @@
 
 #include "numerics/error.h"
 #include "numerics/linalg/polynomial.h"
-#include "numerics/number_text.h"
 #include "numerics/signals/checks.h"
 
 namespace dynlab::inline numerics {
@@ -14,16 +13,37 @@ namespace {
 
 constexpr int kHighestOrder = 100, kLongestDelay = 1000000;
 
-void check_order(int value, int least, int most, const std::string& name, const std::string& meaning) {
-    if (value >= least && value <= most) return;
-    throw InvalidArgument(name + ", " + meaning + ", must lie between " + std::to_string(least) + " and " +
-                          std::to_string(most) + ", and is " + std::to_string(value));
+bool between(int value, int least, int most) {
+    return value >= least && value <= most;
+}
+
+void check_orders(const PolynomialOrders& orders) {
+    if (!between(orders.na, 0, kHighestOrder))
+        throw InvalidArgument("na, the number of poles, must lie between {} and {}, and is {}", 0, kHighestOrder,
+                              orders.na);
+    if (!between(orders.nc, 0, kHighestOrder))
+        throw InvalidArgument("nc, the number of coefficients of C after its 1, must lie between {} and {}, and is {}",
+                              0, kHighestOrder, orders.nc);
+    if (!between(orders.nd, 0, kHighestOrder))
+        throw InvalidArgument("nd, the number of coefficients of D after its 1, must lie between {} and {}, and is {}",
+                              0, kHighestOrder, orders.nd);
+    for (std::size_t i = 0; i < orders.inputs(); ++i) {
+        if (!between(orders.nb[i], 1, kHighestOrder))
+            throw InvalidArgument("nb, the number of coefficients of B, must lie between {} and {}, and is {}", 1,
+                                  kHighestOrder, orders.nb[i]);
+        if (!between(orders.nf[i], 0, kHighestOrder))
+            throw InvalidArgument("nf, the number of poles of B/F, must lie between {} and {}, and is {}", 0,
+                                  kHighestOrder, orders.nf[i]);
+        if (!between(orders.nk[i], 0, kLongestDelay))
+            throw InvalidArgument("nk, the delay in samples (1: no direct term), must lie between {} and {}, and is {}",
+                                  0, kLongestDelay, orders.nk[i]);
+    }
 }
 
 void check_list(const std::vector<int>& list, std::size_t inputs, const std::string& name) {
     if (list.size() == inputs) return;
-    throw InvalidArgument(name + " needs one value for each input: nb has " + std::to_string(inputs) + ", and " + name +
-                          " has " + std::to_string(list.size()));
+    throw InvalidArgument("{} needs one value for each input: nb has {}, and {} has {}", name, inputs, name,
+                          list.size());
 }
 
 void append_names(std::vector<std::string>& names, const char* letter, int first, int count,
@@ -104,23 +124,18 @@ void PolynomialOrders::validate() const {
     if (nb.empty()) throw InvalidArgument("A polynomial model needs at least one input");
     check_list(nf, nb.size(), "nf");
     check_list(nk, nb.size(), "nk");
-    check_order(na, 0, kHighestOrder, "na", "the number of poles");
-    check_order(nc, 0, kHighestOrder, "nc", "the number of coefficients of C after its 1");
-    check_order(nd, 0, kHighestOrder, "nd", "the number of coefficients of D after its 1");
-    for (std::size_t i = 0; i < inputs(); ++i) {
-        check_order(nb[i], 1, kHighestOrder, "nb", "the number of coefficients of B");
-        check_order(nf[i], 0, kHighestOrder, "nf", "the number of poles of B/F");
-        check_order(nk[i], 0, kLongestDelay, "nk", "the delay in samples (1: no direct term)");
-    }
+    check_orders(*this);
 }
 
 PolynomialModel::PolynomialModel(const PolynomialOrders& orders, const VectorView& theta, double sampling_time)
     : Ts(sampling_time) {
     orders.validate();
-    check_sampling_time("polynomial model", Ts);
+    if (!valid_sampling_time(Ts))
+        throw InvalidArgument("polynomial model: the sampling time must be a positive number of seconds, but it is {}",
+                              Ts);
     if (theta.size() != orders.parameter_count())
-        throw InvalidArgument("The polynomial model has " + counted(orders.parameter_count(), "parameter") + ", and " +
-                              std::to_string(theta.size()) + " were given");
+        throw InvalidArgument("The polynomial model has {}, and {} were given",
+                              plural(orders.parameter_count(), "{} parameter", "{} parameters"), theta.size());
     A = monic(theta.head(orders.na));
     C = monic(theta.segment(orders.c_start(), orders.nc));
     D = monic(theta.segment(orders.d_start(), orders.nd));

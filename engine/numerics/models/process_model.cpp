@@ -10,12 +10,6 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-[[noreturn]] void report_structure(const std::string& text, const std::string& why) {
-    throw InvalidArgument("process model: \"" + text + "\" " + why +
-                          "; write P1, P2 or P3 and after it any of D (delay), I (integrator), Z (zero), "
-                          "U (under-damped pair, from P2 on), as in P2DU");
-}
-
 /// The flag a letter stands for, or none.
 bool* flag(ProcessStructure& structure, char letter) {
     switch (letter) {
@@ -36,17 +30,31 @@ bool* flag(ProcessStructure& structure, char letter) {
 
 ProcessStructure ProcessStructure::parse(const std::string& text) {
     if (text.size() < 2 || text[0] != 'P' || text[1] < '1' || text[1] > '3')
-        report_structure(text, "is not the structure of a process model");
+        throw InvalidArgument(
+            "process model: \"{}\" is not the structure of a process model; write P1, P2 or P3 and after it any of D "
+            "(delay), I (integrator), Z (zero), U (under-damped pair, from P2 on), as in P2DU",
+            text);
     ProcessStructure structure;
     structure.poles = text[1] - '0';
     for (const char letter : text.substr(2)) {
         bool* chosen = flag(structure, letter);
-        if (chosen == nullptr) report_structure(text, std::string("has the unknown letter ") + letter);
-        if (*chosen) report_structure(text, std::string("has the letter ") + letter + " twice");
+        if (chosen == nullptr)
+            throw InvalidArgument(
+                "process model: \"{}\" has the unknown letter {}; write P1, P2 or P3 and after it any of D (delay), I "
+                "(integrator), Z (zero), U (under-damped pair, from P2 on), as in P2DU",
+                text, std::string(1, letter));
+        if (*chosen)
+            throw InvalidArgument(
+                "process model: \"{}\" has the letter {} twice; write P1, P2 or P3 and after it any of D (delay), I "
+                "(integrator), Z (zero), U (under-damped pair, from P2 on), as in P2DU",
+                text, std::string(1, letter));
         *chosen = true;
     }
     if (structure.underdamped && structure.poles < 2)
-        report_structure(text, "has too few poles for an under-damped pair");
+        throw InvalidArgument(
+            "process model: \"{}\" has too few poles for an under-damped pair; write P1, P2 or P3 and after it any of "
+            "D (delay), I (integrator), Z (zero), U (under-damped pair, from P2 on), as in P2DU",
+            text);
     return structure;
 }
 
@@ -73,17 +81,14 @@ ProcessModel::ProcessModel(ProcessStructure structure_, Vector parameters_)
     : structure(structure_), parameters(std::move(parameters_)) {
     const std::vector<std::string> names = structure.parameter_names();
     if (parameters.size() == static_cast<Index>(names.size())) return;
-    std::string list = names.front();
-    for (std::size_t i = 1; i < names.size(); ++i) list += ", " + names[i];
-    throw InvalidArgument("process model: " + structure.text() + " has the parameters " + list + ", " +
-                          std::to_string(names.size()) + " values, but " + std::to_string(parameters.size()) +
-                          " were given");
+    throw InvalidArgument("process model: {} has the parameters {}, {} values, but {} were given", structure.text(),
+                          listed(names), names.size(), parameters.size());
 }
 
 double ProcessModel::parameter(const std::string& name) const {
     const std::vector<std::string> names = structure.parameter_names();
     const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end()) throw InvalidArgument("process model: " + structure.text() + " has no parameter " + name);
+    if (found == names.end()) throw InvalidArgument("process model: {} has no parameter {}", structure.text(), name);
     return parameters(found - names.begin());
 }
 

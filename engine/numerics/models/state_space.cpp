@@ -1,14 +1,12 @@
 #include "numerics/models/state_space.h"
 
 #include <cmath>
-#include <string>
 #include <utility>
 
 #include "numerics/error.h"
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/polynomial.h"
 #include "numerics/models/transfer_function.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
@@ -16,11 +14,9 @@ namespace {
 
 void check_matrix(const Matrix& matrix, const char* name, Index rows, Index columns) {
     if (matrix.rows() != rows || matrix.cols() != columns)
-        throw InvalidArgument(std::string("state space: ") + name + " must be " + std::to_string(rows) + " x " +
-                              std::to_string(columns) + ", but it is " + std::to_string(matrix.rows()) + " x " +
-                              std::to_string(matrix.cols()));
-    if (!matrix.allFinite())
-        throw InvalidArgument(std::string("state space: ") + name + " holds a value that is not finite");
+        throw InvalidArgument("state space: {} must be {} x {}, but it is {} x {}", name, rows, columns, matrix.rows(),
+                              matrix.cols());
+    if (!matrix.allFinite()) throw InvalidArgument("state space: {} holds a value that is not finite", name);
 }
 
 /// One input, one output, seen through its zeros: c (sI-A)^-1 b + d = gain prod(s - zeros)/det(sI-A).
@@ -68,15 +64,15 @@ StateSpace::StateSpace(Matrix A_, Matrix B_, Matrix C_, Matrix D_, double Ts_)
     check_matrix(D, "D", C.rows(), B.cols());
     if (!(Ts >= 0) || !std::isfinite(Ts))
         throw InvalidArgument(
-            "state space: Ts must be a positive number of seconds, or 0 for continuous time, but it is " +
-            number_text(Ts));
+            "state space: Ts must be a positive number of seconds, or 0 for continuous time, but it is {}", Ts);
 }
 
 StateSpace to_state_space(const TransferFunction& G) {
     if (!G.proper())
-        throw InvalidArgument("a transfer function with " + counted(G.zero_count(), "zero") + " and " +
-                              counted(G.pole_count(), "pole") +
-                              " is improper and has no state space form; it needs at least as many poles as zeros");
+        throw InvalidArgument(
+            "a transfer function with {} and {} is improper and has no state space form; it needs at least as many "
+            "poles as zeros",
+            plural(G.zero_count(), "{} zero", "{} zeros"), plural(G.pole_count(), "{} pole", "{} poles"));
     const Index n = G.pole_count();
     Vector num = Vector::Zero(n + 1);
     num.tail(G.num().size()) = G.num();
@@ -88,9 +84,9 @@ StateSpace to_state_space(const TransferFunction& G) {
 
 TransferFunction to_transfer_function(const StateSpace& system, Index output, Index input) {
     if (output < 0 || output >= system.C.rows() || input < 0 || input >= system.B.cols())
-        throw InvalidArgument("state space: there is no output " + std::to_string(output + 1) + " from input " +
-                              std::to_string(input + 1) + "; the system has " + counted(system.C.rows(), "output") +
-                              " and " + counted(system.B.cols(), "input"));
+        throw InvalidArgument("state space: there is no output {} from input {}; the system has {} and {}", output + 1,
+                              input + 1, plural(system.C.rows(), "{} output", "{} outputs"),
+                              plural(system.B.cols(), "{} input", "{} inputs"));
     const Vector den = polynomial_from_roots(balanced_eigenvalues(system.A));
     const auto [zeros, gain] =
         zeros_and_gain(system.A, system.B.col(input), system.C.row(output), system.D(output, input));

@@ -6,17 +6,18 @@
 
 #include "numerics/error.h"
 #include "numerics/linalg/polynomial.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
 namespace {
 
-void check_coefficients(const VectorView& p, const char* name) {
-    if (p.size() == 0) throw InvalidArgument(std::string("transfer function: the ") + name + " has no coefficients");
-    if (!p.allFinite())
-        throw InvalidArgument(std::string("transfer function: the ") + name +
-                              " holds a coefficient that is not finite");
+void check_coefficients(const VectorView& num, const VectorView& den) {
+    if (num.size() == 0) throw InvalidArgument("transfer function: the numerator has no coefficients");
+    if (!num.allFinite())
+        throw InvalidArgument("transfer function: the numerator holds a coefficient that is not finite");
+    if (den.size() == 0) throw InvalidArgument("transfer function: the denominator has no coefficients");
+    if (!den.allFinite())
+        throw InvalidArgument("transfer function: the denominator holds a coefficient that is not finite");
 }
 
 /// A discrete delay as the exact multiple of Ts it stands for.
@@ -24,8 +25,8 @@ double delay_on_grid(double delay, double Ts) {
     constexpr double kRounding = 1e-9;
     const double samples = delay / Ts, nearest = std::round(samples);
     if (std::abs(samples - nearest) > kRounding * std::max(1.0, nearest))
-        throw InvalidArgument("transfer function: in discrete time the delay must be a multiple of Ts = " +
-                              number_text(Ts) + " s, but it is " + number_text(delay) + " s");
+        throw InvalidArgument(
+            "transfer function: in discrete time the delay must be a multiple of Ts = {} s, but it is {} s", Ts, delay);
     return nearest * Ts;
 }
 
@@ -54,8 +55,9 @@ bool is_gain(const TransferFunction& G) {
 double common_sampling_time(const TransferFunction& a, const TransferFunction& b) {
     if (a.Ts() == b.Ts() || is_gain(b)) return a.Ts();
     if (is_gain(a)) return b.Ts();
-    throw InvalidArgument("transfer functions with the sampling times " + number_text(a.Ts()) + " s and " +
-                          number_text(b.Ts()) + " s cannot be combined (0 means continuous time)");
+    throw InvalidArgument(
+        "transfer functions with the sampling times {} s and {} s cannot be combined (0 means continuous time)", a.Ts(),
+        b.Ts());
 }
 
 /// The delay (s) of a discrete model beyond `kept` as poles at zero.
@@ -68,15 +70,12 @@ TransferFunction with_later_poles(const TransferFunction& G, double Ts, double k
 
 TransferFunction::TransferFunction(const VectorView& num, const VectorView& den, double Ts, double delay)
     : Ts_(Ts), delay_(delay) {
-    check_coefficients(num, "numerator");
-    check_coefficients(den, "denominator");
+    check_coefficients(num, den);
     if (!(Ts >= 0) || !std::isfinite(Ts))
         throw InvalidArgument(
-            "transfer function: Ts must be a positive number of seconds, or 0 for continuous time, but it is " +
-            number_text(Ts));
+            "transfer function: Ts must be a positive number of seconds, or 0 for continuous time, but it is {}", Ts);
     if (!(delay >= 0) || !std::isfinite(delay))
-        throw InvalidArgument("transfer function: the delay must not be negative, but it is " + number_text(delay) +
-                              " s");
+        throw InvalidArgument("transfer function: the delay must not be negative, but it is {} s", delay);
     if (den.isZero(0)) throw InvalidArgument("transfer function: the denominator is zero");
     if (Ts > 0) delay_ = delay_on_grid(delay, Ts);
     const Vector stripped = strip_leading_zeros(den);
@@ -123,9 +122,10 @@ TransferFunction operator+(const TransferFunction& a, const TransferFunction& b)
     if (a.delay() != b.delay()) {
         const double Ts = common_sampling_time(a, b), common = std::min(a.delay(), b.delay());
         if (Ts > 0) return with_later_poles(a, Ts, common) + with_later_poles(b, Ts, common);
-        throw InvalidArgument("transfer functions with the delays " + number_text(a.delay()) + " s and " +
-                              number_text(b.delay()) +
-                              " s cannot be added: the sum is not a rational function; pade(G, n) approximates one");
+        throw InvalidArgument(
+            "transfer functions with the delays {} s and {} s cannot be added: the sum is not a rational function; "
+            "pade(G, n) approximates one",
+            a.delay(), b.delay());
     }
     const Vector num = add(multiply(a.num(), b.den()), multiply(b.num(), a.den()));
     return TransferFunction(num, multiply(a.den(), b.den()), common_sampling_time(a, b), a.delay());
@@ -142,9 +142,10 @@ TransferFunction operator*(const TransferFunction& a, const TransferFunction& b)
 
 TransferFunction operator/(const TransferFunction& a, const TransferFunction& b) {
     if (b.delay() > a.delay())
-        throw InvalidArgument("division of a transfer function with a delay of " + number_text(a.delay()) +
-                              " s by one with a delay of " + number_text(b.delay()) +
-                              " s: the quotient would have to know the future");
+        throw InvalidArgument(
+            "division of a transfer function with a delay of {} s by one with a delay of {} s: the quotient would have "
+            "to know the future",
+            a.delay(), b.delay());
     if (b.num().isZero(0)) throw InvalidArgument("division by a transfer function that is zero");
     return a.with_delay(a.delay() - b.delay()) * TransferFunction(b.den(), b.num(), b.Ts());
 }

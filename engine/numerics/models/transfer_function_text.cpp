@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/number_text.h"
 #include "numerics/models/transfer_function.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
@@ -13,11 +12,29 @@ namespace {
 constexpr int kMostPoles = 30;
 
 template <class Value>
-Value entry(const std::vector<Value>& list, std::size_t channel, std::size_t channels, const char* what) {
-    if (list.size() == 1) return list.front();
-    if (list.size() == channels) return list[channel];
-    throw InvalidArgument("The model has " + counted(channels, "channel") + ", so " + what +
-                          " needs one value or one for each, and " + std::to_string(list.size()) + " were given");
+bool of_channels(const std::vector<Value>& list, std::size_t channels) {
+    return list.size() == 1 || list.size() == channels;
+}
+
+template <class Value>
+Value entry(const std::vector<Value>& list, std::size_t channel) {
+    return list.size() == 1 ? list.front() : list[channel];
+}
+
+void check_lists(const std::vector<int>& poles, const std::vector<int>& zeros, const std::vector<double>& delays,
+                 std::size_t channels) {
+    const Message count = plural(static_cast<Index>(channels), "{} channel", "{} channels");
+    if (!of_channels(poles, channels))
+        throw InvalidArgument(
+            "The model has {}, so the number of poles needs one value or one for each, and {} were given", count,
+            poles.size());
+    if (!of_channels(zeros, channels))
+        throw InvalidArgument(
+            "The model has {}, so the number of zeros needs one value or one for each, and {} were given", count,
+            zeros.size());
+    if (!of_channels(delays, channels))
+        throw InvalidArgument("The model has {}, so the delay needs one value or one for each, and {} were given",
+                              count, delays.size());
 }
 
 Index denominator_of(Denominators sharing, Index output, Index input, Index inputs) {
@@ -38,18 +55,18 @@ TransferStructure TransferStructure::grid(Index outputs, Index inputs, Denominat
     structure.outputs = outputs;
     structure.inputs = inputs;
     const std::size_t count = static_cast<std::size_t>(outputs * inputs);
+    check_lists(poles, zeros, delays, count);
     for (std::size_t i = 0; i < count; ++i) {
         const Index place = static_cast<Index>(i);
         const Index denominator = denominator_of(sharing, place / inputs, place % inputs, inputs);
-        const int n = entry(poles, i, count, "the number of poles");
+        const int n = entry(poles, i);
         if (static_cast<std::size_t>(denominator) == structure.poles.size())
             structure.poles.push_back(n);
         else if (structure.poles[static_cast<std::size_t>(denominator)] != n)
-            throw InvalidArgument("Channels with a common denominator need equal numbers of poles, and " +
-                                  std::to_string(structure.poles[static_cast<std::size_t>(denominator)]) + " and " +
-                                  std::to_string(n) + " were given");
-        structure.channels.push_back(
-            {denominator, entry(zeros, i, count, "the number of zeros"), entry(delays, i, count, "the delay")});
+            throw InvalidArgument(
+                "Channels with a common denominator need equal numbers of poles, and {} and {} were given",
+                structure.poles[static_cast<std::size_t>(denominator)], n);
+        structure.channels.push_back({denominator, entry(zeros, i), entry(delays, i)});
     }
     structure.validate();
     return structure;
@@ -154,17 +171,16 @@ void TransferStructure::validate() const {
             "A model needs at least one output and one channel for each pair of an input and an output");
     for (const int n : poles)
         if (n < 1 || n > kMostPoles)
-            throw InvalidArgument("The number of poles must lie between 1 and " + std::to_string(kMostPoles) +
-                                  ", and is " + std::to_string(n));
+            throw InvalidArgument("The number of poles must lie between 1 and {}, and is {}", kMostPoles, n);
     for (const TransferChannel& channel : channels) {
         if (channel.denominator < 0 || static_cast<std::size_t>(channel.denominator) >= poles.size())
             throw InvalidArgument("A channel of the model names a denominator that is not there");
         const int n = poles[static_cast<std::size_t>(channel.denominator)];
         if (channel.zeros < 0 || channel.zeros > n)
-            throw InvalidArgument("The number of zeros must lie between 0 and the number of poles, " +
-                                  std::to_string(n) + ", and is " + std::to_string(channel.zeros));
+            throw InvalidArgument("The number of zeros must lie between 0 and the number of poles, {}, and is {}", n,
+                                  channel.zeros);
         if (!(channel.delay >= 0) || !std::isfinite(channel.delay))
-            throw InvalidArgument("A delay must not be negative, and is " + number_text(channel.delay) + " s");
+            throw InvalidArgument("A delay must not be negative, and is {} s", channel.delay);
     }
 }
 

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 #include "numerics/rigs/rig_record.h"
 
 namespace dynlab::inline numerics {
@@ -16,11 +15,12 @@ double reading(double truth, double noise_std, double resolution, RandomStream& 
 }  // namespace
 
 void CraneRun::validate(const CraneParameters& parameters) const {
-    require_positive("crane", "duration of a run", duration);
+    if (!(duration > 0) || !std::isfinite(duration))
+        throw InvalidArgument("The crane's duration of a run must be positive, and is {}", significant(duration, 6));
     if (!std::isfinite(angle)) throw InvalidArgument("The crane's angle at the start must be finite");
     if (!(std::abs(position) <= parameters.rail))
-        throw InvalidArgument("The crane must start on its rail, between -" + number_text(parameters.rail) + " m and " +
-                              number_text(parameters.rail) + " m");
+        throw InvalidArgument("The crane must start on its rail, between -{} m and {} m", parameters.rail,
+                              parameters.rail);
 }
 
 CraneRecord control_crane(const CraneParameters& parameters, const CraneExperiments& plan, const CraneRun& run,
@@ -40,7 +40,7 @@ CraneRecord control_crane(const CraneParameters& parameters, const CraneExperime
         record.theta[k] = reading(state.angle, plan.angle_noise_std, plan.angle_resolution, random);
         record.u[k] = controller(t[k], record.x[k], record.theta[k]);
         if (!std::isfinite(record.u[k]))
-            throw InvalidArgument("the controller gave a voltage that is not finite at " + number_text(t[k]) + " s");
+            throw InvalidArgument("the controller gave a voltage that is not finite at {} s", t[k]);
         crane.advance(record.u[k], plan.Ts);
     }
     return record;

@@ -1,7 +1,6 @@
 #include "numerics/rigs/first_order_step.h"
 
 #include <cmath>
-#include <string>
 
 #include "numerics/error.h"
 #include "numerics/rigs/rig_record.h"
@@ -15,8 +14,7 @@ void FirstOrderStepParameters::validate() const {
     if (!std::isfinite(gain) || !std::isfinite(step_height))
         throw InvalidArgument("The first-order step's gain and step height must be finite numbers");
     if (samples < 2)
-        throw InvalidArgument("The first-order step needs at least 2 samples, and " + std::to_string(samples) +
-                              " were asked for");
+        throw InvalidArgument("The first-order step needs at least 2 samples, and {} were asked for", samples);
 }
 
 FirstOrderStepTruth first_order_step_truth(const FirstOrderStepParameters& p) {

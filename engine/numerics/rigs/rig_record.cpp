@@ -1,21 +1,11 @@
 #include "numerics/rigs/rig_record.h"
 
 #include <cmath>
-#include <sstream>
 
 #include "numerics/error.h"
 #include "numerics/signals/prbs.h"
 
 namespace dynlab::inline numerics {
-namespace {
-
-[[noreturn]] void refuse(const char* rig, const char* name, const char* wanted, double value) {
-    std::ostringstream text;
-    text << "The " << rig << "'s " << name << " must " << wanted << ", and is " << value;
-    throw InvalidArgument(text.str());
-}
-
-}  // namespace
 
 Vector sampling_instants(double duration, double Ts) {
     // The small surplus keeps the last sample when duration/Ts rounds to just below a whole number.
@@ -24,11 +14,13 @@ Vector sampling_instants(double duration, double Ts) {
 }
 
 void require_positive(const char* rig, const char* name, double value) {
-    if (!(value > 0) || !std::isfinite(value)) refuse(rig, name, "be positive", value);
+    if (!(value > 0) || !std::isfinite(value))
+        throw InvalidArgument("The {}'s {} must be positive, and is {}", rig, name, significant(value, 6));
 }
 
 void require_not_negative(const char* rig, const char* name, double value) {
-    if (!(value >= 0) || !std::isfinite(value)) refuse(rig, name, "not be negative", value);
+    if (!(value >= 0) || !std::isfinite(value))
+        throw InvalidArgument("The {}'s {} must not be negative, and is {}", rig, name, significant(value, 6));
 }
 
 Vector seeded_prbs(int stages, int hold, double low, double high, RandomStream& random) {

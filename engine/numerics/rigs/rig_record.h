@@ -15,7 +15,8 @@ struct RigRecord {
 /// Instants 0, Ts, ... that cover `duration` (s), both ends included when it is a multiple of Ts.
 Vector sampling_instants(double duration, double Ts);
 
-/// Throws InvalidArgument "RIG: NAME must be positive (not negative), and is VALUE".
+/// Throws InvalidArgument "The RIG's NAME must be positive (not be negative), and is VALUE". The names are those of
+/// parameters of the C++ structs, which have no translation.
 void require_positive(const char* rig, const char* name, double value);
 void require_not_negative(const char* rig, const char* name, double value);
 /// The same for several: name, value, name, value, ... The first of them that is refused is reported.

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/number_text.h"
 #include "numerics/error.h"
 #include "numerics/linalg/side_by_side.h"
-#include "numerics/number_text.h"
 #include "numerics/rigs/rig_record.h"
 #include "numerics/signals/excitation.h"
 #include "numerics/simulation/ode_solver.h"

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 #include "numerics/signals/extension.h"
 
 namespace dynlab::inline numerics {
@@ -32,9 +31,9 @@ Analog analog_of(const PassBand& band, double Ts, bool stop) {
     const bool from_zero = band.low == 0, to_end = band.high >= end * (1 - 1e-12);
     if (!(band.low >= 0) || !(band.low < band.high) || band.low >= end || (from_zero && to_end))
         throw InvalidArgument(
-            "the band of the filter must have an edge between 0 and pi/Ts = " + number_text(end) +
-            " rad per time unit, the lower one first ({0, w} is a low-pass filter), but it runs from " +
-            number_text(band.low) + " to " + number_text(band.high));
+            "the band of the filter must have an edge between 0 and pi/Ts = {} rad per time unit, the lower one first "
+            "({0, w} is a low-pass filter), but it runs from {} to {}",
+            end, band.low, band.high);
     const double infinity = std::numeric_limits<double>::infinity();
     const double low = std::tan(band.low * Ts / 2), high = to_end ? infinity : std::tan(band.high * Ts / 2);
     if (!stop || (!from_zero && !to_end)) return {low, high, stop};
@@ -131,8 +130,8 @@ Index memory_of(const FilterSections& sections) {
 
 void FilterOptions::validate() const {
     if (order < 1 || order > kHighestFilterOrder)
-        throw InvalidArgument("the order of the filter must lie between 1 and " + std::to_string(kHighestFilterOrder) +
-                              ", but it is " + std::to_string(order));
+        throw InvalidArgument("the order of the filter must lie between 1 and {}, but it is {}", kHighestFilterOrder,
+                              order);
 }
 
 FilterSections butterworth(const PassBand& band, double Ts, const FilterOptions& options) {

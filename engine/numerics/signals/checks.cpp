@@ -1,61 +1,151 @@
 #include "numerics/signals/checks.h"
 
+#include <array>
 #include <cmath>
 
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
 namespace {
 
-[[noreturn]] void report_sample(const std::string& caller, const std::string& name, const MatrixView& samples) {
+// Whole sentences for the input, the output, the reference and the signal, because languages decline their names.
+
+Message of(SignalName name, const std::array<Message, 4>& all) {
+    return all[static_cast<std::size_t>(name)];
+}
+
+Message not_a_number(SignalName name, Index sample) {
+    return of(
+        name,
+        {{Message("sample {} of the input is not a number (NaN); fillmissing(x) mends missing samples", sample),
+          Message("sample {} of the output is not a number (NaN); fillmissing(x) mends missing samples", sample),
+          Message("sample {} of the reference is not a number (NaN); fillmissing(x) mends missing samples", sample),
+          Message("sample {} of the signal is not a number (NaN); fillmissing(x) mends missing samples", sample)}});
+}
+
+Message not_a_number(SignalName name, Index sample, Index channel) {
+    return of(
+        name,
+        {{Message("sample {} of channel {} of the input is not a number (NaN); fillmissing(x) mends missing samples",
+                  sample, channel),
+          Message("sample {} of channel {} of the output is not a number (NaN); fillmissing(x) mends missing samples",
+                  sample, channel),
+          Message(
+              "sample {} of channel {} of the reference is not a number (NaN); fillmissing(x) mends missing samples",
+              sample, channel),
+          Message("sample {} of channel {} of the signal is not a number (NaN); fillmissing(x) mends missing samples",
+                  sample, channel)}});
+}
+
+Message infinite(SignalName name, Index sample) {
+    return of(name, {{Message("sample {} of the input is infinite", sample),
+                      Message("sample {} of the output is infinite", sample),
+                      Message("sample {} of the reference is infinite", sample),
+                      Message("sample {} of the signal is infinite", sample)}});
+}
+
+Message infinite(SignalName name, Index sample, Index channel) {
+    return of(name, {{Message("sample {} of channel {} of the input is infinite", sample, channel),
+                      Message("sample {} of channel {} of the output is infinite", sample, channel),
+                      Message("sample {} of channel {} of the reference is infinite", sample, channel),
+                      Message("sample {} of channel {} of the signal is infinite", sample, channel)}});
+}
+
+Message too_large(SignalName name) {
+    return of(name, {{Message("the input holds samples too large to work with"),
+                      Message("the output holds samples too large to work with"),
+                      Message("the reference holds samples too large to work with"),
+                      Message("the signal holds samples too large to work with")}});
+}
+
+Message no_samples(SignalName name) {
+    return of(name, {{Message("the input has no samples"), Message("the output has no samples"),
+                      Message("the reference has no samples"), Message("the signal has no samples")}});
+}
+
+Message largest_too_small(SignalName name, double largest) {
+    return of(
+        name,
+        {{Message("the largest sample of the input is {}, which is too small to compute with squares: use another unit",
+                  largest),
+          Message(
+              "the largest sample of the output is {}, which is too small to compute with squares: use another unit",
+              largest),
+          Message(
+              "the largest sample of the reference is {}, which is too small to compute with squares: use another unit",
+              largest),
+          Message(
+              "the largest sample of the signal is {}, which is too small to compute with squares: use another unit",
+              largest)}});
+}
+
+Message largest_too_large(SignalName name, double largest) {
+    return of(
+        name,
+        {{Message("the largest sample of the input is {}, which is too large to compute with squares: use another unit",
+                  largest),
+          Message(
+              "the largest sample of the output is {}, which is too large to compute with squares: use another unit",
+              largest),
+          Message(
+              "the largest sample of the reference is {}, which is too large to compute with squares: use another unit",
+              largest),
+          Message(
+              "the largest sample of the signal is {}, which is too large to compute with squares: use another unit",
+              largest)}});
+}
+
+Message error_in_sample(SignalName name, const MatrixView& samples) {
     for (Index column = 0; column < samples.cols(); ++column)
         for (Index row = 0; row < samples.rows(); ++row) {
             const double value = samples(row, column);
             if (std::isfinite(value)) continue;
-            const std::string channel = samples.cols() > 1 ? " of channel " + std::to_string(column + 1) : "";
-            throw InvalidArgument(
-                caller + ": sample " + std::to_string(row + 1) + channel + " of " + name +
-                (std::isnan(value) ? " is not a number (NaN); fillmissing(x) mends missing samples" : " is infinite"));
+            if (samples.cols() == 1) return std::isnan(value) ? not_a_number(name, row + 1) : infinite(name, row + 1);
+            return std::isnan(value) ? not_a_number(name, row + 1, column + 1) : infinite(name, row + 1, column + 1);
         }
-    throw InvalidArgument(caller + ": " + name + " holds samples too large to work with");
+    return too_large(name);
 }
 
 constexpr double kLargest = 1e100, kSmallest = 1e-100;  // whose squares can still be summed
 
 }  // namespace
 
-void check_samples(const std::string& caller, const std::string& name, const MatrixView& samples) {
-    if (samples.rows() == 0) throw InvalidArgument(caller + ": " + name + " has no samples");
-    if (!std::isfinite(samples.sum())) report_sample(caller, name, samples);
+Message error_in_samples(SignalName name, const MatrixView& samples) {
+    if (samples.rows() == 0) return no_samples(name);
+    return std::isfinite(samples.sum()) ? Message() : error_in_sample(name, samples);
 }
 
-void check_magnitudes(const std::string& caller, const std::string& name, const MatrixView& samples) {
+void check_samples(const std::string& caller, SignalName name, const MatrixView& samples) {
+    if (const Message error = error_in_samples(name, samples); !error.empty())
+        throw InvalidArgument("{}: {}", caller, error);
+}
+
+void check_magnitudes(const std::string& caller, SignalName name, const MatrixView& samples) {
     for (Index column = 0; column < samples.cols(); ++column) {
         const double largest = samples.col(column).cwiseAbs().maxCoeff();
         if (largest == 0 || (largest > kSmallest && largest < kLargest)) continue;
-        throw InvalidArgument(caller + ": the largest sample of " + name + " is " + number_text(largest) +
-                              ", which is too " + (largest < 1 ? "small" : "large") +
-                              " to compute with squares: use another unit");
+        throw InvalidArgument("{}: {}", caller,
+                              largest < 1 ? largest_too_small(name, largest) : largest_too_large(name, largest));
     }
 }
 
+bool valid_sampling_time(double Ts) {
+    return Ts > 0 && std::isfinite(Ts);
+}
+
 void check_sampling_time(const std::string& caller, double Ts) {
-    if (Ts > 0 && std::isfinite(Ts)) return;
-    throw InvalidArgument(caller + ": the sampling time must be a positive number of seconds, but it is " +
-                          number_text(Ts));
+    if (valid_sampling_time(Ts)) return;
+    throw InvalidArgument("{}: the sampling time must be a positive number of seconds, but it is {}", caller, Ts);
 }
 
 void check_instants(const std::string& caller, const VectorView& t) {
     for (Index k = 0; k < t.size(); ++k) {
         if (!std::isfinite(t(k)))
-            throw InvalidArgument(caller + ": instant " + std::to_string(k + 1) +
-                                  " of the time vector is not a finite number");
+            throw InvalidArgument("{}: instant {} of the time vector is not a finite number", caller, k + 1);
         if (k > 0 && t(k) <= t(k - 1))
-            throw InvalidArgument(caller + ": the time must increase from sample to sample, but instant " +
-                                  std::to_string(k + 1) + " is " + number_text(t(k), 9) + " after " +
-                                  number_text(t(k - 1), 9));
+            throw InvalidArgument("{}: the time must increase from sample to sample, but instant {} is {} after {}",
+                                  caller, k + 1, significant(t(k), 9), significant(t(k - 1), 9));
     }
 }
 

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 #include "numerics/signals/checks.h"
 
 namespace dynlab::inline numerics {
@@ -17,17 +16,16 @@ namespace {
 constexpr double kTwoPi = 2 * std::numbers::pi;
 
 void check_count(const std::string& caller, Index count) {
-    if (count < 1)
-        throw InvalidArgument(caller + ": the number of samples must be at least 1, but it is " +
-                              std::to_string(count));
+    if (count < 1) throw InvalidArgument("{}: the number of samples must be at least 1, but it is {}", caller, count);
 }
 
 void check_frequency(const std::string& caller, double frequency, double Ts) {
     constexpr double kRounding = 1e-12;
     const double nyquist = 0.5 / Ts;
     if (!(frequency >= 0) || frequency > nyquist * (1 + kRounding))
-        throw InvalidArgument(caller + ": frequencies must lie between 0 and half the sampling frequency, " +
-                              number_text(nyquist) + " Hz, but one is " + number_text(frequency) + " Hz");
+        throw InvalidArgument(
+            "{}: frequencies must lie between 0 and half the sampling frequency, {} Hz, but one is {} Hz", caller,
+            nyquist, frequency);
 }
 
 /// The instants 0, Ts, ... below `duration`.
@@ -36,8 +34,9 @@ Eigen::ArrayXd instants(const std::string& caller, double duration, double Ts) {
     constexpr double kMostSamples = 1e10;
     const double count = std::round(duration / Ts);
     if (!(count >= 1) || count > kMostSamples)
-        throw InvalidArgument(caller + ": the duration must be at least one sampling time of " + number_text(Ts) +
-                              " s and at most 1e10 of them, but it is " + number_text(duration) + " s");
+        throw InvalidArgument(
+            "{}: the duration must be at least one sampling time of {} s and at most 1e10 of them, but it is {} s",
+            caller, Ts, duration);
     const Index samples = static_cast<Index>(count);
     return Ts * Eigen::ArrayXd::LinSpaced(samples, 0, static_cast<double>(samples - 1));
 }
@@ -48,8 +47,7 @@ void check_distinct(const VectorView& frequencies) {
     std::sort(sorted.begin(), sorted.end());
     const auto repeated = std::adjacent_find(sorted.begin(), sorted.end());
     if (repeated != sorted.end())
-        throw InvalidArgument("multisine: each frequency may occur once, but " + number_text(*repeated) +
-                              " Hz occurs more often");
+        throw InvalidArgument("multisine: each frequency may occur once, but {} Hz occurs more often", *repeated);
 }
 
 }  // namespace
@@ -57,8 +55,8 @@ void check_distinct(const VectorView& frequencies) {
 Vector step_signal(Index count, Index first, double low, double high) {
     check_count("step_signal", count);
     if (first < 1 || first > count + 1)
-        throw InvalidArgument("step_signal: the step must begin at a sample between 1 and " +
-                              std::to_string(count + 1) + ", but it begins at " + std::to_string(first));
+        throw InvalidArgument("step_signal: the step must begin at a sample between 1 and {}, but it begins at {}",
+                              count + 1, first);
     Vector signal = Vector::Constant(count, high);
     signal.head(first - 1).setConstant(low);
     return signal;
@@ -96,9 +94,7 @@ Vector multisine(const VectorView& frequencies, double duration, double Ts) {
 
 Vector rbs(Index count, int hold, RandomStream& random, double low, double high) {
     check_count("rbs", count);
-    if (hold < 1)
-        throw InvalidArgument("rbs: each value must be held for at least 1 sample, but hold is " +
-                              std::to_string(hold));
+    if (hold < 1) throw InvalidArgument("rbs: each value must be held for at least 1 sample, but hold is {}", hold);
     Vector signal(count);
     for (Index k = 0; k < count; k += hold)
         signal.segment(k, std::min<Index>(hold, count - k)).setConstant(random.uniform() < 0.5 ? low : high);

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 #include "numerics/signals/checks.h"
 
 namespace dynlab::inline numerics {
@@ -16,15 +15,15 @@ void check_channels(const Matrix& y, const Matrix& u) {
     if (y.cols() == 0 && u.cols() == 0)
         throw InvalidArgument("iddata: the data need at least one output, or, for a simulation, at least one input");
     if (u.cols() > 0 && u.rows() != y.rows())
-        throw InvalidArgument("iddata: the output has " + counted(y.rows(), "sample") + " but the input has " +
-                              std::to_string(u.rows()));
+        throw InvalidArgument("iddata: the output has {} but the input has {}",
+                              plural(y.rows(), "{} sample", "{} samples"), u.rows());
     if (y.cols() > 0) {
-        check_samples("iddata", "the output", y);
-        check_magnitudes("iddata", "the output", y);
+        check_samples("iddata", SignalName::kOutput, y);
+        check_magnitudes("iddata", SignalName::kOutput, y);
     }
     if (u.cols() == 0) return;
-    check_samples("iddata", "the input", u);
-    check_magnitudes("iddata", "the input", u);
+    check_samples("iddata", SignalName::kInput, u);
+    check_magnitudes("iddata", SignalName::kInput, u);
 }
 
 std::vector<std::string> numbered_names(const std::string& stem, Index count) {
@@ -33,23 +32,25 @@ std::vector<std::string> numbered_names(const std::string& stem, Index count) {
     return names;
 }
 
-const char* hold_text(Hold hold) {
-    return hold == Hold::kZoh ? "held (zoh)" : "a straight line (foh)";
-}
+enum class Channels { kInputs, kOutputs };
 
 /// Of the channels of a part of a merger, where both are known.
-void check_same_units(const std::vector<std::string>& first, const std::vector<std::string>& units,
-                      const std::string& kind, std::size_t part) {
-    for (std::size_t i = 0; i < std::min(first.size(), units.size()); ++i)
-        if (!first[i].empty() && !units[i].empty() && first[i] != units[i])
-            throw InvalidArgument("merge: part " + std::to_string(part) + " has its " + kind + " " +
-                                  std::to_string(i + 1) + " in " + units[i] + " but the first in " + first[i]);
+void check_same_units(const std::vector<std::string>& first, const std::vector<std::string>& units, Channels kind,
+                      std::size_t part) {
+    for (std::size_t i = 0; i < std::min(first.size(), units.size()); ++i) {
+        if (first[i].empty() || units[i].empty() || first[i] == units[i]) continue;
+        if (kind == Channels::kInputs)
+            throw InvalidArgument("merge: part {} has its input {} in {} but the first in {}", part, i + 1, units[i],
+                                  first[i]);
+        throw InvalidArgument("merge: part {} has its output {} in {} but the first in {}", part, i + 1, units[i],
+                              first[i]);
+    }
 }
 
 const Experiment& only_experiment(const IdData& data, const std::string& caller) {
     if (data.experiments.size() != 1)
-        throw InvalidArgument(caller + ": the data must hold one experiment, but they hold " +
-                              std::to_string(data.experiments.size()));
+        throw InvalidArgument("{}: the data must hold one experiment, but they hold {}", caller,
+                              data.experiments.size());
     return data.experiments.front();
 }
 
@@ -81,11 +82,15 @@ Matrix pick_columns(const Matrix& signals, const std::vector<Index>& chosen) {
     return picked;
 }
 
-void check_selection(const std::vector<Index>& chosen, Index count, const std::string& kind) {
-    for (const Index channel : chosen)
-        if (channel < 1 || channel > count)
-            throw InvalidArgument("select: there is no " + kind + " " + std::to_string(channel) + "; the data have " +
-                                  counted(count, kind));
+void check_selection(const std::vector<Index>& chosen, Index count, Channels kind) {
+    for (const Index channel : chosen) {
+        if (channel >= 1 && channel <= count) continue;
+        if (kind == Channels::kInputs)
+            throw InvalidArgument("select: there is no input {}; the data have {}", channel,
+                                  plural(count, "{} input", "{} inputs"));
+        throw InvalidArgument("select: there is no output {}; the data have {}", channel,
+                              plural(count, "{} output", "{} outputs"));
+    }
 }
 
 }  // namespace
@@ -111,8 +116,8 @@ IdData::IdData(Matrix y, Matrix u, double sampling_time) : Ts(sampling_time) {
 IdData::IdData(Matrix y, Matrix u, const VectorView& t) : IdData(std::move(y), std::move(u), 1.0) {
     Experiment& experiment = experiments.front();
     if (t.size() != experiment.y.rows())
-        throw InvalidArgument("iddata: the output has " + counted(experiment.y.rows(), "sample") +
-                              " but the time vector has " + std::to_string(t.size()));
+        throw InvalidArgument("iddata: the output has {} but the time vector has {}",
+                              plural(experiment.y.rows(), "{} sample", "{} samples"), t.size());
     check_instants("iddata", t);
     Ts = 0;
     experiment.t = t;
@@ -151,8 +156,8 @@ IdData IdData::range(Index first, Index last) const {
     const Experiment& experiment = only_experiment(*this, "range");
     const Index count = experiment.y.rows();
     if (first < 1 || last > count || first > last)
-        throw InvalidArgument("range: samples " + std::to_string(first) + " to " + std::to_string(last) +
-                              " were asked for, but the data have samples 1 to " + std::to_string(count));
+        throw InvalidArgument("range: samples {} to {} were asked for, but the data have samples 1 to {}", first, last,
+                              count);
     IdData part = *this;
     part.experiments.front() = cut(*this, experiment, first - 1, last - first + 1);
     return part;
@@ -161,18 +166,18 @@ IdData IdData::range(Index first, Index last) const {
 IdData IdData::with_reference(Matrix r) const {
     const Index count = only_experiment(*this, "iddata").y.rows();
     if (r.rows() != count)
-        throw InvalidArgument("iddata: the data have " + counted(count, "sample") + " but the reference has " +
-                              std::to_string(r.rows()));
-    check_samples("iddata", "the reference", r);
-    check_magnitudes("iddata", "the reference", r);
+        throw InvalidArgument("iddata: the data have {} but the reference has {}",
+                              plural(count, "{} sample", "{} samples"), r.rows());
+    check_samples("iddata", SignalName::kReference, r);
+    check_magnitudes("iddata", SignalName::kReference, r);
     IdData result = *this;
     result.experiments.front().r = std::move(r);
     return result;
 }
 
 IdData IdData::select(const std::vector<Index>& outputs, const std::vector<Index>& inputs) const {
-    check_selection(outputs, output_count(), "output");
-    check_selection(inputs, input_count(), "input");
+    check_selection(outputs, output_count(), Channels::kOutputs);
+    check_selection(inputs, input_count(), Channels::kInputs);
     if (outputs.empty()) throw InvalidArgument("select: choose at least one output");
     IdData part = *this;
     for (Experiment& experiment : part.experiments) {
@@ -190,8 +195,8 @@ std::pair<IdData, IdData> IdData::split(double fraction) const {
     const Index count = only_experiment(*this, "split").y.rows();
     const double wanted = std::round(fraction * static_cast<double>(count));
     if (!(wanted >= 1) || !(wanted < static_cast<double>(count)))
-        throw InvalidArgument("split: the fraction must leave samples in both parts of the " + std::to_string(count) +
-                              ", but it is " + number_text(fraction));
+        throw InvalidArgument("split: the fraction must leave samples in both parts of the {}, but it is {}", count,
+                              fraction);
     const Index first_part = static_cast<Index>(wanted);
     return {range(1, first_part), range(first_part + 1, count)};
 }
@@ -202,8 +207,9 @@ IdData IdData::shifted(Index samples) const {
     for (Experiment& experiment : result.experiments) {
         const Index lost = std::abs(samples), kept = experiment.y.rows() - lost;
         if (kept < 1)
-            throw InvalidArgument("shift: a shift by " + counted(samples, "sample") + " leaves nothing of " +
-                                  counted(experiment.y.rows(), "sample"));
+            throw InvalidArgument("shift: a shift by {} leaves nothing of {}",
+                                  plural(samples, "{} sample", "{} samples"),
+                                  plural(experiment.y.rows(), "{} sample", "{} samples"));
         const Matrix u = experiment.u.middleRows(samples >= 0 ? 0 : lost, kept);
         experiment = cut(*this, experiment, samples >= 0 ? lost : 0, kept);
         experiment.u = u;
@@ -217,26 +223,32 @@ IdData IdData::merge(const std::vector<IdData>& parts) {
     for (std::size_t i = 1; i < parts.size(); ++i) {
         const IdData& part = parts[i];
         if (part.output_count() != merged.output_count() || part.input_count() != merged.input_count())
-            throw InvalidArgument(
-                "merge: part " + std::to_string(i + 1) + " has " + counted(part.output_count(), "output") + " and " +
-                counted(part.input_count(), "input") + ", but the first has " + std::to_string(merged.output_count()) +
-                " and " + std::to_string(merged.input_count()));
+            throw InvalidArgument("merge: part {} has {} and {}, but the first has {} and {}", i + 1,
+                                  plural(part.output_count(), "{} output", "{} outputs"),
+                                  plural(part.input_count(), "{} input", "{} inputs"), merged.output_count(),
+                                  merged.input_count());
         if (part.reference_count() != merged.reference_count())
-            throw InvalidArgument("merge: part " + std::to_string(i + 1) + " has " +
-                                  counted(part.reference_count(), "reference") + ", but the first has " +
-                                  std::to_string(merged.reference_count()));
+            throw InvalidArgument("merge: part {} has {}, but the first has {}", i + 1,
+                                  plural(part.reference_count(), "{} reference", "{} references"),
+                                  merged.reference_count());
         if (part.Ts != merged.Ts)
-            throw InvalidArgument("merge: part " + std::to_string(i + 1) + " has the sampling time " +
-                                  number_text(part.Ts) + " " + part.time_unit + " but the first has " +
-                                  number_text(merged.Ts) + " " + merged.time_unit);
+            throw InvalidArgument("merge: part {} has the sampling time {} {} but the first has {} {}", i + 1, part.Ts,
+                                  part.time_unit, merged.Ts, merged.time_unit);
         if (part.time_unit != merged.time_unit)
-            throw InvalidArgument("merge: part " + std::to_string(i + 1) + " counts time in " + part.time_unit +
-                                  " but the first in " + merged.time_unit);
-        if (part.hold != merged.hold)
-            throw InvalidArgument("merge: between the samples the input of part " + std::to_string(i + 1) + " is " +
-                                  hold_text(part.hold) + ", but that of the first is " + hold_text(merged.hold));
-        check_same_units(merged.input_units, part.input_units, "input", i + 1);
-        check_same_units(merged.output_units, part.output_units, "output", i + 1);
+            throw InvalidArgument("merge: part {} counts time in {} but the first in {}", i + 1, part.time_unit,
+                                  merged.time_unit);
+        if (part.hold == Hold::kZoh && merged.hold != Hold::kZoh)
+            throw InvalidArgument(
+                "merge: between the samples the input of part {} is held (zoh), but that of the first is a straight "
+                "line (foh)",
+                i + 1);
+        if (part.hold != Hold::kZoh && merged.hold == Hold::kZoh)
+            throw InvalidArgument(
+                "merge: between the samples the input of part {} is a straight line (foh), but that of the first is "
+                "held (zoh)",
+                i + 1);
+        check_same_units(merged.input_units, part.input_units, Channels::kInputs, i + 1);
+        check_same_units(merged.output_units, part.output_units, Channels::kOutputs, i + 1);
         merged.experiments.insert(merged.experiments.end(), part.experiments.begin(), part.experiments.end());
     }
     return merged;

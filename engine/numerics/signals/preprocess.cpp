@@ -1,7 +1,6 @@
 #include "numerics/signals/preprocess.h"
 
 #include <cmath>
-#include <string>
 
 #include "numerics/error.h"
 
@@ -34,8 +33,8 @@ Index samples_before_change(const Matrix& u) {
 
 Index initial_stretch(const Experiment& experiment, Index samples) {
     if (samples > experiment.y.rows())
-        throw InvalidArgument("detrend: the level of the first " + std::to_string(samples) +
-                              " samples was asked for, but the experiment has " + std::to_string(experiment.y.rows()));
+        throw InvalidArgument("detrend: the level of the first {} samples was asked for, but the experiment has {}",
+                              samples, experiment.y.rows());
     if (samples > 0) return samples;
     if (experiment.u.cols() == 0)
         throw InvalidArgument(
@@ -44,9 +43,9 @@ Index initial_stretch(const Experiment& experiment, Index samples) {
     const Index found = samples_before_change(experiment.u);
     if (found >= kFewestLeft) return found;
     throw InvalidArgument(
-        "detrend: the input changes already at sample " + std::to_string(found + 1) +
-        ", so the record shows no level from before; remove the mean instead, or say how many samples "
-        "to take, as in detrend(data, \"start\", {samples = 20})");
+        "detrend: the input changes already at sample {}, so the record shows no level from before; remove the mean "
+        "instead, or say how many samples to take, as in detrend(data, \"start\", {samples = 20})",
+        found + 1);
 }
 
 /// Takes off each column the mean of its first `count` samples.

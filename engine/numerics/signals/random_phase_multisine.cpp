@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 #include "numerics/signals/fourier.h"
 
 namespace dynlab::inline numerics {
@@ -77,24 +76,23 @@ Vector with_low_peaks(Vector u, const Vector& lines) {
 
 void RandomPhaseOptions::validate(Index period) const {
     if (period < kFewestSamples)
-        throw InvalidArgument("multisine: a period needs at least " + std::to_string(kFewestSamples) +
-                              " samples, and has " + std::to_string(period));
+        throw InvalidArgument("multisine: a period needs at least {} samples, and has {}", kFewestSamples, period);
     const Index last = (period - 1) / 2;
     for (const double line : lines)
         if (line != std::floor(line) || line < 1 || line > static_cast<double>(last))
-            throw InvalidArgument("multisine: lines are whole numbers of turns in the period, here from 1 to " +
-                                  std::to_string(last) + ", but one is " + number_text(line));
+            throw InvalidArgument(
+                "multisine: lines are whole numbers of turns in the period, here from 1 to {}, but one is {}", last,
+                line);
     std::vector<double> sorted(lines.begin(), lines.end());
     std::sort(sorted.begin(), sorted.end());
     const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
     if (twice != sorted.end())
-        throw InvalidArgument("multisine: each line may occur once, but " + number_text(*twice) + " occurs more often");
+        throw InvalidArgument("multisine: each line may occur once, but {} occurs more often", *twice);
     if (detection != 0 && detection < kSmallestGroup)
         throw InvalidArgument(
-            "multisine: one of a group of lines is left out, so groups hold at least 2 lines, and not " +
-            std::to_string(detection));
+            "multisine: one of a group of lines is left out, so groups hold at least 2 lines, and not {}", detection);
     if (!(amplitude > 0) || !std::isfinite(amplitude))
-        throw InvalidArgument("multisine: the amplitude must be positive, and is " + number_text(amplitude));
+        throw InvalidArgument("multisine: the amplitude must be positive, and is {}", amplitude);
 }
 
 RandomPhaseMultisine random_phase_multisine(Index period, const RandomPhaseOptions& options, RandomStream& phases) {

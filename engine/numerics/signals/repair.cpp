@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 #include "numerics/signals/checks.h"
 #include "numerics/signals/quantisation.h"
 #include "numerics/signals/robust_statistics.h"
@@ -87,8 +86,9 @@ class MovingMedian {
 
 RepairedSignal fill_missing(const VectorView& x, const VectorView& t, Index longest) {
     if (t.size() > 0 && t.size() != x.size())
-        throw InvalidArgument("fillmissing: the signal has " + counted(x.size(), "sample") + " but the time has " +
-                              counted(t.size(), "instant"));
+        throw InvalidArgument("fillmissing: the signal has {} but the time has {}",
+                              plural(x.size(), "{} sample", "{} samples"),
+                              plural(t.size(), "{} instant", "{} instants"));
     check_instants("fillmissing", t);
     std::vector<bool> good(static_cast<std::size_t>(x.size()));
     for (Index k = 0; k < x.size(); ++k) good[static_cast<std::size_t>(k)] = std::isfinite(x[k]);
@@ -97,26 +97,24 @@ RepairedSignal fill_missing(const VectorView& x, const VectorView& t, Index long
     RepairedSignal result = bridged(x, t, good);
     for (const auto& [first, last] : result.stretches)
         if (last - first + 1 > longest)
-            throw InvalidArgument("fillmissing: samples " + std::to_string(first) + " to " + std::to_string(last) +
-                                  " are missing, and a straight line over more than " + counted(longest, "sample") +
-                                  " would be invention; use the parts before and after the gap as two "
-                                  "experiments, or allow it with {longest = " +
-                                  std::to_string(last - first + 1) + "}");
+            throw InvalidArgument(
+                "fillmissing: samples {} to {} are missing, and a straight line over more than {} would be invention; "
+                "use the parts before and after the gap as two experiments, or allow it with {longest = {}}",
+                first, last, plural(longest, "{} sample", "{} samples"), last - first + 1);
     return result;
 }
 
 void OutlierOptions::validate() const {
     if (window < 3 || window % 2 == 0)
-        throw InvalidArgument("the window must be an odd number of samples from 3 on, but it is " +
-                              std::to_string(window));
+        throw InvalidArgument("the window must be an odd number of samples from 3 on, but it is {}", window);
     if (!(threshold > 0) || !std::isfinite(threshold))
-        throw InvalidArgument("the threshold must be a positive number of standard deviations, but it is " +
-                              number_text(threshold));
+        throw InvalidArgument("the threshold must be a positive number of standard deviations, but it is {}",
+                              threshold);
 }
 
 RepairedSignal replace_outliers(const VectorView& x, const OutlierOptions& options) {
     options.validate();
-    check_samples("filloutliers", "the signal", x);
+    check_samples("filloutliers", SignalName::kSignal, x);
     const double scatter = noise_from_differences(x);
     const double step = options.quantisation ? *options.quantisation : usual_step(x);
     const double rounding = 1.5 * step + 1e-9 * (x.maxCoeff() - x.minCoeff());

@@ -5,7 +5,6 @@
 #include <numeric>
 
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 #include "numerics/signals/extension.h"
 
 namespace dynlab::inline numerics {
@@ -37,8 +36,8 @@ double windowed_sinc(double t) {
 
 void check_factor(const char* name, Index factor) {
     if (factor < 1 || factor > kLargestFactor)
-        throw InvalidArgument(std::string("resample: the factor ") + name + " must lie between 1 and " +
-                              std::to_string(kLargestFactor) + ", but it is " + std::to_string(factor));
+        throw InvalidArgument("resample: the factor {} must lie between 1 and {}, but it is {}", name, kLargestFactor,
+                              factor);
 }
 
 /// Column p holds the weights of the old samples -reach..reach around an instant that lies p/up behind an old sample.
@@ -85,8 +84,8 @@ IdData resample(const IdData& data, Index up, Index down) {
     for (Experiment& experiment : result.experiments) {
         const Index count = resampled_count(experiment.y.rows(), up, down);
         if (count < 2)
-            throw InvalidArgument("resample: of " + counted(experiment.y.rows(), "sample") +
-                                  " fewer than 2 would be left");
+            throw InvalidArgument("resample: of {} fewer than 2 would be left",
+                                  plural(experiment.y.rows(), "{} sample", "{} samples"));
         for (Matrix* signals : {&experiment.y, &experiment.u, &experiment.r}) {
             Matrix resampled(count, signals->cols());
             for (Index i = 0; i < signals->cols(); ++i) resampled.col(i) = resample_signal(signals->col(i), up, down);

@@ -10,15 +10,15 @@ namespace {
 
 void check_segments(const std::string& caller, const IdData& data, const std::vector<Segment>& segments) {
     if (data.experiments.size() != 1)
-        throw InvalidArgument(caller + ": the data must hold one experiment, but they hold " +
-                              std::to_string(data.experiments.size()) + "; take one with data:experiment(k)");
-    if (segments.empty()) throw InvalidArgument(caller + ": give at least one stretch {first, last}");
+        throw InvalidArgument(
+            "{}: the data must hold one experiment, but they hold {}; take one with data:experiment(k)", caller,
+            data.experiments.size());
+    if (segments.empty()) throw InvalidArgument("{}: give at least one stretch {first, last}", caller);
     const Index count = data.sample_count();
     for (const Segment& segment : segments)
         if (segment.first < 1 || segment.last > count || segment.first > segment.last)
-            throw InvalidArgument(caller + ": there are no samples " + std::to_string(segment.first) + " to " +
-                                  std::to_string(segment.last) + "; the record has samples 1 to " +
-                                  std::to_string(count));
+            throw InvalidArgument("{}: there are no samples {} to {}; the record has samples 1 to {}", caller,
+                                  segment.first, segment.last, count);
 }
 
 /// A sample that stands in two stretches would count twice.
@@ -26,9 +26,9 @@ void check_apart(std::vector<Segment> kept) {
     std::sort(kept.begin(), kept.end(), [](const Segment& a, const Segment& b) { return a.first < b.first; });
     for (std::size_t i = 1; i < kept.size(); ++i)
         if (kept[i].first <= kept[i - 1].last)
-            throw InvalidArgument("keep: the stretches " + std::to_string(kept[i - 1].first) + " to " +
-                                  std::to_string(kept[i - 1].last) + " and " + std::to_string(kept[i].first) + " to " +
-                                  std::to_string(kept[i].last) + " overlap, so that samples would count twice");
+            throw InvalidArgument(
+                "keep: the stretches {} to {} and {} to {} overlap, so that samples would count twice",
+                kept[i - 1].first, kept[i - 1].last, kept[i].first, kept[i].last);
 }
 
 }  // namespace

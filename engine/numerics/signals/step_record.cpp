@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <vector>
 
 #include "numerics/error.h"
@@ -29,13 +28,12 @@ double trimmed_mean(const VectorView& x) {
 }
 
 void require_one_record(const IdData& data) {
-    if (data.experiments.size() != 1 || data.input_count() != 1 || data.output_count() != 1) {
-        std::ostringstream text;
-        text << "A step test needs one experiment with one input and one output, and the data hold "
-             << data.experiments.size() << " experiment(s), " << data.input_count() << " input(s) and "
-             << data.output_count() << " output(s): select one of each";
-        throw InvalidArgument(text.str());
-    }
+    if (data.experiments.size() == 1 && data.input_count() == 1 && data.output_count() == 1) return;
+    throw InvalidArgument(
+        "A step test needs one experiment with one input and one output, and the data hold {}, {} and {}: select one "
+        "of each",
+        plural(std::ssize(data.experiments), "{} experiment", "{} experiments"),
+        plural(data.input_count(), "{} input", "{} inputs"), plural(data.output_count(), "{} output", "{} outputs"));
 }
 
 // Sets step_index, step_time and the two input levels.
@@ -65,16 +63,19 @@ void find_step(StepRecord& record) {
         departure.tail(u.size() - record.step_index).array() -= record.input_change();
         Index worst = 0;
         if (departure.cwiseAbs().maxCoeff(&worst) <= tolerance) return;
-        std::ostringstream text;
-        text << "The input is not a step: at t = " << record.t[worst] << " it is " << u[worst]
-             << ", away from both levels " << record.input_before << " and " << record.input_after;
-        throw InvalidArgument(text.str());
+        throw InvalidArgument("The input is not a step: at t = {} it is {}, away from both levels {} and {}",
+                              significant(record.t[worst], 6), significant(u[worst], 6),
+                              significant(record.input_before, 6), significant(record.input_after, 6));
     }
-    std::ostringstream text;
-    text << "The input is not a step: it goes " << changes << " times between " << (starts_high ? "high" : "low")
-         << " and " << (starts_high ? "low" : "high") << " levels, and a step test needs one change: cut out one "
-         << "step with range";
-    throw InvalidArgument(text.str());
+    if (starts_high)
+        throw InvalidArgument(
+            "The input is not a step: it goes {} times between high and low levels, and a step test needs one change: "
+            "cut out one step with range",
+            changes);
+    throw InvalidArgument(
+        "The input is not a step: it goes {} times between low and high levels, and a step test needs one change: cut "
+        "out one step with range",
+        changes);
 }
 
 Level level_of(const StepRecord& record, Index first, Index count) {
@@ -83,12 +84,9 @@ Level level_of(const StepRecord& record, Index first, Index count) {
 
 void read_levels(StepRecord& record) {
     const Index N = record.y.size(), after = N - record.step_index;
-    if (after < kSamplesAfterStep) {
-        std::ostringstream text;
-        text << "The record holds " << after << " sample(s) from the step on, and at least " << kSamplesAfterStep
-             << " are needed to read the response";
-        throw InvalidArgument(text.str());
-    }
+    if (after < kSamplesAfterStep)
+        throw InvalidArgument("The record holds {} from the step on, and at least {} are needed to read the response",
+                              plural(after, "{} sample", "{} samples"), kSamplesAfterStep);
     // The sample at the step itself still shows the old level: the output of a system with a lag cannot jump.
     record.initial = level_of(record, 0, record.step_index + 1);
     const Index tail = std::max<Index>(3, after / 10);
@@ -97,10 +95,9 @@ void read_levels(StepRecord& record) {
     const double uncertainty = record.noise_std * std::sqrt(1.0 / static_cast<double>(record.step_index + 1) +
                                                             1.0 / static_cast<double>(tail));
     if (std::abs(record.output_change()) > 5 * uncertainty && record.output_change() != 0) return;
-    std::ostringstream text;
-    text << "The output does not answer the step: it goes from " << record.initial.value << " to " << record.final.value
-         << " with noise of standard deviation " << record.noise_std;
-    throw InvalidArgument(text.str());
+    throw InvalidArgument(
+        "The output does not answer the step: it goes from {} to {} with noise of standard deviation {}",
+        significant(record.initial.value, 6), significant(record.final.value, 6), significant(record.noise_std, 6));
 }
 
 // Value at t[k] of the least-squares parabola through samples first..last of y.
@@ -166,11 +163,10 @@ void require_settled(const StepRecord& record) {
     const bool drifts = drift > 0.015 * change + 3 * uncertainty;
     const bool swings = swing > 0.1 * change + 3 * record.noise_std;
     if (!drifts && !swings) return;
-    std::ostringstream text;
-    text << "The response has not settled when the record ends: it still moves by "
-         << 100 * (drifts ? drift : swing) / change
-         << " % of its change, so the final level cannot be read: record longer";
-    throw InvalidArgument(text.str());
+    throw InvalidArgument(
+        "The response has not settled when the record ends: it still moves by {} % of its change, so the final level "
+        "cannot be read: record longer",
+        significant(100 * (drifts ? drift : swing) / change, 6));
 }
 
 }  // namespace

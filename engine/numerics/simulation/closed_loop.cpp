@@ -1,13 +1,11 @@
 #include "numerics/simulation/closed_loop.h"
 
 #include <cmath>
-#include <string>
 
 #include "numerics/error.h"
 #include "numerics/linalg/decompositions.h"
 #include "numerics/models/convert.h"
 #include "numerics/models/sampled_system.h"
-#include "numerics/number_text.h"
 #include "numerics/signals/checks.h"
 #include "numerics/simulation/lsim.h"
 
@@ -16,29 +14,39 @@ namespace dynlab::inline numerics {
 namespace {
 
 constexpr double kSameStep = 1e-9;  // relative difference of two sampling times that mean the same
-constexpr const char* kEndlessAnswers =
-    "closed loop: plant and controller both have a direct term (as many zeros as poles), so that each answers the "
-    "other at the same instant without end; give the loop a computing delay, or one of the two a further pole";
+[[noreturn]] void report_endless_answers() {
+    throw InvalidArgument(
+        "closed loop: plant and controller both have a direct term (as many zeros as poles), so that each answers the "
+        "other at the same instant without end; give the loop a computing delay, or one of the two a further pole");
+}
 
-void check_proper(const char* what, const TransferFunction& G) {
-    if (G.proper()) return;
-    throw InvalidArgument("closed loop: the " + std::string(what) + " has " + counted(G.zero_count(), "zero") +
-                          " but only " + counted(G.pole_count(), "pole") +
-                          "; it needs at least as many poles (the derivative of a PID needs a filter)");
+void check_proper(const TransferFunction& plant, const TransferFunction& controller) {
+    if (!plant.proper())
+        throw InvalidArgument(
+            "closed loop: the plant has {} but only {}; it needs at least as many poles (the derivative of a PID needs "
+            "a filter)",
+            plural(plant.zero_count(), "{} zero", "{} zeros"), plural(plant.pole_count(), "{} pole", "{} poles"));
+    if (!controller.proper())
+        throw InvalidArgument(
+            "closed loop: the controller has {} but only {}; it needs at least as many poles (the derivative of a PID "
+            "needs a filter)",
+            plural(controller.zero_count(), "{} zero", "{} zeros"),
+            plural(controller.pole_count(), "{} pole", "{} poles"));
 }
 
 void check_loop(const TransferFunction& plant, const LoopController& controller, double Ts) {
-    check_sampling_time("closed loop", Ts);
+    if (!valid_sampling_time(Ts))
+        throw InvalidArgument("closed loop: the sampling time must be a positive number of seconds, but it is {}", Ts);
     if (!plant.continuous()) throw InvalidArgument("closed loop: the plant must be a model in continuous time");
-    check_proper("plant", plant);
-    check_proper("controller", controller.C);
+    check_proper(plant, controller.C);
     if (controller.computing_delay < 0)
-        throw InvalidArgument("closed loop: the computing delay must be a number of samples from 0 on, but it is " +
-                              std::to_string(controller.computing_delay));
+        throw InvalidArgument("closed loop: the computing delay must be a number of samples from 0 on, but it is {}",
+                              controller.computing_delay);
     if (controller.sampled()) {
         if (std::abs(controller.C.Ts() - Ts) <= kSameStep * Ts) return;
-        throw InvalidArgument("closed loop: the controller has the sampling time " + number_text(controller.C.Ts()) +
-                              " s, but the record " + number_text(Ts) + " s; both must be equal");
+        throw InvalidArgument(
+            "closed loop: the controller has the sampling time {} s, but the record {} s; both must be equal",
+            controller.C.Ts(), Ts);
     }
     if (controller.computing_delay > 0)
         throw InvalidArgument(
@@ -85,7 +93,7 @@ StateSpace continuous_loop(const LoopPlant& plant, const TransferFunction& contr
     const StateSpace C = to_state_space(controller);
     const Index n = G.order(), copies = plant.copies, total = n + copies * C.order();
     const Matrix D = of_all_inputs(G.D.col(0), copies);
-    if (1 + D(0, 0) * C.D(0, 0) == 0) throw InvalidArgument(kEndlessAnswers);
+    if (1 + D(0, 0) * C.D(0, 0) == 0) report_endless_answers();
     Matrix u = Matrix::Zero(copies, total + 2), x = u;
     x.leftCols(n) = G.C;
     u = C.D(0, 0) * control_errors(x);
@@ -121,7 +129,7 @@ StateSpace sampled_loop(const LoopPlant& plant, double delay, const LoopControll
         return rows;
     };
     const bool answers_at_once = G.delay == 0 && !at_once.isZero(0);
-    if (answers_at_once && C.D(0, 0) != 0) throw InvalidArgument(kEndlessAnswers);
+    if (answers_at_once && C.D(0, 0) != 0) report_endless_answers();
     Matrix u = Matrix::Zero(copies, total + 2), x = u;
     for (Index copy = 0; copy < copies; ++copy)
         u.row(copy).segment(controllers + copy * C.order(), C.order()) = C.C.row(0);
@@ -214,8 +222,8 @@ Matrix ClosedLoop::sensitivities(const VectorView& r, int zeros) const {
 
 IdData ClosedLoop::record(const VectorView& r, const VectorView& v) const {
     if (r.size() != v.size())
-        throw InvalidArgument("closed loop: the reference has " + counted(r.size(), "sample") + " but the noise has " +
-                              std::to_string(v.size()));
+        throw InvalidArgument("closed loop: the reference has {} but the noise has {}",
+                              plural(r.size(), "{} sample", "{} samples"), v.size());
     if (!stable())
         throw InvalidArgument(
             "closed loop: the loop is unstable, so that its signals grow without bound; lower the controller's gain, "

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "numerics/linalg/matrix_exponential.h"
-#include "numerics/number_text.h"
 #include "numerics/simulation/sensitivity_solver.h"
 
 namespace dynlab::inline numerics {
@@ -54,9 +53,12 @@ GreySimulator::GreySimulator(const GreyModel& model, Index outputs, GreyDirectio
       tolerance_(relative_tolerance),
       evaluation_(model.equations->evaluation(directions_.parameters)) {
     const Index own = model.outputs_are_states ? model.order() : model.equations->output_count();
-    if (outputs > own || (outputs < own && !model.outputs_are_states))
-        throw InvalidArgument("The model gives " + counted(own, "output") + ", and the record has " +
-                              std::to_string(outputs) + (model.outputs_are_states ? ": `outputs` is wanted" : ""));
+    if (outputs <= own && (outputs == own || model.outputs_are_states)) return;
+    const Message given = plural(own, "{} output", "{} outputs");
+    if (model.outputs_are_states)
+        throw InvalidArgument("The model gives {}, and the record has {}: {} is wanted", given, outputs,
+                              OptionName{"outputs"});
+    throw InvalidArgument("The model gives {}, and the record has {}", given, outputs);
 }
 
 Vector GreySimulator::initial_state(const Vector& parameters) {
@@ -98,8 +100,8 @@ void GreySimulator::write_outputs(const GreyInputs& inputs, Index k, bool sensit
                          at_output_);
     for (Index i = 0; i < outputs_; ++i) {
         if (!std::isfinite(at_output_.values[i]))
-            throw SimulationBreakdown("At t = " + number_text(inputs.t[k]) + " output " + std::to_string(i + 1) +
-                                      " of the model is " + number_text(at_output_.values[i]));
+            throw SimulationBreakdown("At t = {} output {} of the model is {}", inputs.t[k], i + 1,
+                                      at_output_.values[i]);
         result.y(k, i) = at_output_.values[i];
         if (!sensitivities) continue;
         auto row = result.sensitivities.row(i * N + k);
@@ -115,9 +117,10 @@ void GreySimulator::set_linear_steps(double h) {
     const Matrix B = with_constant(system.value);
     for (Index i = 0; i < n; ++i)
         if (!system.value.A.row(i).allFinite() || !B.row(i).allFinite())
-            throw SimulationBreakdown("With these parameters a coefficient in the derivative of the state " +
-                                      model_.state_names[static_cast<std::size_t>(i)] +
-                                      " is no finite number: a division by zero, or a root of a negative number?");
+            throw SimulationBreakdown(
+                "With these parameters a coefficient in the derivative of the state {} is no finite number: a division "
+                "by zero, or a root of a negative number?",
+                model_.state_names[static_cast<std::size_t>(i)]);
     const StepMatrices plain = exact_step(system.value.A, B, h);
     own_ = {plain.F, plain.H0, plain.H1};
     by_parameter_.resize(system.by_parameter.size());
@@ -145,8 +148,8 @@ void GreySimulator::advance_linear(const GreyInputs& inputs, Index k, bool sensi
     }
     x_ = (own_.F * x_ + own_.H0 * u0 + own_.H1 * u1).eval();
     if (!x_.allFinite())
-        throw SimulationBreakdown("At t = " + number_text(inputs.t[k + 1]) +
-                                  " the states become infinite: the linear model is unstable");
+        throw SimulationBreakdown("At t = {} the states become infinite: the linear model is unstable",
+                                  inputs.t[k + 1]);
 }
 
 GreyTrajectory GreySimulator::run(const Vector& parameters, const GreyInputs& inputs, const Start& from,

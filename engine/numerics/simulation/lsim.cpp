@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 #include "numerics/error.h"
 #include "numerics/linalg/polynomial.h"
 #include "numerics/models/sampled_system.h"
-#include "numerics/number_text.h"
 #include "numerics/signals/checks.h"
 #include "numerics/simulation/exact_filter.h"
 #include "numerics/simulation/irregular_filter.h"
@@ -20,24 +18,26 @@ constexpr double kGridRounding = 1e-9;  // relative difference of two sampling t
 
 void check_model(const TransferFunction& G) {
     if (G.proper()) return;
-    throw InvalidArgument("lsim: the transfer function has " + counted(G.zero_count(), "zero") + " but only " +
-                          counted(G.pole_count(), "pole") +
-                          "; an improper model cannot be simulated, it needs at least as many poles as zeros");
+    throw InvalidArgument(
+        "lsim: the transfer function has {} but only {}; an improper model cannot be simulated, it needs at least as "
+        "many poles as zeros",
+        plural(G.zero_count(), "{} zero", "{} zeros"), plural(G.pole_count(), "{} pole", "{} poles"));
 }
 
 Vector initial_state(const VectorView& x0, Index order) {
     if (x0.size() == 0) return Vector::Zero(order);
     if (x0.size() != order)
-        throw InvalidArgument("lsim: the initial state x0 must have " + counted(order, "value") +
-                              ", one for each state, but it has " + std::to_string(x0.size()));
+        throw InvalidArgument("lsim: the initial state x0 must have {}, one for each state, but it has {}",
+                              plural(order, "{} value", "{} values"), x0.size());
     if (!x0.allFinite()) throw InvalidArgument("lsim: the initial state x0 holds a value that is not finite");
     return x0;
 }
 
 void check_discrete_sampling(double model_Ts, double Ts) {
     if (std::abs(model_Ts - Ts) <= kGridRounding * Ts) return;
-    throw InvalidArgument("lsim: the model is discrete with Ts = " + number_text(model_Ts) +
-                          " s but the data are sampled every " + number_text(Ts) + " s; both must be equal");
+    throw InvalidArgument(
+        "lsim: the model is discrete with Ts = {} s but the data are sampled every {} s; both must be equal", model_Ts,
+        Ts);
 }
 
 /// The sampling time of equally spaced instants, 0 of others.
@@ -55,7 +55,7 @@ double regular_sampling_time(const VectorView& t) {
 Vector lsim(const TransferFunction& G, const VectorView& u, double Ts, Hold hold, const VectorView& x0) {
     check_model(G);
     check_sampling_time("lsim", Ts);
-    check_samples("lsim", "the input", u.head(std::min<Index>(u.size(), 1)));
+    check_samples("lsim", SignalName::kInput, u.head(std::min<Index>(u.size(), 1)));
     if (!G.continuous()) check_discrete_sampling(G.Ts(), Ts);
     const StateSpace form = to_state_space(G);
     const ExactFilter filter(
@@ -68,15 +68,15 @@ Vector lsim(const TransferFunction& G, const VectorView& u, double Ts, Hold hold
     // there is no state: so a long input need not be read once more.
     const Index late = std::min(u.size(), split_delay(G.delay(), Ts).samples + 3);
     if (form.order() == 0 || !std::isfinite(y[y.size() - 1]) || !u.tail(late).allFinite())
-        check_samples("lsim", "the input", u);
+        check_samples("lsim", SignalName::kInput, u);
     return y;
 }
 
 Vector lsim(const TransferFunction& G, const VectorView& u, const VectorView& t, Hold hold, const VectorView& x0) {
     if (u.size() != t.size())
-        throw InvalidArgument("lsim: the input has " + counted(u.size(), "sample") + " but the time vector has " +
-                              std::to_string(t.size()));
-    check_samples("lsim", "the input", u);
+        throw InvalidArgument("lsim: the input has {} but the time vector has {}",
+                              plural(u.size(), "{} sample", "{} samples"), t.size());
+    check_samples("lsim", SignalName::kInput, u);
     check_instants("lsim", t);
     const double regular_Ts = t.size() > 1 ? regular_sampling_time(t) : G.continuous() ? 1 : G.Ts();
     if (regular_Ts > 0) return lsim(G, u, regular_Ts, hold, x0);
@@ -90,10 +90,11 @@ Vector lsim(const TransferFunction& G, const VectorView& u, const VectorView& t,
 
 Matrix lsim(const StateSpace& system, const MatrixView& u, double Ts, Hold hold, const VectorView& x0) {
     check_sampling_time("lsim", Ts);
-    check_samples("lsim", "the input", u);
+    check_samples("lsim", SignalName::kInput, u);
     if (u.cols() != system.B.cols())
-        throw InvalidArgument("lsim: the system has " + counted(system.B.cols(), "input") + " but the data have " +
-                              counted(u.cols(), "input channel"));
+        throw InvalidArgument("lsim: the system has {} but the data have {}",
+                              plural(system.B.cols(), "{} input", "{} inputs"),
+                              plural(u.cols(), "{} input channel", "{} input channels"));
     if (system.Ts > 0) check_discrete_sampling(system.Ts, Ts);
     Vector state = initial_state(x0, system.order());
     Matrix y = Matrix::Zero(u.rows(), system.C.rows()), share(u.rows(), system.C.rows());
@@ -111,14 +112,17 @@ Matrix lsim(const StateSpace& system, const MatrixView& u, double Ts, Hold hold,
 Matrix state_variable_filter(const VectorView& x, int n, double lambda, double Ts, Hold hold) {
     constexpr int kHighestOrder = 50;
     if (n < 1 || n > kHighestOrder)
-        throw InvalidArgument("state-variable filter: the order must lie between 1 and " +
-                              std::to_string(kHighestOrder) + ", but it is " + std::to_string(n));
+        throw InvalidArgument("state-variable filter: the order must lie between 1 and {}, but it is {}", kHighestOrder,
+                              n);
     if (!(lambda > 0) || !std::isfinite(lambda))
         throw InvalidArgument(
-            "state-variable filter: the cut-off frequency lambda must be a positive number of rad/s, but it is " +
-            number_text(lambda));
-    check_sampling_time("state-variable filter", Ts);
-    check_samples("state-variable filter", "the signal", x);
+            "state-variable filter: the cut-off frequency lambda must be a positive number of rad/s, but it is {}",
+            lambda);
+    if (!valid_sampling_time(Ts))
+        throw InvalidArgument(
+            "state-variable filter: the sampling time must be a positive number of seconds, but it is {}", Ts);
+    if (const Message error = error_in_samples(SignalName::kSignal, x); !error.empty())
+        throw InvalidArgument("state-variable filter: {}", error);
     return ExactFilter(derivative_filter(power(Eigen::Vector2d(1, lambda), n), Ts, hold)).run(x);
 }
 

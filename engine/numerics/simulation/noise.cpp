@@ -5,7 +5,6 @@
 
 #include "numerics/error.h"
 #include "numerics/linalg/polynomial.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
@@ -44,14 +43,12 @@ double ColouredNoise::gain() const {
 
 Vector ColouredNoise::draw(Index count, double sigma, RandomStream& random) const {
     if (!(sigma >= 0) || !std::isfinite(sigma))
-        throw InvalidArgument("The standard deviation of noise must be a number from 0 on, and " + number_text(sigma) +
-                              " was given");
+        throw InvalidArgument("The standard deviation of noise must be a number from 0 on, and {} was given", sigma);
     return coloured(C, D, sigma * random.normal(decay_time(C, D) + count)).tail(count);
 }
 
 double noise_std_of_snr(const VectorView& x, double snr) {
-    if (!std::isfinite(snr))
-        throw InvalidArgument("snr must be a number of decibels, but " + number_text(snr) + " was given");
+    if (!std::isfinite(snr)) throw InvalidArgument("snr must be a number of decibels, but {} was given", snr);
     const double scale = std::sqrt((x.array() - x.mean()).square().sum() / static_cast<double>(x.size()));
     if (!std::isfinite(scale)) throw InvalidArgument("snr needs a noise-free output that stays finite");
     if (scale == 0) throw InvalidArgument("snr needs a noise-free output that changes");

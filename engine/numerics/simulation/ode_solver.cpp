@@ -3,23 +3,20 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 #include <utility>
 
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
 void OdeOptions::validate() const {
-    const auto check = [](const char* name, double value) {
-        if (!(value > 0) || !std::isfinite(value))
-            throw InvalidArgument(std::string("the integrator's ") + name + " must be positive, but it is " +
-                                  number_text(value));
-    };
-    check("relative tolerance", relative_tolerance);
-    check("absolute tolerance", absolute_tolerance);
-    check("first step", first_step);
+    const auto positive = [](double value) { return value > 0 && std::isfinite(value); };
+    if (!positive(relative_tolerance))
+        throw InvalidArgument("the integrator's relative tolerance must be positive, but it is {}", relative_tolerance);
+    if (!positive(absolute_tolerance))
+        throw InvalidArgument("the integrator's absolute tolerance must be positive, but it is {}", absolute_tolerance);
+    if (!positive(first_step))
+        throw InvalidArgument("the integrator's first step must be positive, but it is {}", first_step);
 }
 
 OdeSolver::OdeSolver(OdeRate rate, const OdeOptions& options)
@@ -76,8 +73,7 @@ bool OdeSolver::advance(double& t, OdeState& x, double t_end, const OdeGuard& gu
         if (error > 1) {
             next_step_ = h * factor;
             if (t + next_step_ / 4 == t)
-                throw InvalidArgument("the integrator finds no step short enough for its tolerance at t = " +
-                                      number_text(t));
+                throw InvalidArgument("the integrator finds no step short enough for its tolerance at t = {}", t);
             continue;
         }
         if (guard && guard(t + h, trial.x).minCoeff() < 0) {

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "numerics/linalg/decompositions.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 namespace {
@@ -211,33 +210,32 @@ void SensitivitySolver::tell_undefined_rate(double t, double h) const {
         for (Index j = 0; j < n_; ++j)
             if (std::isnan(stage.k[j]))
                 throw SimulationBreakdown(
-                    "At t = " + number_text(t + h * kExplicitNodes[i]) + " the derivative of the state " +
-                    names_[static_cast<std::size_t>(j)] + " is NaN, where " + states_text(stage.x) +
-                    ": a root or a logarithm of a negative number? sqrt(max(x, 0)) has a value everywhere");
+                    "At t = {} the derivative of the state {} is NaN, where {}: a root or a logarithm of a negative "
+                    "number? sqrt(max(x, 0)) has a value everywhere",
+                    t + h * kExplicitNodes[i], names_[static_cast<std::size_t>(j)], states_text(stage.x));
         if (!stage.k.allFinite()) return;
     }
 }
 
-std::string SensitivitySolver::states_text(const Vector& at) const {
-    std::string text;
+MessageList SensitivitySolver::states_text(const Vector& at) const {
+    MessageList states;
     for (Index i = 0; i < n_; ++i)
-        text += (i > 0 ? ", " : "") + names_[static_cast<std::size_t>(i)] + " = " + number_text(at[i]);
-    return text;
+        states.items.push_back(Message("{} = {}", names_[static_cast<std::size_t>(i)], at[i]));
+    return states;
 }
 
 void SensitivitySolver::break_down(const Interval& over, double t, double h) {
     tell_undefined_rate(t, h);
     evaluate(over, t, x, stages_[0].at, Derivatives::kNone);
-    const std::string states = states_text(x);
+    const MessageList states = states_text(x);
     for (Index i = 0; i < n_; ++i)
         if (!std::isfinite(stages_[0].at.values[i]))
-            throw SimulationBreakdown("At t = " + number_text(t) + " the derivative of the state " +
-                                      names_[static_cast<std::size_t>(i)] + " is " +
-                                      number_text(stages_[0].at.values[i]) + ", where " + states);
+            throw SimulationBreakdown("At t = {} the derivative of the state {} is {}, where {}", t,
+                                      names_[static_cast<std::size_t>(i)], stages_[0].at.values[i], states);
     Index fastest = 0;
     (stages_[0].at.values.array().abs() / size_.array().max(1e-300)).maxCoeff(&fastest);
-    throw SimulationBreakdown("At t = " + number_text(t) + " the state " + names_[static_cast<std::size_t>(fastest)] +
-                              " becomes infinite: " + states);
+    throw SimulationBreakdown("At t = {} the state {} becomes infinite: {}", t,
+                              names_[static_cast<std::size_t>(fastest)], states);
 }
 
 void SensitivitySolver::advance(double t_begin, double t_end, const double* u_begin, const double* u_end) {

@@ -57,7 +57,7 @@ class SensitivitySolver {
     void accept(const Stage& last);
     [[noreturn]] void break_down(const Interval& over, double t, double h);
     void tell_undefined_rate(double t, double h) const;
-    std::string states_text(const Vector& at) const;
+    MessageList states_text(const Vector& at) const;
     Derivatives all_wanted() const { return directions_ > 0 ? Derivatives::kAll : Derivatives::kNone; }
 
     GreyEvaluation& evaluation_;

@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 #include "numerics/signals/checks.h"
 #include "numerics/simulation/lsim.h"
 
@@ -15,11 +14,9 @@ namespace dynlab::inline numerics {
 namespace {
 
 void check_response_times(const std::string& caller, const VectorView& t) {
-    if (t.size() == 0) throw InvalidArgument(caller + ": the time vector is empty");
+    if (t.size() == 0) throw InvalidArgument("{}: the time vector is empty", caller);
     check_instants(caller, t);
-    if (t(0) < 0)
-        throw InvalidArgument(caller + ": the response begins at time 0, but the first instant is " +
-                              number_text(t(0)));
+    if (t(0) < 0) throw InvalidArgument("{}: the response begins at time 0, but the first instant is {}", caller, t(0));
 }
 
 /// The instants of a discrete response as numbers of samples.
@@ -31,8 +28,8 @@ Eigen::VectorX<Index> sample_numbers(const std::string& caller, const VectorView
         numbers(i) = std::llround(samples);
         if (std::abs(samples - static_cast<double>(numbers(i))) > kRounding)
             throw InvalidArgument(
-                caller + ": the model is discrete, so the instants must be multiples of Ts = " + number_text(Ts) +
-                " s, but instant " + std::to_string(i + 1) + " is " + number_text(t(i)) + " s");
+                "{}: the model is discrete, so the instants must be multiples of Ts = {} s, but instant {} is {} s",
+                caller, Ts, i + 1, t(i));
     }
     return numbers;
 }
@@ -104,9 +101,7 @@ TimeResponse impulse_response(const TransferFunction& G, const VectorView& t) {
 }
 
 Vector natural_time_grid(const TransferFunction& G, Index count) {
-    if (count < 2)
-        throw InvalidArgument("time grid: at least 2 instants are needed, but " + std::to_string(count) +
-                              " were asked for");
+    if (count < 2) throw InvalidArgument("time grid: at least 2 instants are needed, but {} were asked for", count);
     const double duration = natural_duration(G);
     if (G.continuous()) return Vector::LinSpaced(count, 0, duration);
     constexpr double kMostSamples = 1e4, kFewestSamples = 10;

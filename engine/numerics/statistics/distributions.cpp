@@ -6,10 +6,8 @@
 #include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 #include <numbers>
-#include <string>
 
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
@@ -21,13 +19,14 @@ using ChiSquared = boost::math::chi_squared_distribution<double, Policy>;
 
 void check_arguments(double x, double degrees) {
     if (!(degrees > 0) || !std::isfinite(degrees) || std::isnan(x))
-        throw InvalidArgument("The chi-squared distribution needs a number and positive degrees of freedom, and got " +
-                              number_text(x) + " and " + number_text(degrees));
+        throw InvalidArgument(
+            "The chi-squared distribution needs a number and positive degrees of freedom, and got {} and {}", x,
+            degrees);
 }
 
 void check_probability(double probability) {
     if (!(probability > 0 && probability < 1))
-        throw InvalidArgument("A probability must lie between 0 and 1, but it is " + number_text(probability));
+        throw InvalidArgument("A probability must lie between 0 and 1, but it is {}", probability);
 }
 
 constexpr double kNearCentre = 0.1;
@@ -70,8 +69,9 @@ double normal_half_width(double probability) {
 
 double student_t_quantile(double probability, double degrees) {
     if (!(degrees > 0) || !std::isfinite(degrees))
-        throw InvalidArgument("Student's t needs a positive number of degrees of freedom, and got " +
-                              number_text(degrees) + ": use more samples than parameters");
+        throw InvalidArgument(
+            "Student's t needs a positive number of degrees of freedom, and got {}: use more samples than parameters",
+            degrees);
     check_probability(probability);
     try {
         const double off_centre = probability - 0.5;  // exact, for a probability near one half
@@ -80,8 +80,9 @@ double student_t_quantile(double probability, double degrees) {
             return std::copysign(quantile_above_centre(std::abs(off_centre), degrees), off_centre);
         return quantile(StudentT(degrees), probability);
     } catch (const std::exception&) {  // beyond what a number can hold, or the series that Boost has
-        throw InvalidArgument("The quantile of Student's t for the probability " + number_text(probability) + " and " +
-                              number_text(degrees) + " degrees of freedom cannot be worked out");
+        throw InvalidArgument(
+            "The quantile of Student's t for the probability {} and {} degrees of freedom cannot be worked out",
+            probability, degrees);
     }
 }
 

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "numerics/linalg/decompositions.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 namespace {
@@ -13,15 +12,16 @@ constexpr double kAmbiguous = 1.5e-8;  // of the largest singular value
 constexpr double kTakesPart = 1e-3;    // in a singular vector
 
 /// "m +1 %, k -2 %": how the parameters change together, the most changed one by one per cent (or by one, at zero).
-std::string changes_text(const std::vector<std::string>& names, const Vector& changes, const Vector& theta) {
-    std::vector<std::string> words;
+MessageList changes_text(const std::vector<std::string>& names, const Vector& changes, const Vector& theta) {
+    MessageList list;
     const double unit = 1 / changes.cwiseAbs().maxCoeff();
     for (Index i = 0; i < changes.size(); ++i) {
         const double change = changes[i] * unit * (changes[0] < 0 ? -1 : 1);
-        words.push_back(names[static_cast<std::size_t>(i)] + (change > 0 ? " +" : " -") +
-                        number_text(std::abs(change), 3) + (theta[i] == 0 ? "" : " %"));
+        const std::string name = names[static_cast<std::size_t>(i)] + (change > 0 ? " +" : " -");
+        const Number size = significant(std::abs(change), 3);
+        list.items.push_back(theta[i] == 0 ? Message("{}{}", name, size) : Message("{}{} %", name, size));
     }
-    return enumerated(words);
+    return list;
 }
 
 }  // namespace
@@ -44,8 +44,10 @@ Ambiguity find_ambiguity(const MatrixView& J, const std::vector<std::string>& na
         }
     }
     if (!idle.empty())
-        found.sentences.push_back("The outputs of this record do not depend on " + enumerated(idle) +
-                                  ": fix what they do not tell, or drive the system so that it shows.");
+        found.sentences.push_back(
+            Message("The outputs of this record do not depend on {}: fix what they do not tell, or drive the system so "
+                    "that it shows.",
+                    listed(idle)));
     if (active.size() < 2) return found;
     Matrix scaled = J(Eigen::all, active);
     const Vector lengths = scaled.colwise().norm();
@@ -64,11 +66,11 @@ Ambiguity find_ambiguity(const MatrixView& J, const std::vector<std::string>& na
             values.push_back(theta[i]);
         }
         const auto size = static_cast<Index>(changes.size());
-        found.sentences.push_back(
-            "The record does not tell " + enumerated(involved) +
-            " apart: the outputs stay as they are when they change together, " +
-            changes_text(involved, Eigen::Map<Vector>(changes.data(), size), Eigen::Map<Vector>(values.data(), size)) +
-            "; fix one of them.");
+        found.sentences.push_back(Message(
+            "The record does not tell {} apart: the outputs stay as they are when they change together, {}; fix one of "
+            "them.",
+            listed(involved),
+            changes_text(involved, Eigen::Map<Vector>(changes.data(), size), Eigen::Map<Vector>(values.data(), size))));
     }
     return found;
 }

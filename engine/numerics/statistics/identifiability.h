@@ -2,14 +2,15 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "numerics/linalg/types.h"
 
 namespace dynlab::inline numerics {
 
 /// Parameters, or combinations of them, that a record cannot tell.
 struct Ambiguity {
-    std::vector<bool> parameters;        ///< those that are among them
-    std::vector<std::string> sentences;  ///< what is told of them
+    std::vector<bool> parameters;    ///< those that are among them
+    std::vector<Message> sentences;  ///< one on each, for users
 };
 
 /// Of the sensitivities J (N x d) of the outputs at `theta`: a column that is zero beside `spread` (the norm of what

@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <string>
 
 #include "numerics/error.h"
 #include "numerics/linalg/least_squares.h"
-#include "numerics/number_text.h"
 #include "numerics/statistics/autoregression.h"
 
 namespace dynlab::inline numerics {
@@ -18,14 +16,15 @@ void check_sizes(const MatrixView& H, const MatrixView& Z, const VectorView& e, 
                  Index outputs) {
     const Index N = Z.rows(), d = Z.cols();
     if (e.size() != N || H.rows() != d || H.cols() != d)
-        throw InvalidArgument("A robust covariance of " + counted(N, "sample") + " and " + counted(d, "parameter") +
-                              " needs as many residuals, and got " + std::to_string(e.size()));
+        throw InvalidArgument("A robust covariance of {} and {} needs as many residuals, and got {}",
+                              plural(N, "{} sample", "{} samples"), plural(d, "{} parameter", "{} parameters"),
+                              e.size());
     if (N <= d)
-        throw InvalidArgument("A robust covariance needs more samples than parameters, and got " +
-                              counted(N, "sample") + " and " + counted(d, "parameter"));
+        throw InvalidArgument("A robust covariance needs more samples than parameters, and got {} and {}",
+                              plural(N, "{} sample", "{} samples"), plural(d, "{} parameter", "{} parameters"));
     if (outputs * std::accumulate(lengths.begin(), lengths.end(), Index{0}) != N)
-        throw InvalidArgument("The lengths of the records of " + std::to_string(outputs) +
-                              " output(s) must add up to the " + std::to_string(N) + " samples");
+        throw InvalidArgument("The lengths of the records of {} must add up to the {} samples",
+                              plural(outputs, "{} output", "{} outputs"), N);
 }
 
 // v(k) = H sum_i x_i(k) w_i(k), one row for each instant: output by output whitened errors and what takes the place of
@@ -108,8 +107,9 @@ RobustCovariance robust_covariance(const MatrixView& H, const MatrixView& Z, con
 RobustCovariance robust_covariance(const MatrixView& Psi, const VectorView& e, const std::vector<Index>& lengths,
                                    Index outputs) {
     if (Psi.rows() <= Psi.cols())
-        throw InvalidArgument("A robust covariance needs more samples than parameters, and got " +
-                              counted(Psi.rows(), "sample") + " and " + counted(Psi.cols(), "parameter"));
+        throw InvalidArgument("A robust covariance needs more samples than parameters, and got {} and {}",
+                              plural(Psi.rows(), "{} sample", "{} samples"),
+                              plural(Psi.cols(), "{} parameter", "{} parameters"));
     return robust_covariance(solve_least_squares(Psi, e).inverse_gram, Psi, e, lengths, outputs);
 }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 #include "numerics/statistics/distributions.h"
 #include "numerics/statistics/lagged_sums.h"
 
@@ -12,8 +11,20 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-std::string percent_text(double confidence) {
-    return number_text(100 * confidence, 4) + " %";
+Message white_verdict(ModelError kind, const Message& probability, Index lags) {
+    if (kind == ModelError::kPrediction)
+        return Message("The prediction error is white (Ljung-Box {} over {}).", probability,
+                       plural(lags, "{} lag", "{} lags"));
+    return Message("The output error is white (Ljung-Box {} over {}).", probability, plural(lags, "{} lag", "{} lags"));
+}
+
+Message coloured_verdict(ModelError kind, const Message& probability, Index outside, Index lags, double confidence) {
+    const Number percent = significant(100 * confidence, 4);
+    if (kind == ModelError::kPrediction)
+        return Message("The prediction error is not white (Ljung-Box {}; {} of {} lags lie beyond the {} % bound).",
+                       probability, outside, lags, percent);
+    return Message("The output error is not white (Ljung-Box {}; {} of {} lags lie beyond the {} % bound).",
+                   probability, outside, lags, percent);
 }
 
 // The variance of the lag's sample autocorrelation of a white signal, times N + 2 over N (Ljung and Box 1978).
@@ -26,12 +37,12 @@ double lag_variance(const std::vector<Vector>& e, Index lag) {
 
 }  // namespace
 
-std::string probability_text(double p) {
-    return p < 0.001 ? "p < 0.001" : "p = " + number_text(p, 2);
+Message probability_text(double p) {
+    return p < 0.001 ? Message("p < {}", 0.001) : Message("p = {}", significant(p, 2));
 }
 
 WhitenessTest whiteness_of_covariances(const std::vector<Vector>& e, const VectorView& R, double confidence,
-                                       const std::string& error_name) {
+                                       ModelError kind) {
     WhitenessTest test;
     const Index lags = R.size() - 1;
     if (R[0] == 0) return test;  // nothing but a constant
@@ -47,19 +58,16 @@ WhitenessTest whiteness_of_covariances(const std::vector<Vector>& e, const Vecto
     if (test.degrees == 0) return test;
     test.p_value = chi_squared_upper_tail(test.statistic, static_cast<double>(test.degrees));
     test.white = test.p_value >= 1 - confidence;
-    const std::string subject = "The " + error_name;
-    test.verdict = test.white ? subject + " is white (Ljung-Box " + probability_text(test.p_value) + " over " +
-                                    counted(lags, "lag") + ")."
-                              : subject + " is not white (Ljung-Box " + probability_text(test.p_value) + "; " +
-                                    std::to_string(test.outside) + " of " + std::to_string(lags) +
-                                    " lags lie beyond the " + percent_text(confidence) + " bound).";
+    const Message probability = probability_text(test.p_value);
+    test.verdict = test.white ? white_verdict(kind, probability, lags)
+                              : coloured_verdict(kind, probability, test.outside, lags, confidence);
     return test;
 }
 
 void ResidualOptions::validate() const {
-    if (lags < 1) throw InvalidArgument("lags must be at least 1, and is " + std::to_string(lags));
+    if (lags < 1) throw InvalidArgument("lags must be at least 1, and is {}", lags);
     if (!(confidence > 0 && confidence < 1))
-        throw InvalidArgument("confidence must lie between 0 and 1, such as 0.99, and is " + number_text(confidence));
+        throw InvalidArgument("confidence must lie between 0 and 1, such as 0.99, and is {}", confidence);
 }
 
 WhitenessTest whiteness_test(const std::vector<Vector>& errors, const ResidualOptions& options) {
@@ -72,7 +80,7 @@ WhitenessTest whiteness_test(const std::vector<Vector>& errors, const ResidualOp
     }
     const Index lags = std::max<Index>(1, std::min(options.lags, longest / 2));
     return whiteness_of_covariances(e, lagged_covariances(e, e, lags).tail(lags + 1), options.confidence,
-                                    "output error");
+                                    ModelError::kOutput);
 }
 
 }  // namespace dynlab::inline numerics

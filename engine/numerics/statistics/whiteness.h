@@ -1,7 +1,7 @@
 #pragma once
-#include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "numerics/linalg/types.h"
 
 namespace dynlab::inline numerics {
@@ -23,19 +23,20 @@ struct WhitenessTest {
     Index degrees = 0, outside = 0;  ///< outside: lags 1..L beyond the bound
     double p_value = 1;
     bool white = true;
-    std::string verdict;  ///< one sentence
+    Message verdict;  ///< one sentence; empty for an error that is constant
 };
 
 /// Ljung and Box (1978), of one output's errors in one or several uninterrupted records, whose means are taken off
 /// first; for records too short for the lags fewer are tested. Throws InvalidArgument for options that make no sense.
 WhitenessTest whiteness_test(const std::vector<Vector>& errors, const ResidualOptions& options = {});
 
-/// The same test of errors `e` without mean whose covariances R of lags 0..L are known; its verdict calls them
-/// `error_name`.
+enum class ModelError { kOutput, kPrediction };
+
+/// The same test of errors `e` without mean whose covariances R of lags 0..L are known; its verdict names their kind.
 WhitenessTest whiteness_of_covariances(const std::vector<Vector>& e, const VectorView& R, double confidence,
-                                       const std::string& error_name);
+                                       ModelError kind);
 
 /// "p = 0.034" or "p < 0.001".
-std::string probability_text(double p);
+Message probability_text(double p);
 
 }  // namespace dynlab::inline numerics

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "numerics/signals/segments.h"
 
 namespace dynlab::inline numerics {
@@ -15,7 +16,7 @@ struct RecordFinding {
     std::string code;  ///< one word, "saturation", for programs
     Weight weight;
     std::string channel;  ///< its name; empty when the finding is about the whole record
-    std::string message;  ///< whole sentences with numbers, units and the remedy
+    Message message;      ///< whole sentences with numbers, units and the remedy
     double value = 0;     ///< the finding's number: dB, s, a step, a ratio
     std::size_t experiment = 0;
     std::vector<Segment> sections = {};  ///< samples of that experiment it is about

@@ -7,7 +7,6 @@
 
 #include "numerics/error.h"
 #include "numerics/estimators/srivc.h"
-#include "numerics/number_text.h"
 #include "numerics/signals/correlation.h"
 #include "numerics/signals/robust_statistics.h"
 
@@ -39,7 +38,6 @@ double samples_per_turn(const IdData& data) {
     FitOptions options;
     options.initial_state = InitialState::kSteady;
     options.offset = Offset::kEstimate;
-    options.doubts = false;
     try {
         const Fit quick = srivc(data, TransferStructure::single(2, 0), options);
         if (!(quick.fit_percent[0] > 20)) return 0;
@@ -126,7 +124,6 @@ void choose_start(DelaySearch& search, const IdData& data, FitOptions options) {
     Fit& found = search.candidate.estimate;
     options.initial_state = InitialState::kAuto;
     options.offset = Offset::kAuto;
-    options.doubts = false;
     SearchAids aids;
     aids.start = found.theta;
     aids.poorer = {&found};
@@ -255,9 +252,8 @@ double wandering(const VectorView& signal) {
     return expected > 0 ? found / expected : 0;
 }
 
-std::string FittedRecord::with_unit(double value, int digits) const {
-    const std::string& unit = data.output_units.front();
-    return short_text(value, digits) + (unit.empty() ? "" : " " + unit);
+Message FittedRecord::with_unit(double value, int digits) const {
+    return numerics::with_unit(rounded(value, digits), data.output_units.front());
 }
 
 double FittedRecord::deviation() const {
@@ -303,30 +299,34 @@ std::optional<FittedRecord> fitted_record(const IdData& data, const std::functio
     return fit;
 }
 
-RecordFinding about(const FittedRecord& fit, const char* code, Weight weight, const std::string& message,
-                    double value) {
+RecordFinding about(const FittedRecord& fit, const char* code, Weight weight, const Message& message, double value) {
     return {code, weight, fit.output(), message, value, 0, {}};
 }
 
-std::string listed_places(const std::vector<Segment>& segments) {
+MessageList listed_places(const std::vector<Segment>& segments) {
     constexpr std::size_t kMost = 4;
-    std::string text;
+    MessageList places;
     for (std::size_t i = 0; i < std::min(kMost, segments.size()); ++i) {
-        text += (i > 0 ? ", " : "") + std::to_string(segments[i].first);
-        if (segments[i].last > segments[i].first) text += " to " + std::to_string(segments[i].last);
+        const auto [first, last] = segments[i];
+        places.items.push_back(last > first ? Message("{} to {}", first, last) : Message("{}", first));
     }
-    return text + (segments.size() > kMost ? ", ..." : "");
+    if (segments.size() > kMost) places.items.push_back(Message::verbatim("..."));
+    return places;
 }
 
-std::string short_text(double value, int digits) {
-    if (value == 0 || !std::isfinite(value)) return number_text(value);
+Message with_unit(Number number, const std::string& unit) {
+    return unit.empty() ? Message("{}", number) : Message("{} {}", number, unit);
+}
+
+Number rounded(double value, int digits) {
+    if (value == 0 || !std::isfinite(value)) return Number{value};
     const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) + 1 - digits);
-    return number_text(unit < 1 ? std::round(value / unit) / std::round(1 / unit) : std::round(value / unit) * unit, 6);
+    return significant(unit < 1 ? std::round(value / unit) / std::round(1 / unit) : std::round(value / unit) * unit, 6);
 }
 
-std::string rounded_text(double value, double resolution) {
+Number rounded_to(double value, double resolution) {
     const double digits = std::ceil(std::log10(std::abs(value) / resolution));
-    return short_text(value, std::isfinite(digits) ? static_cast<int>(std::clamp(digits, 1.0, 4.0)) : 2);
+    return rounded(value, std::isfinite(digits) ? static_cast<int>(std::clamp(digits, 1.0, 4.0)) : 2);
 }
 
 }  // namespace dynlab::inline numerics

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "base/message.h"
 #include "numerics/validation/advice.h"
 #include "numerics/validation/compare.h"
 #include "numerics/validation/delay_search.h"
@@ -32,7 +33,8 @@ struct FittedRecord {
     const std::string& input() const { return data.input_names.front(); }
     VectorView y() const { return data.experiments.front().y.col(0); }
     VectorView u() const { return data.experiments.front().u.col(0); }
-    std::string with_unit(double value, int digits) const;
+    /// A value of the output, rounded to so many significant digits.
+    Message with_unit(double value, int digits) const;
     double deviation() const;  ///< standard deviation of y
     /// The model explains half of the output, or of what is left of it without slow movement.
     bool trusted() const { return simulation.fit_percent > 50 || movement_error < 0.5; }
@@ -57,13 +59,15 @@ double wandering(const VectorView& x);
 inline constexpr double kWanders = 5;  ///< leaves room for noise of long memory
 
 /// A finding about the output.
-RecordFinding about(const FittedRecord& fit, const char* code, Weight weight, const std::string& message, double value);
+RecordFinding about(const FittedRecord& fit, const char* code, Weight weight, const Message& message, double value);
 
 /// "3, 10 to 12, ...": the first four.
-std::string listed_places(const std::vector<Segment>& segments);
-/// A number rounded to so many significant digits, without an exponent as far as six digits do: -110.
-std::string short_text(double value, int digits);
-/// A number with the digits that count when `resolution` is all that one can tell: 20.03 at 0.5 becomes "20".
-std::string rounded_text(double value, double resolution);
+MessageList listed_places(const std::vector<Segment>& segments);
+/// "3.2 V", or the number alone where it has no unit.
+Message with_unit(Number number, const std::string& unit);
+/// A number rounded to so many significant digits, shown without an exponent as far as six digits do: -110.
+Number rounded(double value, int digits);
+/// A number with the digits that count when `resolution` is all that one can tell: 20.03 at 0.5 becomes 20.
+Number rounded_to(double value, double resolution);
 
 }  // namespace dynlab::inline numerics

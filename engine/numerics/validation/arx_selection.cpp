@@ -5,13 +5,12 @@
 #include "numerics/error.h"
 #include "numerics/fit/equation_error.h"
 #include "numerics/linalg/least_squares.h"
-#include "numerics/number_text.h"
 #include "numerics/validation/fit_measures.h"
 
 namespace dynlab::inline numerics {
 namespace {
 
-constexpr double kMostArxStructures = 2000;
+constexpr int kMostArxStructures = 2000;
 constexpr double kHardlyLarger = 1.01;  // of a loss: not worth parameters
 
 /// As a script writes it: a number, or {from, to}.
@@ -22,8 +21,8 @@ std::string range_text(std::pair<int, int> range) {
 
 void check_range(const char* name, std::pair<int, int> range, int least) {
     if (range.first < least || range.second < range.first)
-        throw InvalidArgument(std::string(name) + " must be a number or a range {from, to} from at least " +
-                              std::to_string(least) + " upwards, but it is " + range_text(range));
+        throw InvalidArgument("{} must be a number or a range {from, to} from at least {} upwards, but it is {}", name,
+                              least, range_text(range));
 }
 
 void check_ranges(const ArxRanges& ranges) {
@@ -32,16 +31,15 @@ void check_ranges(const ArxRanges& ranges) {
     check_range("nk", ranges.nk, 0);
     const auto length = [](std::pair<int, int> range) { return 1.0 + range.second - range.first; };
     if (length(ranges.na) * length(ranges.nb) * length(ranges.nk) > kMostArxStructures)
-        throw InvalidArgument("there are more than " + number_text(kMostArxStructures) +
-                              " structures to try: take smaller ranges");
+        throw InvalidArgument("there are more than {} structures to try: take smaller ranges", kMostArxStructures);
 }
 
 /// The equations of the largest structure of one record: every other one's are columns of them.
 struct LargestEquations {
     LargestEquations(const IdData& data, const ArxRanges& ranges) : na(ranges.na.second), nk(ranges.nk.first) {
         if (data.input_count() != 1)
-            throw InvalidArgument("arxstruc: the data must have one input, but they have " +
-                                  std::to_string(data.input_count()) + "; select one");
+            throw InvalidArgument("arxstruc: the data must have one input, but they have {}; select one",
+                                  data.input_count());
         const int lags = ranges.nk.second + ranges.nb.second - nk;
         const auto orders = PolynomialOrders::arx(na, {lags}, {nk});
         check_equation_error("arxstruc", data, orders);
@@ -81,15 +79,29 @@ std::string orders_text(const ArxCandidate& candidate) {
 }
 
 /// Points to a smaller structure that is hardly worse, where the loss alone has chosen.
-std::string simpler_arx(const ArxSelection& selection, std::size_t chosen) {
+std::optional<Message> simpler_arx(const ArxSelection& selection, std::size_t chosen) {
     const ArxCandidate *taken = &selection.candidates[chosen], *simplest = taken;
     for (const ArxCandidate& one : selection.candidates)
         if (one.determined && one.parameters() < simplest->parameters() &&
             one.judged_loss() <= kHardlyLarger * taken->judged_loss())
             simplest = &one;
-    if (simplest == taken) return "";
-    return " With " + counted(simplest->parameters(), "parameter") + " instead of " +
-           std::to_string(taken->parameters()) + ", " + orders_text(*simplest) + " comes within 1 % of it.";
+    if (simplest == taken) return std::nullopt;
+    return plural(simplest->parameters(), "With {} parameter instead of {}, {} comes within 1 % of it.",
+                  "With {} parameters instead of {}, {} comes within 1 % of it.", taken->parameters(),
+                  orders_text(*simplest));
+}
+
+Message reason_of(const std::string& orders, ArxCriterion criterion, bool validated) {
+    switch (criterion) {
+        case ArxCriterion::kAic:
+            return Message("{na, nb, nk} = {} has the smallest AIC.", orders);
+        case ArxCriterion::kBic:
+            return Message("{na, nb, nk} = {} has the smallest BIC.", orders);
+        case ArxCriterion::kLoss:
+            break;
+    }
+    return validated ? Message("{na, nb, nk} = {} has the smallest loss on the second record.", orders)
+                     : Message("{na, nb, nk} = {} has the smallest loss.", orders);
 }
 
 }  // namespace
@@ -131,18 +143,15 @@ OrderChoice choose_arx(const ArxSelection& selection, ArxCriterion criterion) {
                                            if (one.determined != other.determined) return one.determined;
                                            return criterion_value(one, criterion) < criterion_value(other, criterion);
                                        });
-    OrderChoice choice{static_cast<std::size_t>(best - selection.candidates.begin()),
-                       "{na, nb, nk} = " + orders_text(*best) + " has the smallest "};
-    if (criterion == ArxCriterion::kAic) choice.explanation += "AIC.";
-    if (criterion == ArxCriterion::kBic) choice.explanation += "BIC.";
-    if (criterion != ArxCriterion::kLoss) return choice;
-    choice.explanation += selection.validated ? "loss on the second record." : "loss.";
+    const auto place = static_cast<std::size_t>(best - selection.candidates.begin());
+    std::vector<Message> explanation{reason_of(orders_text(*best), criterion, selection.validated)};
+    if (criterion != ArxCriterion::kLoss) return {place, sentences(explanation)};
     if (!selection.validated)
-        choice.explanation +=
-            " On the record of the estimation itself the loss falls with every parameter: give a "
-            "second record, or choose by BIC.";
-    choice.explanation += simpler_arx(selection, choice.place);
-    return choice;
+        explanation.push_back(
+            Message("On the record of the estimation itself the loss falls with every parameter: give a second record, "
+                    "or choose by BIC."));
+    if (const auto simpler = simpler_arx(selection, place)) explanation.push_back(*simpler);
+    return {place, sentences(explanation)};
 }
 
 ArxCriterion usual_criterion(const ArxSelection& selection) {

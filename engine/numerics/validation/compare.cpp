@@ -8,7 +8,6 @@
 #include "numerics/error.h"
 #include "numerics/fit/fit.h"
 #include "numerics/linalg/least_squares.h"
-#include "numerics/number_text.h"
 #include "numerics/simulation/lsim.h"
 #include "numerics/validation/fit_measures.h"
 
@@ -226,8 +225,8 @@ CompareResult compare_centred(const ComparedRecord& record, Channels channels, c
         return (condition.state == InitialState::kEstimate ? order : 0) + (condition.offset ? 1 : 0);
     };
     if (const Index d = values(conditions.front()); d > 0 && N <= d)
-        throw InvalidArgument("compare needs more samples than the " + counted(d, "value") +
-                              " it estimates, and the record holds " + std::to_string(N));
+        throw InvalidArgument("compare needs more samples than the {} it estimates, and the record holds {}",
+                              plural(d, "{} value", "{} values"), N);
     StartSearch search = start_search(record, channels, conditions);
     StartCandidate best = candidate(search, conditions.front());
     for (std::size_t i = 1; i < conditions.size(); ++i) {
@@ -257,7 +256,7 @@ Compared compare_record(const ComparedRecord& record, Channels channels, const C
     compared.squares = (record.y - result.output).squaredNorm();
     compared.variation = variation_about_mean(record.y);
     result.fit_percent = fit_percent_of_sums(compared.squares, compared.variation);
-    result.message = "Simulated " + description(result.start) + ": fit " + number_text(result.fit_percent, 4) + " %.";
+    result.message = Message("Simulated {}: fit {} %.", description(result.start), significant(result.fit_percent, 4));
     return compared;
 }
 
@@ -274,9 +273,10 @@ Comparison compare_all(const IdData& data, const std::vector<TransferFunction>& 
                        const CompareOptions& options) {
     const Index ny = data.output_count(), nu = data.input_count();
     if (ny < 1 || nu < 1 || static_cast<Index>(channels.size()) != ny * nu)
-        throw InvalidArgument("The model needs one transfer function from each of the " + std::to_string(nu) +
-                              " input(s) to each of the " + std::to_string(ny) + " output(s) of the data, and has " +
-                              std::to_string(channels.size()) + ": select the channels it describes");
+        throw InvalidArgument(
+            "The model needs one transfer function from each input to each output of the data ({} and {}), and has {}: "
+            "select the channels it describes",
+            plural(nu, "{} input", "{} inputs"), plural(ny, "{} output", "{} outputs"), channels.size());
     Comparison all;
     Vector squares = Vector::Zero(ny), variation = Vector::Zero(ny);
     for (std::size_t k = 0; k < data.experiments.size(); ++k) {
@@ -310,8 +310,8 @@ Comparison compare_all(const IdData& data, const FreeRunModel& model) {
             CompareResult& result = row.emplace_back();
             result.output = run.output.col(i);
             result.fit_percent = fit_percent_of_sums(errors, own);
-            result.message = "Simulated freely " + run.start + ": fit " + number_text(result.fit_percent, 4) + " %.";
-            if (run.lost_at) result.message += " " + divergence_text(data, k, *run.lost_at);
+            result.message = Message("Simulated freely {}: fit {} %.", run.start, significant(result.fit_percent, 4));
+            if (run.lost_at) result.message = sentences({result.message, divergence_text(data, k, *run.lost_at)});
         }
     }
     all.fit_percent = squares.binaryExpr(variation, &fit_percent_of_sums);
@@ -320,10 +320,12 @@ Comparison compare_all(const IdData& data, const FreeRunModel& model) {
 
 CompareResult compare(const IdData& data, const TransferFunction& G, const CompareOptions& options) {
     if (data.experiments.size() != 1 || data.input_count() != 1 || data.output_count() != 1)
-        throw InvalidArgument("compare needs one experiment with one input and one output, and the data hold " +
-                              std::to_string(data.experiments.size()) + " experiment(s), " +
-                              std::to_string(data.input_count()) + " input(s) and " +
-                              std::to_string(data.output_count()) + " output(s): select one of each");
+        throw InvalidArgument(
+            "compare needs one experiment with one input and one output, and the data hold {}, {} and "
+            "{}: select one of each",
+            plural(static_cast<Index>(data.experiments.size()), "{} experiment", "{} experiments"),
+            plural(data.input_count(), "{} input", "{} inputs"),
+            plural(data.output_count(), "{} output", "{} outputs"));
     return compare_all(data, {G}, options).results.front().front();
 }
 

@@ -1,7 +1,7 @@
 #pragma once
-#include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "numerics/criteria/initial_conditions.h"
 #include "numerics/models/free_run.h"
 #include "numerics/models/transfer_function.h"
@@ -21,7 +21,7 @@ struct CompareResult {
     StartCondition start{};  ///< what was assumed or chosen
     Vector initial_values;   ///< weights of the free motions of 1/den (n, for each den in turn), empty unless estimated
     double offset = 0;       ///< the estimated constant, or the operating point "remove" took off the output
-    std::string message;     ///< one sentence
+    Message message;         ///< one sentence
 };
 
 /// Simulates G on the input of one experiment with one input and one output and compares with its output. What the

@@ -76,8 +76,8 @@ Matrix cramer_rao_bound(const TransferFunction& system, const VectorView& u, dou
             "The Cramer-Rao bound of a delay needs fewer zeros than poles: the output of this system jumps with its "
             "input");
     if (u.size() < theta.size())
-        throw InvalidArgument("The Cramer-Rao bound of " + std::to_string(theta.size()) +
-                              " parameters needs at least as many samples, but there are " + std::to_string(u.size()));
+        throw InvalidArgument("The Cramer-Rao bound of {} parameters needs at least as many samples, but there are {}",
+                              theta.size(), u.size());
     const Matrix psi = sensitivities(system, theta, numbers, u, Ts, hold);
     const LeastSquares solved = solve_least_squares(psi, Vector::Zero(psi.rows()));
     if (solved.rank < theta.size()) {

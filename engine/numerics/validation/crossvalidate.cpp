@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
@@ -62,14 +61,24 @@ void check_parts(const std::vector<Part>& parts) {
             "instead");
     for (const Part& part : parts)
         if (part.last - part.first + 1 < kLeastFold)
-            throw InvalidArgument("Each fold needs at least " + std::to_string(kLeastFold) + " samples, and one has " +
-                                  std::to_string(part.last - part.first + 1) + ": ask for fewer folds");
+            throw InvalidArgument("Each fold needs at least {} samples, and one has {}: ask for fewer folds",
+                                  kLeastFold, part.last - part.first + 1);
+}
+
+/// On the folds of one output, from what the model fits of each in per cent.
+Message summary_of(const Vector& fits) {
+    const Message summary =
+        plural(fits.size(), "Simulated on {} part that the model had not seen: fit {} % on average, from {} to {} %.",
+               "Simulated on {} parts that the model had not seen: fit {} % on average, from {} to {} %.",
+               significant(fits.mean(), 4), significant(fits.minCoeff(), 4), significant(fits.maxCoeff(), 4));
+    if (fits.allFinite()) return summary;
+    return sentences({summary, Message("At least one of the models is unstable.")});
 }
 
 void summarise(CrossValidation& result, const std::vector<std::string>& names) {
     const Index folds = result.fit_percent.rows();
     if (folds == 0) {
-        result.message = "Stopped before the first fold was done.";
+        result.message = Message("Stopped before the first fold was done.");
         return;
     }
     const Matrix& fits = result.fit_percent;
@@ -80,21 +89,19 @@ void summarise(CrossValidation& result, const std::vector<std::string>& names) {
             ((fits.rowwise() - result.mean.transpose()).colwise().squaredNorm() / static_cast<double>(folds - 1))
                 .cwiseSqrt()
                 .transpose();
+    MessageList lines{{}, Join::kLines};
     for (Index i = 0; i < fits.cols(); ++i) {
-        if (i > 0) result.message += '\n';
-        if (fits.cols() > 1) result.message += names[static_cast<std::size_t>(i)] + ": ";
-        result.message += "Simulated on " + std::to_string(folds) + " parts that the model had not seen: fit " +
-                          number_text(result.mean[i], 4) + " % on average, from " +
-                          number_text(fits.col(i).minCoeff(), 4) + " to " + number_text(fits.col(i).maxCoeff(), 4) +
-                          " %.";
-        if (!fits.col(i).allFinite()) result.message += " At least one of the models is unstable.";
+        const Message summary = summary_of(fits.col(i));
+        lines.items.push_back(fits.cols() > 1 ? Message("{}: {}", names[static_cast<std::size_t>(i)], summary)
+                                              : summary);
     }
+    result.message = lines.items.size() == 1 ? lines.items.front() : Message("{}", lines);
 }
 
 }  // namespace
 
 void CrossValidationOptions::validate() const {
-    if (!by_experiment && folds < 2) throw InvalidArgument("folds must be at least 2, and is " + std::to_string(folds));
+    if (!by_experiment && folds < 2) throw InvalidArgument("folds must be at least 2, and is {}", folds);
 }
 
 CrossValidation cross_validate(const IdData& data, const ModelFitter& fit, const CrossValidationOptions& options) {

@@ -1,8 +1,8 @@
 #pragma once
 #include <functional>
-#include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "numerics/models/transfer_function.h"
 #include "numerics/signals/iddata.h"
 #include "numerics/validation/compare.h"
@@ -31,7 +31,7 @@ struct CrossValidation {
     std::vector<CrossValidationFold> folds;
     Matrix fit_percent;   ///< folds x ny, simulation of the parts left out; minus infinity when it overflows
     Vector mean, spread;  ///< per output, over the folds; spread: standard deviation
-    std::string message;  ///< one sentence per output
+    Message message;      ///< a line per output
 };
 
 /// Fits a model to data: the ny nu transfer functions row by row.

@@ -35,12 +35,9 @@ class DelayProfile {
           structure_(structure),
           condition_(condition),
           delays_(delays),
-          options_(options),
+          options_(options.started(condition)),
           points_(static_cast<std::size_t>(delays.size())) {
         structure_.free_delays = false;
-        options_.initial_state = condition.state;
-        options_.offset = condition.offset ? Offset::kEstimate : Offset::kNone;
-        options_.doubts = false;
     }
 
     void fit_each(int threads) {

@@ -7,7 +7,6 @@
 #include "numerics/error.h"
 #include "numerics/fit/first_estimate.h"
 #include "numerics/fit/operating_points.h"
-#include "numerics/number_text.h"
 #include "numerics/validation/delay_profile.h"
 
 namespace dynlab::inline numerics {
@@ -20,9 +19,9 @@ constexpr Index kProfiledSamples = 50'000;  // of a longer record, its beginning
 void check_options(const DelaySearchOptions& options) {
     const FitOptions& estimation = options.estimation;
     if (estimation.largest_delay && !(*estimation.largest_delay > estimation.least_delay))
-        throw InvalidArgument("`largest_delay` must be above `least_delay` (" + number_text(estimation.least_delay) +
-                              " s), but " + number_text(*estimation.largest_delay) +
-                              " was given: there is no delay to look for");
+        throw InvalidArgument("{} must be above {} ({} s), but {} was given: there is no delay to look for",
+                              OptionName{"largest_delay"}, OptionName{"least_delay"}, estimation.least_delay,
+                              *estimation.largest_delay);
 }
 
 /// The loss of a model that does not answer at all, which is there at every delay.
@@ -69,7 +68,7 @@ std::optional<double> rival_of(const DelaySearch& search, Index samples) {
 }
 
 /// The structure in words, without its delay.
-std::string orders_of(const OrderCandidate& candidate) {
+Message orders_of(const OrderCandidate& candidate) {
     OrderCandidate bare;
     bare.poles = candidate.poles;
     bare.zeros = candidate.zeros;
@@ -77,25 +76,40 @@ std::string orders_of(const OrderCandidate& candidate) {
 }
 
 /// The value down to the second digit of its error, with five digits at most.
-std::string text_to_error(double value, double error) {
+Number known_to(double value, double error) {
     constexpr int kMostDigits = 5;
-    if (!(error > 0 && std::isfinite(error) && value != 0)) return number_text(value, kMostDigits);
+    if (!(error > 0 && std::isfinite(error) && value != 0)) return significant(value, kMostDigits);
     const double digits = std::floor(std::log10(std::abs(value))) - std::floor(std::log10(error)) + 2;
-    return number_text(value, static_cast<int>(std::clamp(digits, 1.0, static_cast<double>(kMostDigits))));
+    return significant(value, static_cast<int>(std::clamp(digits, 1.0, static_cast<double>(kMostDigits))));
 }
 
-std::string explanation_of(const DelaySearch& search, const IdData& data) {
-    std::string text = "The delay is " + text_to_error(search.delay, search.std) + " s";
-    if (data.regular()) text += " (" + text_to_error(search.delay / data.Ts, search.std / data.Ts) + " samples)";
-    if (std::isfinite(search.std)) text += ", standard error " + number_text(search.std, 2) + " s";
-    text += ", in a model with " + orders_of(search.candidate) + " that fits " +
-            number_text(search.candidate.fit_percent, 4) + " %.";
-    if (search.delay <= 2 * search.std) text += " It does not differ significantly from no delay.";
+Message result_of(const DelaySearch& search, const IdData& data) {
+    const Number delay = known_to(search.delay, search.std), std = significant(search.std, 2);
+    const Number fit = significant(search.candidate.fit_percent, 4);
+    const Message orders = orders_of(search.candidate);
+    if (!data.regular())
+        return std::isfinite(search.std)
+                   ? Message("The delay is {} s, standard error {} s, in a model with {} that fits {} %.", delay, std,
+                             orders, fit)
+                   : Message("The delay is {} s, in a model with {} that fits {} %.", delay, orders, fit);
+    const Number samples = known_to(search.delay / data.Ts, search.std / data.Ts);
+    return std::isfinite(search.std)
+               ? Message("The delay is {} s ({} samples), standard error {} s, in a model with {} that fits {} %.",
+                         delay, samples, std, orders, fit)
+               : Message("The delay is {} s ({} samples), in a model with {} that fits {} %.", delay, samples, orders,
+                         fit);
+}
+
+Message explanation_of(const DelaySearch& search, const IdData& data) {
+    std::vector<Message> all{result_of(search, data)};
+    if (search.delay <= 2 * search.std) all.push_back(Message("It does not differ significantly from no delay."));
     if (search.rival)
-        text += " A delay of " + number_text(*search.rival) +
-                " s explains them nearly as well: look at the curve, and decide by what you know of the plant.";
-    for (const std::string& warning : search.candidate.estimate.warnings) text += " " + warning;
-    return text;
+        all.push_back(
+            Message("A delay of {} s explains them nearly as well: look at the curve, and decide by what you "
+                    "know of the plant.",
+                    *search.rival));
+    for (const Message& warning : search.candidate.estimate.warnings) all.push_back(warning);
+    return sentences(std::move(all));
 }
 
 }  // namespace
@@ -107,7 +121,6 @@ DelaySearch search_delay(const IdData& data, const DelaySearchOptions& options) 
     selecting.progress = options.progress;
     selecting.cancel = options.cancel;
     selecting.estimation = options.estimation;
-    selecting.estimation.doubts = false;
     const OrderSelection selection =
         select_order(data, order_grid(options.poles, options.zeros, {options.estimation.least_delay}, true), selecting);
     DelaySearch search;

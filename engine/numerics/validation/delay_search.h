@@ -1,6 +1,5 @@
 #pragma once
 #include <optional>
-#include <string>
 #include <utility>
 
 #include "numerics/validation/order_selection.h"
@@ -21,7 +20,7 @@ struct DelaySearch {
     double delay = 0, std = 0;    ///< s, a real number and its standard error
     OrderCandidate candidate;     ///< the structure that was taken, with its model
     std::optional<double> rival;  ///< s, another delay on the grid whose loss chance does not tell from the smallest
-    std::string explanation;      ///< plain sentences
+    Message explanation;          ///< plain sentences
     bool cancelled = false;       ///< nothing else holds then
 
     /// s, the delays that were tried, and the smallest mean square error at each (delay_profile.h), on at most the

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "numerics/number_text.h"
 #include "numerics/signals/repair.h"
 #include "numerics/signals/robust_statistics.h"
 #include "numerics/validation/model_findings.h"
@@ -74,22 +73,21 @@ void find_error_outliers(FittedRecord& fit, RecordFindings& findings) {
     const Index N = fit.error.size();
     RepairedSignal repaired = replace_outliers(fit.error);
     keep_isolated(repaired, fit.error);
-    const auto count = static_cast<double>(repaired.replaced.size());
-    if (count == 0 || count > 0.02 * static_cast<double>(N)) return;
+    const auto count = static_cast<Index>(repaired.replaced.size());
+    if (count == 0 || static_cast<double>(count) > 0.02 * static_cast<double>(N)) return;
     const double least = kLeastError * fit.deviation();
     double largest = 0;
     for (const Index place : repaired.replaced)
         largest = std::max(largest, std::abs(fit.error[place - 1] - repaired.signal[place - 1]));
     if (!(largest > least)) return;
     fit.take_off(fit.error - repaired.signal);
-    RecordFinding finding =
-        about(fit, "outliers", Weight::kWarning,
-              "The output " + fit.output() + " has " + number_text(count) +
-                  (count == 1 ? " sample that stands" : " samples that stand") + " far out from the neighbours (" +
-                  listed_places(repaired.stretches) + "), up to " + fit.with_unit(largest, 2) +
-                  " from what the input lets expect. Look whether they can be true; if not, filloutliers "
-                  "puts straight lines there.",
-              count);
+    RecordFinding finding = about(
+        fit, "outliers", Weight::kWarning,
+        Message("The output {} has {} far out from the neighbours ({}), up to {} from what the input lets expect. Look "
+                "whether they can be true; if not, filloutliers puts straight lines there.",
+                fit.output(), plural(count, "{} sample that stands", "{} samples that stand"),
+                listed_places(repaired.stretches), fit.with_unit(largest, 2)),
+        static_cast<double>(count));
     finding.sections = repaired.stretches;
     findings.push_back(std::move(finding));
 }
@@ -106,19 +104,19 @@ void find_disturbance(FittedRecord& fit, RecordFindings& findings) {
     const StraightLine line = straight_line(slow);
     if (line.share > kStraightLine)
         findings.push_back(about(fit, "drift", Weight::kWarning,
-                                 fit.output() + " drifts by about " + fit.with_unit(line.rise, 2) +
-                                     " from the beginning to the end, which " + fit.input() +
-                                     " does not explain. A model would take it for slow dynamics: take the straight "
-                                     "line off with data:detrend(\"linear\").",
+                                 Message("{} drifts by about {} from the beginning to the end, which {} does not "
+                                         "explain. A model would take it for slow dynamics: take the straight line off "
+                                         "with data:detrend(\"linear\").",
+                                         fit.output(), fit.with_unit(line.rise, 2), fit.input()),
                                  line.rise));
     else
-        findings.push_back(about(fit, "random_walk", Weight::kWarning,
-                                 fit.output() + " wanders without direction (a drift like a random walk, between " +
-                                     fit.with_unit(slow.minCoeff(), 2) + " and " + fit.with_unit(slow.maxCoeff(), 2) +
-                                     " about the response to " + fit.input() +
-                                     "). A straight line does not take that off: filter input and output alike with "
-                                     "a high-pass, or estimate a noise model (rivc).",
-                                 size));
+        findings.push_back(about(
+            fit, "random_walk", Weight::kWarning,
+            Message("{} wanders without direction (a drift like a random walk, between {} and {} "
+                    "about the response to {}). A straight line does not take that off: filter "
+                    "input and output alike with a high-pass, or estimate a noise model (rivc).",
+                    fit.output(), fit.with_unit(slow.minCoeff(), 2), fit.with_unit(slow.maxCoeff(), 2), fit.input()),
+            size));
 }
 
 namespace {
@@ -151,16 +149,15 @@ bool find_strange_sections(const FittedRecord& fit, RecordFindings& findings) {
     std::vector<Segment> sections = strange_sections(fit.error - slow_part(fit.error), fit.deviation());
     std::erase_if(sections, is_at_the_beginning);
     if (sections.empty()) return false;
-    std::string places;
-    for (const Segment& section : sections)
-        places += (places.empty() ? "" : ", ") + std::to_string(section.first) + " to " + std::to_string(section.last);
-    RecordFinding finding =
-        about(fit, "nonlinear", Weight::kWarning,
-              "A linear model follows " + fit.output() + " but not in samples " + places +
-                  ", where its error is more than " + number_text(kStrange) +
-                  " times the usual one: something else happens there (a limit, friction, a disturbance). "
-                  "Look at it, and leave it out with data:discard when it is not what you want to model.",
-              static_cast<double>(sections.size()));
+    MessageList places;
+    for (const auto& [first, last] : sections) places.items.push_back(Message("{} to {}", first, last));
+    RecordFinding finding = about(
+        fit, "nonlinear", Weight::kWarning,
+        Message("A linear model follows {} but not in samples {}, where its error is more than {} times the usual "
+                "one: something else happens there (a limit, friction, a disturbance). Look at it, and leave it "
+                "out with data:discard when it is not what you want to model.",
+                fit.output(), places, kStrange),
+        static_cast<double>(sections.size()));
     finding.sections = std::move(sections);
     findings.push_back(std::move(finding));
     return true;

@@ -3,7 +3,6 @@
 #include <limits>
 #include <numbers>
 
-#include "numerics/number_text.h"
 #include "numerics/signals/robust_statistics.h"
 #include "numerics/simulation/frequency_response.h"
 #include "numerics/simulation/lsim.h"
@@ -93,32 +92,36 @@ void find_noise(const FittedRecord& fit, RecordFindings& findings) {
     if (error <= 1e-20 * total) return;
     const double decibels = 10 * std::log10(std::max(total - error, 1e-3 * total) / error);
     const int poles = fit.search.candidate.poles;
-    const std::string size = number_text(std::round(decibels), 3) + " dB (what a model with " + counted(poles, "pole") +
-                             " leaves unexplained has the standard deviation " + fit.with_unit(std::sqrt(error), 2) +
-                             ")";
+    const Number ratio = significant(std::round(decibels), 3);
+    const Message order = plural(poles, "{} pole", "{} poles"), left = fit.with_unit(std::sqrt(error), 2);
     const bool explained = std::any_of(findings.begin(), findings.end(), [](const RecordFinding& f) {
         return f.code == "nonlinear" || f.code == "saturation" || f.code == "changing_gain";
     });
     if (decibels >= kNoisy || explained)
         findings.push_back(about(fit, "noise", Weight::kNote,
-                                 "The signal-to-noise ratio of " + fit.output() + " is about " + size + ".", decibels));
+                                 Message("The signal-to-noise ratio of {} is about {} dB (what a model with {} leaves "
+                                         "unexplained has the standard deviation {}).",
+                                         fit.output(), ratio, order, left),
+                                 decibels));
     else
-        findings.push_back(
-            about(fit, "low_snr", Weight::kWarning,
-                  "The signal-to-noise ratio of " + fit.output() + " is only about " + size +
-                      ". If that is noise, record longer or with a larger amplitude, and prefer methods that noise "
-                      "does not bias (tfsrivc rather than lssvf); if not, something else than the input moves the "
-                      "output.",
-                  decibels));
+        findings.push_back(about(
+            fit, "low_snr", Weight::kWarning,
+            Message("The signal-to-noise ratio of {} is only about {} dB (what a model with {} leaves "
+                    "unexplained has the standard deviation {}). If that is noise, record longer or with a larger "
+                    "amplitude, and prefer methods that noise does not bias (tfsrivc rather than lssvf); if not, "
+                    "something else than the input moves the output.",
+                    fit.output(), ratio, order, left),
+            decibels));
 }
 
 void find_dead_time(const FittedRecord& fit, RecordFindings& findings) {
     const double delay = fit.search.delay, Ts = fit.data.Ts;
     if (!(delay > Ts) || !(delay > 4 * fit.search.std)) return;
     findings.push_back(about(fit, "dead_time", Weight::kNote,
-                             fit.output() + " answers about " + number_text(delay, 3) + " " + fit.data.time_unit +
-                                 " (" + number_text(delay / Ts, 3) + " samples) after " + fit.input() +
-                                 ": give the model a dead time (`largest_delay` of tfsrivc, the D of procsrivc).",
+                             Message("{} answers about {} ({} samples) after {}: give the model a dead time ({} of "
+                                     "tfsrivc, the D of procsrivc).",
+                                     fit.output(), with_unit(significant(delay, 3), fit.data.time_unit),
+                                     significant(delay / Ts, 3), fit.input(), OptionName{"largest_delay"}),
                              delay));
 }
 
@@ -129,26 +132,27 @@ void find_offset(const FittedRecord& fit, RecordFindings& findings) {
         const std::optional<double> level = level_at_rest(fit);
         if (level && std::abs(*level) >= std::max(kOffsetAtRest * deviation, 3 * fit.disturbance))
             findings.push_back(about(fit, "offset", Weight::kNote,
-                                     fit.output() + " stands at about " + fit.with_unit(*level, 2) +
-                                         " during the first " + std::to_string(samples_at_rest(fit.u())) +
-                                         " samples, while " + fit.input() +
-                                         " is zero: data:detrend(\"start\") or `offset` = \"estimate\" takes this "
-                                         "offset off.",
+                                     Message("{} stands at about {} during the first {} samples, while {} is zero: "
+                                             "data:detrend(\"start\") or {} = \"estimate\" takes this offset off.",
+                                             fit.output(), fit.with_unit(*level, 2), samples_at_rest(fit.u()),
+                                             fit.input(), OptionName{"offset"}),
                                      *level));
         return;
     }
-    const std::string& unit = fit.data.output_units.front();
-    const std::string level = rounded_text(offset, deviation / 5) + (unit.empty() ? "" : " " + unit);
-    const std::string seen = excludes_zero(fit.u())
-                                 ? "A straight line through these data would put " + fit.output() + " at about " +
-                                       level + " when " + fit.input() + " is zero; that is an extrapolation, for " +
-                                       fit.input() + " stays between " + short_text(fit.u().minCoeff(), 3) + " and " +
-                                       short_text(fit.u().maxCoeff(), 3) + "."
-                                 : fit.output() + " stands at about " + level + " when " + fit.input() + " is zero.";
-    findings.push_back(about(fit, "offset", Weight::kWarning,
-                             seen + " A linear model goes through the origin: take the offset off with "
-                                    "data:remove_mean() or data:detrend(\"start\"), or use `offset` = \"estimate\".",
-                             offset));
+    const Message level = with_unit(rounded_to(offset, deviation / 5), fit.data.output_units.front());
+    const Message seen =
+        excludes_zero(fit.u())
+            ? Message(
+                  "A straight line through these data would put {} at about {} when {} is zero; that is an "
+                  "extrapolation, for {} stays between {} and {}.",
+                  fit.output(), level, fit.input(), fit.input(), rounded(fit.u().minCoeff(), 3),
+                  rounded(fit.u().maxCoeff(), 3))
+            : Message("{} stands at about {} when {} is zero.", fit.output(), level, fit.input());
+    const Message remedy = Message(
+        "A linear model goes through the origin: take the offset off with data:remove_mean() or "
+        "data:detrend(\"start\"), or use {} = \"estimate\".",
+        OptionName{"offset"});
+    findings.push_back(about(fit, "offset", Weight::kWarning, sentences({seen, remedy}), offset));
 }
 
 namespace {
@@ -190,32 +194,39 @@ void find_running_start(const FittedRecord& fit, RecordFindings& findings) {
         largest > std::max({kVisibleStart * fit.deviation(), kAboveError * error, 3 * fit.disturbance}) &&
         kOverOthers * found_elsewhere(motion, fit) < 1;
     if (!moves && !has_strange_beginning(fit)) return;
-    findings.push_back(about(fit, "running_start", Weight::kWarning,
-                             "The record begins in the middle of a movement of " + fit.output() +
-                                 (moves ? " of about " + fit.with_unit(largest, 2) : "") +
-                                 ": no start from rest explains its first samples. Use `initial_state` = "
-                                 "\"estimate\", or begin the record later.",
-                             largest));
+    const OptionName option{"initial_state"};
+    const Message message =
+        moves ? Message(
+                    "The record begins in the middle of a movement of {} of about {}: no start from rest explains "
+                    "its first samples. Use {} = \"estimate\", or begin the record later.",
+                    fit.output(), fit.with_unit(largest, 2), option)
+              : Message(
+                    "The record begins in the middle of a movement of {}: no start from rest explains its first "
+                    "samples. Use {} = \"estimate\", or begin the record later.",
+                    fit.output(), option);
+    findings.push_back(about(fit, "running_start", Weight::kWarning, message, largest));
 }
 
 void find_sampling_rate(const FittedRecord& fit, RecordFindings& findings) {
     const double band = band_edge(fit);
     if (!std::isfinite(band)) return;
     const double ratio = 2 * std::numbers::pi / (fit.data.Ts * band);
-    const std::string numbers = "The sampling frequency is " + short_text(ratio, 2) + " times the bandwidth of about " +
-                                short_text(band, 2) + " rad/" + fit.data.time_unit + "; ";
+    const Number times = rounded(ratio, 2);
+    const Message bandwidth = with_unit(rounded(band, 2), "rad/" + fit.data.time_unit);
     if (ratio < kSlow)
         findings.push_back(about(fit, "slow_sampling", Weight::kWarning,
-                                 numbers + "10 to 30 times is usual. What happens between the samples is lost: sample "
-                                           "faster, and do not trust fast poles.",
+                                 Message("The sampling frequency is {} times the bandwidth of about {}; 10 to 30 times "
+                                         "is usual. What happens between the samples is lost: sample faster, and do "
+                                         "not trust fast poles.",
+                                         times, bandwidth),
                                  ratio));
     else if (ratio > kFast)
-        findings.push_back(about(fit, "fast_sampling", Weight::kNote,
-                                 numbers +
-                                     "continuous-time methods do not mind, but before arx and its like use "
-                                     "resample(data, 1, " +
-                                     std::to_string(std::min<Index>(static_cast<Index>(ratio / 30), 1000)) + ").",
-                                 ratio));
+        findings.push_back(
+            about(fit, "fast_sampling", Weight::kNote,
+                  Message("The sampling frequency is {} times the bandwidth of about {}; continuous-time "
+                          "methods do not mind, but before arx and its like use resample(data, 1, {}).",
+                          times, bandwidth, std::min<Index>(static_cast<Index>(ratio / 30), 1000)),
+                  ratio));
 }
 
 void find_integrator(const FittedRecord& fit, RecordFindings& findings) {
@@ -228,11 +239,10 @@ void find_integrator(const FittedRecord& fit, RecordFindings& findings) {
     if (!part.allFinite() || !(standard_deviation(part) > kIntegrates * standard_deviation(all))) return;
     const double duration = static_cast<double>(window.sample_count()) * window.Ts;
     findings.push_back(about(fit, "integrator", Weight::kWarning,
-                             fit.output() + " sums " + fit.input() + " up and settles nowhere within " +
-                                 short_text(duration, 2) + " " + fit.data.time_unit +
-                                 ": the plant integrates. Build the pole at zero into the model with `integration`, "
-                                 "and keep the mean of " +
-                                 fit.input() + " near zero.",
+                             Message("{} sums {} up and settles nowhere within {}: the plant integrates. Build the "
+                                     "pole at zero into the model with {}, and keep the mean of {} near zero.",
+                                     fit.output(), fit.input(), with_unit(rounded(duration, 2), fit.data.time_unit),
+                                     OptionName{"integration"}, fit.input()),
                              *pole));
 }
 

@@ -31,7 +31,6 @@ bool may_be_exchanged(const IdData& turned, double forward) {
     options.initial_state = InitialState::kEstimate;
     options.offset = Offset::kEstimate;
     options.tolerance = kQuickTolerance;
-    options.doubts = false;
     try {
         return srivc(turned, TransferStructure::single(2, 1), options).fit_percent[0] >
                std::max(kPromises, forward - kQuickMisses);
@@ -113,12 +112,12 @@ JointTest joint_test(const Vector& r, const Vector& R, double N) {
     return test;
 }
 
-const char* remedy_for_feedback(const Experiment& experiment) {
+Message remedy_for_feedback(const Experiment& experiment) {
     if (experiment.r.cols() == 0)
-        return "Record with the loop open, or give iddata the reference, which clsrivc and clivsvf use.";
+        return Message("Record with the loop open, or give iddata the reference, which clsrivc and clivsvf use.");
     if ((experiment.r.array() == experiment.r(0, 0)).all())
-        return "The reference never changes, so that clsrivc and clivsvf have nothing to go by: let it move.";
-    return "The data have the loop's reference, which clsrivc and clivsvf use.";
+        return Message("The reference never changes, so that clsrivc and clivsvf have nothing to go by: let it move.");
+    return Message("The data have the loop's reference, which clsrivc and clivsvf use.");
 }
 
 }  // namespace
@@ -143,15 +142,13 @@ void find_feedback(const FittedRecord& fit, RecordFindings& findings) {
     if (chi_squared_upper_tail(later.statistic, static_cast<double>(later.degrees)) > kFeedbackLevel) return;
     Index lag = 0;
     const double largest = products.tail(kFeedbackLags + 1).cwiseAbs().maxCoeff(&lag);
-    findings.push_back(about(
-        fit, "feedback", Weight::kWarning,
-        fit.input() + " follows disturbances of " + fit.output() + " (correlation " + short_text(largest, 2) + ", " +
-            (lag == 0   ? "at the same sample"
-             : lag == 1 ? "1 sample later"
-                        : std::to_string(lag) + " samples later") +
-            "): a controller was running. Noise then enters the input, which biases lssvf, arx, ivsvf and srivc. " +
-            remedy_for_feedback(fit.data.experiments.front()),
-        largest));
+    const Message when = lag == 0 ? Message("at the same sample") : plural(lag, "{} sample later", "{} samples later");
+    const Message seen = Message(
+        "{} follows disturbances of {} (correlation {}, {}): a controller was running. Noise then enters "
+        "the input, which biases lssvf, arx, ivsvf and srivc.",
+        fit.input(), fit.output(), rounded(largest, 2), when);
+    findings.push_back(about(fit, "feedback", Weight::kWarning,
+                             sentences({seen, remedy_for_feedback(fit.data.experiments.front())}), largest));
 }
 
 bool find_exchange(const FittedRecord& fit, const std::function<bool()>& cancel, RecordFindings& findings) {
@@ -164,12 +161,11 @@ bool find_exchange(const FittedRecord& fit, const std::function<bool()>& cancel,
     if (!backward || !(backward->simulation.fit_percent > kExplainsHalf)) return false;
     if (!(100 - backward->simulation.fit_percent < kMuchBetter * (100 - forward))) return false;
     findings.push_back(about(fit, "causality", Weight::kWarning,
-                             "A model from " + fit.output() + " to " + fit.input() + " explains " +
-                                 short_text(backward->simulation.fit_percent, 2) + " %, one from " + fit.input() +
-                                 " to " + fit.output() + " only " + short_text(forward, 2) + " %: " + fit.input() +
-                                 " seems to answer " + fit.output() +
-                                 ". The two columns are probably exchanged (iddata takes the output first), or a "
-                                 "controller was running.",
+                             Message("A model from {} to {} explains {} %, one from {} to {} only {} %: {} seems to "
+                                     "answer {}. The two columns are probably exchanged (iddata takes the output "
+                                     "first), or a controller was running.",
+                                     fit.output(), fit.input(), rounded(backward->simulation.fit_percent, 2),
+                                     fit.input(), fit.output(), rounded(forward, 2), fit.input(), fit.output()),
                              forward));
     return true;
 }

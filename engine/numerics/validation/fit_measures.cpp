@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
@@ -12,10 +11,11 @@ namespace {
 
 void require_pair(const VectorView& y, const VectorView& y_sim) {
     if (y.size() != y_sim.size())
-        throw InvalidArgument("The simulated output must be as long as the measured one, and has " +
-                              counted(y_sim.size(), "value") + " instead of " + std::to_string(y.size()));
+        throw InvalidArgument("The simulated output must be as long as the measured one, and has {} instead of {}",
+                              plural(y_sim.size(), "{} value", "{} values"), y.size());
     if (y.size() < 2)
-        throw InvalidArgument("A fit needs at least two samples, and " + std::to_string(y.size()) + " were given");
+        throw InvalidArgument(plural(y.size(), "A fit needs at least two samples, and {} was given",
+                                     "A fit needs at least two samples, and {} were given"));
 }
 
 double square_about_mean(const VectorView& x) {
@@ -40,9 +40,8 @@ YoungCriterion yic(const VectorView& y, const VectorView& y_sim, const VectorVie
                    const MatrixView& covariance) {
     require_pair(y, y_sim);
     if (covariance.rows() != theta.size() || covariance.cols() != theta.size())
-        throw InvalidArgument("YIC needs a covariance of " + std::to_string(theta.size()) + " x " +
-                              std::to_string(theta.size()) + ", and " + std::to_string(covariance.rows()) + " x " +
-                              std::to_string(covariance.cols()) + " was given");
+        throw InvalidArgument("YIC needs a covariance of {} x {}, and {} x {} was given", theta.size(), theta.size(),
+                              covariance.rows(), covariance.cols());
     YoungCriterion criterion;
     double relative_variances = 0;
     for (Index i = 0; i < theta.size(); ++i) {
@@ -63,9 +62,10 @@ YoungCriterion yic(const VectorView& y, const VectorView& y_sim, const VectorVie
 InformationCriteria information_criteria(double mean_square, Index samples, Index parameters) {
     if (!(mean_square >= 0) || parameters < 0 || samples <= parameters + 1)
         throw InvalidArgument(
-            "Information criteria need a mean square that is not negative and more samples than "
-            "parameters plus one, and got " +
-            number_text(mean_square) + ", " + counted(samples, "sample") + " and " + counted(parameters, "parameter"));
+            "Information criteria need a mean square that is not negative and more samples than parameters plus one, "
+            "and got {}, {} and {}",
+            mean_square, plural(samples, "{} sample", "{} samples"),
+            plural(parameters, "{} parameter", "{} parameters"));
     const double N = static_cast<double>(samples), d = static_cast<double>(parameters);
     InformationCriteria criteria;
     criteria.fpe = mean_square * (1 + d / N) / (1 - d / N);

@@ -1,7 +1,6 @@
 #include "numerics/validation/model_findings.h"
 
 #include <algorithm>
-#include <string>
 
 namespace dynlab::inline numerics {
 
@@ -15,9 +14,11 @@ RecordFinding too_short(Index samples) {
     return {"short",
             Weight::kWarning,
             "",
-            "The record has only " + std::to_string(samples) +
-                " samples. Every parameter of a model wants about ten of them: record longer, or stay with a model of "
-                "one pole.",
+            plural(samples,
+                   "The record has only {} sample. Every parameter of a model wants about ten of them: record longer, "
+                   "or stay with a model of one pole.",
+                   "The record has only {} samples. Every parameter of a model wants about ten of them: record longer, "
+                   "or stay with a model of one pole."),
             static_cast<double>(samples),
             0,
             {}};

@@ -1,12 +1,15 @@
 #pragma once
 #include <string>
+#include <vector>
+
+#include "base/message.h"
 
 namespace dynlab::inline numerics {
 
 /// What an estimation doubts of its model, for verdicts on it.
 struct ModelDoubts {
-    std::string undetermined = {};  ///< parameters whose standard errors are larger than they: "a1, b0"
-    std::string remedy = {};        ///< a sentence: what the estimation missed (fit/missed_options.h)
+    std::vector<std::string> undetermined = {};  ///< parameters whose standard errors are larger than they
+    Message remedy = {};                         ///< a sentence: what the estimation missed (fit/missed_structure.h)
 };
 
 /// What is known of the model of one output: stability, fit, the tests of its errors, the estimation's own doubts.
@@ -19,7 +22,7 @@ struct ModelStanding {
     bool tested = true;           ///< every input changes
     bool acts_at_once = false;    ///< the errors go most with the input of the same instant, which the model leaves out
     bool acts_earlier = false;    ///< the errors go most with an input that the model's delay holds back still
-    std::string start = {};       ///< a sentence: a start that would explain the errors
+    Message start = {};           ///< a sentence: a start that would explain the errors
     ModelDoubts doubts = {};
 };
 
@@ -27,6 +30,6 @@ struct ModelStanding {
 /// little (explains_little in fit/diagnosis.h), however white its errors; of less than half of the output no dynamics
 /// are called described where the errors are coloured; a cause that is known is named in the place
 /// of missing poles.
-std::string model_verdict(const ModelStanding& model);
+Message model_verdict(const ModelStanding& model);
 
 }  // namespace dynlab::inline numerics

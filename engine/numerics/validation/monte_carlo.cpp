@@ -12,7 +12,6 @@
 
 #include "numerics/error.h"
 #include "numerics/linalg/side_by_side.h"
-#include "numerics/number_text.h"
 #include "numerics/signals/random.h"
 #include "numerics/signals/robust_statistics.h"
 #include "numerics/simulation/closed_loop.h"
@@ -26,10 +25,10 @@ constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
 using Outcome = MonteCarloOutcome;
 
-std::string failure_of(const MonteCarloEstimate& estimate) {
-    if (estimate.theta.size() == 0) return "it gave no parameters";
-    if (!estimate.theta.allFinite()) return "a parameter is not finite";
-    return "";
+Message failure_of(const MonteCarloEstimate& estimate) {
+    if (estimate.theta.size() == 0) return Message("it gave no parameters");
+    if (!estimate.theta.allFinite()) return Message("a parameter is not finite");
+    return {};
 }
 
 Outcome outcome_of(const MonteCarloMethod& method, const IdData& data) {
@@ -38,7 +37,7 @@ Outcome outcome_of(const MonteCarloMethod& method, const IdData& data) {
         outcome.estimate = method.estimate(data);
         outcome.failure = failure_of(outcome.estimate);
     } catch (const std::exception& error) {
-        outcome.failure = error.what();
+        outcome.failure = message_of(error);
     }
     outcome.done = true;
     return outcome;
@@ -206,10 +205,10 @@ void fill_runs(MonteCarloResult& result, const std::vector<Outcome>& outcomes, I
         const Outcome& outcome = outcomes[static_cast<std::size_t>(k)];
         if (!outcome.done) continue;
         const MonteCarloEstimate& estimate = outcome.estimate;
-        std::string failure = outcome.failure;
+        Message failure = outcome.failure;
         if (failure.empty() && estimate.theta.size() != d)
-            failure = "it gave " + counted(estimate.theta.size(), "parameter") + ", but " + std::to_string(d) +
-                      " in an earlier run";
+            failure = plural(estimate.theta.size(), "it gave {} parameter, but {} in an earlier run",
+                             "it gave {} parameters, but {} in an earlier run", d);
         if (!failure.empty()) {
             if (result.failed++ == 0) result.first_failure = failure;
             continue;
@@ -254,8 +253,7 @@ MonteCarloResult result_of(const MonteCarloStudy& study, const MonteCarloMethod&
     const MonteCarloEstimate* sample = first_estimate(outcomes);
     fill_runs(result, outcomes, sample == nullptr ? 0 : sample->theta.size());
     if (sample == nullptr && result.failed > 0)
-        throw InvalidArgument("every run of '" + method.label +
-                              "' failed; the first one says: " + result.first_failure);
+        throw InvalidArgument("every run of '{}' failed; the first one says: {}", method.label, result.first_failure);
     if (sample == nullptr) return result;
     result.names = names_for(*sample, study.system);
     for (Vector* statistic :
@@ -271,8 +269,7 @@ void check_methods(const std::vector<MonteCarloMethod>& methods) {
     for (std::size_t i = 0; i < methods.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
             if (methods[i].label == methods[j].label)
-                throw InvalidArgument("two estimators are called '" + methods[i].label +
-                                      "': give each a label of its own");
+                throw InvalidArgument("two estimators are called '{}': give each a label of its own", methods[i].label);
 }
 
 }  // namespace
@@ -280,15 +277,13 @@ void check_methods(const std::vector<MonteCarloMethod>& methods) {
 void MonteCarloStudy::validate() const {
     if (!system.continuous()) throw InvalidArgument("system must be a continuous-time model");
     if (runs < 2 || runs > 1'000'000)
-        throw InvalidArgument("runs must be between 2 and 1000000, but " + std::to_string(runs) + " was given");
-    if (threads < 0)
-        throw InvalidArgument("threads must not be negative, but " + std::to_string(threads) + " was given");
+        throw InvalidArgument("runs must be between 2 and 1000000, but {} was given", runs);
+    if (threads < 0) throw InvalidArgument("threads must not be negative, but {} was given", threads);
     if (sigma.has_value() == snr.has_value())
         throw InvalidArgument("give either sigma, the noise's standard deviation, or snr in dB");
     if (sigma && !(*sigma >= 0 && std::isfinite(*sigma)))
-        throw InvalidArgument("sigma must be a number from 0 on, but " + number_text(*sigma) + " was given");
-    if (snr && !std::isfinite(*snr))
-        throw InvalidArgument("snr must be a number of decibels, but " + number_text(*snr) + " was given");
+        throw InvalidArgument("sigma must be a number from 0 on, but {} was given", *sigma);
+    if (snr && !std::isfinite(*snr)) throw InvalidArgument("snr must be a number of decibels, but {} was given", *snr);
 }
 
 Vector MonteCarloResult::least_spread() const {

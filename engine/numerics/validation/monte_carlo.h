@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "numerics/models/transfer_function.h"
 #include "numerics/signals/iddata.h"
 #include "numerics/simulation/closed_loop.h"
@@ -30,8 +31,8 @@ struct MonteCarloMethod {
 /// What one run of one method gave.
 struct MonteCarloOutcome {
     MonteCarloEstimate estimate;
-    std::string failure;  ///< why it gave none; empty when it did
-    bool done = false;    ///< false: the study was stopped before
+    Message failure;    ///< why it gave none; empty when it did
+    bool done = false;  ///< false: the study was stopped before
 };
 
 /// One run: of every method, in their order.
@@ -71,11 +72,11 @@ struct MonteCarloResult {
     Vector mean, spread, median, low, high;  ///< d; spread: standard deviation (n - 1); low, high: extremes
     Vector reported;                         ///< d, mean of the reported standard errors; NaN without
     Vector bias;                             ///< d, mean - truth; empty without truth
-    Matrix bound;               ///< d x d, Cramer-Rao bound of the covariance; empty without truth and in a loop
-    int estimated = 0;          ///< runs that gave an estimate
-    int failed = 0;             ///< runs that threw or gave something not finite
-    int not_converged = 0;      ///< of the estimated ones
-    std::string first_failure;  ///< what the first failed run said
+    Matrix bound;           ///< d x d, Cramer-Rao bound of the covariance; empty without truth and in a loop
+    int estimated = 0;      ///< runs that gave an estimate
+    int failed = 0;         ///< runs that threw or gave something not finite
+    int not_converged = 0;  ///< of the estimated ones
+    Message first_failure;  ///< what the first failed run said
 
     /// Standard deviations that no unbiased method can beat; empty without truth.
     Vector least_spread() const;

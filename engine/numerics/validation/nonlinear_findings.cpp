@@ -227,50 +227,58 @@ bool runs_into_a_limit(const Vector& slopes) {
     return ends < kFlat * usual && inner.maxCoeff() - inner.minCoeff() < kEven * usual;
 }
 
-RecordFinding nonlinear(const FittedRecord& fit, const std::string& seen, const std::string& remedy, double effect) {
-    return about(fit, "nonlinear", Weight::kWarning,
-                 seen + ": that makes " + short_text(100 * effect, 1) + " % of what is seen of " + fit.output() +
-                     ", and no linear model can follow it. " + remedy,
-                 effect);
+Number in_percent(double effect) {
+    return rounded(100 * effect, 1);
 }
 
 RecordFinding curve_at_output(const FittedRecord& fit, double effect) {
     if (runs_into_a_limit(slopes_of_curve(fit))) {
         return about(fit, "saturation", Weight::kWarning,
-                     fit.output() +
-                         " hardly rises where a linear model rises on: it saturates at a limit under the noise (" +
-                         short_text(100 * effect, 1) +
-                         " % of its movement is missing). Leave these stretches out with data:discard, or repeat the "
-                         "experiment with a smaller amplitude.",
+                     Message("{} hardly rises where a linear model rises on: it saturates at a limit under the noise "
+                             "({} % of its movement is missing). Leave these stretches out with data:discard, or "
+                             "repeat the experiment with a smaller amplitude.",
+                             fit.output(), in_percent(effect)),
                      effect);
     }
-    return nonlinear(fit,
-                     fit.output() + " follows a bent curve of what a linear model puts out (a square law, a limit)",
-                     "Use a smaller amplitude, or straighten the output by the curve of its sensor.", effect);
+    return about(fit, "nonlinear", Weight::kWarning,
+                 Message("{} follows a bent curve of what a linear model puts out (a square law, a limit): that makes "
+                         "{} % of what is seen of {}, and no linear model can follow it. Use a smaller amplitude, or "
+                         "straighten the output by the curve of its sensor.",
+                         fit.output(), in_percent(effect), fit.output()),
+                 effect);
 }
 
 RecordFinding nonlinear_finding(const FittedRecord& fit, Curve kind, double effect) {
     switch (kind) {
         case Curve::kInput:
-            return nonlinear(fit, fit.input() + " acts through a bent curve (a dead band, a square law, a limit)",
-                             "Use a smaller amplitude about one operating point, or estimate the curve as well with "
-                             "hammerstein.",
-                             effect);
+            return about(
+                fit, "nonlinear", Weight::kWarning,
+                Message("{} acts through a bent curve (a dead band, a square law, a limit): that makes {} % of "
+                        "what is seen of {}, and no linear model can follow it. Use a smaller amplitude about "
+                        "one operating point, or estimate the curve as well with hammerstein.",
+                        fit.input(), in_percent(effect), fit.output()),
+                effect);
         case Curve::kInputPlay:
-            return nonlinear(fit, fit.input() + " acts with backlash or friction: it matters from which side it comes",
-                             "Move in one direction only, take up the play, or use amplitudes far larger than it.",
-                             effect);
+            return about(
+                fit, "nonlinear", Weight::kWarning,
+                Message("{} acts with backlash or friction: it matters from which side it comes: that makes {} "
+                        "% of what is seen of {}, and no linear model can follow it. Move in one direction "
+                        "only, take up the play, or use amplitudes far larger than it.",
+                        fit.input(), in_percent(effect), fit.output()),
+                effect);
         case Curve::kOutputPlay:
-            return nonlinear(fit,
-                             fit.output() + " shows backlash or friction: it stays where it is when the movement turns",
-                             "Take up the play, or use amplitudes far larger than it.", effect);
+            return about(fit, "nonlinear", Weight::kWarning,
+                         Message("{} shows backlash or friction: it stays where it is when the movement turns: that "
+                                 "makes {} % of what is seen of {}, and no linear model can follow it. Take up the "
+                                 "play, or use amplitudes far larger than it.",
+                                 fit.output(), in_percent(effect), fit.output()),
+                         effect);
         case Curve::kGain:
             return about(fit, "changing_gain", Weight::kWarning,
-                         "The gain from " + fit.input() + " to " + fit.output() +
-                             " changes in the course of the record: that makes " + short_text(100 * effect, 1) +
-                             " % of what is seen of " + fit.output() +
-                             ". Fit the parts one by one (data:range), and look what changed: a temperature, a load, a "
-                             "supply.",
+                         Message("The gain from {} to {} changes in the course of the record: that makes {} % of what "
+                                 "is seen of {}. Fit the parts one by one (data:range), and look what changed: a "
+                                 "temperature, a load, a supply.",
+                                 fit.input(), fit.output(), in_percent(effect), fit.output()),
                          effect);
         case Curve::kOutput:
             break;

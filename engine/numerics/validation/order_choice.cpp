@@ -2,8 +2,6 @@
 #include <cmath>
 
 #include "numerics/error.h"
-#include "numerics/fit/missed_options.h"
-#include "numerics/number_text.h"
 #include "numerics/validation/order_selection.h"
 
 namespace dynlab::inline numerics {
@@ -14,13 +12,13 @@ constexpr double kSlightFit = 0.5;     // percentage points of validation fit
 constexpr double kNoteworthyFit = 1;   // the same, when another candidate is pointed to
 
 constexpr OrderMeasure kOrderMeasures[] = {
-    {OrderCriterion::kRSquared, "RT2", "R_T^2", "", true, [](const OrderCandidate& c) { return c.r_squared; }},
-    {OrderCriterion::kYic, "YIC", "YIC", "", false, [](const OrderCandidate& c) { return c.yic; }},
-    {OrderCriterion::kAic, "AIC", "AIC", "", false, [](const OrderCandidate& c) { return c.aic; }},
-    {OrderCriterion::kBic, "BIC", "BIC", "", false, [](const OrderCandidate& c) { return c.bic; }},
-    {OrderCriterion::kFpe, "FPE", "FPE", "", false, [](const OrderCandidate& c) { return c.fpe; }},
-    {OrderCriterion::kFit, "fit", "fit", " (%)", true, [](const OrderCandidate& c) { return c.fit_percent; }},
-    {OrderCriterion::kValidationFit, "validation", "validation fit", " (%)", true,
+    {OrderCriterion::kRSquared, "RT2", true, [](const OrderCandidate& c) { return c.r_squared; }},
+    {OrderCriterion::kYic, "YIC", false, [](const OrderCandidate& c) { return c.yic; }},
+    {OrderCriterion::kAic, "AIC", false, [](const OrderCandidate& c) { return c.aic; }},
+    {OrderCriterion::kBic, "BIC", false, [](const OrderCandidate& c) { return c.bic; }},
+    {OrderCriterion::kFpe, "FPE", false, [](const OrderCandidate& c) { return c.fpe; }},
+    {OrderCriterion::kFit, "fit", true, [](const OrderCandidate& c) { return c.fit_percent; }},
+    {OrderCriterion::kValidationFit, "validation", true,
      [](const OrderCandidate& c) { return c.validation_fit.value_or(std::nan("")); }}};
 
 /// Smaller is better.
@@ -63,50 +61,66 @@ std::size_t simplest_of(const OrderSelection& selection, const Places& places) {
     return chosen;
 }
 
-std::string faults_of(const OrderCandidate& candidate) {
-    std::vector<std::string> faults;
+MessageList faults_of(const OrderCandidate& candidate) {
+    MessageList faults{{}, Join::kAnd};
     if (candidate.cancellation)
-        faults.push_back(candidate.integrator ? "a zero that cancels a pole or the integrator"
-                                              : "a zero that cancels a pole");
+        faults.items.push_back(candidate.integrator ? Message("a zero that cancels a pole or the integrator")
+                                                    : Message("a zero that cancels a pole"));
     if (!candidate.undetermined.empty())
-        faults.push_back("standard errors larger than the values of " + enumerated(candidate.undetermined));
-    if (!candidate.converged) faults.push_back("an estimation that did not converge");
-    return enumerated(faults, " and ");
+        faults.items.push_back(Message("standard errors larger than the values of {}", listed(candidate.undetermined)));
+    if (!candidate.converged) faults.items.push_back(Message("an estimation that did not converge"));
+    return faults;
 }
 
-std::string measures_of(const OrderCandidate& candidate) {
-    std::string text = "R_T^2 = " + number_text(candidate.r_squared, 4) + ", YIC = " + number_text(candidate.yic, 4);
-    if (candidate.validation_fit) text += ", validation fit " + number_text(*candidate.validation_fit, 4) + " %";
-    return text;
+Message measures_of(const OrderCandidate& candidate) {
+    const Number r_squared = significant(candidate.r_squared, 4), yic = significant(candidate.yic, 4);
+    if (!candidate.validation_fit) return Message("R_T^2 = {}, YIC = {}", r_squared, yic);
+    return Message("R_T^2 = {}, YIC = {}, validation fit {} %", r_squared, yic,
+                   significant(*candidate.validation_fit, 4));
 }
 
-/// Points to the candidate that fits better but was passed over, and says why.
-std::string passed_over(const OrderSelection& selection, const Places& estimated, std::size_t chosen) {
+/// Points to the candidate that fits better but was passed over, and says why; empty where there is none.
+Message passed_over(const OrderSelection& selection, const Places& estimated, std::size_t chosen) {
     const OrderCandidate& taken = selection.candidates[chosen];
     const std::size_t closest = best_of(selection, estimated, OrderCriterion::kRecommended);
     const OrderCandidate& other = selection.candidates[closest];
-    if (closest == chosen) return "";
-    const std::string subject = " With " + structure_text(other) + " the " +
-                                (selection.validated ? "validation fit" : "BIC") + " would be better still, but ";
-    if (!other.sound()) return subject + "that model has " + faults_of(other) + ", a sign of too many parameters.";
-    if (other.unstable && !taken.unstable) return subject + "that model is unstable.";
-    if (other.parameters() > taken.parameters())
-        return subject + "not by enough to pay for " +
-               counted(other.parameters() - taken.parameters(), "more parameter") + ".";
-    return "";
+    if (closest == chosen) return {};
+    const Message structure = structure_text(other);
+    if (!other.sound())
+        return selection.validated
+                   ? Message(
+                         "With {} the validation fit would be better still, but that model has {}, a sign of too "
+                         "many parameters.",
+                         structure, faults_of(other))
+                   : Message(
+                         "With {} the BIC would be better still, but that model has {}, a sign of too many "
+                         "parameters.",
+                         structure, faults_of(other));
+    if (other.unstable && !taken.unstable)
+        return selection.validated
+                   ? Message("With {} the validation fit would be better still, but that model is unstable.", structure)
+                   : Message("With {} the BIC would be better still, but that model is unstable.", structure);
+    const int more = other.parameters() - taken.parameters();
+    if (more <= 0) return {};
+    const Message price = plural(more, "{} more parameter", "{} more parameters");
+    return selection.validated
+               ? Message("With {} the validation fit would be better still, but not by enough to pay for {}.",
+                         structure, price)
+               : Message("With {} the BIC would be better still, but not by enough to pay for {}.", structure, price);
 }
 
-std::string validation_doubt(const OrderSelection& selection, const Places& sound, std::size_t chosen) {
-    if (!selection.validated) return " Check it on a second record before you trust it.";
+/// Empty where there is none.
+Message validation_doubt(const OrderSelection& selection, const Places& sound, std::size_t chosen) {
+    if (!selection.validated) return Message("Check it on a second record before you trust it.");
     const OrderCandidate& taken = selection.candidates[chosen];
-    if (*taken.validation_fit >= taken.fit_percent - 10 * kNoteworthyFit || sound.empty()) return "";
-    return " On the second record it fits clearly worse than on the first: the records differ, or the model is wrong.";
+    if (*taken.validation_fit >= taken.fit_percent - 10 * kNoteworthyFit || sound.empty()) return {};
+    return Message(
+        "On the second record it fits clearly worse than on the first: the records differ, or the model is wrong.");
 }
 
-/// With the blank before it: which option its fit lacks.
-std::string missed_by(const OrderCandidate& candidate) {
-    const std::optional<MissedOption>& missed = candidate.estimate.doubts.missed_option;
-    return missed ? " " + sentence_of(*missed) + " Then compare the structures again." : "";
+Message sentences_that_are_there(std::vector<Message> all) {
+    std::erase_if(all, [](const Message& one) { return one.empty(); });
+    return sentences(std::move(all));
 }
 
 OrderChoice recommend(const OrderSelection& selection, const Places& estimated) {
@@ -114,20 +128,55 @@ OrderChoice recommend(const OrderSelection& selection, const Places& estimated) 
     if (sound.empty()) sound = places_where(selection, [](const OrderCandidate& one) { return one.sound(); });
     const std::size_t chosen = simplest_of(selection, sound.empty() ? estimated : sound);
     const OrderCandidate& taken = selection.candidates[chosen];
-    OrderChoice choice{chosen, "Recommended: " + structure_text(taken) + " (" + measures_of(taken) + "). "};
-    choice.explanation += selection.validated
-                              ? "Among the models without cancelling zeros or undetermined parameters no simpler one "
-                                "follows the second record nearly as well."
-                              : "It balances a small error against few parameters (BIC) and has neither a zero that "
-                                "cancels a pole nor an undetermined parameter.";
-    if (sound.empty())
-        choice.explanation = "No structure gives a sound model; least bad: " + structure_text(taken) + " (" +
-                             measures_of(taken) + "), with " + faults_of(taken) +
-                             ". Try fewer poles and zeros, or a record with more excitation.";
-    else
-        choice.explanation += passed_over(selection, estimated, chosen);
-    choice.explanation += validation_doubt(selection, sound, chosen) + missed_by(taken);
-    return choice;
+    std::vector<Message> explanation;
+    if (sound.empty()) {
+        explanation.push_back(
+            Message("No structure gives a sound model; least bad: {} ({}), with {}. Try fewer poles and zeros, or a "
+                    "record with more excitation.",
+                    structure_text(taken), measures_of(taken), faults_of(taken)));
+    } else {
+        explanation.push_back(Message("Recommended: {} ({}).", structure_text(taken), measures_of(taken)));
+        explanation.push_back(
+            selection.validated
+                ? Message("Among the models without cancelling zeros or undetermined parameters no simpler one follows "
+                          "the second record nearly as well.")
+                : Message("It balances a small error against few parameters (BIC) and has neither a zero that cancels "
+                          "a pole nor an undetermined parameter."));
+        explanation.push_back(passed_over(selection, estimated, chosen));
+    }
+    explanation.push_back(validation_doubt(selection, sound, chosen));
+    return {chosen, sentences_that_are_there(std::move(explanation))};
+}
+
+/// structure_text, with a capital letter.
+Message structure_at_the_beginning(const OrderCandidate& candidate) {
+    if (!candidate.integrator) return structure_text(candidate);
+    OrderCandidate bare;
+    bare.poles = candidate.poles;
+    bare.zeros = candidate.zeros;
+    bare.delay = candidate.delay;
+    return Message("An integrator, {}", structure_text(bare));
+}
+
+/// That the structure is the best by the criterion, any but kRecommended.
+Message best_by(OrderCriterion criterion, const OrderCandidate& taken) {
+    const Message structure = structure_at_the_beginning(taken), measures = measures_of(taken);
+    switch (criterion) {
+        case OrderCriterion::kRSquared:
+            return Message("{} have the largest R_T^2 ({}).", structure, measures);
+        case OrderCriterion::kYic:
+            return Message("{} have the smallest YIC ({}).", structure, measures);
+        case OrderCriterion::kAic:
+            return Message("{} have the smallest AIC ({}).", structure, measures);
+        case OrderCriterion::kBic:
+            return Message("{} have the smallest BIC ({}).", structure, measures);
+        case OrderCriterion::kFpe:
+            return Message("{} have the smallest FPE ({}).", structure, measures);
+        case OrderCriterion::kFit:
+            return Message("{} have the largest fit ({}).", structure, measures);
+        default:
+            return Message("{} have the largest validation fit ({}).", structure, measures);
+    }
 }
 
 }  // namespace
@@ -140,11 +189,12 @@ const OrderMeasure& order_measure(OrderCriterion criterion) {
     return *std::ranges::find(kOrderMeasures, criterion, &OrderMeasure::criterion);
 }
 
-std::string structure_text(const OrderCandidate& candidate) {
-    const std::string zeros = candidate.zeros == 0 ? "no zero" : counted(candidate.zeros, "zero");
-    const std::string delay = candidate.delay > 0 ? " and a delay of " + number_text(candidate.delay) + " s" : "";
-    const std::string integrator = candidate.integrator ? "an integrator, " : "";
-    return integrator + counted(candidate.poles, "pole") + (delay.empty() ? " and " : ", ") + zeros + delay;
+Message structure_text(const OrderCandidate& candidate) {
+    const Message poles = plural(candidate.poles, "{} pole", "{} poles");
+    const Message zeros = candidate.zeros == 0 ? Message("no zero") : plural(candidate.zeros, "{} zero", "{} zeros");
+    const Message structure = candidate.delay > 0 ? Message("{}, {} and a delay of {} s", poles, zeros, candidate.delay)
+                                                  : Message("{} and {}", poles, zeros);
+    return candidate.integrator ? Message("an integrator, {}", structure) : structure;
 }
 
 OrderChoice choose_order(const OrderSelection& selection, OrderCriterion criterion) {
@@ -156,16 +206,11 @@ OrderChoice choose_order(const OrderSelection& selection, OrderCriterion criteri
         places_where(selection, [](const OrderCandidate& candidate) { return candidate.failure.empty(); });
     if (estimated.empty()) throw InvalidArgument("none of the structures could be estimated, so none can be chosen");
     if (criterion == OrderCriterion::kRecommended) return recommend(selection, estimated);
-    const OrderMeasure& measure = order_measure(criterion);
     const std::size_t chosen = best_of(selection, estimated, criterion);
     const OrderCandidate& taken = selection.candidates[chosen];
-    OrderChoice choice{chosen, structure_text(taken) + " have the " +
-                                   (measure.larger_is_better ? "largest " : "smallest ") + measure.name + " (" +
-                                   measures_of(taken) + ")."};
-    choice.explanation.front() = static_cast<char>(std::toupper(choice.explanation.front()));
-    if (!taken.sound()) choice.explanation += " But that model has " + faults_of(taken) + ".";
-    choice.explanation += missed_by(taken);
-    return choice;
+    std::vector<Message> explanation{best_by(criterion, taken)};
+    if (!taken.sound()) explanation.push_back(Message("But that model has {}.", faults_of(taken)));
+    return {chosen, sentences_that_are_there(std::move(explanation))};
 }
 
 }  // namespace dynlab::inline numerics

@@ -12,10 +12,10 @@
 #include "numerics/error.h"
 #include "numerics/estimators/srivc.h"
 #include "numerics/fit/diagnosis.h"
-#include "numerics/fit/doubts.h"
 #include "numerics/fit/integrated_input.h"
-#include "numerics/fit/missed_options.h"
 #include "numerics/fit/search_starts.h"
+#include "numerics/fit/start_choice.h"
+#include "numerics/fit/transfer_refinement.h"
 #include "numerics/linalg/side_by_side.h"
 #include "numerics/validation/compare.h"
 #include "numerics/validation/fit_measures.h"
@@ -86,12 +86,23 @@ double validation_fit_with_integrator(const IdData& data, Fit estimate) {
     return validation_fit(data, estimate, Offset::kNone);
 }
 
+/// Where each fit chose its start, what that costs counts; otherwise it is the same for all of them.
+Index counted_values(const Fit& estimate, const IdData& data, const FitOptions& estimation) {
+    if (!start_is_open(estimation)) return estimate.theta.size();
+    return value_count(estimate.structure, estimate.start, static_cast<Index>(data.experiments.size()));
+}
+
+Offset offset_of(const Fit& estimate, const FitOptions& estimation) {
+    if (!start_is_open(estimation)) return estimation.offset;
+    return estimate.start.offset ? Offset::kEstimate : Offset::kNone;
+}
+
 void measure(OrderCandidate& candidate, const IdData& data, const OrderSelectionOptions& options) {
     const Fit& estimate = candidate.estimate;
-    const Offset offset = options.estimation.offset;
+    const Offset offset = offset_of(estimate, options.estimation);
     const Comparison comparison = comparison_of(data, estimate, offset);
     const LevelledOutputs outputs = levelled_outputs(data, comparison);
-    const Index N = data.sample_count(), d = estimate.theta.size();
+    const Index N = data.sample_count(), d = counted_values(estimate, data, options.estimation);
     const auto samples = static_cast<double>(N), count = static_cast<double>(d);
     const double mean_square = (outputs.measured - outputs.simulated).squaredNorm() / samples;
     const InformationCriteria criteria = information_criteria(mean_square, N, d);
@@ -127,31 +138,34 @@ OrderCandidate candidate_of(const IdData& data, const TransferStructure& structu
     candidate.delay = structure.channels.front().delay;
     candidate.integrator = options.estimation.integration;
     FitOptions estimation = options.estimation;
-    estimation.integration = estimation.doubts =
-        false;  // `data` are integrated; of the choice alone doubts are looked for
+    estimation.integration = false;  // `data` are integrated
     try {
         candidate.estimate = srivc(data, structure, estimation, {{}, {}, std::move(poorer)});
         if (!candidate.estimate.theta.allFinite()) throw InvalidArgument("a parameter is not finite");
         measure(candidate, data, options);
     } catch (const std::exception& error) {
-        candidate.failure = error.what();
+        candidate.failure = message_of(error);
     }
     return candidate;
 }
 
-void check_channels(const char* what, const IdData& data) {
-    if (data.input_count() != 1 || data.output_count() != 1)
-        throw InvalidArgument(std::string(what) + " must have one input and one output, but they have " +
-                              std::to_string(data.input_count()) + " and " + std::to_string(data.output_count()) +
-                              "; select one of each");
+void check_channels(const IdData& data, bool of_validation) {
+    const Index inputs = data.input_count(), outputs = data.output_count();
+    if (inputs == 1 && outputs == 1) return;
+    throw InvalidArgument(
+        of_validation
+            ? Message("the validation data must have one input and one output, but they have {} and {}; select one of "
+                      "each",
+                      inputs, outputs)
+            : Message("the data must have one input and one output, but they have {} and {}; select one of each",
+                      inputs, outputs));
 }
 
 void check_selection(const IdData& data, const std::vector<TransferStructure>& candidates,
                      const OrderSelectionOptions& options) {
-    check_channels("the data", data);
-    if (options.validation != nullptr) check_channels("the validation data", *options.validation);
-    if (options.threads < 0)
-        throw InvalidArgument("threads must not be negative, but " + std::to_string(options.threads) + " was given");
+    check_channels(data, false);
+    if (options.validation != nullptr) check_channels(*options.validation, true);
+    if (options.threads < 0) throw InvalidArgument("threads must not be negative, but {} was given", options.threads);
     if (candidates.empty()) throw InvalidArgument("there is no structure to try: there must be fewer zeros than poles");
     for (const TransferStructure& structure : candidates) {
         structure.validate();
@@ -189,12 +203,6 @@ std::vector<const Fit*> poorer_fits(const std::vector<TransferStructure>& struct
     return fits;
 }
 
-void doubt_the_choice(OrderSelection& selection, const IdData& data, const FitOptions& options) {
-    if (!options.doubts || options.start_is_given || options.integration) return;
-    Fit& chosen = selection.candidates[choose_order(selection).place].estimate;
-    add_missed_option(chosen, missed_option(data, chosen, options));
-}
-
 }  // namespace
 
 std::vector<TransferStructure> order_grid(std::pair<int, int> poles, std::pair<int, int> zeros,
@@ -207,8 +215,7 @@ std::vector<TransferStructure> order_grid(std::pair<int, int> poles, std::pair<i
     const double wanted =
         (1.0 + poles.second - poles.first) * (1.0 + zeros.second - zeros.first) * static_cast<double>(delays.size());
     if (wanted > kMostCandidates)
-        throw InvalidArgument("there are more than " + std::to_string(kMostCandidates) +
-                              " structures to try: take smaller ranges");
+        throw InvalidArgument("there are more than {} structures to try: take smaller ranges", kMostCandidates);
     std::vector<TransferStructure> grid;
     for (int n = poles.first; n <= poles.second; ++n)
         for (int m = zeros.first; m <= std::min(zeros.second, feedthrough ? n : n - 1); ++m)
@@ -238,7 +245,7 @@ OrderSelection select_order(const IdData& data, const std::vector<TransferStruct
     const auto try_one = [&](std::size_t i) {
         OrderCandidate& candidate = selection.candidates[i];
         if (stopped()) {
-            candidate.failure = "the search was stopped before its turn";
+            candidate.failure = Message("the search was stopped before its turn");
             return;
         }
         candidate = candidate_of(seen, candidates[i], options, poorer_fits(candidates, i, selection.candidates));
@@ -274,9 +281,8 @@ OrderSelection select_order(const IdData& data, const std::vector<TransferStruct
         for (OrderCandidate& candidate : selection.candidates)
             if (estimated(candidate)) append_integrator(candidate.estimate);
     if (!selection.cancelled && std::none_of(selection.candidates.begin(), selection.candidates.end(), estimated))
-        throw InvalidArgument("none of the structures could be estimated; the first one says: " +
+        throw InvalidArgument("none of the structures could be estimated; the first one says: {}",
                               selection.candidates.front().failure);
-    if (!selection.cancelled) doubt_the_choice(selection, data, options.estimation);
     return selection;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "numerics/fit/fit.h"
 #include "numerics/validation/elsewhere.h"
 
@@ -16,8 +17,8 @@ enum class OrderCriterion { kRecommended, kRSquared, kYic, kAic, kBic, kFpe, kFi
 /// One structure that was tried. Measures are those of the simulation error (validation/fit_measures.h).
 struct OrderCandidate {
     int poles = 1, zeros = 0;
-    double delay = 0;     ///< s, fixed or estimated
-    std::string failure;  ///< why there is no estimate; empty when there is one, and nothing below holds otherwise
+    double delay = 0;  ///< s, fixed or estimated
+    Message failure;   ///< why there is no estimate; empty when there is one, and nothing below holds otherwise
     Fit estimate;
     double r_squared = 0, yic = 0, aic = 0, bic = 0, fpe = 0;
     double log_condition = 0;  ///< log10 of the column-scaled equations' condition number
@@ -63,19 +64,18 @@ std::vector<TransferStructure> order_grid(std::pair<int, int> poles, std::pair<i
 /// Estimates every structure on `data` (one input, one output, any number of experiments) by srivc, several at once,
 /// from few poles and zeros up: a structure's search knows the fits of those that are a step poorer.
 /// A second record is simulated as compare_all() does it with the initial state estimated, for that is the record's
-/// own, and with the offset that the estimation was asked for. Equal numbers for any number of threads. Throws
-/// InvalidArgument for other data, no candidates, and when none of them could be estimated.
-/// The choice by kRecommended gets the option that its fit misses (fit/missed_options.h), if estimation.doubts is true;
-/// no candidate is assessed.
-/// With estimation.integration inputs are held (zoh), the record begins at rest, and a second record's initial state is
-/// that of the integrator too, so that an offset of its output is part of it.
+/// own, and with the offset that the estimation was asked for, or chose. Equal numbers for any number of threads.
+/// Throws InvalidArgument for other data, no candidates, and when none of them could be estimated. Where the options
+/// leave the start open each fit chooses its own (fit/start_choice.h), and AIC, BIC and FPE count its initial values
+/// and its offset. With estimation.integration inputs are held (zoh), the record begins at rest, and a second record's
+/// initial state is that of the integrator too, so that an offset of its output is part of it.
 OrderSelection select_order(const IdData& data, const std::vector<TransferStructure>& candidates,
                             const OrderSelectionOptions& options = {});
 
 /// What a criterion compares.
 struct OrderMeasure {
     OrderCriterion criterion;
-    const char *word, *name, *unit;  ///< "validation", "validation fit" and " (%)"
+    const char* word;  ///< of scripts: "YIC", "validation"
     bool larger_is_better;
     double (*value)(const OrderCandidate&);  ///< not a number where there is none
 };
@@ -83,11 +83,11 @@ std::span<const OrderMeasure> order_measures();               ///< of all criter
 const OrderMeasure& order_measure(OrderCriterion criterion);  ///< of any but kRecommended
 
 /// "2 poles, 1 zero and a delay of 0.5 s"
-std::string structure_text(const OrderCandidate& candidate);
+Message structure_text(const OrderCandidate& candidate);
 
 struct OrderChoice {
-    std::size_t place = 0;    ///< among the candidates
-    std::string explanation;  ///< plain sentences
+    std::size_t place = 0;  ///< among the candidates
+    Message explanation;    ///< plain sentences
 };
 /// kRecommended: among the sound candidates, the stable ones if there are any, with a second record the one with fewest
 /// parameters whose validation fit is within half a point of the best; otherwise the smallest BIC, or a candidate with

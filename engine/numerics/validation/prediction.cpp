@@ -9,7 +9,6 @@
 #include "numerics/fit/discrete/prediction_model.h"
 #include "numerics/fit/operating_points.h"
 #include "numerics/linalg/polynomial.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
@@ -22,16 +21,19 @@ bool is_one(const Vector& p) {
 void check_sampling(const IdData& data, double Ts) {
     constexpr double kRounding = 1e-9;
     if (Ts == 0 || std::abs(data.Ts - Ts) <= kRounding * Ts) return;
-    throw InvalidArgument("The model and its noise count samples of Ts = " + number_text(Ts) +
-                          " s, and the data are sampled every " + number_text(data.Ts) + " s: both must be equal");
+    throw InvalidArgument(
+        "The model and its noise count samples of Ts = {} s, and the data are sampled every {} s: both "
+        "must be equal",
+        Ts, data.Ts);
 }
 
 void check_invertible(const Vector& C, const Vector& D) {
     for (const auto& [name, p] : {std::pair{"C", C}, std::pair{"D", D}})
         if (!inside_unit_circle(p))
-            throw InvalidArgument(std::string("The noise model's ") + name +
-                                  " has a root on or outside the unit circle, so that its white noise cannot be "
-                                  "recovered from the data");
+            throw InvalidArgument(
+                "The noise model's {} has a root on or outside the unit circle, so that its white "
+                "noise cannot be recovered from the data",
+                name);
 }
 
 /// sum_{i < steps} h_i e(k - i)
@@ -126,9 +128,10 @@ StartedPrediction best_start(const IdData& data, const OrderedParameters& model,
         if (candidate.possible()) candidates.push_back(std::move(candidate));
     }
     if (candidates.empty())
-        throw InvalidArgument("The data hold too few samples to predict: the model needs " +
-                              std::to_string(model.orders.past()) +
-                              " before the first that it predicts, and more than the values it estimates");
+        throw InvalidArgument(
+            "The data hold too few samples to predict: the model needs {} before the first that it "
+            "predicts, and more than the values it estimates",
+            model.orders.past());
     std::vector<Index> common = candidates.front().lengths;
     for (const StartedPrediction& candidate : candidates)
         for (std::size_t k = 0; k < common.size(); ++k) common[k] = std::min(common[k], candidate.lengths[k]);
@@ -141,6 +144,14 @@ StartedPrediction best_start(const IdData& data, const OrderedParameters& model,
     return *std::min_element(candidates.begin(), candidates.end(), better);
 }
 
+Message sentence(const Predictions& all, const NoisyModel& model, const std::optional<Index>& steps,
+                 const StartCondition& start) {
+    const Number fit = significant(all.fit_percent[0], 4);
+    if (!steps || !model.has_noise_model()) return Message("Simulated {}: fit {} %.", description(start), fit);
+    return plural(*steps, "Predicted {} step ahead {}: fit {} %.", "Predicted {} steps ahead {}: fit {} %.",
+                  description(start), fit);
+}
+
 /// Predictions without their output, one empty row for each experiment.
 Predictions without_results(const IdData& data) {
     Predictions all;
@@ -151,9 +162,10 @@ Predictions without_results(const IdData& data) {
 Predictions predict_difference_equation(const IdData& data, const NoisyModel& model, const PredictionOptions& options) {
     const OrderedParameters ordered = ordered_parameters(*model.polynomial);
     if (static_cast<std::size_t>(data.input_count()) != ordered.orders.inputs())
-        throw InvalidArgument("The model has " + std::to_string(ordered.orders.inputs()) +
-                              " input(s), and the data have " + std::to_string(data.input_count()) +
-                              ": select those of the model");
+        throw InvalidArgument(plural(static_cast<Index>(ordered.orders.inputs()),
+                                     "The model has {} input, and the data have {}: select those of the model",
+                                     "The model has {} inputs, and the data have {}: select those of the model",
+                                     data.input_count()));
     check_polynomial_data("The prediction", data, ordered.orders);
     check_sampling(data, model.polynomial->Ts);
     check_invertible(model.polynomial->C, model.polynomial->D);
@@ -176,7 +188,7 @@ Predictions predict_difference_equation(const IdData& data, const NoisyModel& mo
     }
     Predictions all = without_results(data);
     add_output(all, records, model, options.steps);
-    all.message = description(best.condition);
+    all.message = sentence(all, model, options.steps, best.condition);
     return all;
 }
 
@@ -189,8 +201,8 @@ Predictions predict_from_simulation(const IdData& data, const NoisyModel& model,
         check_sampling(data, model.noise_Ts);
         check_invertible(model.C, model.D);
         if (data.output_count() != 1)
-            throw InvalidArgument("A noise model belongs to one output, and the data hold " +
-                                  std::to_string(data.output_count()) + ": select one");
+            throw InvalidArgument("A noise model belongs to one output, and the data hold {}: select one",
+                                  data.output_count());
     }
     const Comparison comparison = compare_all(data, model.channels, options.start);
     const ArmaNoise noise{model.C, model.D, {}};
@@ -207,15 +219,8 @@ Predictions predict_from_simulation(const IdData& data, const NoisyModel& model,
         }
         add_output(all, records, model, options.steps);
     }
-    all.message = description(comparison.results.front().front().start);
+    all.message = sentence(all, model, options.steps, comparison.results.front().front().start);
     return all;
-}
-
-std::string sentence(const Predictions& all, const NoisyModel& model, const std::optional<Index>& steps) {
-    std::string text = "Simulated";
-    if (steps && model.has_noise_model())
-        text = "Predicted " + std::to_string(*steps) + (*steps == 1 ? " step" : " steps") + " ahead";
-    return text + " " + all.message + ": fit " + number_text(all.fit_percent[0], 4) + " %.";
 }
 
 }  // namespace
@@ -278,12 +283,9 @@ Matrix Predictions::output_errors(const IdData& data, std::size_t experiment) co
 
 Predictions predict(const IdData& data, const NoisyModel& model, const PredictionOptions& options) {
     if (options.steps && *options.steps < 1)
-        throw InvalidArgument("A prediction goes at least 1 step ahead, and " + std::to_string(*options.steps) +
-                              " was given");
-    Predictions all = model.polynomial && model.has_noise_model() ? predict_difference_equation(data, model, options)
-                                                                  : predict_from_simulation(data, model, options);
-    all.message = sentence(all, model, options.steps);
-    return all;
+        throw InvalidArgument("A prediction goes at least 1 step ahead, and {} was given", *options.steps);
+    return model.polynomial && model.has_noise_model() ? predict_difference_equation(data, model, options)
+                                                       : predict_from_simulation(data, model, options);
 }
 
 }  // namespace dynlab::inline numerics

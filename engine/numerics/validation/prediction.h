@@ -1,9 +1,9 @@
 #pragma once
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "numerics/models/polynomial_model.h"
 #include "numerics/simulation/noise.h"
 #include "numerics/validation/compare.h"
@@ -50,8 +50,8 @@ struct PredictedOutput {
 struct Predictions {
     std::vector<std::vector<PredictedOutput>> results;  ///< [experiment][output]
     Vector fit_percent;                                 ///< per output over all experiments
-    Vector loss;          ///< per output, mean square of `errors` over the samples that are predicted
-    std::string message;  ///< one sentence
+    Vector loss;      ///< per output, mean square of `errors` over the samples that are predicted
+    Message message;  ///< one sentence
     /// N x ny outputs of one experiment (0-based), and measured minus predicted ones.
     Matrix outputs(std::size_t experiment) const;
     Matrix output_errors(const IdData& data, std::size_t experiment) const;

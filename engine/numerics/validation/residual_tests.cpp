@@ -9,7 +9,6 @@
 #include "numerics/error.h"
 #include "numerics/fit/diagnosis.h"
 #include "numerics/linalg/decompositions.h"
-#include "numerics/number_text.h"
 #include "numerics/statistics/distributions.h"
 #include "numerics/statistics/lagged_sums.h"
 #include "numerics/validation/prediction.h"
@@ -18,12 +17,8 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-// What the tested errors are, in words.
-enum class ErrorKind { kOutput, kPrediction };
-
-const char* error_name(ErrorKind kind) {
-    return kind == ErrorKind::kOutput ? "output error" : "prediction error";
-}
+// What is tested.
+using ErrorKind = ModelError;
 
 using Signals = std::vector<Vector>;  // one channel, an entry per experiment
 
@@ -88,10 +83,10 @@ QuadraticForm quadratic_form(const Vector& r, const Matrix& P, double N, double 
     return form;
 }
 
-std::string lag_text(Index lag, const IdData& data) {
-    std::string text = "lag " + std::to_string(lag);
-    if (data.regular()) text += ", " + number_text(static_cast<double>(lag) * data.Ts, 3) + " " + data.time_unit;
-    return text;
+Message lag_text(Index lag, const IdData& data) {
+    if (!data.regular()) return Message("lag {}", lag);
+    const Message time = Message("{} {}", significant(static_cast<double>(lag) * data.Ts, 3), data.time_unit);
+    return Message("lag {}, {}", lag, time);
 }
 
 // The lag from 0 on at which the error goes most with the input.
@@ -101,17 +96,18 @@ Index strongest_lag(const IndependenceTest& test) {
     return lag;
 }
 
-std::string independence_verdict(const IndependenceTest& test, const IdData& data) {
-    const std::string name = data.input_names[static_cast<std::size_t>(test.input)];
-    if (!test.independent) {
-        return name + " still explains part of it (" + probability_text(test.p_value) + "; most at " +
-               lag_text(strongest_lag(test), data) + ").";
-    }
+Message independence_verdict(const IndependenceTest& test, const IdData& data) {
+    const std::string& name = data.input_names[static_cast<std::size_t>(test.input)];
+    const auto probability = probability_text(test.p_value);
+    if (!test.independent)
+        return Message("{} still explains part of it ({}; most at {}).", name, probability,
+                       lag_text(strongest_lag(test), data));
     if (!test.without_feedback)
-        return name + " explains nothing more of it (" + probability_text(test.p_value) +
-               "), but its later values go with the error (" + probability_text(test.p_value_future) +
-               "): the output seems to act back on the input.";
-    return name + " explains nothing more of it (" + probability_text(test.p_value) + ").";
+        return Message(
+            "{} explains nothing more of it ({}), but its later values go with the error ({}): the output "
+            "seems to act back on the input.",
+            name, probability, probability_text(test.p_value_future));
+    return Message("{} explains nothing more of it ({}).", name, probability);
 }
 
 // An input, its covariances at lags 0 and on, and those with the error at lags of both signs.
@@ -151,8 +147,8 @@ IndependenceTest test_independence(const Signals& e, double variance, const Test
     if (Ru == 0) {
         test.tested = false;
         test.correlation = Vector::Zero(2 * lags + 1);
-        test.verdict = data.input_names[static_cast<std::size_t>(input)] +
-                       " never changes, so that its correlation with the error says nothing.";
+        test.verdict = Message("{} never changes, so that its correlation with the error says nothing.",
+                               data.input_names[static_cast<std::size_t>(input)]);
         return test;
     }
     const Vector& r = tested.with_error;
@@ -202,35 +198,39 @@ OutputResiduals test_output(const std::vector<Matrix>& errors, const IdData& dat
     Vector R;
     const std::vector<TestedInput> inputs = tested_inputs(e, data, options.lags, R);
     result.variance = R[0];
-    const std::string name = data.output_names[static_cast<std::size_t>(output)];
+    const std::string& name = data.output_names[static_cast<std::size_t>(output)];
     constexpr double kRounding = 1e4 * std::numeric_limits<double>::epsilon();
     if (result.variance <= kRounding * kRounding * output_power) {
         result.exact = true;
-        result.verdict = name + ": the " + (kind == ErrorKind::kOutput ? "simulated" : "predicted") +
-                         " output equals the measured one to rounding, so nothing is left to test.";
+        result.verdict =
+            kind == ErrorKind::kOutput
+                ? Message("{}: the simulated output equals the measured one to rounding, so nothing is left to test.",
+                          name)
+                : Message("{}: the predicted output equals the measured one to rounding, so nothing is left to test.",
+                          name);
         return result;
     }
-    result.whiteness = whiteness_of_covariances(e, R, options.confidence, error_name(kind));
-    result.verdict = name + ": " + result.whiteness.verdict;
+    result.whiteness = whiteness_of_covariances(e, R, options.confidence, kind);
+    std::vector<Message> verdicts{Message("{}: {}", name, result.whiteness.verdict)};
     for (Index j = 0; j < data.input_count(); ++j) {
         const TestedInput& tested = inputs[static_cast<std::size_t>(j)];
         result.inputs.push_back(test_independence(e, R[0], tested, data, j, result.whiteness.white, options));
-        result.verdict += " " + result.inputs.back().verdict;
+        verdicts.push_back(result.inputs.back().verdict);
     }
+    result.verdict = sentences(std::move(verdicts));
     return result;
 }
 
 std::vector<Matrix> output_errors(const IdData& data, std::vector<Matrix> simulated) {
     if (simulated.size() != data.experiments.size() || data.experiments.empty())
-        throw InvalidArgument("The residual tests need a simulated output for each of the " +
-                              std::to_string(data.experiments.size()) + " experiment(s), and got " +
-                              std::to_string(simulated.size()));
+        throw InvalidArgument("The residual tests need a simulated output for each experiment ({}), and got {}",
+                              plural(static_cast<Index>(data.experiments.size()), "{} experiment", "{} experiments"),
+                              simulated.size());
     for (std::size_t k = 0; k < simulated.size(); ++k) {
         const Matrix& y = data.experiments[k].y;
         if (y.rows() != simulated[k].rows() || y.cols() != simulated[k].cols())
-            throw InvalidArgument("The simulated output of experiment " + std::to_string(k + 1) + " must be " +
-                                  std::to_string(y.rows()) + " x " + std::to_string(y.cols()) + ", and is " +
-                                  std::to_string(simulated[k].rows()) + " x " + std::to_string(simulated[k].cols()));
+            throw InvalidArgument("The simulated output of experiment {} must be {} x {}, and is {} x {}", k + 1,
+                                  y.rows(), y.cols(), simulated[k].rows(), simulated[k].cols());
         if (!simulated[k].allFinite())
             throw InvalidArgument(
                 "The simulated output is not finite everywhere: the model is unstable on this record");
@@ -245,9 +245,9 @@ ResidualTests tests_of(const IdData& data, std::vector<Matrix> errors, ErrorKind
     Index most = 0;
     for (const Matrix& own : tests.residuals) most = std::max(most, own.rows());
     if (most < 2 * options.lags)
-        throw InvalidArgument("Tests over " + counted(options.lags, "lag") + " need at least " +
-                              std::to_string(2 * options.lags) + " samples in one record, and the longest has " +
-                              std::to_string(most) + ": ask for fewer lags");
+        throw InvalidArgument(
+            "Tests over {} need at least {} samples in one record, and the longest has {}: ask for fewer lags",
+            plural(options.lags, "{} lag", "{} lags"), 2 * options.lags, most);
     for (Index i = 0; i < data.output_count(); ++i) {
         tests.outputs.push_back(test_output(tests.residuals, data, i, kind, options));
     }
@@ -257,11 +257,13 @@ ResidualTests tests_of(const IdData& data, std::vector<Matrix> errors, ErrorKind
 // Adds what all of it says together to each output's verdict.
 template <class Standing>
 void conclude(ResidualTests& tests, const Standing& standing) {
+    MessageList lines{{}, Join::kLines};
     for (std::size_t i = 0; i < tests.outputs.size(); ++i) {
         OutputResiduals& output = tests.outputs[i];
-        if (!output.exact) output.verdict += " " + model_verdict(standing(i));
-        tests.verdict += (i == 0 ? "" : "\n") + output.verdict;
+        if (!output.exact) output.verdict = sentences({output.verdict, model_verdict(standing(i))});
+        lines.items.push_back(output.verdict);
     }
+    tests.verdict = lines.items.size() == 1 ? lines.items.front() : Message("{}", lines);
 }
 
 // Whether the error goes with this input at an instant that the channel leaves out, before its delay ends or at once.
@@ -277,14 +279,14 @@ void judge_instants(ModelStanding& model, const IndependenceTest& test, const Tr
 constexpr double kBetterStart = 0.2;  // of what the fit lacks
 
 // "Simulated from ... the fit is 88 % instead of 66 %", where another start than the options' explains that much more.
-std::string better_start(const IdData& data, const std::vector<TransferFunction>& channels,
-                         const CompareOptions& simulation, std::size_t output, double fit) {
-    if (simulation.initial_state == InitialState::kAuto && simulation.offset == Offset::kAuto) return "";
+Message better_start(const IdData& data, const std::vector<TransferFunction>& channels,
+                     const CompareOptions& simulation, std::size_t output, double fit) {
+    if (simulation.initial_state == InitialState::kAuto && simulation.offset == Offset::kAuto) return {};
     const Comparison best = compare_all(data, channels, {});
     const double reached = best.fit_percent[static_cast<Index>(output)];
-    if (!(reached - fit >= kBetterStart * (100 - fit))) return "";
-    return "The record does not start as was assumed: simulated " + description(best.results[0][output].start) +
-           ", the fit is " + number_text(reached, 4) + " % instead of " + number_text(fit, 4) + " %.";
+    if (!(reached - fit >= kBetterStart * (100 - fit))) return {};
+    return Message("The record does not start as was assumed: simulated {}, the fit is {} % instead of {} %.",
+                   description(best.results[0][output].start), significant(reached, 4), significant(fit, 4));
 }
 
 }  // namespace

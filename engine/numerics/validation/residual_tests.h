@@ -1,7 +1,7 @@
 #pragma once
-#include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "numerics/signals/iddata.h"
 #include "numerics/statistics/whiteness.h"
 #include "numerics/validation/compare.h"
@@ -22,8 +22,8 @@ struct IndependenceTest {
     double p_value = 1;         ///< lags 0..L: dynamics the model lacks
     double p_value_future = 1;  ///< lags -L..-1: feedback from the output to the input
     bool independent = true, without_feedback = true;
-    bool tested = true;   ///< false for an input that never changes
-    std::string verdict;  ///< one sentence
+    bool tested = true;  ///< false for an input that never changes
+    Message verdict;     ///< one sentence
 };
 
 struct OutputResiduals {
@@ -32,13 +32,13 @@ struct OutputResiduals {
     WhitenessTest whiteness;
     std::vector<IndependenceTest> inputs;
     double fit_percent = 0;  ///< of the simulation
-    std::string verdict;     ///< what the tests say, and in the end the model_verdict()
+    Message verdict;         ///< what the tests say, and in the end the model_verdict()
 };
 
 struct ResidualTests {
     std::vector<Matrix> residuals;  ///< per experiment, N x ny: measured minus simulated output
     std::vector<OutputResiduals> outputs;
-    std::string verdict;  ///< one paragraph per output
+    Message verdict;  ///< one paragraph per output
 };
 
 /// Tests on the output error e = y - simulated, all experiments together. Means are taken

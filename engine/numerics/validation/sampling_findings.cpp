@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "numerics/number_text.h"
 #include "numerics/signals/robust_statistics.h"
+#include "numerics/validation/advice_record.h"
 
 namespace dynlab::inline numerics {
 
@@ -40,10 +40,10 @@ RecordFinding mixed_sampling(const Clock& clock, Index place, std::size_t experi
     return {"mixed_sampling",
             Weight::kWarning,
             "",
-            "The record mixes two sampling times: " + std::to_string(clock.alike_to(clock.usual)) + " steps of " +
-                number_text(clock.usual, 4) + unit + " and " + std::to_string(clock.alike_to(other)) + " of " +
-                number_text(other, 4) + unit + ", first at sample " + std::to_string(place + 1) +
-                ". Two files were probably joined; make an experiment of each part, resample one and merge them.",
+            Message("The record mixes two sampling times: {} steps of {} and {} of {}, first at sample {}. Two files "
+                    "were probably joined; make an experiment of each part, resample one and merge them.",
+                    clock.alike_to(clock.usual), with_unit(significant(clock.usual, 4), unit), clock.alike_to(other),
+                    with_unit(significant(other, 4), unit), place + 1),
             other,
             experiment,
             {{place + 1, place + 2}}};
@@ -56,10 +56,10 @@ RecordFinding gaps(const Clock& clock, Index count, std::size_t experiment, cons
     return {"gaps",
             Weight::kWarning,
             "",
-            "The time jumps at " + counted(count, "place") + ", first after sample " + std::to_string(place + 1) +
-                " by " + number_text(step, 4) + unit + " instead of " + number_text(clock.usual, 4) + unit +
-                ": samples are missing. Interpolate small gaps (interp1); make experiments of the parts between large "
-                "ones.",
+            Message("The time jumps at {}, first after sample {} by {} instead of {}: samples are missing. Interpolate "
+                    "small gaps (interp1); make experiments of the parts between large ones.",
+                    plural(count, "{} place", "{} places"), place + 1, with_unit(significant(step, 4), unit),
+                    with_unit(significant(clock.usual, 4), unit)),
             step,
             experiment,
             {{place + 1, place + 2}}};
@@ -68,7 +68,7 @@ RecordFinding gaps(const Clock& clock, Index count, std::size_t experiment, cons
 }  // namespace
 
 void find_sampling(const IdData& data, std::vector<RecordFinding>& findings) {
-    const std::string unit = " " + data.time_unit;
+    const std::string& unit = data.time_unit;
     for (std::size_t k = 0; k < data.experiments.size(); ++k) {
         const Vector& t = data.experiments[k].t;
         if (t.size() < 10) continue;

@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "numerics/linalg/decompositions.h"
-#include "numerics/number_text.h"
 #include "numerics/signals/correlation.h"
 #include "numerics/signals/quantisation.h"
 #include "numerics/signals/repair.h"
@@ -30,12 +29,12 @@ struct Channel {
     std::size_t experiment;
 };
 
-std::string with_unit(double value, const std::string& unit, int digits = 4) {
-    return number_text(value, digits) + (unit.empty() ? "" : " " + unit);
+Message value_of(const Channel& channel, double value, int digits = 4) {
+    return with_unit(significant(value, digits), channel.unit);
 }
 
-std::string subject(const Channel& channel) {
-    return (channel.output ? "The output " : "The input ") + channel.name;
+Message subject(const Channel& channel) {
+    return channel.output ? Message("The output {}", channel.name) : Message("The input {}", channel.name);
 }
 
 std::vector<Channel> channels_of(const IdData& data) {
@@ -54,8 +53,7 @@ std::vector<Channel> channels_of(const IdData& data) {
     return channels;
 }
 
-RecordFinding about(const Channel& channel, const char* code, Weight weight, const std::string& message,
-                    double value = 0) {
+RecordFinding about(const Channel& channel, const char* code, Weight weight, const Message& message, double value = 0) {
     return {code, weight, channel.name, message, value, channel.experiment, {}};
 }
 
@@ -66,18 +64,19 @@ double range_of(const Vector& x) {
 /// A constant input other than zero may be a step with which the record begins.
 void find_step_at_the_start(const Channel& channel, std::vector<RecordFinding>& findings) {
     findings.push_back(about(channel, "step_input", Weight::kNote,
-                             subject(channel) + " stays at " + with_unit(channel.x[0], channel.unit) +
-                                 " throughout: a step experiment, if it was switched on with the first sample and the "
-                                 "output started from rest. It shows gain, dead time and one or two time constants.",
+                             Message("{} stays at {} throughout: a step experiment, if it was switched on with the "
+                                     "first sample and the output started from rest. It shows gain, dead time and one "
+                                     "or two time constants.",
+                                     subject(channel), value_of(channel, channel.x[0])),
                              0));
 }
 
 void find_constant(const Channel& channel, std::vector<RecordFinding>& findings) {
     findings.push_back(
         about(channel, "constant", Weight::kWarning,
-              subject(channel) + " stays at " + with_unit(channel.x[0], channel.unit) +
-                  " throughout, so no dynamics can be estimated from it. It is at a limit all the time, its "
-                  "sensor or wire is dead, or a wrong column was read.",
+              Message("{} stays at {} throughout, so no dynamics can be estimated from it. It is at a limit all the "
+                      "time, its sensor or wire is dead, or a wrong column was read.",
+                      subject(channel), value_of(channel, channel.x[0])),
               channel.x[0]));
 }
 
@@ -88,9 +87,9 @@ void find_time_column(const Channel& channel, std::vector<RecordFinding>& findin
     const double mean = steps.mean();
     if (!(mean > 0) || (steps.array() - mean).abs().maxCoeff() > 1e-3 * mean) return;
     findings.push_back(about(channel, "time_column", Weight::kWarning,
-                             subject(channel) + " rises by the same " + number_text(mean, 4) +
-                                 " from every sample to the next: it looks like the time. Check which column of the "
-                                 "file is which.",
+                             Message("{} rises by the same {} from every sample to the next: it looks like the time. "
+                                     "Check which column of the file is which.",
+                                     subject(channel), significant(mean, 4)),
                              mean));
 }
 
@@ -132,15 +131,20 @@ void find_saturation(const Channel& channel, const Quantisation& grid, std::vect
     Index samples = 0;
     for (const Segment& run : runs) samples += run.last - run.first + 1;
     const double share = static_cast<double>(samples) / static_cast<double>(channel.x.size());
-    std::string message = subject(channel) + " is cut off at a limit for " + number_text(100 * share, 2) +
-                          " % of the record (samples " + listed_places(runs) + "): it runs into " +
-                          with_unit(channel.x[runs[0].first - 1], channel.unit) +
-                          " at full speed and stays there. A linear model cannot follow that. ";
-    message += share > 0.5
-                   ? "Most of the record is saturated: repeat the experiment with a smaller amplitude or another "
-                     "range of the sensor."
-                   : "Leave these stretches out with data:discard, or repeat the experiment with a smaller "
-                     "amplitude.";
+    const Message who = subject(channel), limit = value_of(channel, channel.x[runs[0].first - 1]);
+    const Number percent = significant(100 * share, 2);
+    const Message message =
+        share > 0.5
+            ? Message(
+                  "{} is cut off at a limit for {} % of the record (samples {}): it runs into {} at full speed and "
+                  "stays there. A linear model cannot follow that. Most of the record is saturated: repeat the "
+                  "experiment with a smaller amplitude or another range of the sensor.",
+                  who, percent, listed_places(runs), limit)
+            : Message(
+                  "{} is cut off at a limit for {} % of the record (samples {}): it runs into {} at full speed and "
+                  "stays there. A linear model cannot follow that. Leave these stretches out with data:discard, or "
+                  "repeat the experiment with a smaller amplitude.",
+                  who, percent, listed_places(runs), limit);
     RecordFinding finding = about(channel, "saturation", Weight::kWarning, message, share);
     finding.sections = runs;
     findings.push_back(std::move(finding));
@@ -150,11 +154,11 @@ void find_quantisation(const Channel& channel, const Quantisation& grid, std::ve
     const double range = range_of(channel.x);
     if (!channel.output || grid.step == 0 || range / grid.step >= kCoarse) return;
     findings.push_back(about(channel, "quantisation", Weight::kWarning,
-                             subject(channel) + " is recorded in steps of " + with_unit(grid.step, channel.unit, 3) +
-                                 ", only " + number_text(std::round(range / grid.step)) +
-                                 " of them over its range. That acts like noise of standard deviation " +
-                                 with_unit(grid.step / std::sqrt(12.0), channel.unit, 2) +
-                                 "; use a finer range of the converter or a larger amplitude.",
+                             Message("{} is recorded in steps of {}, only {} of them over its range. That acts like "
+                                     "noise of standard deviation {}; use a finer range of the converter or a larger "
+                                     "amplitude.",
+                                     subject(channel), value_of(channel, grid.step, 3), std::round(range / grid.step),
+                                     value_of(channel, grid.step / std::sqrt(12.0), 2)),
                              grid.step));
 }
 
@@ -189,14 +193,15 @@ void find_outliers(const Channel& channel, const Quantisation& grid, std::vector
     options.quantisation = grid.step;
     RepairedSignal repaired = replace_outliers(channel.x, options);
     drop_usual_bends(repaired, channel.x);
-    const auto count = static_cast<double>(repaired.replaced.size());
-    if (count == 0 || count > 0.05 * static_cast<double>(channel.x.size())) return;
-    RecordFinding finding = about(
-        channel, "outliers", Weight::kWarning,
-        subject(channel) + " has " + number_text(count) + (count == 1 ? " sample that stands" : " samples that stand") +
-            " far out from the neighbours (" + listed_places(repaired.stretches) +
-            "). Look whether they can be true; if not, filloutliers puts straight lines there.",
-        count);
+    const auto count = static_cast<Index>(repaired.replaced.size());
+    if (count == 0 || static_cast<double>(count) > 0.05 * static_cast<double>(channel.x.size())) return;
+    RecordFinding finding =
+        about(channel, "outliers", Weight::kWarning,
+              Message("{} has {} far out from the neighbours ({}). Look whether they can be true; if not, filloutliers "
+                      "puts straight lines there.",
+                      subject(channel), plural(count, "{} sample that stands", "{} samples that stand"),
+                      listed_places(repaired.stretches)),
+              static_cast<double>(count));
     finding.sections = repaired.stretches;
     findings.push_back(std::move(finding));
 }
@@ -206,11 +211,12 @@ void find_degrees(const Channel& channel, std::vector<RecordFinding>& findings) 
     std::transform(unit.begin(), unit.end(), unit.begin(), [](unsigned char c) { return std::tolower(c); });
     const double swing = range_of(channel.x) / 2;
     if ((unit != "rad" && unit != "radian" && unit != "radians") || swing <= std::numbers::pi) return;
-    findings.push_back(about(channel, "degrees", Weight::kWarning,
-                             subject(channel) + " is declared in rad but swings by +-" + number_text(swing, 3) +
-                                 ", which would be " + number_text(swing / (2 * std::numbers::pi), 2) +
-                                 " turns. It is probably in degrees: multiply it by pi/180, or declare the unit deg.",
-                             swing));
+    findings.push_back(
+        about(channel, "degrees", Weight::kWarning,
+              Message("{} is declared in rad but swings by +-{}, which would be {} turns. It is "
+                      "probably in degrees: multiply it by pi/180, or declare the unit deg.",
+                      subject(channel), significant(swing, 3), significant(swing / (2 * std::numbers::pi), 2)),
+              swing));
 }
 
 /// First lag at which the autocorrelation has fallen to one half.
@@ -260,30 +266,42 @@ Index changes_of(const Vector& u) {
     return changes;
 }
 
+/// Of an input that changes so often only.
+Message few_changes(const Channel& channel, Index changes) {
+    return changes == 1
+               ? Message(
+                     "{} changes once only: a step experiment. It shows gain, dead time and one or two time "
+                     "constants (procsrivc, step_first_order); for higher orders excite with a prbs.",
+                     subject(channel))
+               : Message(
+                     "{} changes {} times only: a step experiment. It shows gain, dead time and one or two time "
+                     "constants (procsrivc, step_first_order); for higher orders excite with a prbs.",
+                     subject(channel), changes);
+}
+
+Message excitation_of(const Channel& channel, Index order) {
+    if (order < kPoorOrder)
+        return Message(
+            "{} can determine no more than {}: it holds about {} only. Excite with a prbs, a chirp or a "
+            "multisine that covers the plant's bandwidth.",
+            subject(channel), plural(order, "{} parameter", "{} parameters"),
+            plural((order + 1) / 2, "{} frequency", "{} frequencies"));
+    if (order < kHighestExcitation)
+        return Message("{} is rich enough for models with {} parameters.", subject(channel), order);
+    return Message("{} is rich enough for models with {} parameters or more.", subject(channel), kHighestExcitation);
+}
+
 void find_excitation(const Channel& channel, const Quantisation& grid, std::vector<RecordFinding>& findings) {
     const Index changes = changes_of(channel.x);
     if (has_few_levels(grid) && changes <= 3) {
-        findings.push_back(about(channel, "step_input", Weight::kNote,
-                                 subject(channel) + " changes " +
-                                     (changes == 1 ? "once" : std::to_string(changes) + " times") +
-                                     " only: a step experiment. It shows gain, dead time and one or two time constants "
-                                     "(procsrivc, step_first_order); for higher orders excite with a prbs.",
-                                 static_cast<double>(changes)));
+        findings.push_back(
+            about(channel, "step_input", Weight::kNote, few_changes(channel, changes), static_cast<double>(changes)));
         return;
     }
     const Index order = excitation_order(channel.x);
     const bool poor = order < kPoorOrder;
-    findings.push_back(
-        about(channel, poor ? "poor_excitation" : "excitation", poor ? Weight::kWarning : Weight::kNote,
-              subject(channel) +
-                  (poor ? " can determine no more than " + counted(order, "parameter") + ": it holds about " +
-                              std::to_string((order + 1) / 2) + (order > 2 ? " frequencies" : " frequency") +
-                              " only. Excite with a prbs, a chirp or a multisine that covers the plant's bandwidth."
-                        : " is rich enough for models with " +
-                              (order >= kHighestExcitation ? std::string("20 parameters or more")
-                                                           : std::to_string(order) + " parameters") +
-                              "."),
-              static_cast<double>(order)));
+    findings.push_back(about(channel, poor ? "poor_excitation" : "excitation", poor ? Weight::kWarning : Weight::kNote,
+                             excitation_of(channel, order), static_cast<double>(order)));
 }
 
 void find_twins(const std::vector<Channel>& channels, std::vector<RecordFinding>& findings) {
@@ -292,8 +310,9 @@ void find_twins(const std::vector<Channel>& channels, std::vector<RecordFinding>
             const Channel &a = channels[i], &b = channels[j];
             if (a.experiment != b.experiment || range_of(a.x) == 0 || a.x != b.x) continue;
             findings.push_back(about(b, "same_column", Weight::kWarning,
-                                     subject(b) + " is sample by sample the same as " + a.name +
-                                         ": one column of the file was probably read twice."));
+                                     Message("{} is sample by sample the same as {}: one column of the file was "
+                                             "probably read twice.",
+                                             subject(b), a.name)));
         }
 }
 

@@ -8,7 +8,6 @@
 #include "numerics/error.h"
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/polynomial.h"
-#include "numerics/number_text.h"
 #include "numerics/simulation/time_response.h"
 #include "numerics/statistics/distributions.h"
 
@@ -19,14 +18,16 @@ namespace {
 void check_model(const TransferFunction& G, const Matrix& covariance) {
     if (!G.continuous()) throw InvalidArgument("Uncertainty is worked out for continuous-time models: give d2c(G)");
     if (!G.proper())
-        throw InvalidArgument("Uncertainty needs a model with at least as many poles as zeros, and this one has " +
-                              std::to_string(G.pole_count()) + " and " + std::to_string(G.zero_count()));
+        throw InvalidArgument(
+            "Uncertainty needs a model with at least as many poles as zeros, and this one has {} and {}",
+            G.pole_count(), G.zero_count());
     const Index d = G.pole_count() + G.num().size();
     if (covariance.rows() != covariance.cols() || (covariance.rows() != d && covariance.rows() != d + 1))
-        throw InvalidArgument("The covariance of a model with " + counted(G.pole_count(), "pole") + " and " +
-                              counted(G.zero_count(), "zero") + " is " + std::to_string(d) + " x " + std::to_string(d) +
-                              ", with an estimated delay one more, and not " + std::to_string(covariance.rows()) +
-                              " x " + std::to_string(covariance.cols()));
+        throw InvalidArgument(
+            "The covariance of a model with {} and {} is {} x {}, with an estimated delay one more, and "
+            "not {} x {}",
+            plural(G.pole_count(), "{} pole", "{} poles"), plural(G.zero_count(), "{} zero", "{} zeros"), d, d,
+            covariance.rows(), covariance.cols());
 }
 
 // gain s^power
@@ -122,9 +123,8 @@ UncertainModel::UncertainModel(const ProcessModel& process, const MatrixView& pa
     : G(process.transfer_function()) {
     const Index q = process.parameters.size();
     if (parameter_covariance.rows() != q || parameter_covariance.cols() != q)
-        throw InvalidArgument("The covariance of " + std::to_string(q) + " parameters is " + std::to_string(q) + " x " +
-                              std::to_string(q) + ", and not " + std::to_string(parameter_covariance.rows()) + " x " +
-                              std::to_string(parameter_covariance.cols()));
+        throw InvalidArgument("The covariance of {} parameters is {} x {}, and not {} x {}", q, q, q,
+                              parameter_covariance.rows(), parameter_covariance.cols());
     const Matrix J = coefficients_by_parameter(process);
     covariance = J * parameter_covariance * J.transpose();
     check_model(G, covariance);
@@ -196,9 +196,9 @@ ModelUncertainty describe_uncertainty(const UncertainModel& model) {
     const auto poles = pole_uncertainty(model);
     for (const PoleDescription& mode : damping(G)) result.modes.push_back(mode_uncertainty(mode, poles));
     if (std::any_of(poles.begin(), poles.end(), [](const auto& pole) { return pole.near_multiple; }))
-        result.warnings.push_back(
-            "Some poles lie closer together than their standard errors can tell apart, so that the errors given for "
-            "poles, damping and time constants mean little: fewer poles may do.");
+        result.warnings.push_back(Message(
+            "Some poles lie closer together than their standard errors can tell apart, so that the errors given "
+            "for poles, damping and time constants mean little: fewer poles may do."));
     return result;
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 #include <Eigen/Core>
-#include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "numerics/models/process_model.h"
 #include "numerics/models/transfer_function.h"
 
@@ -56,7 +56,7 @@ struct ModeUncertainty {
 struct ModelUncertainty {
     double gain = 0, gain_std = 0;  ///< steady state; NaN with an integrator
     std::vector<ModeUncertainty> modes;
-    std::vector<std::string> warnings;  ///< whole sentences
+    std::vector<Message> warnings;  ///< whole sentences
 };
 ModelUncertainty describe_uncertainty(const UncertainModel& model);
 

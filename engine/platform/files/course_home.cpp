@@ -47,8 +47,7 @@ FilesByPlace merged_files(const fs::path& course, const fs::path& installed) {
     std::uintmax_t bytes = 0;
     for (const auto& [place, file] : own) bytes += fs::file_size(file);
     if (bytes > kMostBytes)
-        throw EnvironmentError("the course in " + course.string() +
-                               " has more than 256 MB of lessons, data and templates");
+        throw EnvironmentError("the course in {} has more than 256 MB of lessons, data and templates", course.string());
     for (const auto& [place, file] : own) files[place] = file;
     return files;
 }
@@ -69,12 +68,12 @@ std::optional<fs::path> own_course() {
     const char* named = std::getenv("DYNLAB_COURSE");
     if (named == nullptr || *named == '\0') return std::nullopt;
     const fs::path folder = fs::absolute(named).lexically_normal();
-    if (!fs::is_directory(folder))
-        throw EnvironmentError("DYNLAB_COURSE: there is no folder '" + std::string(named) + "'");
+    if (!fs::is_directory(folder)) throw EnvironmentError("DYNLAB_COURSE: there is no folder '{}'", named);
     for (const char* part : kParts)
         if (fs::is_directory(folder / part)) return folder;
-    throw EnvironmentError("DYNLAB_COURSE: in " + folder.string() +
-                           " there is none of lessons, data and report_templates; a course has one of them at least");
+    throw EnvironmentError(
+        "DYNLAB_COURSE: in {} there is none of lessons, data and report_templates; a course has one of them at least",
+        folder.string());
 }
 
 fs::path course_home(const fs::path& course, const fs::path& installed) {

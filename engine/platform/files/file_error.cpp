@@ -11,15 +11,12 @@ namespace {
 
 constexpr std::uintmax_t kSmallestRoom = 64 << 10;  // bytes; a disk with less is full
 
-/// What was tried, as the library tells it between its own name and the reason.
+/// What was tried, as the library says it between its own name and the reason: "cannot copy file".
 std::string attempt_of(const std::filesystem::filesystem_error& error) {
     constexpr std::string_view kBegin = "filesystem error: ";
     std::string attempt = error.what();
     if (attempt.starts_with(kBegin)) attempt.erase(0, kBegin.size());
-    attempt = attempt.substr(0, attempt.find(": " + error.code().message()));
-    if (attempt.starts_with("cannot create director")) return "cannot make the folder";
-    if (attempt.find("directory iterator") != std::string::npos) return "cannot read the folder";
-    return attempt.starts_with("cannot ") ? attempt : "cannot do this (" + attempt + ") with";
+    return attempt.substr(0, attempt.find(": " + error.code().message()));
 }
 
 /// The library tells a copy that a full disk has stopped as an input/output error.
@@ -33,11 +30,17 @@ int reason_of(const std::filesystem::filesystem_error& error) {
 
 }  // namespace
 
-std::string file_error_sentence(const std::filesystem::filesystem_error& error) {
-    std::string sentence = attempt_of(error);
-    if (!error.path1().empty()) sentence += " " + error.path1().string();
-    if (!error.path2().empty()) sentence += " to " + error.path2().string();
-    return sentence + ": " + system_reason(reason_of(error));
+Message file_error_sentence(const std::filesystem::filesystem_error& error) {
+    const std::string attempt = attempt_of(error), reason = system_reason(reason_of(error));
+    const std::string file = error.path1().string(), other = error.path2().string();
+    if (attempt.starts_with("cannot create director")) return Message("cannot make the folder {}: {}", file, reason);
+    if (attempt.find("directory iterator") != std::string::npos)
+        return Message("cannot read the folder {}: {}", file, reason);
+    const Message tried =
+        attempt.starts_with("cannot ") ? Message::verbatim(attempt) : Message("cannot do this ({}) with", attempt);
+    if (file.empty()) return Message("{}: {}", tried, reason);
+    if (other.empty()) return Message("{} {}: {}", tried, file, reason);
+    return Message("{} {} to {}: {}", tried, file, other, reason);
 }
 
 }  // namespace dynlab::inline platform

@@ -16,8 +16,8 @@ namespace fs = std::filesystem;
 void fail_to_write(const fs::path& file, int error_number) {
     std::error_code ignored;
     const fs::path folder = fs::absolute(file, ignored).parent_path();
-    throw EnvironmentError("cannot write " + file.filename().string() + ": " + system_reason(error_number) + " (in " +
-                           folder.string() + ")");
+    throw EnvironmentError("cannot write {}: {} (in {})", file.filename().string(), system_reason(error_number),
+                           folder.string());
 }
 
 fs::path destination_of(const fs::path& file) {

@@ -1,7 +1,6 @@
 #include "platform/keys/session_key.h"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <sodium.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -31,12 +30,12 @@ unsigned char* octets(std::string& text) {
 void refuse_key_of_others(const fs::path& file, const FileDescriptor& opened) {
     struct stat status {};
     if (::fstat(opened.get(), &status) != 0 || !S_ISREG(status.st_mode))
-        throw EnvironmentError(fmt::format("{} is no file of a session's key", file.string()));
+        throw EnvironmentError("{} is no file of a session's key", file.string());
     if (status.st_uid != ::geteuid())
-        throw EnvironmentError(fmt::format("the key {} belongs to another user; it is not taken", file.string()));
+        throw EnvironmentError("the key {} belongs to another user; it is not taken", file.string());
     if ((status.st_mode & 077) != 0)
-        throw EnvironmentError(fmt::format(
-            "others may read the key {}: it is no secret any more; remove it and begin anew", file.string()));
+        throw EnvironmentError("others may read the key {}: it is no secret any more; remove it and begin anew",
+                               file.string());
 }
 
 }  // namespace
@@ -51,14 +50,14 @@ SessionKey SessionKey::in_file(const fs::path& file) {
         retry_interrupted([&] { return ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK); }));
     if (!opened)
         throw EnvironmentError(
-            fmt::format("the session's key {} cannot be read: {}; this machine must see the folder "
-                        "that it lies in, as the same user",
-                        file.string(), system_reason(errno)));
+            "the session's key {} cannot be read: {}; this machine must see the folder that it lies in, as the same "
+            "user",
+            file.string(), system_reason(errno));
     refuse_key_of_others(file, opened);
     std::string bytes(kSessionKeyBytes + 1, '\0');
     const ssize_t count = retry_interrupted([&] { return ::read(opened.get(), bytes.data(), bytes.size()); });
     if (count != static_cast<ssize_t>(kSessionKeyBytes))
-        throw EnvironmentError(fmt::format("{} is no session's key", file.string()));
+        throw EnvironmentError("{} is no session's key", file.string());
     bytes.resize(kSessionKeyBytes);
     return SessionKey(std::move(bytes));
 }

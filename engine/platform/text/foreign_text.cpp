@@ -15,10 +15,6 @@
 namespace dynlab::inline platform {
 namespace {
 
-[[noreturn]] void fail_of_icu(const std::string& what, UErrorCode status) {
-    throw EnvironmentError("ICU, the Unicode library, cannot " + what + ": " + u_errorName(status));
-}
-
 /// ICU's own data, none that lie in the working folder.
 void use_own_data() {
     static const bool once = [] {
@@ -36,7 +32,8 @@ std::u16string utf16_of_bytes(std::string_view bytes, const char* charset) {
     std::u16string units(2 * bytes.size() + 1, u'\0');
     const std::int32_t count = ucnv_toUChars(converter.get(), units.data(), static_cast<std::int32_t>(units.size()),
                                              bytes.data(), static_cast<std::int32_t>(bytes.size()), &status);
-    if (U_FAILURE(status)) fail_of_icu(std::string("read ") + charset, status);
+    if (U_FAILURE(status))
+        throw EnvironmentError("ICU, the Unicode library, cannot read {}: {}", charset, u_errorName(status));
     units.resize(static_cast<std::size_t>(count));
     return units;
 }
@@ -50,7 +47,8 @@ Converter strict_converter(const char* charset) {
     Converter converter(ucnv_open(charset, &status), ucnv_close);
     ucnv_setToUCallBack(converter.get(), UCNV_TO_U_CALLBACK_STOP, nullptr, nullptr, nullptr, &status);
     ucnv_setFromUCallBack(converter.get(), UCNV_FROM_U_CALLBACK_STOP, nullptr, nullptr, nullptr, &status);
-    if (U_FAILURE(status)) fail_of_icu(std::string("convert ") + charset, status);
+    if (U_FAILURE(status))
+        throw EnvironmentError("ICU, the Unicode library, cannot convert {}: {}", charset, u_errorName(status));
     return converter;
 }
 
@@ -141,7 +139,8 @@ std::string composed(std::string_view utf8) {
     std::u16string result(3 * units.size() + 1, u'\0');  // UAX #15: at most three times as long
     const std::int32_t count = unorm2_normalize(forms, units.data(), static_cast<std::int32_t>(units.size()),
                                                 result.data(), static_cast<std::int32_t>(result.size()), &status);
-    if (U_FAILURE(status)) fail_of_icu("compose letters", status);
+    if (U_FAILURE(status))
+        throw EnvironmentError("ICU, the Unicode library, cannot compose letters: {}", u_errorName(status));
     result.resize(static_cast<std::size_t>(count));
     return utf8_of(std::u16string_view(result));
 }

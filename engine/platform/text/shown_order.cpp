@@ -32,7 +32,7 @@ std::string in_shown_order(std::string_view utf8) {
         ubidi_writeReordered(order.get(), shown.data(), static_cast<std::int32_t>(shown.size()),
                              UBIDI_DO_MIRRORING | UBIDI_KEEP_BASE_COMBINING | UBIDI_REMOVE_BIDI_CONTROLS, &status);
     if (U_FAILURE(status))
-        throw EnvironmentError(std::string("ICU, the Unicode library, cannot order letters: ") + u_errorName(status));
+        throw EnvironmentError("ICU, the Unicode library, cannot order letters: {}", u_errorName(status));
     shown.resize(static_cast<std::size_t>(count));
     return utf8_of(std::u16string_view(shown));
 }

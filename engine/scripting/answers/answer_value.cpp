@@ -1,8 +1,6 @@
 #include "scripting/answers/answer_value.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
+#include "base/error.h"
 #include "data_io/values/json_values.h"
 #include "documents/percent_script.h"
 #include "platform/spelling.h"
@@ -70,8 +68,7 @@ class AnswerWriter {
 
     void count(Index numbers) {
         count_ += numbers;
-        if (count_ > kMostNumbers)
-            throw InvalidArgument(fmt::format("an answer holds at most {} numbers or letters", kMostNumbers));
+        if (count_ > kMostNumbers) throw InvalidArgument("an answer holds at most {} numbers or letters", kMostNumbers);
     }
 
     void text_members(int index) {
@@ -85,8 +82,7 @@ class AnswerWriter {
     /// The list part in its order, the named fields by name.
     void table_members(int index, int depth) {
         if (depth >= kDeepest)
-            throw InvalidArgument(
-                fmt::format("the table contains itself, or tables are nested more than {} deep", kDeepest));
+            throw InvalidArgument("the table contains itself, or tables are nested more than {} deep", kDeepest);
         luaL_checkstack(L, 8, "nested tables");
         const auto length = static_cast<lua_Integer>(lua_rawlen(L, index));
         json_.member("items");
@@ -140,8 +136,7 @@ class AnswerWriter {
             write_value(json_, *system);
             return "model";
         }
-        throw InvalidArgument(fmt::format("{} cannot be an answer; it can be a {}", given_text(L, index),
-                                          fmt::join(answer_kinds(), ", ")));
+        throw InvalidArgument("{} cannot be an answer; it can be a {}", given_value(L, index), listed(answer_kinds()));
     }
 
     lua_State* L;
@@ -171,7 +166,7 @@ Matrix matrix_members(ValueReader& answer) {
     const auto rows = member_of<Index>(answer, "rows"), columns = member_of<Index>(answer, "columns");
     const Vector values = member_of<Vector>(answer, "values");
     if (rows < 0 || columns < 0 || (rows > 0 && columns > values.size() / rows) || rows * columns != values.size())
-        answer.refuse("there are not rows x columns values");
+        answer.refuse(Message("there are not rows x columns values"));
     return values.reshaped(rows, columns);
 }
 
@@ -246,15 +241,14 @@ void push_answer_value(lua_State* L, const std::string& text) {
         JsonReader reader = JsonReader::of_text(text, limits);
         push_answer(L, reader, 0);
     } catch (const ValueError& error) {
-        throw InvalidArgument(std::string("the answer is damaged: ") + error.what());
+        throw InvalidArgument("the answer is damaged: {}", message_of(error));
     }
 }
 
-std::string undeclared_answer_sentence(const std::string& name, const std::vector<std::string>& names) {
+Message undeclared_answer(const std::string& name, const std::vector<std::string>& names) {
     const auto near = nearest_word(name, names);
-    return fmt::format(
-        "the script's header declares no answer \"{}\"; {}", name,
-        near ? fmt::format("did you mean \"{}\"?", *near) : fmt::format("it declares {}", fmt::join(names, ", ")));
+    return near ? Message("the script's header declares no answer \"{}\"; did you mean \"{}\"?", name, *near)
+                : Message("the script's header declares no answer \"{}\"; it declares {}", name, listed(names));
 }
 
 }  // namespace dynlab::inline scripting

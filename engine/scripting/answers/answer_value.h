@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
+
 namespace dynlab::inline scripting {
 
 /// What a script hands in under a name, so that another process can read it: JSON, {"kind": K, ...} with K one of
@@ -25,6 +27,6 @@ AnswerValue answer_value(lua_State* L, int index);
 void push_answer_value(lua_State* L, const std::string& json);
 
 /// About an answer that the script's header does not declare; it declares `names`.
-std::string undeclared_answer_sentence(const std::string& name, const std::vector<std::string>& names);
+Message undeclared_answer(const std::string& name, const std::vector<std::string>& names);
 
 }  // namespace dynlab::inline scripting

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "numerics/fit/integrated_input.h"
-#include "numerics/number_text.h"
 #include "scripting/arguments/simulation_options.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/model.h"
@@ -13,18 +12,10 @@ namespace {
 
 constexpr double kLargestOrder = 1e6;
 
-std::string meaning_of(std::span<const OrderEntry> entries) {
-    std::vector<std::string> names, meanings;
-    for (const OrderEntry& entry : entries) {
-        names.emplace_back(entry.name);
-        meanings.push_back(fmt::format("{}: {}", entry.name, entry.meaning));
-    }
-    return fmt::format("{{{}}} ({})", fmt::join(names, ", "), fmt::join(meanings, "; "));
-}
-
 int checked_order(double value, int index, std::span<const OrderEntry> entries, const char* name) {
     if (std::floor(value) != value || value < 0 || value > kLargestOrder)
-        refuse_orders(index, entries, fmt::format("{} is {:.10g}, and must be a whole number from 0 on", name, value));
+        throw InvalidArgument("argument {} (orders) must be {}, but {} is {}, and must be a whole number from 0 on",
+                              index, meaning_of(entries), name, significant(value, 10));
     return static_cast<int>(value);
 }
 
@@ -37,13 +28,17 @@ std::vector<int> entry_list(lua_State* L, int index, std::span<const OrderEntry>
         return list;
     }
     if (lua_type(L, -1) != LUA_TTABLE)
-        refuse_orders(index, entries, fmt::format("{} is {}", name, given_text(L, lua_gettop(L))));
+        throw InvalidArgument("argument {} (orders) must be {}, but {} is {}", index, meaning_of(entries), name,
+                              given_value(L, lua_gettop(L)));
     const auto count = static_cast<lua_Integer>(lua_rawlen(L, -1));
-    if (count == 0) refuse_orders(index, entries, fmt::format("{} is an empty table", name));
+    if (count == 0)
+        throw InvalidArgument("argument {} (orders) must be {}, but {} is an empty table", index, meaning_of(entries),
+                              name);
     for (lua_Integer i = 1; i <= count; ++i) {
         lua_rawgeti(L, -1, i);
         if (lua_type(L, -1) != LUA_TNUMBER)
-            refuse_orders(index, entries, fmt::format("{} holds {}", name, given_text(L, lua_gettop(L))));
+            throw InvalidArgument("argument {} (orders) must be {}, but {} holds {}", index, meaning_of(entries), name,
+                                  given_value(L, lua_gettop(L)));
         list.push_back(checked_order(lua_tonumber(L, -1), index, entries, name));
         lua_pop(L, 1);
     }
@@ -52,14 +47,26 @@ std::vector<int> entry_list(lua_State* L, int index, std::span<const OrderEntry>
 
 }  // namespace
 
+Message meaning_of(std::span<const OrderEntry> entries) {
+    std::vector<std::string> names;
+    MessageList meanings{{}, Join::kSemicolon};
+    for (const OrderEntry& entry : entries) {
+        names.emplace_back(entry.name);
+        meanings.items.push_back(Message("{}: {}", entry.name, entry.meaning()));
+    }
+    return Message("{{}} ({})", listed(names), meanings);
+}
+
 std::vector<std::vector<int>> order_lists(const Call& call, int index, std::span<const OrderEntry> entries) {
     lua_State* L = call.state();
     const auto wrong_count = [&](Index count) {
-        const bool many = count > static_cast<Index>(entries.size()) + 1;
-        refuse_orders(
-            index, entries,
-            fmt::format("it has {}{}", counted(count, "entry", "entries"),
-                        many ? "; with several inputs an entry is a list of one value for each, such as {1, 1}" : ""));
+        const Message has = plural(count, "{} entry", "{} entries");
+        if (count > static_cast<Index>(entries.size()) + 1)
+            throw InvalidArgument(
+                "argument {} (orders) must be {}, but it has {}; with several inputs an entry is a list of one value "
+                "for each, such as {1, 1}",
+                index, meaning_of(entries), has);
+        throw InvalidArgument("argument {} (orders) must be {}, but it has {}", index, meaning_of(entries), has);
     };
     std::vector<std::vector<int>> lists;
     if (index <= call.count()) {
@@ -81,11 +88,10 @@ std::vector<std::vector<int>> order_lists(const Call& call, int index, std::span
             return lists;
         }
     }
-    refuse_orders(index, entries, call.given(index) ? given_text(L, index) + " was given" : "it is missing");
-}
-
-void refuse_orders(int index, std::span<const OrderEntry> entries, const std::string& wrong) {
-    throw InvalidArgument(fmt::format("argument {} (orders) must be {}, but {}", index, meaning_of(entries), wrong));
+    if (!call.given(index))
+        throw InvalidArgument("argument {} (orders) must be {}, but it is missing", index, meaning_of(entries));
+    throw InvalidArgument("argument {} (orders) must be {}, but {} was given", index, meaning_of(entries),
+                          given_value(L, index));
 }
 
 namespace {
@@ -102,13 +108,13 @@ std::vector<Value> for_channels(const std::vector<Value>& of_inputs, const IdDat
 }
 
 /// A whole number, or a list of one for each input or for each channel.
-std::vector<int> counts_argument(const Call& call, int index, const char* what) {
+std::vector<int> counts_argument(const Call& call, int index, ArgumentName what) {
     if (call.type(index) != LUA_TTABLE && !call.holds_vector(index)) return {static_cast<int>(call.size(index, what))};
     const auto values = call.vector(index, what);
     std::vector<int> counts;
     for (const double value : values) {
         if (!(value >= 0) || value != std::floor(value))
-            throw InvalidArgument(fmt::format("argument {} ({}) must hold whole numbers from 0 on", index, what));
+            throw InvalidArgument("{} must hold whole numbers from 0 on", argument_label(index, what));
         counts.push_back(static_cast<int>(value));
     }
     return counts;
@@ -132,14 +138,16 @@ std::size_t index_of_entry(std::span<const OrderEntry> entries, std::string_view
 void check_coefficients(std::span<const OrderEntry> entries, std::string_view poles_name, const std::vector<int>& poles,
                         const std::vector<int>& coefficients) {
     for (const int n : poles)
-        if (n < 1) refuse_orders(2, entries, fmt::format("{} is {}, and must be at least 1", poles_name, n));
+        if (n < 1)
+            throw InvalidArgument("argument {} (orders) must be {}, but {} is {}, and must be at least 1", 2,
+                                  meaning_of(entries), poles_name, n);
     for (std::size_t i = 0; i < coefficients.size(); ++i) {
         const int nb = coefficients[i];
         const int n = i < poles.size() ? poles[i] : poles.back();
         if (nb < 1 || nb > n + 1)
-            refuse_orders(
-                2, entries,
-                fmt::format("nb is {}, and with {} = {} must lie between 1 and {}", nb, poles_name, n, n + 1));
+            throw InvalidArgument(
+                "argument {} (orders) must be {}, but {} is {}, and with {} = {} must lie between 1 and {}", 2,
+                meaning_of(entries), kNb.name, nb, poles_name, n, n + 1);
     }
 }
 
@@ -193,16 +201,17 @@ StartedStructure started_structure(const Call& call, const Options& options, con
     }
     for (const char* name : {"IODelay", "Td0"})
         if (options.has(name))
-            throw InvalidArgument(
-                fmt::format("option '{}' does not go with a start model: it has its own delay", name));
+            throw InvalidArgument("option '{}' does not go with a start model: it has its own delay", name);
     SearchAids aids;
-    const auto outputs = static_cast<Index>(object_argument<Model>(call, 2, "start model").outputs);
-    const auto structure = TransferStructure::of_models(channels_argument(call, 2, "start model"), outputs, aids.start);
+    const auto outputs = static_cast<Index>(object_argument<Model>(call, 2, Message("start model")).outputs);
+    const auto structure =
+        TransferStructure::of_models(channels_argument(call, 2, Message("start model")), outputs, aids.start);
     return {[structure](const IdData& data) {
                 if (data.input_count() != structure.inputs || data.output_count() != structure.outputs)
-                    throw InvalidArgument(
-                        fmt::format("the start model has {} input(s) and {} output(s), and the data have {} and {}",
-                                    structure.inputs, structure.outputs, data.input_count(), data.output_count()));
+                    throw InvalidArgument("the start model has {} and {}, and the data have {} and {}",
+                                          plural(structure.inputs, "{} input", "{} inputs"),
+                                          plural(structure.outputs, "{} output", "{} outputs"), data.input_count(),
+                                          data.output_count());
                 return structure;
             },
             aids};
@@ -212,26 +221,9 @@ Denominators sharing_of(const Options& options) {
     return options.flag("CommonDenominator", false) ? Denominators::kCommon : Denominators::kPerChannel;
 }
 
-Hold hold_y_of(const Options& options) {
-    return options.choice("hold_y", {"foh", "zoh"}, 0) == 0 ? Hold::kFoh : Hold::kZoh;
-}
-
 void read_fit_options(const Options& options, FitOptions& wanted) {
-    wanted.lambda = options.optional_number("lambda");
-    wanted.hold_y = hold_y_of(options);
-    if (options.has("InitialState")) wanted.initial_state = parse_initial_state(options.text("InitialState", ""));
-    if (options.has("Offset")) wanted.offset = parse_offset(options.text("Offset", ""));
-    wanted.least_delay = options.number("TdMin", wanted.least_delay);
-    wanted.largest_delay = options.optional_number("TdMax");
-    wanted.delay_count = static_cast<int>(options.size("NumTd", wanted.delay_count));
-    wanted.max_iterations = static_cast<int>(options.size("MaxIter", wanted.max_iterations));
+    options.read(wanted);
     wanted.goes_on = !options.has("MaxIter");
-    wanted.tolerance = options.number("Tol", wanted.tolerance);
-    if (options.has("Stable")) wanted.stable = options.flag("Stable", false);
-    wanted.fixed = options.numbers_by_name("Fixed");
-    if (options.has("OutputWeights")) wanted.output_weights = options.vector("OutputWeights");
-    wanted.start_is_given = options.has("InitialState") && options.has("Offset");
-    wanted.integration = options.flag("Integration", false);
     wanted.cancel = options.call().cancel();
     wanted.validate();
     if (wanted.integration) wanted = options_with_integrator(std::move(wanted));
@@ -239,7 +231,7 @@ void read_fit_options(const Options& options, FitOptions& wanted) {
 
 FitOptions fit_options(const Options& options, Purpose purpose) {
     FitOptions wanted;
-    wanted.doubts = purpose == Purpose::kModel;
+    if (purpose == Purpose::kStudy) wanted = wanted.from_rest();
     read_fit_options(options, wanted);
     return wanted;
 }

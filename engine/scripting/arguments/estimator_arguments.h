@@ -14,6 +14,11 @@ namespace dynlab::inline scripting {
 
 /// An estimation as a script asked for it, its arguments checked: ready for any data, in any thread.
 using Estimation = std::function<Fit(const IdData&)>;
+/// The same with the options that it goes by.
+struct OptionedEstimation {
+    Estimation estimation;
+    FitOptions options;
+};
 
 /// Reads the arguments of one method from the second on; the first, where the data stand, is not looked at.
 using EstimationReader = Estimation (*)(const Call& call);
@@ -27,7 +32,7 @@ using EstimationReaders = std::span<const NamedReader>;
 /// One entry of an order vector and what it means in messages.
 struct OrderEntry {
     const char* name;
-    const char* meaning;
+    Message (*meaning)();
 };
 
 /// The orders {2, 1, 1} of a model, or {2, {1, 2}, {1, 1}} with several inputs: a list for each entry. Throws
@@ -35,15 +40,15 @@ struct OrderEntry {
 /// one.
 std::vector<std::vector<int>> order_lists(const Call& call, int index, std::span<const OrderEntry> entries);
 
-/// Throws InvalidArgument: what the entries of the orders at argument `index` mean, and what is wrong with these.
-[[noreturn]] void refuse_orders(int index, std::span<const OrderEntry> entries, const std::string& wrong);
+/// What the entries mean: "{na, nb} (na: poles; nb: coefficients of B)".
+Message meaning_of(std::span<const OrderEntry> entries);
 
 // ---- Transfer functions in continuous time
 
-inline constexpr OrderEntry kNa{"na", "poles"};
-inline constexpr OrderEntry kNb{"nb", "coefficients of B"};
-inline constexpr OrderEntry kNf{"nf", "poles"};
-inline constexpr OrderEntry kNk{"nk", "samples of delay"};
+inline constexpr OrderEntry kNa{"na", [] { return Message("poles"); }};
+inline constexpr OrderEntry kNb{"nb", [] { return Message("coefficients of B"); }};
+inline constexpr OrderEntry kNf{"nf", [] { return Message("poles"); }};
+inline constexpr OrderEntry kNk{"nk", [] { return Message("samples of delay"); }};
 
 /// Makes the structure for any data, in any thread, from arguments that were read and checked. Their lists have one
 /// entry for all inputs or one for each, which hold for every output, or one for each channel. Throws InvalidArgument
@@ -65,17 +70,16 @@ StartedStructure started_structure(const Call& call, const Options& options, con
 
 /// The option CommonDenominator.
 Denominators sharing_of(const Options& options);
-Hold hold_y_of(const Options& options);
 /// The options of fits, those of them that the binding knows; for others `wanted` keeps what it holds.
 void read_fit_options(const Options& options, FitOptions& wanted);
 
-/// A fit is the script's own model, or one of many in a study, which asks for no doubts.
+/// A fit is the script's own model, or one of many in a study, whose data are simulated from rest.
 enum class Purpose { kModel, kStudy };
 FitOptions fit_options(const Options& options, Purpose purpose);
 /// The EstimationReader of a function that reads for either purpose.
-template <Estimation (*kRead)(const Call&, Purpose)>
+template <OptionedEstimation (*kRead)(const Call&, Purpose)>
 Estimation read_for_study(const Call& call) {
-    return kRead(call, Purpose::kStudy);
+    return kRead(call, Purpose::kStudy).estimation;
 }
 
 }  // namespace dynlab::inline scripting

@@ -10,15 +10,12 @@ LoopController controller_at(const Call& call, int index) {
         return {TransferFunction(Vector::Constant(1, lua_tonumber(L, index)), Vector::Ones(1))};
     const Model* model = to_object<Model>(L, index);
     if (model == nullptr)
-        throw InvalidArgument(
-            fmt::format("the controller must be a model, such as 2 + 1/s or tf({{2, -1.9}}, {{1, -1}}, Ts), but {} was "
-                        "given",
-                        given_text(L, index)));
+        throw InvalidArgument("{} must be {}, but {} was given", Message("the controller"),
+                              Message("a model, such as 2 + 1/s or tf({2, -1.9}, {1, -1}, Ts)"), given_value(L, index));
     if (!model->single_channel())
         throw InvalidArgument(
-            fmt::format("the controller must have one input, reference minus output, and one output, "
-                        "but this model has {} and {}",
-                        model->inputs(), model->outputs));
+            "the controller must have one input, reference minus output, and one output, but this model has {} and {}",
+            model->inputs(), model->outputs);
     return {model->G};
 }
 
@@ -28,7 +25,7 @@ Index computing_delay_of(const Options& options) {
 
 LoopKnowledge loop_knowledge(const Options& options) {
     LoopKnowledge known;
-    known.hold_r = options.choice("hold_r", {"zoh", "foh"}, 0) == 0 ? Hold::kZoh : Hold::kFoh;
+    options.read(known);
     if (!options.has("controller")) {
         if (options.has("ComputingDelay"))
             throw InvalidArgument(

@@ -1,5 +1,7 @@
 #include "scripting/arguments/script_function.h"
 
+#include "scripting/runtime/errors.h"
+
 namespace dynlab::inline scripting {
 
 ScriptFunction::ScriptFunction(lua_State* L, int index) : L_(context_of(L).main != nullptr ? context_of(L).main : L) {
@@ -15,23 +17,38 @@ void ScriptFunction::push() const {
     lua_rawgeti(L_, LUA_REGISTRYINDEX, reference_);
 }
 
-void call_or_throw(lua_State* L, int arguments, int results, const char* surplus) {
+void call_or_throw(lua_State* L, int arguments, int results, Message (*surplus)()) {
     if (lua_pcall(L, arguments, results + 1, 0) != LUA_OK) {
         pass_stop_on(L);
-        const std::string message = luaL_tolstring(L, -1, nullptr);
-        lua_pop(L, 2);
+        const Message message = error_at(L, -1).with_place();
+        lua_pop(L, 1);
         throw InvalidArgument(message);
     }
     const bool more = !lua_isnil(L, -1);
     lua_pop(L, more ? results + 1 : 1);
-    if (more) throw InvalidArgument(surplus);
+    if (more) throw InvalidArgument(surplus());
 }
 
+namespace {
+
+Message no_such_name(const std::string& kind, const std::string& table, const std::string& name,
+                     const std::string& names) {
+    if (kind == "state")
+        return names.empty() ? Message("{} has no state {}; there is none", table, name)
+                             : Message("{} has no state {}; the states are {}", table, name, names);
+    if (kind == "parameter")
+        return names.empty() ? Message("{} has no parameter {}; there is none", table, name)
+                             : Message("{} has no parameter {}; the parameters are {}", table, name, names);
+    return names.empty() ? Message("{} has no input {}; there is none", table, name)
+                         : Message("{} has no input {}; the inputs are {}", table, name, names);
+}
+
+}  // namespace
+
 int refuse_name(lua_State* L) {
-    const std::string kind = lua_tostring(L, lua_upvalueindex(1)), names = lua_tostring(L, lua_upvalueindex(3));
-    raise_error(
-        L, fmt::format("{} has no {} {}; {}", lua_tostring(L, lua_upvalueindex(2)), kind, luaL_tolstring(L, 2, nullptr),
-                       names.empty() ? "there is none" : fmt::format("the {}s are {}", kind, names)));
+    const std::string kind = lua_tostring(L, lua_upvalueindex(1)), table = lua_tostring(L, lua_upvalueindex(2)),
+                      names = lua_tostring(L, lua_upvalueindex(3)), name = luaL_tolstring(L, 2, nullptr);
+    raise_error(L, no_such_name(kind, table, name, names));
 }
 
 }  // namespace dynlab::inline scripting

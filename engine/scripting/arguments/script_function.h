@@ -23,7 +23,7 @@ class ScriptFunction {
 
 /// Calls the function that stands below its arguments, so that nothing of Lua's passes through numerics: throws the
 /// script's own error as InvalidArgument, and `surplus` where the function returns more than `results` values.
-void call_or_throw(lua_State* L, int arguments, int results, const char* surplus);
+void call_or_throw(lua_State* L, int arguments, int results, Message (*surplus)());
 
 /// __index of a table by names, raises; upvalues: "state", "x", their names.
 int refuse_name(lua_State* L);

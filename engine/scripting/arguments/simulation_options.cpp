@@ -4,23 +4,32 @@
 
 #include "numerics/signals/interpolation.h"
 #include "numerics/validation/grey_box/grey_comparison.h"
+#include "scripting/conversions/localized.h"
 #include "scripting/conversions/table_fields.h"
-#include "scripting/conversions/told_sentences.h"
 #include "scripting/objects/grey_object.h"
 #include "scripting/objects/simulated_model.h"
 
 namespace dynlab::inline scripting {
 
-CompareOptions compare_options(const Options& options, const char* initial_state) {
-    return {parse_initial_state(options.text("InitialState", initial_state)),
-            parse_offset(options.text("Offset", "auto"))};
+CompareOptions compare_options(const Options& options, InitialState otherwise) {
+    CompareOptions wanted{otherwise, Offset::kAuto};
+    options.read(wanted);
+    if (options.has("InitialState")) wanted.initial_state = static_cast<InitialState>(options.choice(kStateOption));
+    return wanted;
 }
 
 Hold hold_option(const Options& options, Hold fallback) {
-    return options.choice("hold", {"zoh", "foh"}, fallback == Hold::kZoh ? 0 : 1) == 0 ? Hold::kZoh : Hold::kFoh;
+    return options.has("hold") ? static_cast<Hold>(options.choice(kHoldOption)) : fallback;
 }
 
-std::vector<TransferFunction> channels_argument(const Call& call, int index, const char* what) {
+double confidence_option(const Options& options) {
+    const double level = options.number("confidence", 0.99);
+    if (level > 0 && level < 1) return level;
+    refuse_option("confidence", Message("a probability between 0 and 1, such as 0.99"),
+                  Message("{}", significant(level, 10)));
+}
+
+std::vector<TransferFunction> channels_argument(const Call& call, int index, ArgumentName what) {
     if (index <= call.count())
         if (const Model* model = to_object<Model>(call.state(), index)) return channels_of(*model);
     return {model_argument(call, index, what).G};
@@ -29,7 +38,8 @@ std::vector<TransferFunction> channels_argument(const Call& call, int index, con
 Comparison comparison_argument(const Call& call, int index, const IdData& data, const Options& options) {
     if (const GreyEstimate grey = to_grey_box(call, index)) {
         const std::string start = options.text("InitialState", "auto");
-        return compare_grey(data, *grey, start == "auto" ? usual_start(*grey) : parse_grey_start(start));
+        return compare_grey(data, *grey,
+                            start == "auto" ? usual_start(*grey) : parse_grey_start(start == "none" ? "zero" : start));
     }
     const SimulatedModel* simulated = simulated_model(call, index);
     if (simulated == nullptr) {
@@ -39,11 +49,11 @@ Comparison comparison_argument(const Call& call, int index, const IdData& data, 
     }
     Comparison comparison = compare_all(data, *simulated->run);
     for (const auto& outputs : comparison.results)
-        if (!outputs.front().output.allFinite()) call.print(told(call, outputs.front().message) + "\n");
+        if (!outputs.front().output.allFinite()) call.print(localized(call, outputs.front().message) + "\n");
     return comparison;
 }
 
-NoisyModel noisy_model_argument(const Call& call, int index, const char* what) {
+NoisyModel noisy_model_argument(const Call& call, int index, ArgumentName what) {
     NoisyModel noisy;
     noisy.channels = channels_argument(call, index, what);
     const Model* model = to_object<Model>(call.state(), index);
@@ -104,13 +114,13 @@ std::optional<Index> steps_option(const Options& options, std::optional<Index> f
     if (!steps) return fallback;
     if (std::isinf(*steps) && *steps > 0) return std::nullopt;
     if (*steps >= 1 && *steps <= 1e9 && *steps == std::floor(*steps)) return static_cast<Index>(*steps);
-    throw InvalidArgument(fmt::format(
-        "option 'k' must be a whole number of steps ahead from 1 on, or math.huge for a simulation, but {} was given",
-        *steps));
+    refuse_option("k", Message("a whole number of steps ahead from 1 on, or math.huge for a simulation"),
+                  Message("{}", significant(*steps, 10)));
 }
 
-std::string steps_text(const std::optional<Index>& steps) {
-    return steps ? fmt::format(", {} step{} ahead", *steps, *steps == 1 ? "" : "s") : std::string();
+Message with_steps(const Message& name, const std::optional<Index>& steps) {
+    if (!steps) return name;
+    return Message("{}, {}", name, plural(*steps, "{} step ahead", "{} steps ahead"));
 }
 
 }  // namespace dynlab::inline scripting

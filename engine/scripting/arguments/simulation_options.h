@@ -1,29 +1,70 @@
 #pragma once
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "numerics/validation/compare.h"
 #include "numerics/validation/prediction.h"
-#include "scripting/conversions/arguments.h"
+#include "scripting/arguments/estimator_options.h"
 
 namespace dynlab::inline scripting {
 
+/// The options and arguments of functions that simulate a model.
+
+inline constexpr double kLargestSeed = 0xFFFFFFFF;
+
+inline constexpr OptionEntry kHoldOption = {
+    "hold",
+    ValueKind::kChoice,
+    about("behavior of the input between its samples: constant (\"zoh\") or straight lines (\"foh\")"),
+    {.initial = "\"zoh\"", .choices = kHolds}};
+
+inline constexpr OptionEntry kStateOption = {
+    "InitialState",
+    ValueKind::kChoice,
+    kStartOptions[0].description,
+    {.initial = "\"auto\"", .choices = kInitialStates, .former = "zero", .member = "initial_state"}};
+inline constexpr std::array kStatesOfComparison = {"none", "steady", "estimate", "auto", "model"};
+inline constexpr OptionEntry kComparedStateOption = {
+    "InitialState",
+    ValueKind::kChoice,
+    about("the state before the data begin, as in `srivc`; of a grey-box model also \"model\", its own initial state"),
+    {.initial = "\"auto\"", .choices = kStatesOfComparison, .former = "zero", .member = "initial_state"}};
+inline constexpr OptionEntry kOffsetOption = option<&CompareOptions::offset>(
+    "Offset", kStartOptions[1].description, {.initial = "\"auto\"", .choices = kOffsets, .member = "offset"});
+inline constexpr std::array kSimulationStart = {kStateOption, kOffsetOption};
+/// Of functions that simulate grey-box models, too.
+inline constexpr std::array kComparisonStart = {kComparedStateOption, kOffsetOption};
+
+inline constexpr OptionEntry kLabelsOption = {"labels", ValueKind::kAny,
+                                              about("names in the legend: a text, or a list of texts")};
+inline constexpr OptionEntry kConfidenceOption = {
+    "confidence", ValueKind::kNumber, about("probability of the confidence band"), {.initial = "0.99"}};
+
+inline constexpr ArgumentEntry kRecordArgument = {"data", ValueKind::kData,
+                                                  about("data object with the inputs and outputs of the model")};
+inline constexpr ArgumentEntry kModelArgument = {"G", ValueKind::kModel, about("model")};
+inline constexpr std::array kRecordAndModel = {kRecordArgument, kModelArgument};
+
 /// The options InitialState and Offset of functions that simulate a model on a record.
-CompareOptions compare_options(const Options& options, const char* initial_state = "auto");
+CompareOptions compare_options(const Options& options, InitialState otherwise = InitialState::kAuto);
 
 /// The option hold: how inputs go on between samples.
 Hold hold_option(const Options& options, Hold fallback);
 
+/// The option confidence: a probability between 0 and 1.
+double confidence_option(const Options& options);
+
 /// The transfer functions of a model argument, one a channel: all inputs of the first output, then of the second.
-std::vector<TransferFunction> channels_argument(const Call& call, int index, const char* what);
+std::vector<TransferFunction> channels_argument(const Call& call, int index, ArgumentName what);
 
 /// A model argument simulated on data, as the options InitialState and Offset say; of a free run that is lost it
 /// prints when.
 Comparison comparison_argument(const Call& call, int index, const IdData& data, const Options& options);
 
 /// A model argument with what it says of its noise.
-NoisyModel noisy_model_argument(const Call& call, int index, const char* what);
+NoisyModel noisy_model_argument(const Call& call, int index, ArgumentName what);
 
 /// What predict() gives of a model argument on the data.
 Predictions prediction_argument(const Call& call, int index, const IdData& data, const PredictionOptions& options);
@@ -38,7 +79,7 @@ const IdData& driving_data(const Call& call, int index, const IdData& data, IdDa
 void read_steps_as_option(const Call& call, int index);
 /// The option k: a whole number of steps from 1 on, or nothing for math.huge, a simulation.
 std::optional<Index> steps_option(const Options& options, std::optional<Index> fallback);
-/// What stands behind a model's name in a legend: ", 5 steps ahead", or nothing for a simulation.
-std::string steps_text(const std::optional<Index>& steps);
+/// A model's name in a legend: "arx, 5 steps ahead", or the name alone for a simulation.
+Message with_steps(const Message& name, const std::optional<Index>& steps);
 
 }  // namespace dynlab::inline scripting

@@ -1,10 +1,10 @@
 #include <array>
 
-#include "numerics/number_text.h"
+#include "base/number_text.h"
 #include "numerics/validation/advice.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/conversions/localized.h"
 #include "scripting/conversions/table_fields.h"
-#include "scripting/conversions/told_sentences.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/data_object.h"
 
@@ -21,7 +21,7 @@ void set_segments(const Call& call, const char* name, const std::vector<Segment>
 
 void push_finding(const Call& call, const RecordFinding& finding) {
     give_table(call, "code", finding.code, "warning", finding.weight == Weight::kWarning, "channel", finding.channel,
-               "message", told(call, finding.message), "value", finding.value, "experiment",
+               "message", localized(call, finding.message), "value", finding.value, "experiment",
                static_cast<Index>(finding.experiment + 1));
     set_segments(call, "sections", finding.sections);
 }
@@ -31,16 +31,19 @@ std::string text_of(const Call& call, const Advice& advice, std::size_t experime
     for (const RecordFinding& finding : advice.findings)
         text +=
             fmt::format("{} {}{}\n", finding.weight == Weight::kWarning ? "!" : "-",
-                        experiments > 1 ? told(call, fmt::format("Experiment {}:", finding.experiment + 1)) + " " : "",
-                        told(call, finding.message));
-    if (advice.clean()) text += told(call, "There is no objection to fitting a model to this record.\n");
+                        experiments > 1 ? localized(call, Message("Experiment {}:", finding.experiment + 1)) + " " : "",
+                        localized(call, finding.message));
+    if (advice.clean())
+        text += localized(call, Message("There is no objection to fitting a model to this record.")) + "\n";
     return text;
 }
 
 /// print(advice(data)): the sentences have been printed, so that this only says what the table holds.
 int advice_to_text(lua_State* L) {
-    const std::string text = fmt::format("({}: a[1].message, ..., a.clean and a.discard of a = advice(data))",
-                                         counted(lua_rawlen(L, 1), "finding"));
+    const std::string text =
+        message_text(plural(static_cast<std::int64_t>(lua_rawlen(L, 1)),
+                            "({} finding: a[1].message, ..., a.clean and a.discard of a = advice(data))",
+                            "({} findings: a[1].message, ..., a.clean and a.discard of a = advice(data))"));
     lua_pushlstring(L, text.data(), text.size());
     return 1;
 }

@@ -16,10 +16,10 @@ void check_declared(const std::vector<ExpectedAnswer>& expected, const std::stri
     for (const ExpectedAnswer& answer : expected) {
         names.push_back(answer.name);
         if (answer.name == name && answer.kind != kind)
-            throw InvalidArgument(
-                fmt::format("the answer \"{}\" must be of the kind {}, but a {} was given", name, answer.kind, kind));
+            throw InvalidArgument("the answer \"{}\" must be of the kind {}, but a {} was given", name, answer.kind,
+                                  kind);
     }
-    if (std::ranges::find(names, name) == names.end()) throw InvalidArgument(undeclared_answer_sentence(name, names));
+    if (std::ranges::find(names, name) == names.end()) throw InvalidArgument(undeclared_answer(name, names));
 }
 
 /// The kind that the script's header declares for an answer; empty where it declares none of this name.
@@ -29,7 +29,7 @@ std::string kind_of(const std::vector<ExpectedAnswer>& expected, const std::stri
 }
 
 AnswerValue checked_answer(const Call& call, const std::string& name) {
-    if (!call.given(2)) wrong_argument(call.state(), 2, "value", "answer's value");
+    if (!call.given(2)) wrong_argument(call.state(), 2, "value", Message("an answer's value"));
     const Recorder& recorder = call.context().recorder;
     if (call.type(2) == LUA_TTABLE && kind_of(recorder.expected_answers(), name) == "vector") call.vector(2, "value");
     AnswerValue value = answer_value(call.state(), 2);
@@ -51,7 +51,7 @@ int answer(Call& call) {
     AnswerValue value;
     try {
         value = checked_answer(call, name);
-        if (answers.contains(name)) throw InvalidArgument(fmt::format("the answer \"{}\" was given already", name));
+        if (answers.contains(name)) throw InvalidArgument("the answer \"{}\" was given already", name);
     } catch (const InvalidArgument& error) {
         if (!call.context().options.graded) throw;
         value = refused_answer(error.what());

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <vector>
 
-#include "numerics/number_text.h"
 #include "numerics/signals/robust_statistics.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/traced_value.h"
@@ -10,11 +9,10 @@
 namespace dynlab::inline scripting {
 namespace {
 
-void need_values(const Call& call, Index count, Index least) {
-    if (count == 0) throw InvalidArgument("argument 1 (v) has no elements");
+void need_values(Index count, Index least) {
+    if (count == 0) throw InvalidArgument("{} has no elements", argument_label(1, "v"));
     if (count < least)
-        throw InvalidArgument(fmt::format(
-            "{}: the spread of a single value is not defined; at least two values are needed", call.function_name()));
+        throw InvalidArgument("the spread of a single value is not defined; at least two values are needed");
 }
 
 /// A number for a vector, a vector with one number for each column of a matrix. Every column is summed in the same
@@ -24,11 +22,11 @@ int measure_columns(Call& call) {
     call.at_most(1);
     if (to_matrix(call.state(), 1) == nullptr) {
         const VectorMap v = call.vector(1, "v");
-        need_values(call, kLeast == 0 ? 1 : v.size(), kLeast);
+        need_values(kLeast == 0 ? 1 : v.size(), kLeast);
         return call.give(kMeasure(v));
     }
     const MatrixMap A = call.matrix(1, "A");
-    need_values(call, kLeast == 0 ? 1 : A.rows(), kLeast);
+    need_values(kLeast == 0 ? 1 : A.rows(), kLeast);
     Vector measures(A.cols());
     for (Index j = 0; j < A.cols(); ++j) measures[j] = kMeasure(A.col(j));
     return call.give_vector(measures);
@@ -81,12 +79,12 @@ int extreme(Call& call) {
         }
         const VectorMap w = call.vector(other, "y");
         if (v.size() != w.size())
-            throw InvalidArgument(fmt::format("x has {}, but y has {}", counted(v.size(), "value"), w.size()));
+            throw InvalidArgument("x has {}, but y has {}", plural(v.size(), "{} value", "{} values"), w.size());
         return call.give_vector(v.binaryExpr(w, better));
     }
     if (to_matrix(call.state(), 1) != nullptr) {
         const MatrixMap A = call.matrix(1, "A");
-        need_values(call, A.rows(), 1);
+        need_values(A.rows(), 1);
         Vector values(A.cols()), places(A.cols());
         for (Index j = 0; j < A.cols(); ++j) {
             Index place = 0;
@@ -96,7 +94,7 @@ int extreme(Call& call) {
         return call.give_vector(values) + call.give_vector(places);
     }
     const VectorMap v = call.vector(1, "v");
-    need_values(call, v.size(), 1);
+    need_values(v.size(), 1);
     Index place = 0;
     const double value = extreme_of<kLargest>(v, place);
     return call.give(value) + call.give_integer(place + 1);

@@ -1,6 +1,5 @@
 #include <algorithm>
 
-#include "numerics/number_text.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/traced_value.h"
 
@@ -32,7 +31,7 @@ int compare_elements(Call& call) {
     const bool number = call.type(2) == LUA_TNUMBER;
     const VectorMap x = number ? v : call.vector(2, "x");
     if (x.size() != v.size())
-        throw InvalidArgument(fmt::format("v has {}, but x has {}", counted(v.size(), "value"), x.size()));
+        throw InvalidArgument("v has {}, but x has {}", plural(v.size(), "{} value", "{} values"), x.size());
     const double bound = number ? call.number(2, "x") : 0;
     MaskBlock& mask = push_mask(call.state(), v.size());
     for (Index i = 0; i < v.size(); ++i) mask.data()[i] = Relation()(v[i], number ? bound : x[i]);
@@ -42,7 +41,7 @@ int compare_elements(Call& call) {
 int find(Call& call) {
     call.at_most(1);
     MaskBlock* mask = call.given(1) ? to_mask(call.state(), 1) : nullptr;
-    if (mask == nullptr) wrong_argument(call.state(), 1, "mask", "mask, as gt, lt, ge, le and eq give it");
+    if (mask == nullptr) wrong_argument(call.state(), 1, "mask", Message("a mask, as gt, lt, ge, le and eq give it"));
     double* next = push_vector(call.state(), std::count(mask->data(), mask->data() + mask->size, true)).data();
     for (Index i = 0; i < mask->size; ++i)
         if (mask->data()[i]) *next++ = static_cast<double>(i + 1);

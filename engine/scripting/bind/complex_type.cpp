@@ -12,7 +12,7 @@ int vector_element(Call& call) {
     const ComplexVector& v = object_argument<ComplexVector>(call, 1, "z");
     const Index number = call.integer(2, "element");
     if (number < 1 || number > v.size())
-        throw InvalidArgument(fmt::format("the element {} does not exist: {}", number, numbered_from_one(v.size())));
+        throw InvalidArgument("the element {} does not exist: {}", number, numbered_from_one(v.size()));
     push_object(call.state(), Complex(v[number - 1]));
     return 1;
 }

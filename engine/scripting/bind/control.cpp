@@ -1,6 +1,8 @@
+#include <array>
 
 #include "numerics/control/state_feedback.h"
 #include "numerics/rigs/crane_control.h"
+#include "scripting/arguments/simulation_options.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/conversions/boxed.h"
 #include "scripting/conversions/table_fields.h"
@@ -8,6 +10,30 @@
 
 namespace dynlab::inline scripting {
 namespace {
+
+constexpr OptionEntry kCraneOptions[] = {
+    option<&CraneRun::duration>("duration", about("duration of the run"), {.unit = "s"}),
+    option<&CraneRun::position>("position", about("position where the trolley starts, from -0.5 to 0.5"),
+                                {.unit = "m"}),
+    option<&CraneRun::angle>("angle", about("angle at which the load starts"), {.unit = "rad"}),
+    {"seed", ValueKind::kCount, about("seed of the sensors' noise"), {.initial = "1", .most = kLargestSeed}}};
+constexpr OptionTable kCraneTables[] = {kCraneOptions};
+
+constexpr ArgumentEntry kStateMatrix = {"A", ValueKind::kAny, about("n x n matrix")};
+constexpr ArgumentEntry kRegulatorArguments[] = {
+    kStateMatrix,
+    {"B", ValueKind::kAny, about("n x inputs matrix")},
+    {"Q", ValueKind::kAny, about("weights of the states: n x n, symmetric, not negative")},
+    {"R", ValueKind::kAny, about("weights of the inputs: inputs x inputs, symmetric, positive")}};
+constexpr ArgumentEntry kPlacementArguments[] = {
+    kStateMatrix,
+    {"B", ValueKind::kAny, about("n x 1 matrix, one input")},
+    {"poles", ValueKind::kAny,
+     about("list of n poles, or a complex vector; in a list a complex pair is written {re, im} and counts "
+           "twice")}};
+constexpr ArgumentEntry kCraneArguments[] = {
+    {"controller", ValueKind::kAny,
+     about("function of time (s), measured position (m) and measured angle (rad) that returns a voltage (V)")}};
 
 int give_feedback(const Call& call, const StateFeedback& feedback) {
     call.give_matrix(feedback.K);
@@ -25,7 +51,7 @@ int lqr(Call& call) {
 ComplexVector listed_poles(const Call& call, int index) {
     lua_State* L = call.state();
     if (lua_type(L, index) != LUA_TTABLE)
-        wrong_argument(L, index, "poles", "list of numbers and pairs {re, im}, or complex vector");
+        wrong_argument(L, index, "poles", Message("a list of numbers and pairs {re, im}, or complex vector"));
     std::vector<Complex> poles;
     for (lua_Integer i = 1; lua_rawgeti(L, index, i) != LUA_TNIL; lua_pop(L, 1), ++i) {
         if (lua_type(L, -1) == LUA_TNUMBER) {
@@ -33,11 +59,11 @@ ComplexVector listed_poles(const Call& call, int index) {
             continue;
         }
         if (lua_type(L, -1) != LUA_TTABLE || lua_rawlen(L, -1) != 2)
-            throw InvalidArgument("place: poles are numbers, and pairs of complex ones {re, im}");
+            throw InvalidArgument("poles are numbers, and pairs of complex ones {re, im}");
         lua_rawgeti(L, -1, 1);
         lua_rawgeti(L, -2, 2);
         if (lua_type(L, -1) != LUA_TNUMBER || lua_type(L, -2) != LUA_TNUMBER)
-            throw InvalidArgument("place: the two parts of a complex pole {re, im} are numbers");
+            throw InvalidArgument("the two parts of a complex pole {re, im} are numbers");
         poles.emplace_back(lua_tonumber(L, -2), lua_tonumber(L, -1));
         lua_pop(L, 2);
         poles.push_back(std::conj(poles.back()));
@@ -57,19 +83,17 @@ int place(Call& call) {
 int drive_crane(Call& call) {
     call.at_most(2);
     lua_State* L = call.state();
-    if (call.type(1) != LUA_TFUNCTION) wrong_argument(L, 1, "controller", "function of t, x and theta");
-    const Options options(call, 2, {"duration", "position", "angle", "seed"});
+    if (call.type(1) != LUA_TFUNCTION) wrong_argument(L, 1, "controller", Message("a function of t, x and theta"));
+    const Options options(call, 2, kCraneTables);
     CraneRun run;
-    run.duration = options.number("duration", run.duration);
-    run.position = options.number("position", run.position);
-    run.angle = options.number("angle", run.angle);
+    options.read(run);
     const auto controller = [L](double t, double x, double theta) {
         lua_pushvalue(L, 1);
         for (const double value : {t, x, theta}) lua_pushnumber(L, value);
         lua_call(L, 3, 1);
         if (lua_type(L, -1) != LUA_TNUMBER)
-            throw InvalidArgument("the controller must return the voltage, a number, but returned " +
-                                  given_text(L, -1));
+            throw InvalidArgument("the controller must return the voltage, a number, but returned {}",
+                                  given_value(L, -1));
         const double voltage = lua_tonumber(L, -1);
         lua_pop(L, 1);
         return voltage;
@@ -80,11 +104,22 @@ int drive_crane(Call& call) {
 }
 
 constexpr FunctionEntry kControlFunctions[] = {
-    {"lqr", "control", "lqr(A, B, Q, R) -> K, poles", "designs a linear-quadratic state feedback", guarded<lqr>},
-    {"place", "control", "place(A, B, poles) -> K, poles", "places the poles of a system with one input",
-     guarded<place>},
-    {"drive_crane", "control", "drive_crane(controller, {duration =, position =, ...}) -> table",
-     "tries a controller on the course's simulated crane", guarded<drive_crane>},
+    {"lqr",
+     "control",
+     "lqr(A, B, Q, R) -> K, poles",
+     "designs a linear-quadratic state feedback",
+     guarded<lqr>,
+     {},
+     kRegulatorArguments},
+    {"place",
+     "control",
+     "place(A, B, poles) -> K, poles",
+     "places the poles of a system with one input",
+     guarded<place>,
+     {},
+     kPlacementArguments},
+    {"drive_crane", "control", "drive_crane(controller, {options}) -> table",
+     "tries a controller on the course's simulated crane", guarded<drive_crane>, kCraneTables, kCraneArguments},
 };
 
 }  // namespace

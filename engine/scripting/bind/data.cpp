@@ -1,11 +1,13 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 #include <utility>
 
+#include "base/reader.h"
 #include "data_io/dataset_index.h"
 #include "figures/plots/id_plot.h"
-#include "numerics/number_text.h"
+#include "scripting/arguments/simulation_options.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/conversions/table_fields.h"
 #include "scripting/objects/data_object.h"
@@ -15,6 +17,43 @@
 
 namespace dynlab::inline scripting {
 namespace {
+
+constexpr OptionEntry kImportOptions[] = {
+    option<&ImportOptions::skip>("skip", about("number of lines of a text file that are skipped")),
+    {"names", ValueKind::kAny, about("names of all columns, instead of those in the file")},
+    {"delimiter", ValueKind::kText, about("character between cells; \" \" for any number of blanks and tabs")},
+    {"units", ValueKind::kTable, about("units by column, {u = \"V\"}, instead of those in the file")},
+    option<&ImportOptions::time>("time", about("name of the column of instants")),
+    option<&ImportOptions::sheet>("sheet", about("name of a workbook's sheet; by default the first one"))};
+constexpr OptionEntry kIddataOptions[] = {
+    option<&IdData::hold>("InterSample", kHoldOption.description, {.initial = "\"zoh\"", .choices = kHolds}),
+    {"InputName", ValueKind::kAny, about("name of the input, or a list of names of several inputs")},
+    {"OutputName", ValueKind::kAny, about("name of the output, or a list of names of several outputs")},
+    {"InputUnit", ValueKind::kAny,
+     about("unit of the input, or a list of units; by default that of a column of `load`")},
+    {"OutputUnit", ValueKind::kAny,
+     about("unit of the output, or a list of units; by default that of a column of `load`")},
+    option<&IdData::time_unit>("TimeUnit", about("unit of `Ts`, `Tstart` and all instants"), {.initial = "\"s\""}),
+    {"Tstart", ValueKind::kNumber, about("time of the first sample"), {.initial = "0"}},
+    {"SamplingInstants", ValueKind::kVector, about("increasing instants of irregular sampling, instead of `Ts`")},
+    {"Reference", ValueKind::kAny,
+     about("N samples of the reference of the loop in which the data were recorded: a vector or a matrix")}};
+constexpr std::array kIdplotOptions = {kLabelsOption};
+constexpr OptionTable kImportTables[] = {kImportOptions}, kIddataTables[] = {kIddataOptions},
+                      kIdplotTables[] = {kIdplotOptions};
+
+constexpr ArgumentEntry kLoadArguments[] = {
+    {"name_or_path", ValueKind::kText,
+     about("name of a data set, such as \"winning_times\", or path of a file, such as \"my_record.csv\"")}};
+constexpr ArgumentEntry kIddataArguments[] = {
+    {"y", ValueKind::kAny,
+     about("N output samples: a vector, or a matrix with a column for each output; nil for inputs alone")},
+    {"u", ValueKind::kAny,
+     about("N input samples: a vector, or a matrix with a column for each input; nil for a time series")},
+    {"Ts", ValueKind::kNumber, about("sampling time in `TimeUnit`; by default 1, which is printed once")}};
+constexpr ArgumentEntry kIdplotArguments[] = {
+    {"data, ...", ValueKind::kData, about("data objects with the same channels")},
+    {"first, last", ValueKind::kCount, about("of one data object, first and last sample that are drawn")}};
 
 /// `path` is the name by which messages speak of what is pushed, such as crane.steps.
 void push_variable(const Call& call, const Variable& variable, const std::string& path);
@@ -55,10 +94,7 @@ void push_variable(const Call& call, const Variable& variable, const std::string
 /// Where a script is graded or checked it reads the course's data and what lies in its own folder, and nothing else.
 void check_stays_inside(const std::filesystem::path& path) {
     const bool leads_out = std::find(path.begin(), path.end(), "..") != path.end();
-    if (path.is_absolute() || leads_out)
-        throw InvalidArgument(fmt::format(
-            "\"{}\" {}; where scripts are graded, only the course's data and files of the folder itself can be loaded",
-            path.string(), kLeadsOutside));
+    if (path.is_absolute() || leads_out) throw InvalidArgument(refusal_outside(path.string()));
 }
 
 std::map<std::string, std::string> units_by_name(const Options& options) {
@@ -80,16 +116,14 @@ std::map<std::string, std::string> units_by_name(const Options& options) {
 
 ImportOptions import_options(const Options& options) {
     ImportOptions import;
-    import.skip = static_cast<std::size_t>(options.size("skip", 0));
+    options.read(import);
     import.names = options.texts("names");
     const std::string delimiter = options.text("delimiter", "");
     if (delimiter.size() > 1)
-        throw InvalidArgument(fmt::format(
-            "option 'delimiter' must be one character (\" \" for blanks and tabs), but \"{}\" was given", delimiter));
+        throw InvalidArgument("{} must be {}, but \"{}\" was given", option_label("delimiter"),
+                              Message("one character (\" \" for blanks and tabs)"), delimiter);
     if (!delimiter.empty()) import.delimiter = delimiter.front();
     import.units = units_by_name(options);
-    import.time = options.text("time", "");
-    import.sheet = options.text("sheet", "");
     return import;
 }
 
@@ -116,21 +150,21 @@ void add_units_and_headers(const Call& call, const LoadedData& loaded) {
 
 int load(Call& call) {
     call.at_most(2);
-    const Options options(call, 2, {"skip", "names", "delimiter", "units", "time", "sheet"});
-    const std::string name = call.text(1, "name or path");
+    const Options options(call, 2, kImportTables);
+    const std::string name = call.text(1, Message("name or path"));
     const RunOptions& run = call.context().options;
     if (run.graded || run.stay_in_folder) check_stays_inside(name);
     const LoadedData loaded = load_data(name, run.script_folder, run.graded, import_options(options));
     call.context().recorder.note_file_read(loaded.file);
-    for (const std::string& note : loaded.notes)
-        call.print(fmt::format("{}: {}\n", loaded.file.filename().string(), note));
+    for (const Message& note : loaded.notes)
+        call.print(fmt::format("{}: {}\n", loaded.file.filename().string(), message_text(note)));
     push_variables(call, loaded.variables, name);
     add_units_and_headers(call, loaded);
     return 1;
 }
 
 /// Samples by channels; nothing for data without inputs.
-Matrix signals(const Call& call, int index, const char* what, Index samples) {
+Matrix signals(const Call& call, int index, ArgumentName what, Index samples) {
     if (!call.given(index)) return Matrix(samples, 0);
     return call.matrix(index, what);
 }
@@ -140,8 +174,8 @@ void set_texts(const Options& options, const char* name, std::vector<std::string
     if (!options.has(name)) return;
     texts = options.texts(name);
     if (static_cast<Index>(texts.size()) != channels)
-        throw InvalidArgument(fmt::format("option '{}' has {} for {}", name, counted(texts.size(), "text"),
-                                          counted(channels, "channel")));
+        throw InvalidArgument("option '{}' has {} for {}", name, plural(texts.size(), "{} text", "{} texts"),
+                              plural(channels, "{} channel", "{} channels"));
 }
 
 /// The same for units; a column that load() gave brings its own.
@@ -158,8 +192,8 @@ void check_names(const IdData& data) {
     for (const auto* names : {&data.input_names, &data.output_names})
         for (const std::string& name : *names)
             if (!seen.insert(name).second)
-                throw InvalidArgument(
-                    fmt::format("the name '{}' names two channels: give each its own InputName or OutputName", name));
+                throw InvalidArgument("the name '{}' names two channels: give each its own InputName or OutputName",
+                                      name);
 }
 
 /// Once in a run: time constants come out in samples where seconds are meant.
@@ -187,26 +221,24 @@ Matrix reference_of(const Options& options) {
 
 int make_iddata(Call& call) {
     call.at_most(4);
-    const Options options(call, 4,
-                          {"InterSample", "InputName", "OutputName", "InputUnit", "OutputUnit", "TimeUnit", "Tstart",
-                           "SamplingInstants", "Reference"});
+    const Options options(call, 4, kIddataTables);
     if (call.holds_vector(3))
         throw InvalidArgument(
-            "argument 3 (Ts) must be a number of seconds, but instants were given; where they lie at uneven distances "
-            "write iddata(y, u, nil, {SamplingInstants = t})");
+            "{} must be a number of seconds, but instants were given; where they lie at uneven distances write "
+            "iddata(y, u, nil, {SamplingInstants = t})",
+            argument_label(3, "Ts"));
     const bool inputs_only = !call.given(1) && call.given(2);
     const Matrix y = inputs_only ? Matrix(call.matrix(2, "u").rows(), 0) : Matrix(call.matrix(1, "y"));
     const Matrix u = signals(call, 2, "u", y.rows());
     IdData data = options.has("SamplingInstants") ? IdData(y, u, options.vector("SamplingInstants"))
                                                   : IdData(y, u, call.number_or(3, "Ts", 1));
     if (!options.has("SamplingInstants") && !call.given(3)) tell_sampling_time(call);
-    data.hold = options.choice("InterSample", {"zoh", "foh"}, 0) == 0 ? Hold::kZoh : Hold::kFoh;
+    options.read(data);
     set_texts(options, "InputName", data.input_names, u.cols());
     set_texts(options, "OutputName", data.output_names, y.cols());
     set_units(options, "InputUnit", 2, data.input_units, u.cols());
     set_units(options, "OutputUnit", 1, data.output_units, y.cols());
     check_names(data);
-    data.time_unit = options.text("TimeUnit", data.time_unit);
     tell_time_unit(call, data.time_unit);
     if (options.has("Tstart") && options.has("SamplingInstants"))
         throw InvalidArgument("option 'Tstart' does not go with 'SamplingInstants', which tell the first instant, too");
@@ -224,25 +256,25 @@ int plot_part(Call& call) {
     return give_figure(call, id_plot({&part}, {}));
 }
 
-/// idplot(data1, data2, ..., {labels = {...}})
 int idplot(Call& call) {
     if (call.type(2) == LUA_TNUMBER) return plot_part(call);
     std::vector<const IdData*> all;
     int i = 1;
     for (; i <= call.count() && to_object<IdData>(call.state(), i) != nullptr; ++i)
         all.push_back(to_object<IdData>(call.state(), i));
-    if (all.empty()) wrong_argument(call.state(), 1, "data", "iddata");
+    if (all.empty()) wrong_argument(call.state(), 1, "data", with_article("iddata"));
     call.at_most(i);
-    return give_figure(call, id_plot(all, Options(call, i, {"labels"}).texts("labels")));
+    return give_figure(call, id_plot(all, Options(call, i, kIdplotTables).texts("labels")));
 }
 
 constexpr FunctionEntry kDataFunctions[] = {
-    {"load", "data", "load(name_or_path, {skip =, names =, delimiter =, units =, time =, sheet =}) -> table",
-     "reads a data set of the course, a .mat file, or a table in a text file or workbook", guarded<load>},
-    {"iddata", "data", "iddata(y, u, Ts, {InterSample =, InputName =, OutputName =, ...}) -> data",
-     "input-output data with their sampling", guarded<make_iddata>},
-    {"idplot", "data", "idplot(data, ..., {labels =}) -> fig; idplot(data, first, last)",
-     "outputs above inputs over time", guarded<idplot>},
+    {"load", "data", "load(name_or_path, {options}) -> table",
+     "reads a data set of the course, a .mat file, or a table in a text file or workbook", guarded<load>, kImportTables,
+     kLoadArguments},
+    {"iddata", "data", "iddata(y, u, Ts, {options}) -> data", "input-output data with their sampling",
+     guarded<make_iddata>, kIddataTables, kIddataArguments},
+    {"idplot", "data", "idplot(data, ..., {options}) -> fig; idplot(data, first, last)",
+     "outputs above inputs over time", guarded<idplot>, kIdplotTables, kIdplotArguments},
 };
 
 }  // namespace

@@ -1,12 +1,12 @@
 #include <array>
 #include <cmath>
 
-#include "numerics/number_text.h"
+#include "base/number_text.h"
 #include "numerics/signals/preprocess.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/bind/preprocess_bindings.h"
+#include "scripting/conversions/localized.h"
 #include "scripting/conversions/table_fields.h"
-#include "scripting/conversions/told_sentences.h"
 #include "scripting/objects/data_object.h"
 
 namespace dynlab::inline scripting {
@@ -18,8 +18,8 @@ const IdData& data_self(Call& call) {
 
 const Experiment& only_experiment(const IdData& data) {
     if (data.experiments.size() != 1)
-        throw InvalidArgument(fmt::format("the data hold {} experiments; take one of them with data:experiment(k)",
-                                          data.experiments.size()));
+        throw InvalidArgument("the data hold {} experiments; take one of them with data:experiment(k)",
+                              data.experiments.size());
     return data.experiments.front();
 }
 
@@ -51,8 +51,7 @@ int part(Call& call) {
 
 Index whole_index(double number) {
     if (number != std::floor(number))
-        throw InvalidArgument(
-            fmt::format("samples and channels are counted in whole numbers, but {} was given", number_text(number)));
+        throw InvalidArgument("samples and channels are counted in whole numbers, but {} was given", number);
     return static_cast<Index>(number);
 }
 
@@ -62,8 +61,8 @@ int part_by_table(Call& call) {
         throw InvalidArgument("the samples i to j are data[{i, j}]; the signals are data.y, data.u and data.t");
     const VectorMap bounds = call.vector(2, "{first, last}");
     if (bounds.size() != 2)
-        throw InvalidArgument(
-            fmt::format("the samples i to j are data[{{i, j}}], not {}", counted(bounds.size(), "number")));
+        throw InvalidArgument("the samples i to j are data[{i, j}], not {}",
+                              plural(bounds.size(), "{} number", "{} numbers"));
     return give_data(call, data_self(call).range(whole_index(bounds[0]), whole_index(bounds[1])));
 }
 
@@ -72,8 +71,7 @@ int experiment(Call& call) {
     IdData data = data_self(call);
     const Index number = call.integer(2, "experiment");
     if (number < 1 || number > static_cast<Index>(data.experiments.size()))
-        throw InvalidArgument(
-            fmt::format("experiment {} does not exist: {}", number, numbered_from_one(data.experiments.size())));
+        throw InvalidArgument("experiment {} does not exist: {}", number, numbered_from_one(data.experiments.size()));
     data.experiments = {data.experiments[static_cast<std::size_t>(number - 1)]};
     return give_data(call, std::move(data));
 }
@@ -85,7 +83,7 @@ int split(Call& call) {
     return give_data(call, std::move(first)) + give_data(call, std::move(second));
 }
 
-std::vector<Index> channels(Call& call, int index, const char* what) {
+std::vector<Index> channels(Call& call, int index, ArgumentName what) {
     if (call.type(index) == LUA_TNUMBER) return {call.integer(index, what)};
     const VectorMap list = call.vector(index, what);
     std::vector<Index> indices;
@@ -113,14 +111,19 @@ int remove_mean_of(Call& call) {
     return give_data(call, remove_mean(data_self(call)));
 }
 
-std::string data_text(const IdData& data) {
-    const std::string sampling =
-        data.regular() ? "Ts = " + number_text(data.Ts) + " " + data.time_unit : "sampled irregularly";
+Message data_text(const IdData& data) {
     const std::size_t experiments = data.experiments.size();
-    return fmt::format("iddata: {}, {}, {}, {}{}{}", counted(data.sample_count(), "sample"),
-                       counted(data.output_count(), "output"), counted(data.input_count(), "input"), sampling,
-                       data.reference_count() > 0 ? ", " + counted(data.reference_count(), "reference") : "",
-                       experiments > 1 ? fmt::format(", {} experiments", experiments) : "");
+    MessageList properties;
+    properties.items.push_back(plural(data.sample_count(), "{} sample", "{} samples"));
+    properties.items.push_back(plural(data.output_count(), "{} output", "{} outputs"));
+    properties.items.push_back(plural(data.input_count(), "{} input", "{} inputs"));
+    properties.items.push_back(data.regular() ? Message("Ts = {} {}", data.Ts, data.time_unit)
+                                              : Message("sampled irregularly"));
+    if (data.reference_count() > 0)
+        properties.items.push_back(plural(data.reference_count(), "{} reference", "{} references"));
+    if (experiments > 1)
+        properties.items.push_back(plural(static_cast<std::int64_t>(experiments), "{} experiment", "{} experiments"));
+    return Message("iddata: {}", properties);
 }
 
 constexpr std::array kDataTypeFields = {
@@ -153,7 +156,7 @@ constexpr std::array kDataTypeMethods = {
     Member{"keep", guarded<keep_parts>},
     Member{"discard", guarded<discard_parts>},
 };
-constexpr std::array kDataTypeOperators = {Member{"__tostring", told_field<IdData, data_text>}};
+constexpr std::array kDataTypeOperators = {Member{"__tostring", localized_field<IdData, data_text>}};
 
 constexpr std::array kDataTypes = {
     TypeEntry{&Boxed<IdData>::type, kDataTypeFields, kDataTypeMethods, kDataTypeOperators, guarded<part_by_table>}};

@@ -1,5 +1,6 @@
 #include <array>
 
+#include "base/catalog.h"
 #include "numerics/estimators/armax.h"
 #include "numerics/estimators/arx.h"
 #include "numerics/estimators/bj.h"
@@ -8,6 +9,7 @@
 #include "numerics/estimators/sriv.h"
 #include "numerics/fit/integrated_input.h"
 #include "scripting/arguments/estimator_arguments.h"
+#include "scripting/arguments/estimator_options.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/data_object.h"
@@ -16,21 +18,50 @@
 namespace dynlab::inline scripting {
 namespace {
 
-constexpr OrderEntry kDiscreteNb{"nb", "coefficients of B"};
-constexpr OrderEntry kDiscreteNk{"nk", "samples of delay, 1 for no direct term"};
-constexpr OrderEntry kDiscreteNa{"na", "poles"}, kDiscreteNf{"nf", "poles"};
-constexpr OrderEntry kDiscreteNc{"nc", "coefficients of C after the leading one"};
-constexpr OrderEntry kDiscreteNd{"nd", "coefficients of D after the leading one"};
+constexpr OrderEntry kDiscreteNb{"nb", [] { return Message("coefficients of B"); }};
+constexpr OrderEntry kDiscreteNk{"nk", [] { return Message("samples of delay, 1 for no direct term"); }};
+constexpr OrderEntry kDiscreteNa{"na", [] { return Message("poles"); }},
+    kDiscreteNf{"nf", [] { return Message("poles"); }};
+constexpr OrderEntry kDiscreteNc{"nc", [] { return Message("coefficients of C after the leading one"); }};
+constexpr OrderEntry kDiscreteNd{"nd", [] { return Message("coefficients of D after the leading one"); }};
 constexpr std::array kArxOrders = {kDiscreteNa, kDiscreteNb, kDiscreteNk};
 constexpr std::array kArmaxOrders = {kDiscreteNa, kDiscreteNb, kDiscreteNc, kDiscreteNk};
 constexpr std::array kDiscreteOutputErrorOrders = {kDiscreteNb, kDiscreteNf, kDiscreteNk};
 constexpr std::array kBoxJenkinsOrders = {kDiscreteNb, kDiscreteNc, kDiscreteNd, kDiscreteNf, kDiscreteNk};
 
+constexpr std::array kDiscreteIntegration = {option<&FitOptions::integration>(
+    "Integration", about("an integrator besides the poles, B/(1 - q^-1) in the place of B"),
+    {.member = "integration"})};
+constexpr OptionTable kEquationError[] = {kDiscreteIntegration};
+constexpr OptionTable kPredictionError[] = {kLimitOptions, kDiscreteIntegration};
+constexpr OptionTable kDiscreteSimulation[] = {kStartOptions, kDiscreteIntegration, kLimitOptions};
+
+constexpr std::array kEquationErrorArguments = {
+    kOneOutputData, ArgumentEntry{"orders", ValueKind::kOrders,
+                                  about("na poles, nb coefficients of B, nk samples of delay, 1 for no direct term; "
+                                        "with several inputs nb and nk are tables, {2, {1, 2}, {1, 3}}")}};
+constexpr std::array kArmaxArguments = {
+    kOneOutputData,
+    ArgumentEntry{"orders", ValueKind::kOrders,
+                  about("na poles, nb coefficients of B, nc coefficients of C after the leading one, nk samples of "
+                        "delay, 1 for no direct term; with several inputs nb and nk are tables")}};
+constexpr std::array kDiscreteOutputErrorArguments = {
+    kOneOutputData,
+    ArgumentEntry{
+        "orders", ValueKind::kOrders,
+        about("nb coefficients of B, nf poles, nk samples of delay, 1 for no direct term; with several inputs, "
+              "each with poles of its own, they are tables, {{2, 1}, {2, 1}, {1, 3}}")}};
+constexpr std::array kBoxJenkinsArguments = {
+    kOneOutputData,
+    ArgumentEntry{"orders", ValueKind::kOrders,
+                  about("nb coefficients of B, nc and nd of C and D after the leading one, nf poles, nk samples of "
+                        "delay, 1 for no direct term; with several inputs nb, nf and nk are tables")}};
+
 /// The entry of an order vector that is one number for all inputs.
 int only_value(const std::vector<int>& entry, const OrderEntry& what) {
     if (entry.size() == 1) return entry.front();
-    throw InvalidArgument(
-        fmt::format("{} is one number of {} for all inputs, but {} were given", what.name, what.meaning, entry.size()));
+    throw InvalidArgument("{} is one number of {} for all inputs, but {} were given", what.name, what.meaning(),
+                          entry.size());
 }
 
 template <auto kMethod>
@@ -38,7 +69,7 @@ int estimate_equation_error(Call& call) {
     call.at_most(3);
     const IdData& data = object_argument<IdData>(call, 1, "data");
     const auto orders = order_lists(call, 2, kArxOrders);
-    const bool integration = Options(call, 3, {"Integration"}).flag("Integration", false);
+    const bool integration = Options(call, 3, kEquationError).flag("Integration", false);
     Fit result = kMethod(integration ? summed_inputs(data) : data,
                          PolynomialOrders::arx(only_value(orders[0], kDiscreteNa), orders[1], orders[2]));
     if (integration) append_integrator(result);
@@ -49,8 +80,9 @@ int estimate_equation_error(Call& call) {
 template <auto kMethod>
 int estimate_simulation(Call& call, const PolynomialOrders& orders) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    const Options options(call, 3, {"InitialState", "Offset", "MaxIter", "Tol", "Integration"});
-    return give_fit(call, call.function_name(), kMethod(data, orders, fit_options(options, Purpose::kModel)));
+    const Options options(call, 3, kDiscreteSimulation);
+    const FitOptions wanted = fit_options(options, Purpose::kModel);
+    return give_diagnosed_fit(call, call.function_name(), kMethod(data, orders, wanted), wanted);
 }
 
 template <auto kMethod>
@@ -67,8 +99,9 @@ int estimate_armax(Call& call) {
     const auto lists = order_lists(call, 2, kArmaxOrders);
     PolynomialOrders orders = PolynomialOrders::arx(only_value(lists[0], kDiscreteNa), lists[1], lists[3]);
     orders.nc = only_value(lists[2], kDiscreteNc);
-    const Options options(call, 3, {"MaxIter", "Tol", "Integration"});
-    return give_fit(call, "armax", armax(data, orders, fit_options(options, Purpose::kModel)));
+    const Options options(call, 3, kPredictionError);
+    const FitOptions wanted = fit_options(options, Purpose::kModel);
+    return give_diagnosed_fit(call, "armax", armax(data, orders, wanted), wanted);
 }
 
 int estimate_bj(Call& call) {
@@ -82,18 +115,24 @@ int estimate_bj(Call& call) {
 }
 
 constexpr FunctionEntry kDiscreteEstimatorsFunctions[] = {
-    {"arx", "discrete time", "arx(data, {na, nb, nk}, {Integration =}) -> G", "A y = B u + e by least squares",
-     guarded<estimate_equation_error<arx>>},
-    {"iv4", "discrete time", "iv4(data, {na, nb, nk}, {Integration =}) -> G",
-     "A y = B u + v by instrumental variables in four steps", guarded<memoized_call<estimate_equation_error<iv4>>>},
-    {"armax", "discrete time", "armax(data, {na, nb, nc, nk}, {MaxIter =, Tol =, Integration =}) -> G",
-     "A y = B u + C e with the smallest prediction error", guarded<memoized_call<estimate_armax>>},
-    {"oe", "discrete time", "oe(data, {nb, nf, nk}, {InitialState =, Offset =, Integration =, ...}) -> G",
-     "y = B/F u + e with the smallest simulation error", guarded<memoized_call<estimate_output_error<oe>>>},
-    {"sriv", "discrete time", "sriv(data, {nb, nf, nk}, {InitialState =, Offset =, Integration =, ...}) -> G",
-     "y = B/F u + e by refined instrumental variables", guarded<memoized_call<estimate_output_error<sriv>>>},
-    {"bj", "discrete time", "bj(data, {nb, nc, nd, nf, nk}, {InitialState =, Offset =, Integration =, ...}) -> G",
-     "y = B/F u + C/D e with the smallest prediction error", guarded<memoized_call<estimate_bj>>},
+    {"arx", "discrete time", "arx(data, {na, nb, nk}, {options}) -> G",
+     marked("estimator", "A y = B u + e by least squares"), guarded<estimate_equation_error<arx>>, kEquationError,
+     kEquationErrorArguments},
+    {"iv4", "discrete time", "iv4(data, {na, nb, nk}, {options}) -> G",
+     marked("estimator", "A y = B u + v by instrumental variables in four steps"),
+     guarded<memoized_call<estimate_equation_error<iv4>>>, kEquationError, kEquationErrorArguments},
+    {"armax", "discrete time", "armax(data, {na, nb, nc, nk}, {options}) -> G",
+     marked("estimator", "A y = B u + C e with the smallest prediction error"), guarded<memoized_call<estimate_armax>>,
+     kPredictionError, kArmaxArguments},
+    {"oe", "discrete time", "oe(data, {nb, nf, nk}, {options}) -> G",
+     marked("estimator", "y = B/F u + e with the smallest simulation error"),
+     guarded<memoized_call<estimate_output_error<oe>>>, kDiscreteSimulation, kDiscreteOutputErrorArguments},
+    {"sriv", "discrete time", "sriv(data, {nb, nf, nk}, {options}) -> G",
+     marked("estimator", "y = B/F u + e by refined instrumental variables"),
+     guarded<memoized_call<estimate_output_error<sriv>>>, kDiscreteSimulation, kDiscreteOutputErrorArguments},
+    {"bj", "discrete time", "bj(data, {nb, nc, nd, nf, nk}, {options}) -> G",
+     marked("estimator", "y = B/F u + C/D e with the smallest prediction error"), guarded<memoized_call<estimate_bj>>,
+     kDiscreteSimulation, kBoxJenkinsArguments},
 };
 
 }  // namespace

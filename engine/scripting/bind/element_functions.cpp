@@ -1,7 +1,6 @@
 #include <cmath>
 #include <optional>
 
-#include "numerics/number_text.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/model.h"
 #include "scripting/objects/traced_value.h"
@@ -20,13 +19,12 @@ int apply(Call& call) {
     call.at_most(1);
     if (const auto trace = trace_among(call)) {
         if (kTraced == kNotTraced)
-            throw InvalidArgument(
-                fmt::format("{} cannot be followed with a value that is not known yet", call.function_name()));
+            throw InvalidArgument("{} cannot be followed with a value that is not known yet", call.function_name());
         return give_traced_operation(call, trace, kTraced, 1);
     }
     const auto checked = [](double x) {
         if (kDomain == Domain::kFromZero && x < 0)
-            throw InvalidArgument(fmt::format("it is not defined for the negative number {:.6g}", x));
+            throw InvalidArgument("it is not defined for the negative number {}", significant(x, 6));
         return kFunction(x);
     };
     if (call.type(1) == LUA_TNUMBER) return call.give(checked(call.number(1, "x")));
@@ -69,8 +67,8 @@ double element_of(const Call& call, int index, Index i, Index size) {
     if (call.type(index) == LUA_TNUMBER) return call.number(index, "value");
     const VectorMap v = call.vector(index, index == 2 ? "a" : "b");
     if (v.size() != size)
-        throw InvalidArgument(
-            fmt::format("the mask has {}, but {} has {}", counted(size, "value"), index == 2 ? "a" : "b", v.size()));
+        throw InvalidArgument("the mask has {}, but {} has {}", plural(size, "{} value", "{} values"),
+                              index == 2 ? "a" : "b", v.size());
     return v[i];
 }
 

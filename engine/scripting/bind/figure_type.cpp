@@ -1,8 +1,9 @@
 #include <array>
 #include <cmath>
 
-#include "numerics/number_text.h"
+#include "base/number_text.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/conversions/localized.h"
 #include "scripting/conversions/table_fields.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/panel_options.h"
@@ -10,19 +11,36 @@
 namespace dynlab::inline scripting {
 namespace {
 
+constexpr std::array kPanelNumberOptions = {
+    OptionEntry{"panel", ValueKind::kCount, about("number of the panel"), {.initial = "1"}}};
+constexpr std::array kHandleOptions = {
+    OptionEntry{"x", ValueKind::kAny, about("position on the x axis: a number, or a function of the slider's number")},
+    OptionEntry{"x_slider", ValueKind::kText, about("name of the slider that moves x")},
+    OptionEntry{"y", ValueKind::kAny, about("position on the y axis: a number, or a function of the slider's number")},
+    OptionEntry{"y_slider", ValueKind::kText, about("name of the slider that moves y")},
+    OptionEntry{"text", ValueKind::kText, about("text beside the point")}};
+constexpr OptionTable kAddTables[] = {kCurveLookOptions, kPanelNumberOptions},
+                      kHandleTables[] = {kHandleOptions, kPanelNumberOptions},
+                      kSetTables[] = {kPanelOptions, kFigureSizeOptions, kPanelNumberOptions};
+
 Figure& figure_self(Call& call) {
     return object_argument<FigurePointer>(call, 1, "figure")->figure;
 }
 
 Panel& panel_of(Figure& figure, Index number) {
     if (number < 1 || number > static_cast<Index>(figure.panels.size()))
-        throw InvalidArgument(fmt::format("panel {} does not exist: the figure has {}", number, figure.panels.size()));
+        throw InvalidArgument("panel {} does not exist: the figure has {}", number, figure.panels.size());
     return figure.panels[static_cast<std::size_t>(number - 1)];
 }
 
 /// The panel that argument `index` numbers, the first one unless given.
 Panel& panel_argument(Call& call, int index) {
     return panel_of(figure_self(call), call.given(index) ? call.integer(index, "panel") : 1);
+}
+
+/// What an author wrote; empty where the argument is not given.
+Message given_label(const Call& call, int index, const char* what) {
+    return call.given(index) ? Message::verbatim(call.text(index, what)) : Message();
 }
 
 /// Methods give the figure back, so that they can be chained.
@@ -34,11 +52,11 @@ int give_self(Call& call) {
 /// fig:add(x, y, {label =, style =, panel =, ...})
 int add_curve(Call& call) {
     call.at_most(4);
-    const Options options(call, 4, {"label", "style", "colour", "dash", "line_width", "marker", "panel"});
+    const Options options(call, 4, kAddTables);
     Curve curve;
     curve.x = call.vector(2, "x");
     curve.y = call.vector(3, "y");
-    curve.label = options.text("label", "");
+    curve.label = Message::verbatim(options.text("label", ""));
     read_curve_look(options, curve);
     panel_of(figure_self(call), options.size("panel", 1)).curves.push_back(std::move(curve));
     figure_self(call).validate();
@@ -48,7 +66,7 @@ int add_curve(Call& call) {
 /// fig:mark(x, y, text, panel)
 int add_mark(Call& call) {
     call.at_most(5);
-    Annotation mark{call.number(2, "x"), call.number(3, "y"), call.given(4) ? call.text(4, "text") : "", true};
+    Annotation mark{call.number(2, "x"), call.number(3, "y"), given_label(call, 4, "text"), true};
     panel_argument(call, 5).annotations.push_back(std::move(mark));
     return give_self(call);
 }
@@ -71,8 +89,8 @@ double place_at(const Call& call, double number, const char* coordinate) {
     lua_pushnumber(L, number);
     lua_call(L, 1, 1);
     if (lua_type(L, -1) != LUA_TNUMBER)
-        throw InvalidArgument(fmt::format("the function '{}' of the handle must give a number, but for {} it gave {}",
-                                          coordinate, number_text(number), given_text(L, lua_gettop(L))));
+        throw InvalidArgument("the function '{}' of the handle must give a number, but for {} it gave {}", coordinate,
+                              number, given_value(L, lua_gettop(L)));
     const double place = lua_tonumber(L, -1);
     lua_pop(L, 1);
     return place;
@@ -84,12 +102,10 @@ const RecordedSlider& slider_of_handle(const Options& options, const std::string
     const auto found = sliders.find(name);
     if (found != sliders.end()) return found->second;
     if (name.empty())
-        throw InvalidArgument(
-            fmt::format("'{}' is a function: {} = \"NAME\" must say of which slider", coordinate, key));
+        throw InvalidArgument("'{}' is a function: {} = \"NAME\" must say of which slider", coordinate, key);
     throw InvalidArgument(
-        fmt::format("the script has not asked for a slider \"{}\" yet: slider(\"{}\", ...) must "
-                    "stand before the handle",
-                    name, name));
+        "the script has not asked for a slider \"{}\" yet: slider(\"{}\", ...) must stand before the handle", name,
+        name);
 }
 
 /// A coordinate of a handle: a number, or a function of the slider that is named beside it.
@@ -103,8 +119,8 @@ double handle_coordinate(const Options& options, const char* coordinate, bool ho
         const auto number = options.optional_number(coordinate);
         if (!number || options.has(key.c_str()))
             throw InvalidArgument(
-                fmt::format("a handle needs {} = number, or {} = function(number of the slider) and {} = \"NAME\"",
-                            coordinate, coordinate, key));
+                "a handle needs {} = number, or {} = function(number of the slider) and {} = \"NAME\"", coordinate,
+                coordinate, key);
         return *number;
     }
     const RecordedSlider& slider = slider_of_handle(options, coordinate);
@@ -116,9 +132,8 @@ double handle_coordinate(const Options& options, const char* coordinate, bool ho
     const Vector steps = scale.places.tail(kScaleNumbers - 1) - scale.places.head(kScaleNumbers - 1);
     if (!scale.places.allFinite() || !((steps.array() > 0).all() || (steps.array() < 0).all()))
         throw InvalidArgument(
-            fmt::format("the function '{}' of the handle must rise or fall all the way as the slider "
-                        "\"{}\" goes from {} to {}",
-                        coordinate, scale.slider, number_text(slider.from), number_text(slider.to)));
+            "the function '{}' of the handle must rise or fall all the way as the slider \"{}\" goes from {} to {}",
+            coordinate, scale.slider, slider.from, slider.to);
     handle.scales.push_back(std::move(scale));
     return here;
 }
@@ -126,11 +141,11 @@ double handle_coordinate(const Options& options, const char* coordinate, bool ho
 /// fig:handle{x = function or number, x_slider =, y =, y_slider =, text =, panel =}
 int add_handle(Call& call) {
     call.at_most(2);
-    const Options options(call, 2, {"x", "x_slider", "y", "y_slider", "text", "panel"});
+    const Options options(call, 2, kHandleTables);
     Annotation handle;
     handle.x = handle_coordinate(options, "x", true, handle);
     handle.y = handle_coordinate(options, "y", false, handle);
-    handle.text = options.text("text", "");
+    handle.text = Message::verbatim(options.text("text", ""));
     if (handle.scales.empty())
         throw InvalidArgument("a handle moves a slider: x or y must be a function of its number (fig:mark otherwise)");
     panel_of(figure_self(call), options.size("panel", 1)).annotations.push_back(std::move(handle));
@@ -141,8 +156,7 @@ int add_handle(Call& call) {
 template <bool kHorizontal>
 int add_reference(Call& call) {
     call.at_most(4);
-    const ReferenceLine line{kHorizontal, call.number(2, kHorizontal ? "y" : "x"),
-                             call.given(3) ? call.text(3, "label") : "", 1};
+    const ReferenceLine line{kHorizontal, call.number(2, kHorizontal ? "y" : "x"), given_label(call, 3, "label"), 1};
     panel_argument(call, 4).references.push_back(line);
     return give_self(call);
 }
@@ -150,12 +164,8 @@ int add_reference(Call& call) {
 /// fig:arrow(x0, y0, x1, y1, text, panel)
 int add_arrow(Call& call) {
     call.at_most(7);
-    const Arrow arrow{call.number(2, "x0"),
-                      call.number(3, "y0"),
-                      call.number(4, "x1"),
-                      call.number(5, "y1"),
-                      call.given(6) ? call.text(6, "text") : "",
-                      true};
+    const Arrow arrow{call.number(2, "x0"), call.number(3, "y0"),         call.number(4, "x1"),
+                      call.number(5, "y1"), given_label(call, 6, "text"), true};
     panel_argument(call, 7).arrows.push_back(arrow);
     return give_self(call);
 }
@@ -163,13 +173,10 @@ int add_arrow(Call& call) {
 /// fig:set{title =, xlabel =, ..., panel =}
 int set_options(Call& call) {
     call.at_most(2);
-    const Options options(call, 2,
-                          {"title", "xlabel", "ylabel", "x_range", "y_range", "x_log", "y_log", "equal_axes", "legend",
-                           "width", "height", "panel", "curves", "references", "annotations", "arrows"});
+    const Options options(call, 2, kSetTables);
     Figure& figure = figure_self(call);
     read_panel_options(call, options, panel_of(figure, options.size("panel", 1)));
-    figure.width_cm = options.number("width", figure.width_cm);
-    figure.height_cm = options.number("height", figure.height_cm);
+    options.read(figure);
     figure.validate();
     return give_self(call);
 }
@@ -178,14 +185,18 @@ int figure_to_text(Call& call) {
     const Figure& figure = figure_self(call);
     std::size_t curves = 0;
     for (const Panel& panel : figure.panels) curves += panel.curves.size();
-    return call.give(fmt::format("figure: {}, {}", counted(figure.panels.size(), "panel"), counted(curves, "curve")));
+    return call.give(localized(
+        call,
+        Message("figure: {}, {}", plural(static_cast<std::int64_t>(figure.panels.size()), "{} panel", "{} panels"),
+                plural(static_cast<std::int64_t>(curves), "{} curve", "{} curves"))));
 }
 
 int panel_count(Call& call) {
     return call.give_integer(static_cast<Index>(figure_self(call).panels.size()));
 }
 
-/// fig.curves: what is drawn, a table {panel =, label =, x =, y =} for each curve, with y_upper for a band.
+/// fig.curves: what is drawn, a table {panel =, label =, x =, y =} for each curve, with y_upper for a band. Labels are
+/// English, as scripts compare them.
 int list_of_curves(Call& call) {
     lua_State* L = call.state();
     const Figure& figure = figure_self(call);
@@ -193,7 +204,8 @@ int list_of_curves(Call& call) {
     lua_Integer place = 0;
     for (std::size_t i = 0; i < figure.panels.size(); ++i)
         for (const Curve& curve : figure.panels[i].curves) {
-            give_table(call, "panel", static_cast<Index>(i + 1), "label", curve.label, "x", curve.x, "y", curve.y);
+            give_table(call, "panel", static_cast<Index>(i + 1), "label", message_text(curve.label), "x", curve.x, "y",
+                       curve.y);
             if (curve.y_upper.size() > 0) set_field(call, "y_upper", curve.y_upper);
             lua_rawseti(L, -2, ++place);
         }

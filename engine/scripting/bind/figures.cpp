@@ -6,9 +6,9 @@
 #include "figures/gnuplot_renderer.h"
 #include "figures/gnuplot_script.h"
 #include "figures/plots/motion_plot.h"
-#include "numerics/number_text.h"
 #include "platform/atomic_file.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/conversions/localized.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/panel_options.h"
 #include "scripting/objects/rig_drawing.h"
@@ -16,6 +16,58 @@
 
 namespace dynlab::inline scripting {
 namespace {
+
+constexpr std::array kCurveLists = {
+    OptionEntry{"label", ValueKind::kAny, about("name of the curve in the legend, or a list with one for each curve")},
+    OptionEntry{"style",
+                ValueKind::kAny,
+                about("\"line\", \"points\", \"line_points\", \"stairs\", \"stems\" or \"bars\", for all curves or a "
+                      "list with one for each"),
+                {.initial = "\"line\"", .choices = kCurveStyles}},
+    OptionEntry{
+        "colour", ValueKind::kAny,
+        about(
+            "number in the palette, from 0 on, or a name such as \"red\", for all curves or a list with one for each")},
+    OptionEntry{
+        "dash", ValueKind::kVector,
+        about(
+            "dash pattern, for all curves or each: 0 solid, 1 dashed, 2 dotted, 3 dash-dot, 4 to 7 further patterns")},
+    OptionEntry{"marker", ValueKind::kVector,
+                about("shape of the points, for all curves or each: 0 dot, 1 square, 2 triangle, 3 diamond, 4 to 7 the "
+                      "same open, 8 cross, 9 plus, 10 asterisk")},
+    option<&Curve::line_width>("line_width", about("line width"), {.unit = "points"})};
+constexpr std::array kFigureGridOptions = {
+    OptionEntry{"panels", ValueKind::kTable, about("list of panels, each a table of the options of one panel")},
+    OptionEntry{"rows", ValueKind::kCount, about("number of rows of panels; by default as many as the panels need")},
+    OptionEntry{"columns", ValueKind::kCount, about("number of columns of panels"), {.initial = "1"}}};
+constexpr std::array kMotionOptions = {
+    OptionEntry{"rig", ValueKind::kText, about("name of the rig, such as \"crane\"")},
+    OptionEntry{"t", ValueKind::kVector, about("instants of the samples, increasing"), {.unit = "s"}},
+    OptionEntry{"measured", ValueKind::kTable, about("measured signals of the rig, a table with a vector for each")},
+    OptionEntry{"simulated", ValueKind::kTable, about("simulated signals of the rig, a table with a vector for each")},
+    option<&MotionLook::instants>(
+        "instants", about("instants of the pictures on paper; by default four, evenly spread"), {.unit = "s"}),
+    OptionEntry{"title", ValueKind::kText, about("text above the figure")},
+    option<&MotionLook::width_cm>("width", about("width of the figure"), {.unit = "cm"}),
+    option<&MotionLook::height_cm>("height", about("height of the figure; 0 for a height that follows from the panels"),
+                                   {.unit = "cm"})};
+constexpr OptionTable kPlotTables[] = {kPanelOptions, kCurveLists, kFigureSizeOptions},
+                      kFigureTables[] = {kPanelOptions, kFigureGridOptions, kFigureSizeOptions},
+                      kMotionTables[] = {kMotionOptions};
+
+constexpr std::array kCurvesArguments = {ArgumentEntry{
+    "x, y, \"name\", ...", ValueKind::kVector,
+    about("curves and their names for the legend; the name may be left out, and x, too, which then counts from 1")}};
+constexpr std::array kFigureNumberArguments = {
+    ArgumentEntry{"n", ValueKind::kCount, about("number of the next figure, instead of a description")}};
+constexpr std::array kSubplotArguments = {
+    ArgumentEntry{"rows", ValueKind::kCount, about("number of rows of panels")},
+    ArgumentEntry{"columns", ValueKind::kCount, about("number of columns of panels")},
+    ArgumentEntry{"{fig1, fig2, ...}", ValueKind::kAny, about("figures, row by row")}};
+constexpr std::array kSaveFigureArguments = {
+    ArgumentEntry{"fig", ValueKind::kAny, about("figure")},
+    ArgumentEntry{"path", ValueKind::kText,
+                  about("file ending in .pdf, .svg, .png or .gp, below the output folder or the script's folder")}};
 
 /// Options of plot that hold one value for all curves or one per curve.
 struct CurveLists {
@@ -35,8 +87,7 @@ std::vector<double> numbers(const Options& options, const char* name) {
 /// The number as an index into a list of looks.
 int place_of_look(double number, const char* name) {
     if (number < 0 || number != std::floor(number) || number > 1000)
-        throw InvalidArgument(
-            fmt::format("option '{}' must be a whole number from 0 on, but {} was given", name, number_text(number)));
+        refuse_option(name, Message("a whole number from 0 on"), Message("{}", number));
     return static_cast<int>(number);
 }
 
@@ -46,8 +97,8 @@ const T* value_for(const std::vector<T>& values, std::size_t i, std::size_t coun
     if (values.empty()) return nullptr;
     if (values.size() == 1) return &values.front();
     if (values.size() != count)
-        throw InvalidArgument(
-            fmt::format("option '{}' has {} for {}", name, counted(values.size(), "value"), counted(count, "curve")));
+        throw InvalidArgument("option '{}' has {} for {}", name, plural(values.size(), "{} value", "{} values"),
+                              plural(count, "{} curve", "{} curves"));
     return &values[i];
 }
 
@@ -55,17 +106,17 @@ void read_curve_lists(const Options& options, std::vector<Curve>& curves) {
     const CurveLists lists{options.texts("label"), options.texts("style"), numbers(options, "dash"),
                            numbers(options, "marker"), colours_of(options)};
     if (lists.labels.size() > curves.size())
-        throw InvalidArgument(fmt::format("option 'label' has {} for {}", counted(lists.labels.size(), "text"),
-                                          counted(curves.size(), "curve")));
+        throw InvalidArgument("option 'label' has {} for {}", plural(lists.labels.size(), "{} text", "{} texts"),
+                              plural(curves.size(), "{} curve", "{} curves"));
     for (std::size_t i = 0; i < curves.size(); ++i) {
         Curve& curve = curves[i];
-        if (i < lists.labels.size()) curve.label = with_marked_indices(lists.labels[i]);
+        if (i < lists.labels.size()) curve.label = Message::verbatim(with_marked_indices(lists.labels[i]));
         if (auto style = value_for(lists.styles, i, curves.size(), "style")) curve.style = parse_curve_style(*style);
         if (auto dash = value_for(lists.dashes, i, curves.size(), "dash")) curve.dash = place_of_look(*dash, "dash");
         if (auto marker = value_for(lists.markers, i, curves.size(), "marker"))
             curve.marker = place_of_look(*marker, "marker");
         if (auto colour = value_for(lists.colours, i, curves.size(), "colour")) curve.colour = *colour;
-        curve.line_width = options.number("line_width", curve.line_width);
+        options.read(curve);
     }
 }
 
@@ -79,17 +130,17 @@ bool is_line_specification(const std::string& text) {
 }
 
 std::string curve_name(const Call& call, int index) {
-    const std::string name = call.text(index, "name of the curve");
+    const std::string name = call.text(index, Message("name of the curve"));
     static constexpr std::array kProperties = {"LineWidth",  "LineStyle",   "Color",          "Marker",
                                                "MarkerSize", "DisplayName", "MarkerFaceColor"};
     if (std::find(kProperties.begin(), kProperties.end(), name) != kProperties.end())
         throw InvalidArgument(
-            fmt::format("\"{}\" is an option of MATLAB's plot; write the options as one table, "
-                        "plot(x, y, {{line_width = 2, colour = \"red\", style = \"points\"}})",
-                        name));
+            "\"{}\" is an option of MATLAB's plot; write the options as one table, plot(x, y, {line_width = 2, colour "
+            "= \"red\", style = \"points\"})",
+            name);
     if (is_line_specification(name))
-        throw InvalidArgument(fmt::format(
-            "a text names the curve; for the look \"{}\" write {{style = \"points\"}} or {{dash = 1}}", name));
+        throw InvalidArgument("a text names the curve; for the look \"{}\" write {style = \"points\"} or {dash = 1}",
+                              name);
     return name;
 }
 
@@ -103,7 +154,7 @@ std::vector<Curve> read_curves(const Call& call, int last) {
         curve.y = alone ? first : call.vector(i + 1, "y");
         curve.x = alone ? Vector(Vector::LinSpaced(first.size(), 1, static_cast<double>(first.size()))) : Vector(first);
         i += alone ? 1 : 2;
-        if (i <= last && call.type(i) == LUA_TSTRING) curve.label = curve_name(call, i++);
+        if (i <= last && call.type(i) == LUA_TSTRING) curve.label = Message::verbatim(curve_name(call, i++));
         curves.push_back(std::move(curve));
     }
     if (curves.empty())
@@ -137,17 +188,13 @@ int plot(Call& call) {
     const bool with_options = holds_options(call, call.count());
     Panel panel;
     panel.curves = read_curves(call, call.count() - (with_options ? 1 : 0));
-    const Options options(call, with_options ? call.count() : call.count() + 1,
-                          {"title",      "xlabel", "ylabel", "x_range",    "y_range",     "x_log",  "y_log",
-                           "equal_axes", "legend", "curves", "references", "annotations", "arrows", "label",
-                           "style",      "dash",   "marker", "colour",     "line_width",  "width",  "height"});
+    const Options options(call, with_options ? call.count() : call.count() + 1, kPlotTables);
     read_curve_lists(options, panel.curves);
     panel.log_x = kLogX;
     panel.log_y = kLogY;
     read_panel_options(call, options, panel);
     Figure figure(std::move(panel));
-    figure.width_cm = options.number("width", figure.width_cm);
-    figure.height_cm = options.number("height", figure.height_cm);
+    options.read(figure);
     figure.validate();  // x and y are of one length from here on
     note_left_out(call, figure.panels.front());
     return give_figure(call, std::move(figure));
@@ -180,19 +227,15 @@ int figure(Call& call) {
         call.context().recorder.set_next_figure_number(call.integer(1, "number"));
         return 0;
     }
-    const Options options(
-        call, 1,
-        {"title", "xlabel", "ylabel", "x_range", "y_range", "x_log", "y_log", "equal_axes", "legend", "curves",
-         "references", "annotations", "arrows", "panels", "rows", "columns", "width", "height"});
+    const Options options(call, 1, kFigureTables);
     Figure figure;
     figure.panels = described_panels(call, options);
     figure.columns = count_in_grid(options.size("columns", 1));
     const auto columns = static_cast<std::size_t>(std::max(figure.columns, 1));
     figure.rows =
         count_in_grid(options.size("rows", static_cast<Index>((figure.panels.size() + columns - 1) / columns)));
-    if (options.has("panels")) figure.title = options.text("title", "");
-    figure.width_cm = options.number("width", figure.width_cm);
-    figure.height_cm = options.number("height", figure.height_cm);
+    if (options.has("panels")) figure.title = Message::verbatim(options.text("title", ""));
+    options.read(figure);
     return give_figure(call, std::move(figure));
 }
 
@@ -207,8 +250,7 @@ int subplot(Call& call) {
     for (lua_Integer i = 1; lua_rawgeti(L, 3, i) != LUA_TNIL; lua_pop(L, 1), ++i) {
         const FigurePointer* part = to_object<FigurePointer>(L, -1);
         if (part == nullptr)
-            throw InvalidArgument(
-                fmt::format("entry {} of the list must be a figure, but it is {}", i, given_text(L, -1)));
+            throw InvalidArgument("entry {} of the list must be a figure, but it is {}", i, given_value(L, -1));
         (*part)->used = true;
         figure.panels.insert(figure.panels.end(), (*part)->figure.panels.begin(), (*part)->figure.panels.end());
     }
@@ -221,31 +263,30 @@ Matrix signals_of_parts(const Options& options, const char* name, const RigDrawi
     const Call& call = options.call();
     const int table = options.push(name);
     if (lua_type(call.state(), table) != LUA_TTABLE)
-        throw InvalidArgument(fmt::format("option '{}' must be a table such as {{{} = y}}, but it is {}", name,
-                                          rig.parts.front().signal, given_text(call.state(), table)));
+        throw InvalidArgument("option '{}' must be a table such as {{} = y}, but it is {}", name,
+                              rig.parts.front().signal, given_value(call.state(), table));
     Matrix signals(count, static_cast<Index>(rig.parts.size()));
     for (std::size_t k = 0; k < rig.parts.size(); ++k) {
         const RigPart& part = rig.parts[k];
         if (lua_getfield(call.state(), table, part.signal.c_str()) == LUA_TNIL)
-            throw InvalidArgument(
-                fmt::format("option '{}' lacks the {} ({}), which moves the rig", name, part.signal, part.unit));
+            throw InvalidArgument("option '{}' lacks the {} ({}), which moves the rig", name, part.signal, part.unit);
         const Call with_signal(call.state());  // it counts what stands on the stack now
         if (!with_signal.holds_vector(with_signal.count()))
-            throw InvalidArgument(fmt::format("the {} {} must be a vector, but it is {}", name, part.signal,
-                                              given_text(call.state(), with_signal.count())));
+            throw InvalidArgument("the {} {} must be a vector, but it is {}", name, part.signal,
+                                  given_value(call.state(), with_signal.count()));
         const VectorMap signal = with_signal.vector(with_signal.count(), part.signal.c_str());
         if (signal.size() != count)
-            throw InvalidArgument(fmt::format("the {} {} has {} for {}", name, part.signal,
-                                              counted(signal.size(), "value"), counted(count, "instant")));
+            throw InvalidArgument("the {} {} has {} for {}", name, part.signal,
+                                  plural(signal.size(), "{} value", "{} values"),
+                                  plural(count, "{} instant", "{} instants"));
         signals.col(static_cast<Index>(k)) = signal;
     }
     return signals;
 }
 
-/// motion{rig =, t =, measured = {...}, simulated = {...}, instants =, title =, width =, height =}
 int motion(Call& call) {
     call.at_most(1);
-    const Options options(call, 1, {"rig", "t", "measured", "simulated", "instants", "title", "width", "height"});
+    const Options options(call, 1, kMotionTables);
     if (call.context().options.graded) return give_figure(call, Figure(Panel()));  // there are no drawings, and no eyes
     const RigDrawing rig = rig_drawing(options.text("rig", ""));
     MotionRecord record;
@@ -253,9 +294,8 @@ int motion(Call& call) {
     record.measured = signals_of_parts(options, "measured", rig, record.t.size());
     record.simulated = signals_of_parts(options, "simulated", rig, record.t.size());
     MotionLook look;
-    if (options.has("instants")) look.instants = options.vector("instants");
-    look.title = options.text("title", "");
-    look.width_cm = options.number("width", look.width_cm), look.height_cm = options.number("height", look.height_cm);
+    options.read(look);
+    look.title = Message::verbatim(options.text("title", ""));
     return give_figure(call, motion_plot(rig, record, look));
 }
 
@@ -267,31 +307,34 @@ int save(Call& call) {
     ScriptFigure& figure = used_figure(call, 1, "figure");
     const std::filesystem::path file = output_path(call.context(), call.text(2, "path"));
     if (call.context().options.graded) return 0;
+    const Reader reader = reader_of(call);
     if (file.extension() == ".gp") {
         const std::string drawn = std::filesystem::path(file).replace_extension(".pdf").filename().string();
-        write_file_atomically(file, gnuplot_file(figure.figure, FigureFormat::kPdf, drawn));
+        write_file_atomically(file, gnuplot_file(figure.figure, FigureFormat::kPdf, drawn, reader));
         return 0;
     }
-    call.context().renderer.draw(figure.figure, file, figure_format(file));
+    call.context().renderer.draw(figure.figure, file, figure_format(file), reader);
     return 0;
 }
 
 constexpr FunctionEntry kFiguresFunctions[] = {
-    {"plot", "figures", "plot(x, y, \"name\", ..., {title =, xlabel =, ylabel =, style =, ...}) -> fig",
-     "draws curves in one panel", guarded<plot<false, false>>},
+    {"plot", "figures", "plot(x, y, \"name\", ..., {options}) -> fig", "draws curves in one panel",
+     guarded<plot<false, false>>, kPlotTables, kCurvesArguments},
     {"semilogx", "figures", "semilogx(x, y, \"name\", ..., {options}) -> fig", "the same with a logarithmic x axis",
-     guarded<plot<true, false>>},
+     guarded<plot<true, false>>, kPlotTables, kCurvesArguments},
     {"semilogy", "figures", "semilogy(x, y, \"name\", ..., {options}) -> fig", "the same with a logarithmic y axis",
-     guarded<plot<false, true>>},
+     guarded<plot<false, true>>, kPlotTables, kCurvesArguments},
     {"loglog", "figures", "loglog(x, y, \"name\", ..., {options}) -> fig", "the same with two logarithmic axes",
-     guarded<plot<true, true>>},
-    {"figure", "figures", "figure{...} -> fig; figure(n)",
-     "a figure from its description; or the number of the next figure", guarded<figure>},
+     guarded<plot<true, true>>, kPlotTables, kCurvesArguments},
+    {"figure", "figures", "figure{options} -> fig; figure(n)",
+     "a figure from its description; or the number of the next figure", guarded<figure>, kFigureTables,
+     kFigureNumberArguments},
     {"subplot", "figures", "subplot(rows, columns, {fig1, fig2, ...}) -> fig", "puts the panels of figures into one",
-     guarded<subplot>},
-    {"motion", "figures", "motion{rig =, t =, measured = {...}, simulated = {...}} -> fig",
-     "a rig that moves as its signals say: measured beside simulated", guarded<motion>},
-    {"save", "figures", "save(fig, path)", "writes a figure as .pdf, .svg or .png", guarded<save>},
+     guarded<subplot>, kNoOptions, kSubplotArguments},
+    {"motion", "figures", "motion{options} -> fig", "a rig that moves as its signals say: measured beside simulated",
+     guarded<motion>, kMotionTables},
+    {"save", "figures", "save(fig, path)", "writes a figure as .pdf, .svg or .png", guarded<save>, kNoOptions,
+     kSaveFigureArguments},
 };
 
 }  // namespace

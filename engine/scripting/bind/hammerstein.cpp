@@ -1,6 +1,10 @@
-
 #include "numerics/estimators/hammerstein.h"
+
+#include <array>
+
+#include "base/catalog.h"
 #include "scripting/arguments/estimator_arguments.h"
+#include "scripting/arguments/estimator_options.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/data_object.h"
@@ -9,23 +13,41 @@
 namespace dynlab::inline scripting {
 namespace {
 
+constexpr std::array kRestStates = {"none", "steady"};  // of InitialState
+constexpr std::array kCharacteristicOptions = {
+    option<&HammersteinOptions::bins>("Bins", about("number of equal bins between the smallest and the largest input"),
+                                      {.least = 1, .most = 1000, .member = "bins"}),
+    option<&HammersteinOptions::breakpoints>(
+        "Breakpoints", about("edges of the bins, such as the ends of a dead band, in place of equal bins"),
+        {.member = "breakpoints"}),
+    option<&HammersteinOptions::initial_state>(
+        "InitialState",
+        about("the state before the data begin: at rest with the first input value (\"steady\") or with "
+              "zero input (\"none\")"),
+        {.initial = "\"steady\"", .choices = kRestStates, .former = "zero", .member = "initial_state"})};
+constexpr OptionTable kHammerstein[] = {kCharacteristicOptions, kDelayOptions, kFixedDelayOptions, kLimitOptions};
+
+constexpr std::array kHammersteinArguments = {
+    ArgumentEntry{"data", ValueKind::kData,
+                  about("data object with one input, held between samples, and one output; any number of experiments")},
+    ArgumentEntry{"np", ValueKind::kCount, about("number of poles of the linear part")},
+    ArgumentEntry{"nz", ValueKind::kCount, about("number of zeros of the linear part")}};
+
 int estimate_hammerstein(Call& call) {
     call.at_most(4);
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    const Options options(
-        call, 4, {"Bins", "Breakpoints", "InitialState", "MaxIter", "Tol", "TdMin", "TdMax", "NumTd", "IODelay"});
+    const Options options(call, 4, kHammerstein);
     HammersteinOptions wanted;
     read_fit_options(options, wanted);
-    wanted.bins = static_cast<int>(options.size("Bins", wanted.bins));
-    if (options.has("Breakpoints")) wanted.breakpoints = options.vector("Breakpoints");
+    options.read(wanted);
     const TransferStructure structure = structure_of_counts(call, options, wanted)(data);
     return give_fit(call, "hammerstein", hammerstein(data, structure, wanted));
 }
 
 constexpr FunctionEntry kHammersteinFunctions[] = {
-    {"hammerstein", "continuous time",
-     "hammerstein(data, np, nz, {Bins =, Breakpoints =, TdMin =, TdMax =, IODelay =, ...}) -> G",
-     "a static characteristic by bins, then linear dynamics", guarded<memoized_call<estimate_hammerstein>>},
+    {"hammerstein", "continuous time", "hammerstein(data, np, nz, {options}) -> G",
+     marked("estimator", "a static characteristic by bins, then linear dynamics"),
+     guarded<memoized_call<estimate_hammerstein>>, kHammerstein, kHammersteinArguments},
 };
 
 }  // namespace

@@ -1,7 +1,6 @@
 
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/least_squares.h"
-#include "numerics/number_text.h"
 #include "numerics/signals/fourier.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/model.h"
@@ -15,9 +14,9 @@ MatrixMap square_matrix(Call& call) {
     call.at_most(1);
     const MatrixMap A = call.matrix(1, "A");
     if (A.rows() != A.cols())
-        throw InvalidArgument(
-            fmt::format("argument 1 (A) must be a square matrix, but it is {} x {}", A.rows(), A.cols()));
-    if (!A.allFinite()) throw InvalidArgument("argument 1 (A) must have finite elements");
+        throw InvalidArgument("{} must be a square matrix, but it is {} x {}", argument_label(1, "A"), A.rows(),
+                              A.cols());
+    if (!A.allFinite()) throw InvalidArgument("{} must have finite elements", argument_label(1, "A"));
     return A;
 }
 
@@ -34,8 +33,8 @@ int inverse(Call& call) {
     const MatrixMap A = square_matrix(call);
     const SquareSolution solution = solve_by_lu(A, Matrix::Identity(A.rows(), A.rows()));
     if (A.rows() > 0 && !(solution.reciprocal_condition > kSingular))
-        throw InvalidArgument("the matrix is singular to working precision (condition number " +
-                              number_text(1 / solution.reciprocal_condition, 2) + "), so it has no inverse");
+        throw InvalidArgument("the matrix is singular to working precision (condition number {}), so it has no inverse",
+                              significant(1 / solution.reciprocal_condition, 2));
     return call.give_matrix(solution.x);
 }
 
@@ -46,7 +45,7 @@ int determinant(Call& call) {
 
 int give_eigenvalues(Call& call) {
     const MatrixMap A = square_matrix(call);
-    if (A.rows() == 0) throw InvalidArgument("argument 1 (A) has no elements");
+    if (A.rows() == 0) throw InvalidArgument("{} has no elements", argument_label(1, "A"));
     if (A == A.transpose()) return call.give_vector(symmetric_eigenvalues(A));
     push_object(call.state(), eigenvalues(A));
     return 1;

@@ -11,14 +11,15 @@ namespace {
 
 NumericBlock& matrix_self(Call& call) {
     NumericBlock* A = to_matrix(call.state(), 1);
-    if (A == nullptr) wrong_argument(call.state(), 1, "A", "matrix; methods are called with a colon, A:name(...)");
+    if (A == nullptr)
+        wrong_argument(call.state(), 1, "A", Message("a matrix; methods are called with a colon, A:name(...)"));
     return *A;
 }
 
 Index index_argument(Call& call, int index, const char* what, Index size) {
     const Index value = call.integer(index, what);
     if (value < 1 || value > size)
-        throw InvalidArgument(fmt::format("{} {} does not exist: {}", what, value, numbered_from_one(size)));
+        throw InvalidArgument("{} {} does not exist: {}", what, value, numbered_from_one(size));
     return value - 1;
 }
 
@@ -74,9 +75,8 @@ int read_matrix_element(Call& call) {
     lua_State* L = call.state();
     if (call.type(2) != LUA_TTABLE || lua_rawlen(L, 2) != 2)
         throw InvalidArgument(
-            fmt::format("an element of a matrix is A[{{i, j}}], a row A:row(i), a column A:col(j), but {} was given in "
-                        "the brackets",
-                        given_text(L, 2)));
+            "an element of a matrix is A[{i, j}], a row A:row(i), a column A:col(j), but {} was given in the brackets",
+            given_value(L, 2));
     lua_rawgeti(L, 2, 1);
     lua_rawgeti(L, 2, 2);
     lua_remove(L, 2);

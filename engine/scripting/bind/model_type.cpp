@@ -5,8 +5,8 @@
 #include <span>
 
 #include "scripting/bind/bindings.h"
+#include "scripting/conversions/localized.h"
 #include "scripting/conversions/table_fields.h"
-#include "scripting/conversions/told_sentences.h"
 #include "scripting/objects/fit_model.h"
 #include "scripting/objects/present.h"
 #include "scripting/objects/process_structure.h"
@@ -28,7 +28,7 @@ const Estimate& estimate_in(const Model& model) {
 /// The transfer function of a model with one channel.
 const TransferFunction& only_channel(const Model& model) {
     if (model.single_channel()) return model.G;
-    throw InvalidArgument("this field is one channel's, and the model has several channels: " + channels_hint(model));
+    throw InvalidArgument("this field is one channel's, and the model has several channels: {}", channels_hint(model));
 }
 Vector numerator_of(const Model& model) {
     return only_channel(model).num();
@@ -91,8 +91,8 @@ int field_channels(Call& call) {
 int field_history(Call& call) {
     const Estimate& estimate = estimate_in(model_self(call));
     if (!estimate.history)
-        throw InvalidArgument(
-            fmt::format("{} looks at all samples at once; rlssvf, rivsvf and rsrivc give a history", estimate.method));
+        throw InvalidArgument("{} looks at all samples at once; rlssvf, rivsvf and rsrivc give a history",
+                              estimate.method);
     return give_table(call, "t", estimate.history->t, "theta", estimate.history->theta, "std", estimate.history->std,
                       "names", estimate.names);
 }
@@ -101,13 +101,13 @@ double noise_variance_of(const Model& model) {
     const Estimate& estimate = estimate_in(model);
     for (const auto& [name, value] : estimate.numbers)
         if (name == "noise_variance") return value;
-    throw InvalidArgument(fmt::format("{} tells no variance of the noise", estimate.method));
+    throw InvalidArgument("{} tells no variance of the noise", estimate.method);
 }
 
-const Assessment& assessment_of(const Model& model) {
+std::shared_ptr<const Assessment> assessment_of(const Model& model) {
     const Estimate& estimate = estimate_in(model);
-    if (estimate.doubts.assessment) return *estimate.doubts.assessment;
-    throw InvalidArgument(fmt::format("{} gives no robust standard errors", estimate.method));
+    if (auto assessment = estimate.diagnostics.assessment()) return assessment;
+    throw InvalidArgument("{} gives no robust standard errors", estimate.method);
 }
 
 int field_report(Call& call) {
@@ -121,8 +121,7 @@ int field_parameter(Call& call) {
     const ModelParameters parameters = parameters_of(model_self(call));
     for (std::size_t i = 0; i < parameters.names.size(); ++i)
         if (parameters.names[i] == name) return call.give(parameters.values[static_cast<Index>(i)]);
-    throw InvalidArgument(fmt::format("this model has no parameter of that name; its parameters are {}",
-                                      fmt::join(parameters.names, ", ")));
+    throw InvalidArgument("this model has no parameter of that name; its parameters are {}", listed(parameters.names));
 }
 
 /// A matrix of a state-space model, or what the letter stands for in any other.
@@ -144,7 +143,8 @@ int field_D(Call& call) {
 
 template <TransferFunction (*kOperator)(const TransferFunction&, const TransferFunction&)>
 int combine(Call& call) {
-    return give_model(call, kOperator(model_argument(call, 1, "left side").G, model_argument(call, 2, "right side").G));
+    return give_model(call, kOperator(model_argument(call, 1, Message("left side")).G,
+                                      model_argument(call, 2, Message("right side")).G));
 }
 TransferFunction plus(const TransferFunction& a, const TransferFunction& b) {
     return a + b;
@@ -176,8 +176,8 @@ constexpr std::array kModelTypeFields = {
     Member{"std", field<Model, [](const Model& model) { return estimate_in(model).std; }>},
     Member{"covariance", field<Model, [](const Model& model) { return estimate_in(model).covariance; }>},
     Member{"noise_variance", field<Model, noise_variance_of>},
-    Member{"robust_std", field<Model, [](const Model& model) { return assessment_of(model).std; }>},
-    Member{"robust_covariance", field<Model, [](const Model& model) { return assessment_of(model).covariance; }>},
+    Member{"robust_std", field<Model, [](const Model& model) { return assessment_of(model)->std; }>},
+    Member{"robust_covariance", field<Model, [](const Model& model) { return assessment_of(model)->covariance; }>},
     Member{"names", field<Model, [](const Model& model) { return parameters_of(model).names; }>},
     Member{"report", guarded<field_report>},
     Member{"history", guarded<field_history>},
@@ -201,10 +201,13 @@ constexpr std::array kModelTypeFields = {
     Member{"channels", guarded<field_channels>},
 };
 constexpr std::array kModelTypeOperators = {
-    Member{"__add", guarded<combine<plus>>},           Member{"__sub", guarded<combine<minus>>},
-    Member{"__mul", guarded<combine<times>>},          Member{"__div", guarded<combine<over>>},
-    Member{"__pow", guarded<raise_to_power>},          Member{"__unm", guarded<negate>},
-    Member{"__tostring", field<Model, channels_text>},
+    Member{"__add", guarded<combine<plus>>},
+    Member{"__sub", guarded<combine<minus>>},
+    Member{"__mul", guarded<combine<times>>},
+    Member{"__div", guarded<combine<over>>},
+    Member{"__pow", guarded<raise_to_power>},
+    Member{"__unm", guarded<negate>},
+    Member{"__tostring", localized_field<Model, channels_text>},
 };
 
 std::string system_text(const StateSpace& s) {
@@ -228,8 +231,7 @@ int field_free_parameter(Call& call) {
     const auto names = object_argument<ProcessStructure>(call, 1, "structure").parameter_names();
     if (std::find(names.begin(), names.end(), call.function_name()) != names.end())
         return call.give(std::numeric_limits<double>::quiet_NaN());
-    throw InvalidArgument(
-        fmt::format("this structure has no parameter of that name; its parameters are {}", fmt::join(names, ", ")));
+    throw InvalidArgument("this structure has no parameter of that name; its parameters are {}", listed(names));
 }
 
 constexpr lua_CFunction kFreeParameter = guarded<field_free_parameter>;

@@ -1,10 +1,12 @@
 #include <algorithm>
+#include <array>
 
 #include "numerics/models/convert.h"
 #include "numerics/simulation/stability_margins.h"
+#include "scripting/arguments/simulation_options.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/conversions/localized.h"
 #include "scripting/conversions/numeric.h"
-#include "scripting/conversions/told_sentences.h"
 #include "scripting/objects/grey_object.h"
 #include "scripting/objects/model.h"
 #include "scripting/objects/present.h"
@@ -13,6 +15,61 @@
 
 namespace dynlab::inline scripting {
 namespace {
+
+constexpr OptionEntry kModelPeriod = {
+    "Ts", ValueKind::kNumber, about("sampling time; by default continuous time"), {.unit = "s"}};
+constexpr OptionEntry kTfOptions[] = {kModelPeriod,
+                                      {"IODelay",
+                                       ValueKind::kNumber,
+                                       about("delay; in discrete time a multiple of `Ts`"),
+                                       {.initial = "0", .unit = "s"}}};
+constexpr OptionEntry kIdprocOptions[] = {
+    {"Kp", ValueKind::kNumber, about("gain")},
+    {"Tp1", ValueKind::kNumber, about("first time constant"), {.unit = "s"}},
+    {"Tp2", ValueKind::kNumber, about("second time constant"), {.unit = "s"}},
+    {"Tp3", ValueKind::kNumber, about("third time constant"), {.unit = "s"}},
+    {"Tw", ValueKind::kNumber, about("1/w0 of an under-damped pair (U)"), {.unit = "s"}},
+    {"Zeta", ValueKind::kNumber, about("damping ratio of that pair")},
+    {"Tz", ValueKind::kNumber, about("time constant of the zero (Z)"), {.unit = "s"}},
+    {"Td", ValueKind::kNumber, about("delay (D)"), {.unit = "s"}}};
+constexpr std::array kSsOptions = {kModelPeriod};
+constexpr OptionTable kTfTables[] = {kTfOptions}, kIdprocTables[] = {kIdprocOptions}, kSsTables[] = {kSsOptions};
+
+constexpr std::array kModelAlone = {kModelArgument};
+constexpr ArgumentEntry kTfArguments[] = {
+    {"num", ValueKind::kVector,
+     about("coefficients of the numerator, highest power first; alone, a struct that `save_mat` or "
+           "`save_json` wrote of a model")},
+    {"den", ValueKind::kVector, about("coefficients of the denominator, highest power first")}};
+constexpr ArgumentEntry kIdprocArguments[] = {
+    {"structure", ValueKind::kProcess, about("name of the structure, such as \"P1\", \"P2U\", \"P1D\" or \"P2DU\"")}};
+constexpr ArgumentEntry kSsArguments[] = {
+    {"A", ValueKind::kAny, about("n x n matrix")},
+    {"B", ValueKind::kAny, about("n x inputs matrix")},
+    {"C", ValueKind::kAny, about("outputs x n matrix")},
+    {"D", ValueKind::kAny, about("outputs x inputs matrix")},
+    {"G", ValueKind::kModel, about("instead of the matrices, a transfer function")}};
+constexpr ArgumentEntry kEqualTimes = {"G1, G2", ValueKind::kModel, about("models with equal sampling times")},
+                        kEqualDelays = {"G1, G2", ValueKind::kModel,
+                                        about("models with equal sampling times, and in continuous time equal delays")};
+constexpr std::array kSeriesArguments = {kEqualTimes}, kParallelArguments = {kEqualDelays};
+constexpr ArgumentEntry kFeedbackArguments[] = {
+    {"forward, backward", ValueKind::kModel,
+     about("models; a number is a gain, and delays of discrete models become poles at zero")},
+    {"sign", ValueKind::kNumber, about("-1 (negative feedback, the default) or 1")}};
+constexpr ArgumentEntry kPadeArguments[] = {
+    {"G", ValueKind::kModel, about("model; the delay of a discrete one becomes poles at zero, exactly")},
+    {"n", ValueKind::kCount, about("number of poles, 1 to 10")}};
+constexpr ArgumentEntry kConversion = {"method", ValueKind::kChoice,
+                                       about("\"zoh\" (the default), \"foh\" or \"tustin\"")};
+constexpr ArgumentEntry kDiscreteArguments[] = {
+    {"G", ValueKind::kModel, about("transfer function or state-space system in continuous time")},
+    {"Ts", ValueKind::kNumber, about("sampling time in seconds")},
+    kConversion};
+constexpr ArgumentEntry kContinuousArguments[] = {{"Gd", ValueKind::kModel, about("discrete transfer function")},
+                                                  kConversion};
+constexpr ArgumentEntry kPresentArguments[] = {{"G, ...", ValueKind::kModel, about("one or several models")}};
+constexpr ArgumentEntry kLoopArguments[] = {{"G", ValueKind::kModel, about("the open loop, a model")}};
 
 /// Pushes a field of a struct, which may be one that load() gave: these refuse names they have not.
 int push_field(lua_State* L, int index, const char* name) {
@@ -24,7 +81,7 @@ int push_field(lua_State* L, int index, const char* name) {
 Vector coefficients_of_field(const Call& call, int index, const char* name) {
     lua_State* L = call.state();
     if (push_field(L, index, name) == LUA_TTABLE)
-        make_vector_of_table(L, lua_gettop(L), fmt::format("the field {} of a model's struct", name));
+        make_vector_of_table(L, lua_gettop(L), Message("the field {} of a model's struct", name));
     NumericBlock* block = to_vector(L, -1) != nullptr ? to_vector(L, -1) : to_matrix(L, -1);
     Vector values;
     if (lua_type(L, -1) == LUA_TNUMBER)
@@ -32,8 +89,8 @@ Vector coefficients_of_field(const Call& call, int index, const char* name) {
     else if (block != nullptr && std::min(block->rows, block->columns) == 1)
         values = Eigen::Map<const Vector>(block->data(), block->rows * block->columns);
     else
-        throw InvalidArgument(fmt::format("the field {} of a model's struct must be a vector, but it is {}", name,
-                                          given_text(L, lua_gettop(L))));
+        throw InvalidArgument("the field {} of a model's struct must be a vector, but it is {}", name,
+                              given_value(L, lua_gettop(L)));
     lua_pop(L, 1);
     return values;
 }
@@ -42,8 +99,8 @@ double number_of_field(const Call& call, int index, const char* name) {
     lua_State* L = call.state();
     const int type = push_field(L, index, name);
     if (type != LUA_TNIL && type != LUA_TNUMBER)
-        throw InvalidArgument(fmt::format("the field {} of a model's struct must be a number, but it is {}", name,
-                                          given_text(L, lua_gettop(L))));
+        throw InvalidArgument("the field {} of a model's struct must be a number, but it is {}", name,
+                              given_value(L, lua_gettop(L)));
     const double value = type == LUA_TNIL ? 0 : lua_tonumber(L, -1);
     lua_pop(L, 1);
     return value;
@@ -60,7 +117,7 @@ bool holds_model_struct(const Call& call) {
     return both;
 }
 
-/// tf("s"), tf("z", Ts), tf(struct), tf(num, den, {Ts =, IODelay =}), tf(num, den, Ts, {IODelay =}), tf(system)
+/// tf("s"), tf("z", Ts), tf(struct), tf(num, den, {...}), tf(num, den, Ts, {...}), tf(system)
 int make_tf(Call& call) {
     call.at_most(call.type(3) == LUA_TNUMBER ? 4 : 3);
     if (call.type(1) == LUA_TSTRING) {
@@ -77,8 +134,8 @@ int make_tf(Call& call) {
             call, TransferFunction(num, den, number_of_field(call, 1, "Ts"), number_of_field(call, 1, "IODelay")));
     }
     const bool sampled = call.type(3) == LUA_TNUMBER;  // tf(num, den, Ts)
-    const Options options(call, sampled ? 4 : 3, {"Ts", "IODelay"});
-    auto coefficients = [&](int index, const char* what) {
+    const Options options(call, sampled ? 4 : 3, kTfTables);
+    auto coefficients = [&](int index, ArgumentName what) {
         return call.type(index) == LUA_TNUMBER ? Vector(Vector::Constant(1, call.number(index, what)))
                                                : Vector(call.vector(index, what));
     };
@@ -94,14 +151,14 @@ int make_idproc(Call& call) {
         push_object(call.state(), ProcessStructure(structure));
         return 1;
     }
-    const Options options(call, 2, {"Kp", "Tp1", "Tp2", "Tp3", "Tw", "Zeta", "Tz", "Td"});
+    const Options options(call, 2, kIdprocTables);
     const std::vector<std::string> names = structure.parameter_names();
     Vector parameters(static_cast<Index>(names.size()));
     for (std::size_t i = 0; i < names.size(); ++i) {
         const auto value = options.optional_number(names[i].c_str());
         if (!value)
-            throw InvalidArgument(fmt::format("the structure {} needs the parameters {}; {} is missing",
-                                              structure.text(), fmt::join(names, ", "), names[i]));
+            throw InvalidArgument("the structure {} needs the parameters {}; {} is missing", structure.text(),
+                                  listed(names), names[i]);
         parameters[static_cast<Index>(i)] = *value;
     }
     const ProcessModel process(structure, parameters);
@@ -121,7 +178,7 @@ int make_ss(Call& call) {
         push_object(call.state(), to_state_space(with_rational_delay("ss", model_argument(call, 1, "G").G)));
         return 1;
     }
-    const Options options(call, 5, {"Ts"});
+    const Options options(call, 5, kSsTables);
     push_object(call.state(), StateSpace(call.matrix(1, "A"), call.matrix(2, "B"), call.matrix(3, "C"),
                                          call.matrix(4, "D"), options.number("Ts", 0)));
     return 1;
@@ -139,7 +196,7 @@ int connect_feedback(Call& call) {
     call.at_most(3);
     const Index sign = call.given(3) ? call.integer(3, "sign") : -1;
     if (sign != 1 && sign != -1) throw InvalidArgument("the sign is -1 (negative feedback) or 1 (positive feedback)");
-    const auto part = [&](int index, const char* what) {
+    const auto part = [&](int index, ArgumentName what) {
         return with_rational_delay("feedback", model_argument(call, index, what).G);
     };
     return give_model(call, feedback(part(1, "forward"), part(2, "backward"), static_cast<int>(sign)));
@@ -154,7 +211,7 @@ Discretisation method_argument(const Call& call, int index) {
     if (name == "zoh") return Discretisation::kZoh;
     if (name == "foh") return Discretisation::kFoh;
     if (name == "tustin") return Discretisation::kTustin;
-    throw InvalidArgument(fmt::format("the method is \"zoh\", \"foh\" or \"tustin\", but \"{}\" was given", name));
+    throw InvalidArgument("the method is \"zoh\", \"foh\" or \"tustin\", but \"{}\" was given", name);
 }
 
 int to_discrete(Call& call) {
@@ -220,48 +277,104 @@ int damp(Call& call) {
 }
 
 int present(Call& call) {
-    if (call.count() == 0) wrong_argument(call.state(), 1, "G", "model");
+    if (call.count() == 0) wrong_argument(call.state(), 1, "G", with_article("model"));
     for (int i = 1; i <= call.count(); ++i) {
         if (const GreyEstimate* grey = to_object<GreyEstimate>(call.state(), i)) {
-            call.print(told(call, grey_presentation(**grey)));
+            call.print(grey_presentation(**grey, reader_of(call)));
             continue;
         }
         if (const SimulatedModel* simulated = simulated_model(call, i)) {
-            call.print(told(call, presentation(*simulated)));
+            call.print(presentation(*simulated, reader_of(call)));
             continue;
         }
         const Model* model = to_object<Model>(call.state(), i);
-        call.print(told(call, presentation(model != nullptr ? *model : model_argument(call, i, "G"))));
+        call.print(presentation(model != nullptr ? *model : model_argument(call, i, "G"), reader_of(call)));
     }
     return 0;
 }
 
 constexpr FunctionEntry kModelsFunctions[] = {
-    {"tf", "models", "tf(num, den, {Ts =, IODelay =}) -> G; tf(\"s\"); tf(\"z\", Ts)",
-     "a transfer function, or its variable to write one with", guarded<make_tf>},
-    {"idproc", "models", "idproc(\"P1D\", {Kp =, Tp1 =, Td =}) -> G; idproc(\"P1D\")",
-     "a process model from its gain, time constants and delay, or its structure", guarded<make_idproc>},
-    {"ss", "models", "ss(A, B, C, D, {Ts =}) -> system; ss(G)", "a state-space model", guarded<make_ss>},
-    {"series", "models", "series(G1, G2) -> G", "one behind the other", guarded<connect_series>},
-    {"parallel", "models", "parallel(G1, G2) -> G", "side by side, outputs added", guarded<connect_parallel>},
-    {"feedback", "models", "feedback(forward, backward, sign) -> G",
-     "a closed loop, negative feedback unless sign is 1", guarded<connect_feedback>},
-    {"pade", "models", "pade(G, n) -> G", "the delay replaced by an approximation of n poles", guarded<replace_delay>},
-    {"c2d", "models", "c2d(G, Ts, \"zoh\" | \"foh\" | \"tustin\") -> Gd",
-     "discrete-time equal of a continuous-time model", guarded<to_discrete>},
-    {"d2c", "models", "d2c(Gd, \"zoh\" | \"foh\" | \"tustin\") -> G", "continuous-time equal of a discrete-time model",
-     guarded<to_continuous>},
-    {"pole", "models", "pole(G) -> complex vector", "poles", guarded<poles>},
-    {"zero", "models", "zero(G) -> complex vector", "zeros", guarded<zeros_of>},
-    {"dcgain", "models", "dcgain(G) -> K", "steady-state gain", guarded<dc_gain>},
-    {"damp", "models", "damp(G) -> wn, zeta, T", "natural frequency, damping ratio and time constant of every pole",
-     guarded<damp>},
-    {"bandwidth", "models", "bandwidth(G) -> w", "frequency (rad/s) at which the gain is 3 dB below its dc value",
-     guarded<bandwidth_of>},
-    {"stable", "models", "stable(G) -> true or false", "whether all poles are stable", guarded<stable>},
-    {"margin", "models", "margin(G) -> Gm, Pm, Wcg, Wcp, Dm", "gain, phase and delay margin of the loop that G closes",
-     guarded<margins>},
-    {"present", "models", "present(G, ...)", "prints all that is known of models", guarded<present>},
+    {"tf", "models", "tf(num, den, {options}) -> G; tf(\"s\"); tf(\"z\", Ts)",
+     "a transfer function, or its variable to write one with", guarded<make_tf>, kTfTables, kTfArguments},
+    {"idproc", "models", "idproc(\"P1D\", {options}) -> G; idproc(\"P1D\")",
+     "a process model from its gain, time constants and delay, or its structure", guarded<make_idproc>, kIdprocTables,
+     kIdprocArguments},
+    {"ss", "models", "ss(A, B, C, D, {options}) -> system; ss(G)", "a state-space model", guarded<make_ss>, kSsTables,
+     kSsArguments},
+    {"series", "models", "series(G1, G2) -> G", "one behind the other", guarded<connect_series>, {}, kSeriesArguments},
+    {"parallel",
+     "models",
+     "parallel(G1, G2) -> G",
+     "side by side, outputs added",
+     guarded<connect_parallel>,
+     {},
+     kParallelArguments},
+    {"feedback",
+     "models",
+     "feedback(forward, backward, sign) -> G",
+     "a closed loop, negative feedback unless sign is 1",
+     guarded<connect_feedback>,
+     {},
+     kFeedbackArguments},
+    {"pade",
+     "models",
+     "pade(G, n) -> G",
+     "the delay replaced by an approximation of n poles",
+     guarded<replace_delay>,
+     {},
+     kPadeArguments},
+    {"c2d",
+     "models",
+     "c2d(G, Ts, \"zoh\" | \"foh\" | \"tustin\") -> Gd",
+     "discrete-time equal of a continuous-time model",
+     guarded<to_discrete>,
+     {},
+     kDiscreteArguments},
+    {"d2c",
+     "models",
+     "d2c(Gd, \"zoh\" | \"foh\" | \"tustin\") -> G",
+     "continuous-time equal of a discrete-time model",
+     guarded<to_continuous>,
+     {},
+     kContinuousArguments},
+    {"pole", "models", "pole(G) -> complex vector", "poles", guarded<poles>, {}, kModelAlone},
+    {"zero", "models", "zero(G) -> complex vector", "zeros", guarded<zeros_of>, {}, kModelAlone},
+    {"dcgain", "models", "dcgain(G) -> K", "steady-state gain", guarded<dc_gain>, {}, kModelAlone},
+    {"damp",
+     "models",
+     "damp(G) -> wn, zeta, T",
+     "natural frequency, damping ratio and time constant of every pole",
+     guarded<damp>,
+     {},
+     kModelAlone},
+    {"bandwidth",
+     "models",
+     "bandwidth(G) -> w",
+     "frequency (rad/s) at which the gain is 3 dB below its dc value",
+     guarded<bandwidth_of>,
+     {},
+     kModelAlone},
+    {"stable",
+     "models",
+     "stable(G) -> true or false",
+     "whether all poles are stable",
+     guarded<stable>,
+     {},
+     kModelAlone},
+    {"margin",
+     "models",
+     "margin(G) -> Gm, Pm, Wcg, Wcp, Dm",
+     "gain, phase and delay margin of the loop that G closes",
+     guarded<margins>,
+     {},
+     kLoopArguments},
+    {"present",
+     "models",
+     "present(G, ...)",
+     "prints all that is known of models",
+     guarded<present>,
+     {},
+     kPresentArguments},
 };
 
 }  // namespace

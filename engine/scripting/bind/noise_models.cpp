@@ -1,7 +1,9 @@
 #include <array>
 
+#include "base/catalog.h"
 #include "numerics/estimators/rivc.h"
 #include "scripting/arguments/estimator_arguments.h"
+#include "scripting/arguments/estimator_options.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/bind/estimation_readers.h"
 #include "scripting/memoized_calls/memoized_call.h"
@@ -11,57 +13,73 @@
 namespace dynlab::inline scripting {
 namespace {
 
-constexpr OrderEntry kNc{"nc", "coefficients of C after the leading one"};
-constexpr OrderEntry kNd{"nd", "coefficients of D after the leading one"};
+constexpr OrderEntry kNc{"nc", [] { return Message("coefficients of C after the leading one"); }};
+constexpr OrderEntry kNd{"nd", [] { return Message("coefficients of D after the leading one"); }};
 constexpr std::array kNoiseModelOrders = {kNb, kNc, kNd, kNf, kNk};
+
+constexpr std::array kNoiseSearchOptions = {kStableOption, kFixedOption};
+constexpr std::array kNoiseOrderOptions = {
+    option<&NoiseOrders::nc>("nc", about("number of coefficients of C after the leading one")),
+    option<&NoiseOrders::nd>("nd", about("number of coefficients of D after the leading one"), {.initial = "1"})};
+constexpr OptionTable kNoisy[] = {kFirstFilterOptions, kStartOptions,   kLimitOptions,
+                                  kIntegrationOptions, kSharingOptions, kNoiseSearchOptions};
+constexpr OptionTable kNoisyTransferFunction[] = {kNoiseOrderOptions,  kDelayOptions,   kFixedDelayOptions,
+                                                  kFirstFilterOptions, kStartOptions,   kLimitOptions,
+                                                  kIntegrationOptions, kSharingOptions, kNoiseSearchOptions};
+
+constexpr std::array kNoisyArguments = {
+    kOneOutputData,
+    ArgumentEntry{
+        "orders", ValueKind::kOrders,
+        about("nb coefficients of B (at most nf + 1), nc and nd of C and D after the leading one, nf poles, nk "
+              "samples of delay; with several inputs nb, nf and nk are tables")}};
+constexpr std::array kNoisyTransferArguments = {kOneOutputData, kPoleCount, kZeroCount};
 
 int noise_order(const std::vector<int>& entry, const OrderEntry& what) {
     if (entry.size() == 1) return entry.front();
-    throw InvalidArgument(
-        fmt::format("{} is one number for the noise of the output, but {} were given", what.name, entry.size()));
+    throw InvalidArgument("{} is one number for the noise of the output, but {} were given", what.name, entry.size());
 }
 
-Estimation noisy_estimation(const StructureMaker& structure, const NoiseOrders& noise, const FitOptions& wanted) {
-    return [=](const IdData& data) { return rivc(data, structure(data), noise, wanted); };
+OptionedEstimation noisy_estimation(const StructureMaker& structure, const NoiseOrders& noise,
+                                    const FitOptions& wanted) {
+    return {[=](const IdData& data) { return rivc(data, structure(data), noise, wanted); }, wanted};
 }
 
-Estimation read_rivc(const Call& call, Purpose purpose) {
+OptionedEstimation read_rivc(const Call& call, Purpose purpose) {
     call.at_most(3);
     const auto orders = order_lists(call, 2, kNoiseModelOrders);
-    const Options options(call, 3,
-                          {"lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol", "CommonDenominator",
-                           "Integration", "Stable", "Fixed"});
+    const Options options(call, 3, kNoisy);
     return noisy_estimation(structure_of_orders(kNoiseModelOrders, orders, sharing_of(options)),
                             {noise_order(orders[1], kNc), noise_order(orders[2], kNd)}, fit_options(options, purpose));
 }
 
-Estimation read_tfrivc(const Call& call, Purpose purpose) {
+OptionedEstimation read_tfrivc(const Call& call, Purpose purpose) {
     call.at_most(4);
-    const Options options(
-        call, 4,
-        {"nc", "nd", "lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol", "CommonDenominator", "Integration",
-         "TdMin", "TdMax", "NumTd", "IODelay", "Stable", "Fixed"});
+    const Options options(call, 4, kNoisyTransferFunction);
     const FitOptions wanted = fit_options(options, purpose);
     const StructureMaker structure = structure_of_counts(call, options, wanted);
-    const NoiseOrders noise{static_cast<int>(options.size("nc", 0)), static_cast<int>(options.size("nd", 1))};
+    NoiseOrders noise{0, 1};
+    options.read(noise);
     return noisy_estimation(structure, noise, wanted);
 }
 
 template <auto kRead>
 int estimate_with_noise(Call& call) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    return give_fit(call, call.function_name(), kRead(call, Purpose::kModel)(data));
+    const OptionedEstimation wanted = kRead(call, Purpose::kModel);
+    return give_diagnosed_fit(call, call.function_name(), wanted.estimation(data), wanted.options);
 }
 
 constexpr NamedReader kNoiseModelsReaders[] = {{"rivc", read_for_study<read_rivc>},
                                                {"tfrivc", read_for_study<read_tfrivc>}};
 
 constexpr FunctionEntry kNoiseModelsFunctions[] = {
-    {"rivc", "continuous time", "rivc(data, {nb, nc, nd, nf, nk}, {lambda =, MaxIter =, Tol =, ...}) -> G",
-     "y = B/F u + C/D e, coloured noise modelled too", guarded<memoized_call<estimate_with_noise<read_rivc>>>},
-    {"tfrivc", "continuous time", "tfrivc(data, np, nz, {nc =, nd =, TdMin =, TdMax =, IODelay =, ...}) -> G",
-     "rivc by numbers of poles and zeros, the delay estimated",
-     guarded<memoized_call<estimate_with_noise<read_tfrivc>>>},
+    {"rivc", "continuous time", "rivc(data, {nb, nc, nd, nf, nk}, {options}) -> G",
+     marked("estimator", "y = B/F u + C/D e, coloured noise modelled too"),
+     guarded<memoized_call<estimate_with_noise<read_rivc>>>, kNoisy, kNoisyArguments},
+    {"tfrivc", "continuous time", "tfrivc(data, np, nz, {options}) -> G",
+     marked("estimator", "rivc by numbers of poles and zeros, the delay estimated"),
+     guarded<memoized_call<estimate_with_noise<read_tfrivc>>>, kNoisyTransferFunction, kNoisyTransferArguments},
 };
 
 }  // namespace

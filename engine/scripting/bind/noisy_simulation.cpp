@@ -2,7 +2,6 @@
 #include <numbers>
 
 #include "figures/confidence_band.h"
-#include "numerics/number_text.h"
 #include "numerics/simulation/frequency_response.h"
 #include "numerics/simulation/lsim.h"
 #include "numerics/statistics/distributions.h"
@@ -16,6 +15,46 @@
 
 namespace dynlab::inline scripting {
 namespace {
+
+constexpr OptionEntry kNoiseSeed = {"seed",
+                                    ValueKind::kCount,
+                                    about("seed of a separate random stream; by default that of `randn`"),
+                                    {.most = kLargestSeed}},
+                      kHoldOfData = {"hold", ValueKind::kChoice, kHoldOption.description, {.choices = kHolds}};
+constexpr OptionEntry kNoiseOptions[] = {
+    {"noise", ValueKind::kFlag, about("noise of the model itself, which must be estimated and have one output")},
+    {"snr",
+     ValueKind::kNumber,
+     about("signal-to-noise ratio 20 log10(std x/std v) of noise that is added to the noise-free output x"),
+     {.unit = "dB"}},
+    kNoiseSeed,
+    kHoldOfData};
+constexpr OptionEntry kSpreadOptions[] = {
+    {"runs", ValueKind::kCount, about("number of models that are drawn"), {.initial = "200", .least = 2}},
+    kNoiseSeed,
+    kHoldOfData,
+    kConfidenceOption};
+constexpr OptionTable kNoiseTables[] = {kNoiseOptions}, kSpreadTables[] = {kSpreadOptions};
+
+constexpr ArgumentEntry
+    kSimulatedInput = {"u", ValueKind::kAny,
+                       about("samples of the input: a vector, or a matrix with a column for each input")},
+    kInputPeriod = {"Ts", ValueKind::kNumber, about("sampling time of the input in seconds")},
+    kInputData = {"data", ValueKind::kData,
+                  about("instead of `u` and `Ts`, a data object of one experiment; only its input is used")};
+constexpr ArgumentEntry kNoiseArguments[] = {
+    {"G", ValueKind::kModel, about("model, with one or several inputs and outputs")},
+    kSimulatedInput,
+    kInputPeriod,
+    kInputData};
+constexpr ArgumentEntry kSpreadArguments[] = {
+    {"G", ValueKind::kModel, about("estimated model with one output and any number of inputs")},
+    kSimulatedInput,
+    kInputPeriod,
+    kInputData};
+constexpr ArgumentEntry kValuesArguments[] = {
+    kModelArgument,
+    {"w", ValueKind::kVector, about("frequencies in rad/s; by default chosen from the poles and zeros")}};
 
 /// What a model is simulated with: (G, u, Ts, options) or (G, data, options).
 struct InputSignals {
@@ -31,8 +70,8 @@ InputSignals input_argument(const Call& call) {
         call.at_most(3);
         const IdData& data = signals_of_argument(call, 2, "data");
         if (data.experiments.size() != 1)
-            throw InvalidArgument(fmt::format("the data hold {} experiments; take one of them with data:experiment(k)",
-                                              data.experiments.size()));
+            throw InvalidArgument("the data hold {} experiments; take one of them with data:experiment(k)",
+                                  data.experiments.size());
         return {data.experiments.front().u, data.time(), data.Ts, data.hold, 3};
     }
     call.at_most(4);
@@ -44,8 +83,9 @@ InputSignals input_argument(const Call& call) {
 Matrix simulated_outputs(const std::vector<TransferFunction>& channels, const InputSignals& input, Hold hold) {
     const auto inputs = static_cast<std::size_t>(input.u.cols());
     if (inputs == 0 || channels.size() % inputs != 0)
-        throw InvalidArgument(fmt::format("the model has {}, which cannot belong to {}",
-                                          counted(channels.size(), "channel"), counted(inputs, "input")));
+        throw InvalidArgument("the model has {}, which cannot belong to {}",
+                              plural(channels.size(), "{} channel", "{} channels"),
+                              plural(inputs, "{} input", "{} inputs"));
     Matrix y = Matrix::Zero(input.u.rows(), static_cast<Index>(channels.size() / inputs));
     for (std::size_t i = 0; i < channels.size(); ++i) {
         const auto u = input.u.col(static_cast<Index>(i % inputs));
@@ -62,13 +102,11 @@ double own_noise_std(const Model* model) {
             "this model was not estimated and knows nothing of its noise: give the option snr, in dB");
     if (model->estimate->carx)
         throw InvalidArgument(
-            fmt::format("{} knows the error of its equation, which is no noise of the output: give the option snr, in "
-                        "dB",
-                        model->estimate->method));
+            "{} knows the error of its equation, which is no noise of the output: give the option snr, in dB",
+            model->estimate->method);
     for (const auto& [name, value] : model->estimate->numbers)
         if (name == "noise_variance" && value >= 0) return std::sqrt(value);
-    throw InvalidArgument(
-        fmt::format("{} tells no variance of the noise: give the option snr, in dB", model->estimate->method));
+    throw InvalidArgument("{} tells no variance of the noise: give the option snr, in dB", model->estimate->method);
 }
 
 /// The script's own stream, or one of its own from the option seed.
@@ -76,10 +114,7 @@ class DrawnNumbers {
   public:
     DrawnNumbers(const Call& call, const Options& options) : stream_(&call.context().random) {
         if (!options.has("seed")) return;
-        const Index seed = options.size("seed", 0);
-        if (seed > 0xFFFFFFFF)
-            throw InvalidArgument(fmt::format("the seed must lie between 0 and 4294967295, but {} was given", seed));
-        own_ = RandomStream(static_cast<std::uint32_t>(seed));
+        own_ = RandomStream(static_cast<std::uint32_t>(options.size("seed", 0)));
         stream_ = &*own_;
     }
     DrawnNumbers(const DrawnNumbers&) = delete;
@@ -90,22 +125,20 @@ class DrawnNumbers {
     RandomStream* stream_;
 };
 
-/// sim(G, u, Ts, {noise =, snr =, seed =, hold =}) or sim(G, data, {...})
 int simulate_with_noise(Call& call) {
     const NoisyModel model = noisy_model_argument(call, 1, "G");
     InputSignals input = input_argument(call);
     input.u = driving_input(call, 1, input.u);
-    const Options options(call, input.options_index, {"noise", "snr", "seed", "hold"});
+    const Options options(call, input.options_index, kNoiseTables);
     const Matrix y = simulated_outputs(model.channels, input, hold_option(options, input.hold));
     const auto snr = options.optional_number("snr");
     if (!options.flag("noise", snr.has_value()))
         return y.cols() == 1 ? call.give_vector(y.col(0)) : call.give_matrix(y);
     if (y.cols() != 1)
-        throw InvalidArgument(
-            fmt::format("noise is simulated for one output, and the model has {}: take its channels", y.cols()));
+        throw InvalidArgument("noise is simulated for one output, and the model has {}: take its channels", y.cols());
     if (model.noise_Ts > 0 && std::abs(model.noise_Ts - input.Ts) > 1e-9 * model.noise_Ts)
-        throw InvalidArgument(fmt::format("the noise model counts samples of {} s, and the input is sampled every {} s",
-                                          model.noise_Ts, input.Ts));
+        throw InvalidArgument("the noise model counts samples of {} s, and the input is sampled every {} s",
+                              significant(model.noise_Ts, 10), significant(input.Ts, 10));
     const ColouredNoise noise = noise_of(model);
     const double sigma =
         snr ? noise_std_of_snr(y.col(0), *snr) / noise.gain() : own_noise_std(to_object<Model>(call.state(), 1));
@@ -133,12 +166,12 @@ std::optional<TransferStructure> structure_of_estimate(const Model& model) {
 SimulationSpread spread_of(const Model& model, const InputSignals& input, Hold hold, Index runs, RandomStream& random) {
     if (input.Ts == 0) throw InvalidArgument("the input must be sampled regularly");
     if (static_cast<std::size_t>(input.u.cols()) != model.inputs())
-        throw InvalidArgument(
-            fmt::format("the model has {} input(s), and {} were given", model.inputs(), input.u.cols()));
+        throw InvalidArgument("the model has {}, and {} were given", plural(model.inputs(), "{} input", "{} inputs"),
+                              input.u.cols());
     if (const auto uncertain = uncertain_model(model))
         return simulation_spread(*uncertain, input.u.col(0), input.Ts, hold, runs, random);
     if (model.estimate && model.outputs == 1 && model.estimate->covariance.size() > 0) {
-        const Matrix& covariance = model.estimate->trusted_covariance();
+        const Matrix covariance = model.estimate->trusted_covariance();
         if (model.polynomial) return simulation_spread(*model.polynomial, covariance, input.u, runs, random);
         if (const auto structure = structure_of_estimate(model))
             return simulation_spread(*structure, model.estimate->theta, covariance, input.u, input.Ts, hold, runs,
@@ -153,25 +186,21 @@ Figure spread_figure(const std::string& name, const SimulationSpread& spread, co
     Curve curve;
     curve.x = t;
     curve.y = spread.output;
-    curve.label = name;
+    curve.label = Message::verbatim(name);
     panel.curves.push_back(std::move(curve));
-    panel.x_label = "time (s)";
-    panel.y_label = "output";
+    panel.x_label = axis_label(Message("time"), "s");
+    panel.y_label = Message("output");
     fix_colours(panel);
     add_confidence_band(panel, 0, normal_half_width(level) * spread.std, level);
     return figure;
 }
 
-/// simsd(G, u, Ts, {runs =, seed =, hold =, confidence =}) or simsd(G, data, {...})
 int simulate_spread(Call& call) {
     const Model* object = to_object<Model>(call.state(), 1);
     const Model model = object != nullptr ? *object : model_argument(call, 1, "G");
     const InputSignals input = input_argument(call);
-    const Options options(call, input.options_index, {"runs", "seed", "hold", "confidence"});
-    const double level = options.number("confidence", 0.99);
-    if (!(level > 0 && level < 1))
-        throw InvalidArgument(
-            fmt::format("option 'confidence' must be a probability between 0 and 1, but {} was given", level));
+    const Options options(call, input.options_index, kSpreadTables);
+    const double level = confidence_option(options);
     const SimulationSpread spread = spread_of(model, input, hold_option(options, input.hold), options.size("runs", 200),
                                               DrawnNumbers(call, options).stream());
     give_figure(call, spread_figure(model.estimate->method, spread, input.t, level));
@@ -194,13 +223,19 @@ int frequency_values(Call& call) {
 }
 
 constexpr FunctionEntry kNoisySimulationFunctions[] = {
-    {"sim", "simulation", "sim(G, u, Ts, {noise =, snr =, seed =, hold =}) -> y, v; sim(G, data, {...})",
-     "response of a model to an input, with noise of its own or of a given SNR", guarded<simulate_with_noise>},
-    {"simsd", "simulation",
-     "simsd(G, u, Ts, {runs =, seed =, hold =, confidence =}) -> fig, table; simsd(G, data, {...})",
-     "how far the uncertainty of an estimate spreads its simulated output", guarded<simulate_spread>},
-    {"bode_values", "simulation", "bode_values(G, w) -> mag, ph, w, sdmag, sdph",
-     "the numbers of bode with their standard deviations", guarded<frequency_values>},
+    {"sim", "simulation", "sim(G, u, Ts, {options}) -> y, v; sim(G, data, {...})",
+     "response of a model to an input, with noise of its own or of a given SNR", guarded<simulate_with_noise>,
+     kNoiseTables, kNoiseArguments},
+    {"simsd", "simulation", "simsd(G, u, Ts, {options}) -> fig, table; simsd(G, data, {...})",
+     "how far the uncertainty of an estimate spreads its simulated output", guarded<simulate_spread>, kSpreadTables,
+     kSpreadArguments},
+    {"bode_values",
+     "simulation",
+     "bode_values(G, w) -> mag, ph, w, sdmag, sdph",
+     "the numbers of bode with their standard deviations",
+     guarded<frequency_values>,
+     {},
+     kValuesArguments},
 };
 
 }  // namespace

@@ -6,10 +6,10 @@
 #include "numerics/estimators/frequency/etfe.h"
 #include "numerics/estimators/frequency/spa.h"
 #include "numerics/estimators/impulseest.h"
-#include "numerics/number_text.h"
+#include "scripting/arguments/simulation_options.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/conversions/localized.h"
 #include "scripting/conversions/table_fields.h"
-#include "scripting/conversions/told_sentences.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/frequency_object.h"
@@ -17,6 +17,57 @@
 
 namespace dynlab::inline scripting {
 namespace {
+
+constexpr OptionEntry kQuietEstimate = {
+    "quiet", ValueKind::kFlag, about("no text and no figure, nil in its place"), {.initial = "false"}};
+constexpr OptionEntry kReadingConfidence = {"confidence",
+                                            ValueKind::kNumber,
+                                            about("probability of the band, and of the test that finds the dead time"),
+                                            {.initial = "0.99"}};
+constexpr MessageId<> kMeanRemoval = about("removal of the mean of both signals first");
+
+constexpr std::array kEtfeOptions = {
+    option<&EtfeOptions::smooth>("smooth",
+                                 about("number of frequencies on either side in a weighted mean, 0 for none")),
+    option<&EtfeOptions::remove_mean>("remove_mean", kMeanRemoval), kConfidenceOption, kLabelsOption, kQuietEstimate};
+constexpr std::array kSpaOptions = {
+    option<&SpaOptions::window>("window", about("length of the window in samples, 0 for the smaller of 30 and N/10")),
+    option<&SpaOptions::w>("w", about("frequencies, at most pi/Ts; 128 of them by default"), {.unit = "rad/s"}),
+    option<&SpaOptions::remove_mean>("remove_mean", kMeanRemoval),
+    kConfidenceOption,
+    kLabelsOption,
+    kQuietEstimate};
+constexpr std::array kKernels = {"TC", "DC", "SS"};
+constexpr std::array kImpulseestOptions = {
+    option<&ImpulseestOptions::kernel>("Kernel", about("covariance of the prior: what smooth means"),
+                                       {.initial = "\"TC\"", .choices = kKernels}),
+    option<&ImpulseestOptions::lags>(
+        "lags",
+        about("number of samples that the response lasts, as the argument `n`; 0 for the smaller of 70 and N/5")),
+    option<&ImpulseestOptions::smooth>("smooth",
+                                       about("smooth response that dies out, instead of plain least squares")),
+    kReadingConfidence, kLabelsOption};
+constexpr std::array kCraOptions = {
+    option<&CraOptions::lags>("lags", about("number of lags, 0 for the smaller of 70 and N/5")),
+    option<&CraOptions::whitening>(
+        "whitening", about("order of the autoregressive filter, 0 for an input that is white already"), {.most = 100}),
+    kReadingConfidence, kLabelsOption};
+constexpr OptionTable kEtfeTables[] = {kEtfeOptions}, kSpaTables[] = {kSpaOptions},
+                      kImpulseestTables[] = {kImpulseestOptions}, kCraTables[] = {kCraOptions};
+
+constexpr ArgumentEntry
+    kOneExperiment = {"data", ValueKind::kData,
+                      about("data object with one input, one output and one experiment, sampled regularly")},
+    kSingleData = {"data", ValueKind::kData,
+                   about("data object with one input and one output, sampled regularly; experiments are joined")},
+    kComparedModels = {"G1, ...", ValueKind::kModel, about("models that are drawn over the estimate")};
+constexpr std::array kEtfeArguments = {kOneExperiment, kComparedModels},
+                     kSpectralArguments = {kSingleData, kComparedModels};
+constexpr ArgumentEntry kImpulseArguments[] = {
+    kSingleData,
+    {"n", ValueKind::kCount,
+     about("number of samples that the response lasts, 1 to 400; by default the smaller of 70 and N/5")},
+    kComparedModels};
 
 /// (data, G1, G2, ..., {options}): the models to draw over the estimate, and where the options stand.
 struct SpectralModels {
@@ -29,8 +80,8 @@ SpectralModels comparison_arguments(const Call& call) {
     SpectralModels read{object_argument<IdData>(call, 1, "data"), {}, 2};
     for (; holds_model(call, read.options); ++read.options) {
         const Model* model = to_object<Model>(call.state(), read.options);
-        const std::string name =
-            model != nullptr && model->estimate ? model->estimate->method : fmt::format("model {}", read.options - 1);
+        const Message name = model != nullptr && model->estimate ? Message::verbatim(model->estimate->method)
+                                                                 : Message("model {}", read.options - 1);
         read.models.push_back({name, model_argument(call, read.options, "G").G});
     }
     call.at_most(read.options);
@@ -41,20 +92,15 @@ void name_models(const Options& options, std::vector<NamedModel>& models) {
     const std::vector<std::string> labels = options.texts("labels");
     if (labels.empty()) return;
     if (labels.size() != models.size())
-        throw InvalidArgument(fmt::format("option 'labels' has {} for {}", counted(labels.size(), "text"),
-                                          counted(models.size(), "model")));
-    for (std::size_t i = 0; i < models.size(); ++i) models[i].name = labels[i];
+        throw InvalidArgument("option 'labels' has {} for {}", plural(labels.size(), "{} text", "{} texts"),
+                              plural(models.size(), "{} model", "{} models"));
+    for (std::size_t i = 0; i < models.size(); ++i) models[i].name = Message::verbatim(labels[i]);
 }
 
-double confidence_of(const Options& options) {
-    const double level = options.number("confidence", 0.99);
-    if (level > 0 && level < 1) return level;
-    throw InvalidArgument(fmt::format(
-        "option 'confidence' must be a probability between 0 and 1, such as 0.99, but {} was given", level));
-}
-
-void print_message(const Call& call, const std::string& message, const std::vector<std::string>& warnings) {
-    call.print(told(call, fmt::format("{}{}{}\n", message, warnings.empty() ? "" : " ", fmt::join(warnings, " "))));
+void print_message(const Call& call, const Message& message, const std::vector<Message>& warnings) {
+    std::vector<Message> all = {message};
+    all.insert(all.end(), warnings.begin(), warnings.end());
+    call.print(localized(call, sentences(std::move(all))) + "\n");
 }
 
 int give_spectral(const Call& call, const Options& options, SpectralModels& read, const SpectralEstimate& estimate,
@@ -65,7 +111,7 @@ int give_spectral(const Call& call, const Options& options, SpectralModels& read
         lua_pushnil(call.state());
     } else {
         print_message(call, estimate.message, estimate.warnings);
-        give_figure(call, spectral_plot(estimate, method, read.models, confidence_of(options)));
+        give_figure(call, spectral_plot(estimate, Message::verbatim(method), read.models, confidence_option(options)));
     }
     push_object(call.state(), frequency_data_of(estimate, read.data, method, smoothed));
     return 2;
@@ -74,32 +120,29 @@ int give_spectral(const Call& call, const Options& options, SpectralModels& read
 int give_impulse(const Call& call, const Options& options, SpectralModels& read, const ImpulseEstimate& estimate) {
     name_models(options, read.models);
     print_message(call, estimate.message, estimate.warnings);
-    give_figure(call, impulse_estimate_plot(estimate, read.data.Ts, read.models, confidence_of(options)));
+    give_figure(call, impulse_estimate_plot(estimate, read.data.Ts, read.models, confidence_option(options)));
     give_table(call, "t", estimate.t, "response", estimate.response, "std", estimate.std, "chance", estimate.null_std,
                "noise_variance", estimate.noise_variance);
     if (estimate.first)
         set_field(call, "first", *estimate.first, "dead_time",
                   static_cast<double>(std::max<Index>(*estimate.first - 1, 0)) * read.data.Ts);
-    set_field(call, "message", told(call, estimate.message), "warnings", told(call, estimate.warnings));
+    set_field(call, "message", localized(call, estimate.message), "warnings", localized(call, estimate.warnings));
     return 2;
 }
 
 int ratio_of_transforms(Call& call) {
     SpectralModels read = comparison_arguments(call);
-    const Options options(call, read.options, {"smooth", "remove_mean", "confidence", "labels", "quiet"});
+    const Options options(call, read.options, kEtfeTables);
     EtfeOptions wanted;
-    wanted.smooth = options.size("smooth", 0);
-    wanted.remove_mean = options.flag("remove_mean", true);
+    options.read(wanted);
     return give_spectral(call, options, read, etfe(read.data, wanted), "etfe", wanted.smooth > 0);
 }
 
 int spectral_analysis(Call& call) {
     SpectralModels read = comparison_arguments(call);
-    const Options options(call, read.options, {"window", "w", "remove_mean", "confidence", "labels", "quiet"});
+    const Options options(call, read.options, kSpaTables);
     SpaOptions wanted;
-    wanted.window = options.size("window", 0);
-    if (options.has("w")) wanted.w = options.vector("w");
-    wanted.remove_mean = options.flag("remove_mean", true);
+    options.read(wanted);
     return give_spectral(call, options, read, spa(read.data, wanted), "spa", true);
 }
 
@@ -115,15 +158,13 @@ Index take_lags(Call& call) {
 int regression_on_past_inputs(Call& call) {
     const Index lags = take_lags(call);
     SpectralModels read = comparison_arguments(call);
-    const Options options(call, read.options, {"lags", "smooth", "Kernel", "confidence", "labels"});
+    const Options options(call, read.options, kImpulseestTables);
     ImpulseestOptions wanted;
-    wanted.lags = options.size("lags", lags);
-    wanted.smooth = options.flag("smooth", true);
-    wanted.kernel = std::array{ResponseKernel::kTc, ResponseKernel::kDc,
-                               ResponseKernel::kSs}[options.choice("Kernel", {"TC", "DC", "SS"}, 0)];
+    wanted.lags = lags;
+    options.read(wanted);
     if (!wanted.smooth && options.has("Kernel"))
         throw InvalidArgument("option 'Kernel' is of the smooth estimate, and 'smooth' is false");
-    wanted.confidence = confidence_of(options);
+    wanted.confidence = confidence_option(options);
     const RegressedResponse result = impulseest(read.data, wanted);
     give_impulse(call, options, read, result);
     set_field(call, "covariance", result.covariance);
@@ -135,11 +176,10 @@ int regression_on_past_inputs(Call& call) {
 
 int correlation_analysis(Call& call) {
     SpectralModels read = comparison_arguments(call);
-    const Options options(call, read.options, {"lags", "whitening", "confidence", "labels"});
+    const Options options(call, read.options, kCraTables);
     CraOptions wanted;
-    wanted.lags = options.size("lags", 0);
-    wanted.whitening = options.size("whitening", wanted.whitening);
-    wanted.confidence = confidence_of(options);
+    options.read(wanted);
+    wanted.confidence = confidence_option(options);
     const CorrelationAnalysis result = cra(read.data, wanted);
     give_impulse(call, options, read, result.impulse);
     set_field(call, "whitening_filter", result.whitening_filter, "input_correlation", result.input_correlation);
@@ -147,17 +187,18 @@ int correlation_analysis(Call& call) {
 }
 
 constexpr FunctionEntry kNonparametricFunctions[] = {
-    {"etfe", "nonparametric",
-     "etfe(data, G1, ..., {smooth =, remove_mean =, confidence =, labels =, quiet =}) -> fig, F",
-     "frequency response as the ratio of the Fourier transforms of output and input", guarded<ratio_of_transforms>},
-    {"spa", "nonparametric",
-     "spa(data, G1, ..., {window =, w =, remove_mean =, confidence =, labels =, quiet =}) -> fig, F",
-     "frequency response with errors, from smoothed correlations", guarded<spectral_analysis>},
-    {"impulseest", "nonparametric",
-     "impulseest(data, n, G1, ..., {Kernel =, lags =, smooth =, confidence =, labels =}) -> fig, table",
-     "impulse response by regression on past inputs, and the dead time it shows", guarded<regression_on_past_inputs>},
-    {"cra", "nonparametric", "cra(data, G1, ..., {lags =, whitening =, confidence =, labels =}) -> fig, table",
-     "impulse response from correlations with the whitened input", guarded<correlation_analysis>},
+    {"etfe", "nonparametric", "etfe(data, G1, ..., {options}) -> fig, F",
+     "frequency response as the ratio of the Fourier transforms of output and input", guarded<ratio_of_transforms>,
+     kEtfeTables, kEtfeArguments},
+    {"spa", "nonparametric", "spa(data, G1, ..., {options}) -> fig, F",
+     "frequency response with errors, from smoothed correlations", guarded<spectral_analysis>, kSpaTables,
+     kSpectralArguments},
+    {"impulseest", "nonparametric", "impulseest(data, n, G1, ..., {options}) -> fig, table",
+     "impulse response by regression on past inputs, and the dead time it shows", guarded<regression_on_past_inputs>,
+     kImpulseestTables, kImpulseArguments},
+    {"cra", "nonparametric", "cra(data, G1, ..., {options}) -> fig, table",
+     "impulse response from correlations with the whitened input", guarded<correlation_analysis>, kCraTables,
+     kSpectralArguments},
 };
 
 }  // namespace

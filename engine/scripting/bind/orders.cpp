@@ -8,9 +8,10 @@
 #include "numerics/validation/delay_search.h"
 #include "platform/terminal/progress.h"
 #include "scripting/arguments/estimator_arguments.h"
+#include "scripting/arguments/estimator_options.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/conversions/localized.h"
 #include "scripting/conversions/table_fields.h"
-#include "scripting/conversions/told_sentences.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/memoized_calls/shared_pieces.h"
 #include "scripting/objects/data_object.h"
@@ -22,8 +23,54 @@
 namespace dynlab::inline scripting {
 namespace {
 
-constexpr std::array kStructureOrders = {OrderEntry{"nb", "coefficients of B"}, OrderEntry{"nf", "poles"},
-                                         OrderEntry{"nk", "samples of delay"}};
+constexpr std::array kStructureOrders = {kNb, kNf, kNk};
+
+constexpr OptionEntry kSearchLambda = kFirstFilterOptions[0];
+constexpr OptionEntry kValidate = {"validate", ValueKind::kData,
+                                   about("second data object, on which every model is checked, too")};
+template <auto kMember>
+constexpr OptionEntry kSearchThreads = option<kMember>("threads", about("number of threads, 0 for all cores"));
+
+constexpr OptionEntry kGridOptions[] = {
+    {"poles", ValueKind::kAny, about("numbers of poles: {from, to}, or one number"), {.initial = "{1, 4}"}},
+    {"zeros", ValueKind::kAny, about("numbers of zeros: {from, to}, or one number"), {.initial = "{0, 2}"}},
+    {"delays",
+     ValueKind::kAny,
+     about("numbers of samples of delay to try, such as {0, 1, 2}, instead of estimating the delay up to `TdMax`"),
+     {.initial = "0"}},
+    {"Feedthrough", ValueKind::kFlag, about("structures with as many zeros as poles, too"), {.initial = "false"}}};
+constexpr std::array kStructureOptions = {kValidate, kSearchLambda, kStableOption,
+                                          kSearchThreads<&OrderSelectionOptions::threads>};
+constexpr OptionTable kOrderListTables[] = {kStructureOptions, kStartOptions, kIterationOptions, kIntegrationOptions},
+                      kOrderGridTables[] = {kGridOptions,  kDelayOptions,     kStructureOptions,
+                                            kStartOptions, kIterationOptions, kIntegrationOptions};
+constexpr OptionEntry kArxOptions[] = {
+    {"na", ValueKind::kAny, about("numbers of poles: {from, to}, or one number"), {.initial = "{1, 4}"}},
+    {"nb", ValueKind::kAny, about("numbers of coefficients of B: {from, to}, or one number"), {.initial = "{1, 4}"}},
+    {"nk", ValueKind::kAny, about("samples of delay: {from, to}, or one number"), {.initial = "1"}},
+    kValidate};
+constexpr OptionTable kArxstrucTables[] = {kArxOptions};
+constexpr OptionEntry kDelayGridOptions[] = {
+    {"poles", ValueKind::kAny, about("numbers of poles: {from, to}, or one number"), {.initial = "{1, 3}"}},
+    {"zeros", ValueKind::kAny, about("numbers of zeros: {from, to}, or one number"), {.initial = "{0, 1}"}}};
+constexpr std::array kDelaySearchOptions = {kSearchLambda, kSearchThreads<&DelaySearchOptions::threads>};
+constexpr OptionTable kDelayestTables[] = {kDelayGridOptions, kDelayOptions, kDelaySearchOptions, kStartOptions,
+                                           kIterationOptions};
+
+constexpr ArgumentEntry kSingleArguments[] = {
+    {"data", ValueKind::kData, about("data object with one input and one output")}};
+constexpr ArgumentEntry kArxArguments[] = {
+    {"data", ValueKind::kData, about("data object with one input and one output, sampled regularly")}};
+constexpr ArgumentEntry kChoiceArguments[] = {
+    {"V", ValueKind::kAny, about("result of `srivcstruc`")},
+    {"criterion", ValueKind::kText,
+     about("\"recommended\" (the default), \"RT2\", \"YIC\", \"AIC\", \"BIC\", \"FPE\", \"fit\" or "
+           "\"validation\"")}};
+constexpr ArgumentEntry kArxChoiceArguments[] = {
+    {"V", ValueKind::kAny, about("result of `arxstruc`")},
+    {"criterion", ValueKind::kText,
+     about("\"loss\", \"AIC\", or \"BIC\", which is also called \"MDL\"; by default the loss where there is a "
+           "second data object, else BIC")}};
 
 /// {from, to} or a single number.
 std::pair<int, int> range_of(const Options& options, const char* name, std::pair<int, int> fallback) {
@@ -37,7 +84,7 @@ std::pair<int, int> range_of(const Options& options, const char* name, std::pair
     }
     const auto [from, to] = *options.range(name);
     if (from != std::floor(from) || to != std::floor(to))
-        throw InvalidArgument(fmt::format("option '{}' must hold whole numbers {{from, to}}", name));
+        throw InvalidArgument("option '{}' must hold whole numbers {from, to}", name);
     return {static_cast<int>(from), static_cast<int>(to)};
 }
 
@@ -105,17 +152,12 @@ int try_structures(Call& call) {
     call.at_most(3);
     const IdData& data = object_argument<IdData>(call, 1, "data");
     const bool listed = is_list(call, 2);
-    const Options options =
-        listed ? Options(call, 3,
-                         {"validate", "lambda", "InitialState", "Offset", "MaxIter", "Tol", "Stable", "Integration",
-                          "threads"})
-               : Options(call, 2,
-                         {"poles", "zeros", "delays", "TdMin", "TdMax", "NumTd", "validate", "lambda", "InitialState",
-                          "Offset", "MaxIter", "Tol", "Stable", "Feedthrough", "Integration", "threads"});
+    const Options options(call, listed ? 3 : 2,
+                          listed ? OptionTables(kOrderListTables) : OptionTables(kOrderGridTables));
     const std::vector<TransferStructure> structures = listed ? listed_structures(call, data) : grid_of(options, data);
     OrderSelectionOptions wanted;
+    options.read(wanted);
     wanted.validation = validation_record(options);
-    wanted.threads = static_cast<int>(options.size("threads", 0));
     wanted.cancel = call.cancel();
     wanted.estimation = fit_options(options, Purpose::kModel);
     wanted.elsewhere = shared_out<OrderCandidate>(call.state(), "srivcstruc");
@@ -136,9 +178,8 @@ OrderCriterion criterion_of(const Call& call) {
     for (const OrderMeasure& measure : order_measures())
         if (text == measure.word) return measure.criterion;
     throw InvalidArgument(
-        fmt::format("the criterion must be \"recommended\", \"RT2\", \"YIC\", \"AIC\", \"BIC\", \"FPE\", \"fit\" or "
-                    "\"validation\", but \"{}\" was given",
-                    text));
+        "{} must be {}, but \"{}\" was given", Message("the criterion"),
+        Message("\"recommended\", \"RT2\", \"YIC\", \"AIC\", \"BIC\", \"FPE\", \"fit\" or \"validation\""), text);
 }
 
 int select_structure(Call& call) {
@@ -146,7 +187,7 @@ int select_structure(Call& call) {
     const OrderTable& table = object_argument<OrderTable>(call, 1, "table");
     const OrderCriterion criterion = criterion_of(call);
     const OrderChoice choice = choose_order(table.selection, criterion);
-    call.print(told(call, order_table_text(table.selection, choice)));
+    call.print(order_table_text(table.selection, choice, reader_of(call)));
     const OrderCandidate& candidate = table.selection.candidates[choice.place];
     give_fit(call, "srivc", candidate.estimate);
     give_figure(call, order_plot(table.selection, criterion, choice));
@@ -156,7 +197,7 @@ int select_structure(Call& call) {
 int try_arx_structures(Call& call) {
     call.at_most(2);
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    const Options options(call, 2, {"na", "nb", "nk", "validate"});
+    const Options options(call, 2, kArxstrucTables);
     ArxRanges ranges;
     ranges.na = range_of(options, "na", ranges.na);
     ranges.nb = range_of(options, "nb", ranges.nb);
@@ -172,16 +213,16 @@ ArxCriterion arx_criterion_of(const Call& call, const ArxSelection& table) {
     for (const auto& [name, criterion] : {std::pair("loss", ArxCriterion::kLoss), std::pair("AIC", ArxCriterion::kAic),
                                           std::pair("BIC", ArxCriterion::kBic), std::pair("MDL", ArxCriterion::kBic)})
         if (text == name) return criterion;
-    throw InvalidArgument(
-        fmt::format("the criterion must be \"loss\", \"AIC\", \"BIC\" or \"MDL\", but \"{}\" was given", text));
+    throw InvalidArgument("{} must be {}, but \"{}\" was given", Message("the criterion"),
+                          Message("\"loss\", \"AIC\", \"BIC\" or \"MDL\""), text);
 }
 
 int select_arx_structure(Call& call) {
     call.at_most(2);
-    const ArxSelection& table = object_argument<ArxSelection>(call, 1, "what arxstruc gave");
+    const ArxSelection& table = object_argument<ArxSelection>(call, 1, Message("what arxstruc gave"));
     const ArxCriterion criterion = arx_criterion_of(call, table);
     const OrderChoice choice = choose_arx(table, criterion);
-    call.print(told(call, arx_table_text(table, choice)));
+    call.print(arx_table_text(table, choice, reader_of(call)));
     const ArxCandidate& chosen = table.candidates[choice.place];
     give_value(call, std::array{chosen.na, chosen.nb, chosen.nk});
     give_figure(call, arx_order_plot(table, criterion, choice));
@@ -194,7 +235,7 @@ void push_search(const Call& call, const IdData& data, const DelaySearch& search
     give_table(call, "delay", search.delay, "std", search.std);
     if (data.regular()) set_field(call, "samples", search.delay / data.Ts);
     set_field(call, "rival", search.rival, "delays", search.grid(), "losses", search.losses(), "poles",
-              search.candidate.poles, "zeros", search.candidate.zeros, "message", told(call, search.explanation));
+              search.candidate.poles, "zeros", search.candidate.zeros, "message", localized(call, search.explanation));
     give_fit(call, "srivc", search.candidate.estimate);
     lua_setfield(L, -2, "model");
 }
@@ -202,20 +243,18 @@ void push_search(const Call& call, const IdData& data, const DelaySearch& search
 int estimate_delay(Call& call) {
     call.at_most(2);
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    const Options options(
-        call, 2,
-        {"poles", "zeros", "TdMin", "TdMax", "NumTd", "lambda", "InitialState", "Offset", "MaxIter", "Tol", "threads"});
+    const Options options(call, 2, kDelayestTables);
     DelaySearchOptions wanted;
+    options.read(wanted);
     wanted.poles = range_of(options, "poles", wanted.poles);
     wanted.zeros = range_of(options, "zeros", wanted.zeros);
     wanted.estimation = fit_options(options, Purpose::kModel);
-    wanted.threads = static_cast<int>(options.size("threads", 0));
     wanted.cancel = call.cancel();
     ProgressBar bar("delay search", order_grid(wanted.poles, wanted.zeros, {0.0}).size());
     wanted.progress = [&bar](std::size_t done) { bar.advance(done); };
     const DelaySearch search = search_delay(data, wanted);
     poll_stop(call.state());
-    call.print(told(call, search.explanation) + "\n");
+    call.print(localized(call, search.explanation) + "\n");
     call.give(search.delay);
     give_figure(call, delay_plot(search));
     push_search(call, data, search);
@@ -223,18 +262,29 @@ int estimate_delay(Call& call) {
 }
 
 constexpr FunctionEntry kOrdersFunctions[] = {
-    {"srivcstruc", "structure", "srivcstruc(data, {poles = {1, 4}, zeros = {0, 2}, delays =, validate =, ...}) -> V",
+    {"srivcstruc", "structure", "srivcstruc(data, {options}) -> V",
      "srivc for many numbers of poles, zeros and samples of delay, with criteria for each",
-     guarded<memoized_call<try_structures>>},
-    {"selcstruc", "structure", "selcstruc(V, criterion) -> G, fig",
-     "the structure that a criterion chooses, explained in words", guarded<select_structure>},
-    {"arxstruc", "structure", "arxstruc(data, {na = {1, 4}, nb = {1, 4}, nk = 1, validate =}) -> V",
-     "the loss of arx for every structure, on a second record too", guarded<try_arx_structures>},
-    {"selstruc", "structure", "selstruc(V, criterion) -> {na, nb, nk}, fig",
-     "the orders that a criterion chooses among those of arxstruc", guarded<select_arx_structure>},
-    {"delayest", "structure", "delayest(data, {poles = {1, 3}, zeros = {0, 1}, TdMin =, TdMax =, ...}) -> Td, fig, D",
+     guarded<memoized_call<try_structures>>, kOrderGridTables, kSingleArguments},
+    {"selcstruc",
+     "structure",
+     "selcstruc(V, criterion) -> G, fig",
+     "the structure that a criterion chooses, explained in words",
+     guarded<select_structure>,
+     {},
+     kChoiceArguments},
+    {"arxstruc", "structure", "arxstruc(data, {options}) -> V",
+     "the loss of arx for every structure, on a second record too", guarded<try_arx_structures>, kArxstrucTables,
+     kArxArguments},
+    {"selstruc",
+     "structure",
+     "selstruc(V, criterion) -> {na, nb, nk}, fig",
+     "the orders that a criterion chooses among those of arxstruc",
+     guarded<select_arx_structure>,
+     {},
+     kArxChoiceArguments},
+    {"delayest", "structure", "delayest(data, {options}) -> Td, fig, D",
      "the delay between input and output, with its standard error and the loss over the delay",
-     guarded<memoized_call<estimate_delay>>},
+     guarded<memoized_call<estimate_delay>>, kDelayestTables, kSingleArguments},
 };
 
 }  // namespace

@@ -2,12 +2,16 @@
 #include "numerics/validation/prediction.h"
 #include "scripting/arguments/simulation_options.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/conversions/localized.h"
 #include "scripting/conversions/table_fields.h"
-#include "scripting/conversions/told_sentences.h"
 #include "scripting/objects/data_object.h"
 
 namespace dynlab::inline scripting {
 namespace {
+
+constexpr OptionEntry kPredictionOptions[] = {
+    {"k", ValueKind::kNumber, about("number of samples ahead; `math.huge` gives the simulation"), {.initial = "1"}}};
+constexpr OptionTable kPredictionTables[] = {kPredictionOptions, kSimulationStart};
 
 /// A number for one output, a vector for several.
 void set_per_output(const Call& call, const char* name, const Vector& values) {
@@ -32,7 +36,7 @@ void push_report(const Call& call, const Predictions& all) {
     lua_createtable(L, 0, 4);
     set_per_output(call, "fit_percent", all.fit_percent);
     set_per_output(call, "loss", all.loss);
-    set_field(call, "first", all.results.front().front().first + 1, "message", told(call, all.message));
+    set_field(call, "first", all.results.front().front().first + 1, "message", localized(call, all.message));
 }
 
 /// predict(data, G, {k =, ...}) or predict(data, G, k); with kErrors what they leave of the output.
@@ -42,7 +46,7 @@ int predict_output(Call& call) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
     const NoisyModel model = noisy_model_argument(call, 2, "G");
     read_steps_as_option(call, 3);
-    const Options options(call, 3, {"k", "InitialState", "Offset"});
+    const Options options(call, 3, kPredictionTables);
     IdData storage;
     const Predictions all =
         predict(driving_data(call, 2, data, storage), model, {steps_option(options, 1), compare_options(options)});
@@ -55,10 +59,11 @@ int predict_output(Call& call) {
 }
 
 constexpr FunctionEntry kPredictionsFunctions[] = {
-    {"predict", "validation", "predict(data, G, {k =, InitialState =, Offset =}) -> y, table",
-     "output predicted k steps ahead from the outputs measured until then", guarded<predict_output<false>>},
-    {"pe", "validation", "pe(data, G, {k =, InitialState =, Offset =}) -> e, table",
-     "errors of the prediction one or k steps ahead", guarded<predict_output<true>>},
+    {"predict", "validation", "predict(data, G, {options}) -> y, table",
+     "output predicted k steps ahead from the outputs measured until then", guarded<predict_output<false>>,
+     kPredictionTables, kRecordAndModel},
+    {"pe", "validation", "pe(data, G, {options}) -> e, table", "errors of the prediction one or k steps ahead",
+     guarded<predict_output<true>>, kPredictionTables, kRecordAndModel},
 };
 
 }  // namespace

@@ -1,16 +1,62 @@
 #include <algorithm>
+#include <array>
 
-#include "numerics/number_text.h"
 #include "numerics/signals/butterworth.h"
 #include "numerics/signals/preprocess.h"
 #include "numerics/signals/repair.h"
 #include "numerics/signals/resample.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/bind/preprocess_bindings.h"
+#include "scripting/conversions/option_member.h"
 #include "scripting/objects/data_object.h"
 
 namespace dynlab::inline scripting {
 namespace {
+
+constexpr OptionEntry kTrendOptions[] = {
+    {"samples", ValueKind::kCount,
+     about("for \"start\", number of samples whose mean is the level; by default all before an input changes")}};
+constexpr std::array kFilterStarts = {"zero", "steady"};
+constexpr OptionEntry kFilterStart = {
+    "start",
+    ValueKind::kChoice,
+    about("signal before its first sample: zero (\"zero\"), or constant at the first sample (\"steady\")"),
+    {.initial = "\"zero\"", .choices = kFilterStarts}};
+constexpr OptionEntry kButterworthOptions[] = {
+    option<&FilterOptions::order>("order", about("order of the low-pass prototype; two edges give twice as many poles"),
+                                  {.least = 1, .most = 20}),
+    option<&FilterOptions::zero_phase>("zero_phase",
+                                       about("filtering forwards, then backwards: no delay, the magnitude squared")),
+    option<&FilterOptions::stop>("stop", about("removal of the band, instead of passing it")),
+    kFilterStart,
+    {"Ts", ValueKind::kNumber, about("sampling time of a vector"), {.initial = "1", .unit = "s"}}};
+constexpr OptionEntry kGapOptions[] = {
+    {"t", ValueKind::kVector, about("increasing instants of irregular sampling")},
+    {"longest", ValueKind::kCount, about("longest gap in samples that is filled"), {.initial = "10"}}};
+constexpr std::array kOutlierOptions = {
+    option<&OutlierOptions::window>("window", about("odd number of samples of the moving median")),
+    option<&OutlierOptions::threshold>("threshold", about("distance from the median in robust standard deviations"))};
+constexpr OptionTable kTrendTables[] = {kTrendOptions}, kButterworthTables[] = {kButterworthOptions},
+                      kGapsTables[] = {kGapOptions}, kOutliersTables[] = {kOutlierOptions};
+
+constexpr ArgumentEntry kAnySignals = {"data", ValueKind::kAny, about("data object, or one signal as a vector")},
+                        kRegularSignals = {"data", ValueKind::kAny,
+                                           about("data object, sampled regularly, or one signal as a vector")};
+constexpr ArgumentEntry kTrendArguments[] = {
+    kAnySignals,
+    {"kind", ValueKind::kChoice,
+     about("\"linear\" (the default), \"mean\", or \"start\"; 1 and 0 stand for the first two")}};
+constexpr ArgumentEntry kButterworthArguments[] = {
+    kRegularSignals,
+    {"{lower, upper}", ValueKind::kVector,
+     about("edges of the band in rad/s: {0, w} is a low-pass, {w, math.huge} a high-pass filter")}};
+constexpr ArgumentEntry kResampleArguments[] = {kRegularSignals,
+                                                {"up, down", ValueKind::kCount, about("whole numbers from 1 to 1000")}};
+constexpr ArgumentEntry kMergeArguments[] = {
+    {"data1, ...", ValueKind::kData, about("data objects with the same channels and sampling time")}};
+constexpr ArgumentEntry kGapArguments[] = {{"x", ValueKind::kVector, about("signal")}};
+constexpr ArgumentEntry kOutlierArguments[] = {
+    {"x", ValueKind::kAny, about("signal, or a data object, whose outputs are cleaned")}};
 
 /// What a function works on: a data object, or one signal, which becomes the output of one.
 struct Signals {
@@ -21,7 +67,7 @@ struct Signals {
 Signals signals_argument(const Call& call, double Ts) {
     if (call.holds_vector(1)) return {IdData(Matrix(call.vector(1, "x")), Matrix(), Ts), true};
     if (const IdData* data = to_object<IdData>(call.state(), 1)) return {*data, false};
-    wrong_argument(call.state(), 1, "data", "iddata or a vector");
+    wrong_argument(call.state(), 1, "data", Message("an iddata or a vector"));
 }
 
 int give_signals(const Call& call, const Signals& kind, IdData result) {
@@ -43,9 +89,8 @@ std::vector<Segment> segments_argument(const Call& call) {
 PassBand band_argument(const Call& call) {
     const VectorMap edges = call.vector(2, "{lower, upper}");
     if (edges.size() != 2)
-        throw InvalidArgument(
-            fmt::format("the band is {{lower, upper}} in rad/s ({{0, w}} is a low-pass filter), not {}",
-                        counted(edges.size(), "number")));
+        throw InvalidArgument("the band is {lower, upper} in rad/s ({0, w} is a low-pass filter), not {}",
+                              plural(edges.size(), "{} number", "{} numbers"));
     return {edges[0], edges[1]};
 }
 
@@ -56,8 +101,8 @@ std::string trend_kind(const Call& call) {
     const double degree = call.number(2, "kind");
     if (degree == 0) return "mean";
     if (degree == 1) return "linear";
-    throw InvalidArgument(
-        fmt::format("a trend has the degree 0 (\"mean\") or 1 (\"linear\"), but {} was given", degree));
+    throw InvalidArgument("a trend has the degree 0 (\"mean\") or 1 (\"linear\"), but {} was given",
+                          significant(degree, 10));
 }
 
 /// The signal, and the indices of what was replaced.
@@ -69,17 +114,16 @@ int give_repaired(const Call& call, const RepairedSignal& repaired) {
 
 int fill_gaps(Call& call) {
     call.at_most(2);
-    const Options options(call, 2, {"t", "longest"});
+    const Options options(call, 2, kGapsTables);
     const Vector t = options.has("t") ? Vector(options.vector("t")) : Vector();
     return give_repaired(call, fill_missing(call.vector(1, "x"), t, options.size("longest", 10)));
 }
 
 int remove_outliers(Call& call) {
     call.at_most(2);
-    const Options options(call, 2, {"window", "threshold"});
+    const Options options(call, 2, kOutliersTables);
     OutlierOptions wanted;
-    wanted.window = options.size("window", wanted.window);
-    wanted.threshold = options.number("threshold", wanted.threshold);
+    options.read(wanted);
     if (const IdData* data = to_object<IdData>(call.state(), 1)) {
         IdData cleaned = *data;
         Index count = 0;
@@ -95,18 +139,31 @@ int remove_outliers(Call& call) {
 }
 
 constexpr FunctionEntry kPreprocessFunctions[] = {
-    {"detrend", "data", "detrend(data, \"linear\" | \"mean\" | \"start\", {samples =}) -> data",
-     "takes off the straight line, the mean, or the level before the input changes", guarded<detrend_signals>},
-    {"idfilt", "data", "idfilt(data, {lower, upper}, {order =, zero_phase =, stop =, start =}) -> data",
-     "Butterworth filter over inputs and outputs alike", guarded<filter_signals>},
-    {"resample", "data", "resample(data, up, down) -> data",
-     "other sampling rate, by up/down, with a filter against aliasing", guarded<resample_signals>},
-    {"merge", "data", "merge(data1, data2, ...) -> data", "several experiments in one data object",
-     guarded<merge_data>},
-    {"fillmissing", "data", "fillmissing(x, {t =, longest =}) -> filled, places",
-     "straight lines over samples that are not numbers", guarded<fill_gaps>},
-    {"filloutliers", "data", "filloutliers(x | data, {window =, threshold =}) -> cleaned, places",
-     "straight lines over samples that stand out from their neighbours", guarded<remove_outliers>},
+    {"detrend", "data", "detrend(data, \"linear\" | \"mean\" | \"start\", {options}) -> data",
+     "takes off the straight line, the mean, or the level before the input changes", guarded<detrend_signals>,
+     kTrendTables, kTrendArguments},
+    {"idfilt", "data", "idfilt(data, {lower, upper}, {options}) -> data",
+     "Butterworth filter over inputs and outputs alike", guarded<filter_signals>, kButterworthTables,
+     kButterworthArguments},
+    {"resample",
+     "data",
+     "resample(data, up, down) -> data",
+     "other sampling rate, by up/down, with a filter against aliasing",
+     guarded<resample_signals>,
+     {},
+     kResampleArguments},
+    {"merge",
+     "data",
+     "merge(data1, data2, ...) -> data",
+     "several experiments in one data object",
+     guarded<merge_data>,
+     {},
+     kMergeArguments},
+    {"fillmissing", "data", "fillmissing(x, {options}) -> filled, places",
+     "straight lines over samples that are not numbers", guarded<fill_gaps>, kGapsTables, kGapArguments},
+    {"filloutliers", "data", "filloutliers(x | data, {options}) -> cleaned, places",
+     "straight lines over samples that stand out from their neighbours", guarded<remove_outliers>, kOutliersTables,
+     kOutlierArguments},
 };
 
 }  // namespace
@@ -115,12 +172,12 @@ int detrend_signals(Call& call) {
     call.at_most(3);
     const Signals signals = signals_argument(call, 1);
     const std::string kind = trend_kind(call);
-    const Options options(call, 3, {"samples"});
+    const Options options(call, 3, kTrendTables);
     if (kind == "start")
         return give_signals(call, signals, remove_initial_level(signals.data, options.size("samples", 0)));
     if (kind != "linear" && kind != "mean")
-        throw InvalidArgument(
-            fmt::format("the kind of trend must be \"linear\", \"mean\" or \"start\", but \"{}\" was given", kind));
+        throw InvalidArgument("{} must be {}, but \"{}\" was given", Message("the kind of trend"),
+                              Message("\"linear\", \"mean\" or \"start\""), kind);
     if (options.has("samples"))
         throw InvalidArgument("option 'samples' belongs to the kind \"start\": how many samples come before the step");
     return give_signals(call, signals,
@@ -129,14 +186,12 @@ int detrend_signals(Call& call) {
 
 int filter_signals(Call& call) {
     call.at_most(3);
-    const Options options(call, 3, {"order", "zero_phase", "stop", "start", "Ts"});
+    const Options options(call, 3, kButterworthTables);
     const Signals signals = signals_argument(call, options.number("Ts", 1));
     if (!signals.bare && options.has("Ts")) throw InvalidArgument("option 'Ts' is for a vector; data have their own");
     FilterOptions wanted;
-    wanted.order = static_cast<int>(std::min<Index>(options.size("order", wanted.order), 1000));
-    wanted.zero_phase = options.flag("zero_phase", false);
-    wanted.stop = options.flag("stop", false);
-    wanted.steady_start = options.choice("start", {"zero", "steady"}, 0) == 1;
+    options.read(wanted);
+    wanted.steady_start = options.has("start") && options.choice(kFilterStart) == 1;
     if (wanted.zero_phase && options.has("start"))
         throw InvalidArgument(
             "option 'start' is for the causal filter; with zero_phase the record is continued at both ends");

@@ -1,8 +1,11 @@
+#include <array>
 
+#include "base/catalog.h"
 #include "figures/step_construction.h"
 #include "numerics/estimators/procsrivc.h"
 #include "numerics/estimators/step_test.h"
 #include "scripting/arguments/estimator_arguments.h"
+#include "scripting/arguments/estimator_options.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/data_object.h"
@@ -12,6 +15,25 @@
 
 namespace dynlab::inline scripting {
 namespace {
+
+constexpr std::array kConstructionOptions = {OptionEntry{"xlabel", ValueKind::kText, about("label of the x axis")},
+                                             OptionEntry{"ylabel", ValueKind::kText, about("label of the y axis")}};
+constexpr OptionTable kConstruction[] = {kConstructionOptions};
+constexpr OptionTable kProcsrivc[] = {kDelayOptions, kStartOptions, kLimitOptions};
+
+constexpr std::array kStepArguments = {
+    ArgumentEntry{"data", ValueKind::kData,
+                  about("data object with one input that makes a single step, up or down from any level, and one "
+                        "output")}};
+constexpr std::array kConstructionArguments = {
+    ArgumentEntry{"G", ValueKind::kModel, about("result of step_first_order, step_second_order or step_delayed")}};
+constexpr std::array kProcsrivcArguments = {
+    ArgumentEntry{"data", ValueKind::kData,
+                  about("data object with one input and one output, one or several experiments, regularly or "
+                        "irregularly sampled, held or linear between samples")},
+    ArgumentEntry{"structure", ValueKind::kProcess,
+                  about("P and the number of poles, 1 to 3, then any of the letters U, D, I and Z: \"P2DU\"; or what "
+                        "idproc gives")}};
 
 template <StepTestResult (*kMethod)(const IdData&)>
 int read_step_response(Call& call) {
@@ -34,11 +56,11 @@ int read_step_response(Call& call) {
 /// The readings of a step test drawn on the measured response.
 int draw_construction(Call& call) {
     call.at_most(2);
-    const Options options(call, 2, {"xlabel", "ylabel"});
+    const Options options(call, 2, kConstruction);
     const Model model = model_argument(call, 1, "G");
     if (!model.estimate || !model.estimate->step_test)
-        throw InvalidArgument(
-            "argument 1 (G) must be a model that step_first_order, step_second_order or step_delayed gave");
+        throw InvalidArgument("{} must be a model that step_first_order, step_second_order or step_delayed gave",
+                              argument_label(1, "G"));
     const StepTestResult& test = *model.estimate->step_test;
     StepConstruction construction;
     construction.t = test.record.t;
@@ -49,8 +71,8 @@ int draw_construction(Call& call) {
     construction.final = test.record.final.value;
     for (const ReadingPoint& point : test.points)
         construction.readings.push_back({point.name, point.time, point.value});
-    construction.x_label = options.text("xlabel", construction.x_label);
-    construction.y_label = options.text("ylabel", "");
+    if (options.has("xlabel")) construction.x_label = Message::verbatim(options.text("xlabel", ""));
+    construction.y_label = Message::verbatim(options.text("ylabel", ""));
     return give_figure(call, step_construction(construction));
 }
 
@@ -59,24 +81,27 @@ int estimate_process_model(Call& call) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
     const ProcessStructure structure = process_structure_argument(call, 2);
     ProcsrivcOptions wanted;
-    read_fit_options(Options(call, 3, {"InitialState", "Offset", "TdMin", "TdMax", "NumTd", "MaxIter", "Tol"}), wanted);
-    return give_fit(call, "procsrivc", procsrivc(data, structure, wanted));
+    read_fit_options(Options(call, 3, kProcsrivc), wanted);
+    return give_diagnosed_fit(call, "procsrivc", procsrivc(data, structure, wanted), wanted);
 }
 
 constexpr const char* kStep = "step tests";
 constexpr FunctionEntry kEstimatorsFunctions[] = {
     {"step_first_order", kStep, "step_first_order(data) -> G",
-     "K/(1 + T s) read off a step response: gain and 5 % settling time", guarded<read_step_response<step_first_order>>},
+     marked("estimator", "K/(1 + T s) read off a step response: gain and 5 % settling time"),
+     guarded<read_step_response<step_first_order>>, kNoOptions, kStepArguments},
     {"step_second_order", kStep, "step_second_order(data) -> G",
-     "gain, damping and natural frequency read off the first overshoot",
-     guarded<read_step_response<step_second_order>>},
-    {"step_delayed", kStep, "step_delayed(data) -> G", "K exp(-D s)/(1 + T s) from two points of a step response",
-     guarded<read_step_response<step_delayed>>},
-    {"step_construction", kStep, "step_construction(G, {xlabel =, ylabel =}) -> fig",
-     "the reading points of a step test on its response", guarded<draw_construction>},
-    {"procsrivc", "continuous time",
-     "procsrivc(data, \"P2DU\", {TdMin =, TdMax =, InitialState =, Offset =, ...}) -> G",
-     "process model with the smallest simulation error", guarded<memoized_call<estimate_process_model>>},
+     marked("estimator", "gain, damping and natural frequency read off the first overshoot"),
+     guarded<read_step_response<step_second_order>>, kNoOptions, kStepArguments},
+    {"step_delayed", kStep, "step_delayed(data) -> G",
+     marked("estimator", "K exp(-D s)/(1 + T s) from two points of a step response"),
+     guarded<read_step_response<step_delayed>>, kNoOptions, kStepArguments},
+    {"step_construction", kStep, "step_construction(G, {options}) -> fig",
+     "the reading points of a step test on its response", guarded<draw_construction>, kConstruction,
+     kConstructionArguments},
+    {"procsrivc", "continuous time", "procsrivc(data, \"P2DU\", {options}) -> G",
+     marked("estimator", "process model with the smallest simulation error"),
+     guarded<memoized_call<estimate_process_model>>, kProcsrivc, kProcsrivcArguments},
 };
 
 }  // namespace

@@ -46,17 +46,16 @@ std::filesystem::path file_of_module(const Call& call, const std::string& name) 
     };
     if (name.empty() || !std::all_of(name.begin(), name.end(), allowed) || name.find("..") != std::string::npos)
         throw InvalidArgument(
-            fmt::format("a file beside the script is named without its ending, such as \"tools\" for "
-                        "tools.lua, but \"{}\" was given",
-                        name));
+            "a file beside the script is named without its ending, such as \"tools\" for tools.lua, but \"{}\" was "
+            "given",
+            name);
     std::string relative = name;
     std::replace(relative.begin(), relative.end(), '.', '/');
     const std::filesystem::path folder = call.context().options.script_folder, file = folder / (relative + ".lua");
     if (!std::filesystem::is_regular_file(file))
-        throw InvalidArgument(fmt::format(
-            "there is no file {}.lua in the script's folder; libraries from elsewhere are not there", relative));
-    if (!lies_below(file, folder))
-        throw InvalidArgument(fmt::format("{}.lua leads outside the script's folder", relative));
+        throw InvalidArgument("there is no file {}.lua in the script's folder; libraries from elsewhere are not there",
+                              relative);
+    if (!lies_below(file, folder)) throw InvalidArgument("{}.lua leads outside the script's folder", relative);
     return file;
 }
 
@@ -74,7 +73,7 @@ int require_file(Call& call) {
     const std::string code = read_text(file);
     const std::string chunk = "@" + file.lexically_relative(call.context().options.script_folder).string();
     if (luaL_loadbufferx(L, code.data(), code.size(), chunk.c_str(), "t") != LUA_OK)
-        throw InvalidArgument(plain_syntax_message(lua_tostring(L, -1), code));
+        throw InvalidArgument(syntax_error(lua_tostring(L, -1), code).with_place());
     lua_pushboolean(L, true);
     lua_setfield(L, known, name.c_str());  // a file that requires itself gets true
     lua_call(L, 0, 1);
@@ -90,8 +89,7 @@ int require_file(Call& call) {
 std::filesystem::path script_at(const std::string& path) {
     std::filesystem::path file = path;
     if (std::filesystem::is_directory(file)) file /= "analysis.lua";
-    if (!std::filesystem::is_regular_file(file))
-        throw InvalidArgument(fmt::format("there is no script {}", file.string()));
+    if (!std::filesystem::is_regular_file(file)) throw InvalidArgument("there is no script {}", file.string());
     return file;
 }
 
@@ -126,7 +124,7 @@ int run_file(Call& call) {
     announce_variables(L, script.variables);
     const std::string chunk = "@" + file.string();
     if (luaL_loadbufferx(L, script.code.data(), script.code.size(), chunk.c_str(), "t") != LUA_OK)
-        throw InvalidArgument(plain_syntax_message(lua_tostring(L, -1), text));
+        throw InvalidArgument(syntax_error(lua_tostring(L, -1), text).with_place());
     push_prompt_variables(L);
     lua_setupvalue(L, -2, 1);
     const InFolder folder(call.context().options, file.parent_path());

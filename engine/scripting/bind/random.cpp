@@ -9,8 +9,8 @@ int rng(Call& call) {
     call.at_most(1);
     const Index seed = call.integer(1, "seed");
     if (seed < 0 || seed > 0xFFFFFFFF)
-        throw InvalidArgument(
-            fmt::format("the seed must be a whole number from 0 to 4294967295, but {} was given", seed));
+        throw InvalidArgument("{} must be {}, but {} was given", Message("the seed"),
+                              Message("a whole number from 0 to 4294967295"), seed);
     call.context().random = RandomStream(static_cast<std::uint32_t>(seed));
     return 0;
 }

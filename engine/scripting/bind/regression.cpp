@@ -1,12 +1,14 @@
 #include <array>
 
+#include "base/reader.h"
 #include "figures/plots/regression_plot.h"
 #include "numerics/estimators/gradient_descent.h"
 #include "numerics/estimators/linear_regression.h"
 #include "numerics/statistics/distributions.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/conversions/localized.h"
+#include "scripting/conversions/option_member.h"
 #include "scripting/conversions/table_fields.h"
-#include "scripting/conversions/told_sentences.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/runtime/text_form.h"
 
@@ -28,6 +30,49 @@ struct Boxed<RegressionFit> {
 
 namespace {
 
+constexpr std::array kRegressionMethods = {"qr", "normal"};
+constexpr OptionEntry kRegressionMethod = option<&PolyfitOptions::method>(
+    "method",
+    about("orthogonal factorization (\"qr\"), or the normal equations (\"normal\"), which "
+          "square the condition number"),
+    {.initial = "\"qr\"", .choices = kRegressionMethods});
+constexpr std::array kLsqOptions = {kRegressionMethod};
+constexpr std::array kPolyfitOptions = {
+    option<&PolyfitOptions::centred>("centred", about("powers of x minus its mean, instead of those of x itself")),
+    kRegressionMethod};
+constexpr OptionEntry kRegressionPlotOptions[] = {
+    {"forecast", ValueKind::kNumber, about("x of a forecast that is marked")},
+    {"text", ValueKind::kText, about("label of the forecast; by default its value")},
+    {"level", ValueKind::kNumber, about("probability of the bands"), {.initial = "0.95"}},
+    {"xlabel", ValueKind::kText, about("label of the x axis")},
+    {"ylabel", ValueKind::kText, about("label of the y axis")}};
+constexpr std::array kDescentOptions = {
+    option<&GradientDescentOptions::step_size>("step", about("step size; by default 1/lambda_max of Phi'Phi/N")),
+    option<&GradientDescentOptions::max_iterations>("MaxIter", about("maximum number of iterations")),
+    option<&GradientDescentOptions::tolerance>("Tol", about("relative change of theta at which the search stops"),
+                                               {.least = 0}),
+    option<&GradientDescentOptions::start>("start", about("first theta; by default zero"))};
+constexpr OptionTable kLsqTables[] = {kLsqOptions}, kPolyfitTables[] = {kPolyfitOptions},
+                      kRegressionPlotTables[] = {kRegressionPlotOptions}, kDescentTables[] = {kDescentOptions};
+
+constexpr ArgumentEntry kRegressionX = {"x", ValueKind::kVector, about("vector of N values")},
+                        kRegressionY = {"y", ValueKind::kVector, about("vector of N values")},
+                        kPolynomialDegree = {"degree", ValueKind::kCount,
+                                             about("degree of the polynomial; 1 is a straight line")};
+constexpr std::array kPolynomialArguments = {kRegressionX, kRegressionY, kPolynomialDegree};
+constexpr ArgumentEntry kRegressorArguments[] = {
+    {"Phi", ValueKind::kAny, about("matrix with N rows and d columns, N at least d")}, kRegressionY};
+constexpr ArgumentEntry kForecastArguments[] = {
+    {"fit", ValueKind::kAny, about("result of `polyfit_report` or `lsq`")},
+    {"x", ValueKind::kAny, about("number, for a polynomial; for `lsq` a vector of d regressors")},
+    {"level", ValueKind::kNumber, about("probability of the interval; by default 0.95")}};
+constexpr ArgumentEntry kQuantileArguments[] = {
+    {"p", ValueKind::kNumber,
+     about("probability between 0 and 1; 0.975 for an interval of 95 %, as 2.5 % are left on each side")},
+    {"degrees", ValueKind::kNumber, about("degrees of freedom, greater than 0")}};
+constexpr ArgumentEntry kRegressionPlotArguments[] = {
+    kRegressionX, kRegressionY, {"fit", ValueKind::kAny, about("result of `polyfit_report`")}};
+
 template <auto kMember>
 constexpr lua_CFunction regression_field =
     field<RegressionFit, [](const RegressionFit& fit) { return fit.regression.*kMember; }>;
@@ -39,14 +84,18 @@ double centre_of(const RegressionFit& fit) {
     return fit.polynomial ? fit.polynomial->centre : 0.0;
 }
 
-std::string message_of(const RegressionFit& fit) {
+const Message& message_of(const RegressionFit& fit) {
     return fit.regression.message;
 }
 
-std::string regression_text(const RegressionFit& given) {
+Message regression_text(const RegressionFit& given) {
     const LinearRegression& fit = given.regression;
-    return fmt::format("theta = {}\nstandard errors = {}\nRMSE = {}, condition number = {}\n{}", vector_text(fit.theta),
-                       vector_text(fit.std), number_text(fit.rmse), number_text(fit.condition_number), fit.message);
+    MessageList lines{{}, Join::kLines};
+    lines.items.push_back(Message("theta = {}", vector_text(fit.theta)));
+    lines.items.push_back(Message("standard errors = {}", vector_text(fit.std)));
+    lines.items.push_back(Message("RMSE = {}, condition number = {}", fit.rmse, fit.condition_number));
+    lines.items.push_back(fit.message);
+    return Message("{}", lines);
 }
 
 constexpr std::array kRegressionFields = {
@@ -59,29 +108,27 @@ constexpr std::array kRegressionFields = {
     Member{"condition_number", regression_field<&LinearRegression::condition_number>},
     Member{"covariance", regression_field<&LinearRegression::covariance>},
     Member{"rank", regression_field<&LinearRegression::rank>},
-    Member{"message", told_field<RegressionFit, message_of>},
+    Member{"message", localized_field<RegressionFit, message_of>},
     Member{"coefficients", field<RegressionFit, coefficients_of>},
     Member{"centre", field<RegressionFit, centre_of>},
 };
-constexpr std::array kRegressionOperators = {Member{"__tostring", told_field<RegressionFit, regression_text>}};
+constexpr std::array kRegressionOperators = {Member{"__tostring", localized_field<RegressionFit, regression_text>}};
 
 int least_squares(Call& call) {
     call.at_most(3);
-    const Options options(call, 3, {"method"});
+    PolyfitOptions wanted;
+    Options(call, 3, kLsqTables).read(wanted);
     const MatrixMap Phi = call.matrix(1, "Phi");
-    push_object(
-        call.state(),
-        RegressionFit{lsq(Phi, call.vector(2, "y"), parse_regression_method(options.text("method", "qr"))), {}});
+    push_object(call.state(), RegressionFit{lsq(Phi, call.vector(2, "y"), wanted.method), {}});
     return 1;
 }
 
 int polynomial(Call& call) {
     call.at_most(4);
-    const Options options(call, 4, {"centred", "method"});
+    PolyfitOptions wanted;
+    Options(call, 4, kPolyfitTables).read(wanted);
     const VectorMap x = call.vector(1, "x"), y = call.vector(2, "y");
-    const PolynomialFit fit =
-        fit_polynomial(x, y, static_cast<int>(call.size(3, "degree")),
-                       {options.flag("centred", true), parse_regression_method(options.text("method", "qr"))});
+    const PolynomialFit fit = fit_polynomial(x, y, static_cast<int>(call.size(3, "degree")), wanted);
     push_object(call.state(), RegressionFit{fit.regression, fit});
     return 1;
 }
@@ -131,12 +178,11 @@ void add_line(RegressionPicture& picture, const RegressionFit& fit, double from,
     }
 }
 
-/// regression_plot(x, y, fit, {forecast = x_new, level =, xlabel =, ylabel =, text =})
 int draw_regression(Call& call) {
     call.at_most(4);
-    const Options options(call, 4, {"forecast", "text", "level", "xlabel", "ylabel"});
+    const Options options(call, 4, kRegressionPlotTables);
     const RegressionFit& fit = object_argument<RegressionFit>(call, 3, "fit");
-    if (!fit.polynomial) throw InvalidArgument("argument 3 (fit) must come from polyfit_report");
+    if (!fit.polynomial) throw InvalidArgument("{} must come from polyfit_report", argument_label(3, "fit"));
     RegressionPicture picture;
     picture.x = call.vector(1, "x");
     picture.y = call.vector(2, "y");
@@ -148,47 +194,61 @@ int draw_regression(Call& call) {
     if (x_new) {
         const Forecast at = forecast_at(fit, *x_new, level);
         picture.forecast =
-            ForecastPoint{*x_new, at.value, at.low, at.high, options.text("text", number_text(at.value))};
+            ForecastPoint{*x_new, at.value, at.low, at.high,
+                          options.has("text") ? Message::verbatim(options.text("text", "")) : Message("{}", at.value)};
     }
-    picture.confidence_label = fmt::format("{} % confidence band", number_text(100 * level));
-    picture.prediction_label = fmt::format("{} % prediction band", number_text(100 * level));
-    picture.x_label = options.text("xlabel", "");
-    picture.y_label = options.text("ylabel", "");
+    picture.level = level;
+    picture.x_label = Message::verbatim(options.text("xlabel", ""));
+    picture.y_label = Message::verbatim(options.text("ylabel", ""));
     return give_figure(call, regression_plot(picture));
 }
 
 int descend(Call& call) {
     call.at_most(3);
-    const Options options(call, 3, {"step", "MaxIter", "Tol", "start"});
     GradientDescentOptions wanted;
-    wanted.step_size = options.optional_number("step");
-    wanted.max_iterations = static_cast<int>(options.size("MaxIter", wanted.max_iterations));
-    wanted.tolerance = options.number("Tol", wanted.tolerance);
-    if (options.has("start")) wanted.start = options.vector("start");
+    Options(call, 3, kDescentTables).read(wanted);
     wanted.cancel = call.cancel();
     const MatrixMap Phi = call.matrix(1, "Phi");
     const GradientDescentResult result = gradient_descent(Phi, call.vector(2, "y"), wanted);
     return give_table(call, "theta", result.theta, "loss", result.loss, "step", result.step_size, "largest_step",
                       result.largest_step, "condition_number", result.condition_number, "iterations", result.iterations,
                       "converged", result.termination == Termination::kConverged, "message",
-                      told(call, result.message));
+                      localized(call, result.message));
 }
 
 constexpr FunctionEntry kRegressionFunctions[] = {
-    {"polyfit", "vectors", "polyfit(x, y, degree) -> p", "least-squares polynomial, highest power first",
-     guarded<polyfit>},
-    {"lsq", "regression", "lsq(Phi, y, {method = \"qr\" | \"normal\"}) -> fit",
-     "least squares with standard errors, residuals and condition number", guarded<least_squares>},
-    {"polyfit_report", "regression", "polyfit_report(x, y, degree, {centred =, method =}) -> fit",
-     "polynomial by least squares with its standard errors", guarded<polynomial>},
-    {"forecast", "regression", "forecast(fit, x, level) -> {value, low, high, ...}",
-     "forecast with its prediction interval", guarded<predict>},
-    {"tinv", "regression", "tinv(p, degrees) -> t", "quantile of Student's distribution, for intervals by hand",
-     guarded<quantile_of_student>},
-    {"regression_plot", "regression", "regression_plot(x, y, fit, {forecast =, level =, xlabel =, ylabel =}) -> fig",
-     "data, fitted polynomial and its bands", guarded<draw_regression>},
-    {"gradient_descent", "regression", "gradient_descent(Phi, y, {step =, MaxIter =, Tol =, start =}) -> table",
-     "least squares by steepest descent, with the loss after every step", guarded<descend>},
+    {"polyfit",
+     "vectors",
+     "polyfit(x, y, degree) -> p",
+     "least-squares polynomial, highest power first",
+     guarded<polyfit>,
+     {},
+     kPolynomialArguments},
+    {"lsq", "regression", "lsq(Phi, y, {options}) -> fit",
+     "least squares with standard errors, residuals and condition number", guarded<least_squares>, kLsqTables,
+     kRegressorArguments},
+    {"polyfit_report", "regression", "polyfit_report(x, y, degree, {options}) -> fit",
+     "polynomial by least squares with its standard errors", guarded<polynomial>, kPolyfitTables, kPolynomialArguments},
+    {"forecast",
+     "regression",
+     "forecast(fit, x, level) -> {value, low, high, ...}",
+     "forecast with its prediction interval",
+     guarded<predict>,
+     {},
+     kForecastArguments},
+    {"tinv",
+     "regression",
+     "tinv(p, degrees) -> t",
+     "quantile of Student's distribution, for intervals by hand",
+     guarded<quantile_of_student>,
+     {},
+     kQuantileArguments},
+    {"regression_plot", "regression", "regression_plot(x, y, fit, {options}) -> fig",
+     "data, fitted polynomial and its bands", guarded<draw_regression>, kRegressionPlotTables,
+     kRegressionPlotArguments},
+    {"gradient_descent", "regression", "gradient_descent(Phi, y, {options}) -> table",
+     "least squares by steepest descent, with the loss after every step", guarded<descend>, kDescentTables,
+     kRegressorArguments},
 };
 
 constexpr std::array kRegressionTypes = {

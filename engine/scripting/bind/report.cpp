@@ -1,15 +1,54 @@
+#include <array>
 #include <cctype>
 #include <cmath>
 
-#include "numerics/number_text.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/conversions/arguments.h"
+#include "scripting/conversions/localized.h"
+#include "scripting/conversions/option_member.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/runtime/sandbox.h"
 #include "scripting/runtime/text_form.h"
 
 namespace dynlab::inline scripting {
 namespace {
+
+constexpr std::array kSliderOptions = {
+    option<&RecordedSlider::step>("step",
+                                  about("distance between places; by default any number of the range can be chosen")),
+    option<&RecordedSlider::logarithmic>(
+        "log", about("true spaces the places evenly on a logarithmic scale; `step` does not go with it")),
+    option<&RecordedSlider::unit>("unit", about("unit behind the number")),
+    option<&RecordedSlider::label>("label", about("text beside the slider, by default its name"))};
+constexpr OptionTable kSliderTables[] = {kSliderOptions};
+
+constexpr ArgumentEntry kEntryName = {
+    "name", ValueKind::kText, about("name of the entry, made of letters, digits, _ and -; each name is used once")};
+constexpr std::array kReportValueArguments = {
+    kEntryName, ArgumentEntry{"x", ValueKind::kAny, about("number or text")},
+    ArgumentEntry{"format", ValueKind::kText,
+                  about("format of a number, such as \"%.2f\"; by default a sensible one")}};
+constexpr std::array kReportTableArguments = {
+    kEntryName, ArgumentEntry{"{{title, ...}, {cell, ...}, ...}", ValueKind::kTable,
+                              about("rows of texts or numbers, the first row with the titles; a text may hold formulas "
+                                    "between dollar signs, \"$a_1$\"")}};
+constexpr std::array kReportFigureArguments = {
+    kEntryName, ArgumentEntry{"fig", ValueKind::kAny, about("figure")},
+    ArgumentEntry{"caption", ValueKind::kText, about("caption for documents that do not write one")}};
+constexpr std::array kReportTextArguments = {kEntryName,
+                                             ArgumentEntry{"markdown", ValueKind::kText, about("text in Markdown")}};
+constexpr std::array kSliderArguments = {
+    kEntryName,
+    ArgumentEntry{"x", ValueKind::kNumber, about("number that the script uses before the reader chooses another")},
+    ArgumentEntry{"from", ValueKind::kNumber, about("smallest number; above 0 with `log`")},
+    ArgumentEntry{"to", ValueKind::kNumber, about("largest number")}};
+constexpr std::array kGuessArguments = {
+    ArgumentEntry{"name", ValueKind::kText, about("name of the guess, for `outcome`; each name is used once")},
+    ArgumentEntry{"value", ValueKind::kNumber, about("your guess, or nil while you have made none")},
+    ArgumentEntry{"unit", ValueKind::kText, about("unit behind the numbers")}};
+constexpr std::array kOutcomeArguments = {
+    ArgumentEntry{"name", ValueKind::kText, about("name of a guess above")},
+    ArgumentEntry{"value", ValueKind::kNumber, about("number that was found, in the unit of the guess")}};
 
 /// The name under which documents find an entry; each is given once per kind.
 template <class Taken>
@@ -18,10 +57,9 @@ std::string new_name(const Call& call, const Taken& taken) {
     const bool plain = !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
         return std::isalnum(c) || c == '_' || c == '-';
     });
-    if (!plain) throw InvalidArgument(fmt::format("the name \"{}\" must be made of letters, digits, _ and -", name));
+    if (!plain) throw InvalidArgument("the name \"{}\" must be made of letters, digits, _ and -", name);
     if (taken(name))
-        throw InvalidArgument(
-            fmt::format("the name \"{}\" is taken already; every entry needs a name of its own", name));
+        throw InvalidArgument("the name \"{}\" is taken already; every entry needs a name of its own", name);
     return name;
 }
 
@@ -64,7 +102,7 @@ int report_value(Call& call) {
     } else if (call.type(2) == LUA_TSTRING) {
         value.text = call.given(3) ? formatted(call, call.text(3, "format"), 2) : call.text(2, "value");
     } else {
-        wrong_argument(call.state(), 2, "value", "number or text");
+        wrong_argument(call.state(), 2, "value", Message("a number or text"));
     }
     values[name] = std::move(value);
     return 0;
@@ -73,8 +111,8 @@ int report_value(Call& call) {
 std::vector<std::string> read_cells(const Call& call, int row, lua_Integer number) {
     lua_State* L = call.state();
     if (lua_type(L, row) != LUA_TTABLE)
-        throw InvalidArgument(
-            fmt::format("row {} must be a table of cells, but {} was given", number, given_text(L, row)));
+        throw InvalidArgument("row {} must be {}, but {} was given", number, Message("a table of cells"),
+                              given_value(L, row));
     std::vector<std::string> cells;
     for (lua_Integer i = 1; lua_rawgeti(L, row, i) != LUA_TNIL; lua_pop(L, 1), ++i) cells.push_back(cell_text(L, -1));
     lua_pop(L, 1);
@@ -85,15 +123,16 @@ int report_table(Call& call) {
     call.at_most(2);
     auto& tables = call.context().recorder.record().tables;
     const std::string name = new_name(call, [&](const std::string& n) { return tables.count(n) != 0; });
-    if (call.type(2) != LUA_TTABLE) wrong_argument(call.state(), 2, "rows", "list of rows, the first one the header");
+    if (call.type(2) != LUA_TTABLE)
+        wrong_argument(call.state(), 2, "rows", Message("a list of rows, the first one the header"));
     RecordedTable table;
     lua_State* L = call.state();
     for (lua_Integer i = 1; lua_rawgeti(L, 2, i) != LUA_TNIL; lua_pop(L, 1), ++i) {
         std::vector<std::string> cells = read_cells(call, lua_gettop(L), i);
         if (i == 1) table.header = cells;
         if (cells.size() != table.header.size())
-            throw InvalidArgument(fmt::format("row {} has {}, but the header has {}", i, counted(cells.size(), "cell"),
-                                              table.header.size()));
+            throw InvalidArgument("row {} has {}, but the header has {}", i,
+                                  plural(cells.size(), "{} cell", "{} cells"), table.header.size());
         if (i > 1) table.rows.push_back(std::move(cells));
     }
     if (table.header.empty()) throw InvalidArgument("the table has no header; its first row holds the column titles");
@@ -125,18 +164,17 @@ int report_language(Call& call) {
 
 void check_range(const std::string& name, const RecordedSlider& slider) {
     if (!(slider.from < slider.to) || !std::isfinite(slider.from) || !std::isfinite(slider.to))
-        throw InvalidArgument(fmt::format("the slider \"{}\" must go from a number to a greater one, not from {} to {}",
-                                          name, number_text(slider.from), number_text(slider.to)));
+        throw InvalidArgument("the slider \"{}\" must go from a number to a greater one, not from {} to {}", name,
+                              slider.from, slider.to);
     if (slider.logarithmic && slider.from <= 0)
-        throw InvalidArgument(fmt::format("the slider \"{}\" has log = true and must begin above 0, not at {}", name,
-                                          number_text(slider.from)));
+        throw InvalidArgument("the slider \"{}\" has log = true and must begin above 0, not at {}", name, slider.from);
     if (slider.step && !(*slider.step > 0 && *slider.step <= slider.to - slider.from))
-        throw InvalidArgument(fmt::format("the step of the slider \"{}\" must be above 0 and at most {}, not {}", name,
-                                          number_text(slider.to - slider.from), number_text(*slider.step)));
+        throw InvalidArgument("the step of the slider \"{}\" must be above 0 and at most {}, not {}", name,
+                              slider.to - slider.from, *slider.step);
     for (const double value : {slider.initial, slider.value})
         if (!(value >= slider.from && value <= slider.to))
-            throw InvalidArgument(fmt::format("the slider \"{}\" goes from {} to {}; {} lies outside", name,
-                                              number_text(slider.from), number_text(slider.to), number_text(value)));
+            throw InvalidArgument("the slider \"{}\" goes from {} to {}; {} lies outside", name, slider.from, slider.to,
+                                  value);
 }
 
 int slider(Call& call) {
@@ -148,13 +186,10 @@ int slider(Call& call) {
     slider.initial = call.number(2, "value");
     slider.from = call.number(3, "from");
     slider.to = call.number(4, "to");
-    const Options options(call, 5, {"step", "log", "unit", "label"});
-    slider.step = options.optional_number("step");
-    slider.logarithmic = options.flag("log", false);
-    slider.unit = options.text("unit", "");
-    slider.label = options.text("label", name);
+    slider.label = name;
+    Options(call, 5, kSliderTables).read(slider);
     if (slider.step && slider.logarithmic)
-        throw InvalidArgument(fmt::format("the slider \"{}\" has log = true: it takes no step", name));
+        throw InvalidArgument("the slider \"{}\" has log = true: it takes no step", name);
     const SliderValues* const given = call.context().services.sliders;
     const SliderValues values = given != nullptr ? *given : SliderValues();
     const auto found = values.chosen.find(name);
@@ -174,23 +209,18 @@ void push_guesses(lua_State* L) {
     luaL_getsubtable(L, LUA_REGISTRYINDEX, kGuesses);
 }
 
-bool in_french(const Call& call) {
-    return call.context().services.language_code() == "fr";
+Message with_unit(double value, const std::string& unit) {
+    const Number number = significant(value, 4);
+    return unit.empty() ? Message("{}", number) : Message("{} {}", number, unit);
 }
 
-std::string with_unit(double value, const std::string& unit) {
-    const std::string number = fmt::format("{:.4g}", value);
-    return unit.empty() ? number : number + " " + unit;
-}
-
-/// How far a guess lies from what was found, in its percents.
-std::string distance(double guessed, double found, bool french) {
-    if (found == 0 || !std::isfinite(found) || !std::isfinite(guessed)) return "";
+/// How far a guess lies from what was found, in its percents; empty where that has no meaning.
+Message distance(double guessed, double found) {
+    if (found == 0 || !std::isfinite(found) || !std::isfinite(guessed)) return {};
     const double percent = 100 * std::abs(guessed / found - 1);
-    const std::string shown = percent >= 9.5                    ? fmt::format("{:.0f}", percent)
-                              : percent >= 0.01 || percent == 0 ? fmt::format("{:.1g}", percent)
-                                                                : (french ? "moins de 0.01" : "less than 0.01");
-    return fmt::format(fmt::runtime(french ? " (écart de {} %)" : " (off by {} %)"), shown);
+    if (percent >= 9.5) return Message("off by {} %", decimals(percent, 0));
+    if (percent >= 0.01 || percent == 0) return Message("off by {} %", significant(percent, 1));
+    return Message("off by less than {} %", significant(0.01, 1));
 }
 
 int guess(Call& call) {
@@ -200,18 +230,14 @@ int guess(Call& call) {
     const std::string unit = call.given(3) ? call.text(3, "unit") : "";
     push_guesses(L);
     if (lua_getfield(L, -1, name.c_str()) != LUA_TNIL)
-        throw InvalidArgument(
-            fmt::format("\"{}\" was guessed already; a guess is made once, before it is looked up", name));
+        throw InvalidArgument("\"{}\" was guessed already; a guess is made once, before it is looked up", name);
     lua_pop(L, 1);
     lua_createtable(L, 0, 2);
     if (call.given(2)) {
-        lua_pushnumber(L, call.number(2, "your guess"));
+        lua_pushnumber(L, call.number(2, Message("your guess")));
         lua_setfield(L, -2, "value");
     } else {
-        call.print(fmt::format(
-            fmt::runtime(in_french(call) ? "{} : pas encore deviné ; écrivez votre nombre à la place de nil\n"
-                                         : "{}: not guessed yet; type your number in the place of nil\n"),
-            name));
+        call.print(localized(call, Message("{}: not guessed yet; type your number in the place of nil", name)) + "\n");
     }
     lua_pushstring(L, unit.c_str());
     lua_setfield(L, -2, "unit");
@@ -223,39 +249,41 @@ int outcome(Call& call) {
     call.at_most(2);
     lua_State* const L = call.state();
     const std::string name = call.text(1, "name");
-    const double found = call.number(2, "what was found");
-    const bool french = in_french(call);
+    const double found = call.number(2, Message("what was found"));
     push_guesses(L);
     if (lua_getfield(L, -1, name.c_str()) != LUA_TTABLE)
-        throw InvalidArgument(
-            fmt::format("nothing called \"{}\" was guessed before; write guess(\"{}\", 1) above", name, name));
+        throw InvalidArgument("nothing called \"{}\" was guessed before; write guess(\"{}\", 1) above", name, name);
     lua_getfield(L, -1, "unit");
-    const std::string unit = lua_tostring(L, -1), shown = with_unit(found, unit);
+    const std::string unit = lua_tostring(L, -1);
+    const Message shown = with_unit(found, unit);
     if (lua_getfield(L, -2, "value") == LUA_TNIL) {
-        call.print(fmt::format(fmt::runtime(french ? "{} : trouvé {}, non deviné\n" : "{}: found {}, not guessed\n"),
-                               name, shown));
+        call.print(localized(call, Message("{}: found {}, not guessed", name, shown)) + "\n");
         return 0;
     }
     const double guessed = lua_tonumber(L, -1);
-    call.print(fmt::format(fmt::runtime(french ? "{} : deviné {}, trouvé {}{}\n" : "{}: guessed {}, found {}{}\n"),
-                           name, with_unit(guessed, unit), shown, distance(guessed, found, french)));
+    const Message off = distance(guessed, found), own = with_unit(guessed, unit);
+    call.print(localized(call, off.empty() ? Message("{}: guessed {}, found {}", name, own, shown)
+                                           : Message("{}: guessed {}, found {} ({})", name, own, shown, off)) +
+               "\n");
     return 0;
 }
 
 constexpr FunctionEntry kReportFunctions[] = {
     {"report.value", "report", "report.value(name, x, format)", "puts a number or text into the report",
-     guarded<report_value>},
+     guarded<report_value>, kNoOptions, kReportValueArguments},
     {"report.table", "report", "report.table(name, {{title, ...}, {cell, ...}, ...})",
-     "puts a table into the report, header first", guarded<report_table>},
+     "puts a table into the report, header first", guarded<report_table>, kNoOptions, kReportTableArguments},
     {"report.figure", "report", "report.figure(name, fig, caption)", "puts a figure into the report",
-     guarded<report_figure>},
-    {"report.text", "report", "report.text(name, markdown)", "puts Markdown text into the report",
-     guarded<report_text>},
+     guarded<report_figure>, kNoOptions, kReportFigureArguments},
+    {"report.text", "report", "report.text(name, markdown)", "puts Markdown text into the report", guarded<report_text>,
+     kNoOptions, kReportTextArguments},
     {"report.language", "report", "report.language() -> text", "tells the report's language", guarded<report_language>},
-    {"slider", "report", "slider(name, x, from, to, {step = , log = , unit = , label = }) -> x",
-     "a number that the reader of a page moves", guarded<slider>},
-    {"guess", "report", "guess(name, value, unit)", "writes down what you expect before you look", guarded<guess>},
-    {"outcome", "report", "outcome(name, value)", "prints a guess beside what was found", guarded<outcome>},
+    {"slider", "report", "slider(name, x, from, to, {options}) -> x", "a number that the reader of a page moves",
+     guarded<slider>, kSliderTables, kSliderArguments},
+    {"guess", "report", "guess(name, value, unit)", "writes down what you expect before you look", guarded<guess>,
+     kNoOptions, kGuessArguments},
+    {"outcome", "report", "outcome(name, value)", "prints a guess beside what was found", guarded<outcome>, kNoOptions,
+     kOutcomeArguments},
 };
 
 }  // namespace

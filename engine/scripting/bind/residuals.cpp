@@ -2,15 +2,13 @@
 #include "figures/plots/cross_validation_plot.h"
 #include "figures/plots/residual_plot.h"
 #include "numerics/fit/diagnosis.h"
-#include "numerics/fit/missed_options.h"
-#include "numerics/number_text.h"
+#include "numerics/fit/missed_structure.h"
 #include "numerics/validation/crossvalidate.h"
 #include "numerics/validation/residual_tests.h"
 #include "scripting/arguments/simulation_options.h"
 #include "scripting/bind/bindings.h"
-#include "scripting/conversions/option_words.h"
+#include "scripting/conversions/localized.h"
 #include "scripting/conversions/table_fields.h"
-#include "scripting/conversions/told_sentences.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/simulated_model.h"
@@ -18,16 +16,39 @@
 namespace dynlab::inline scripting {
 namespace {
 
+constexpr OptionEntry kResidualOptions[] = {
+    option<&ResidualOptions::lags>("lags", about("number of lags that are tested")),
+    option<&ResidualOptions::confidence>("confidence", about("probability of the bounds")),
+    {"prediction",
+     ValueKind::kFlag,
+     about("errors of the prediction one step ahead, instead of the simulation errors"),
+     {.initial = "false"}},
+    {"quiet", ValueKind::kFlag, about("no text and no figure"), {.initial = "false"}}};
+constexpr OptionEntry kFoldOptions[] = {
+    option<&CrossValidationOptions::folds>("folds", about("number of parts")),
+    option<&CrossValidationOptions::by_experiment>("by_experiment",
+                                                   about("one experiment left out after the other, instead of parts")),
+    {"InitialState",
+     ValueKind::kChoice,
+     kStateOption.description,
+     {.initial = "\"estimate\"", .choices = kInitialStates, .former = "zero", .member = "initial_state"}},
+    kOffsetOption};
+constexpr OptionTable kResidualsTables[] = {kResidualOptions, kComparisonStart}, kFoldsTables[] = {kFoldOptions};
+
+constexpr ArgumentEntry kFoldArguments[] = {
+    {"data", ValueKind::kData, about("data object with one or several experiments")},
+    {"fit", ValueKind::kAny, about("function of a data object that returns a model")}};
+
 void push_independence(const Call& call, const IndependenceTest& test) {
     give_table(call, "correlation", test.correlation, "bound", test.bound, "outside", static_cast<double>(test.outside),
                "p_value", test.p_value, "p_value_future", test.p_value_future, "independent", test.independent,
-               "without_feedback", test.without_feedback, "verdict", told(call, test.verdict));
+               "without_feedback", test.without_feedback, "verdict", localized(call, test.verdict));
 }
 
 void push_output(const Call& call, const OutputResiduals& output) {
     lua_State* L = call.state();
     give_table(call, "mean", output.mean, "variance", output.variance, "exact", output.exact, "verdict",
-               told(call, output.verdict));
+               localized(call, output.verdict));
     if (output.exact) return;
     set_field(call, "correlation", output.whiteness.correlation, "bound", output.whiteness.bound, "outside",
               static_cast<double>(output.whiteness.outside), "p_value", output.whiteness.p_value, "white",
@@ -49,7 +70,7 @@ void push_tests(const Call& call, const ResidualTests& tests) {
     lua_setfield(L, -2, "outputs");
     give_list(call, tests.residuals, [&](const Matrix& residuals) { give_columns(call, residuals); });
     lua_setfield(L, -2, "residuals");
-    set_field(call, "verdict", told(call, tests.verdict), "white", white, "independent", independent);
+    set_field(call, "verdict", localized(call, tests.verdict), "white", white, "independent", independent);
 }
 
 /// Nothing for models that were not estimated.
@@ -57,9 +78,9 @@ ModelDoubts doubts_of(const Call& call, int index) {
     const Model* model = to_object<Model>(call.state(), index);
     if (model == nullptr || !model->estimate) return {};
     const Estimate& estimate = *model->estimate;
-    const std::optional<MissedOption>& missed = estimate.doubts.missed_option;
-    return {enumerated(undetermined_parameters(estimate.names, estimate.theta, estimate.std)),
-            missed ? in_lua_words(sentence_of(*missed)) : std::string()};
+    const std::optional<MissedStructure> missed = estimate.diagnostics.missed();
+    return {undetermined_parameters(estimate.names, estimate.theta, estimate.std),
+            missed ? sentence_of(*missed) : Message()};
 }
 
 /// Of the model at argument 2.
@@ -83,13 +104,12 @@ ResidualTests tests_of_model(const Call& call, const IdData& data, const Options
 int test_residuals(Call& call) {
     call.at_most(3);
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    const Options options(call, 3, {"lags", "confidence", "InitialState", "Offset", "prediction", "quiet"});
+    const Options options(call, 3, kResidualsTables);
     const bool quiet = options.flag("quiet", false);
     ResidualOptions wanted;
-    wanted.lags = options.size("lags", wanted.lags);
-    wanted.confidence = options.number("confidence", wanted.confidence);
+    options.read(wanted);
     const ResidualTests tests = tests_of_model(call, data, options, wanted);
-    if (!quiet) call.print(told(call, tests.verdict) + "\n");
+    if (!quiet) call.print(localized(call, tests.verdict) + "\n");
     bool drawable = false;
     for (const OutputResiduals& output : tests.outputs) drawable = drawable || !output.exact;
     if (drawable && !quiet)
@@ -107,10 +127,10 @@ std::vector<TransferFunction> call_fitter(lua_State* L, const IdData& training) 
     lua_call(L, 1, 1);
     const Model* model = to_object<Model>(L, -1);
     if (model == nullptr)
-        throw InvalidArgument(fmt::format(
+        throw InvalidArgument(
             "the function that fits must return a model, as in function(d) return procsrivc(d, \"P1\") end, but it "
             "returned {}",
-            given_text(L, -1)));
+            given_value(L, -1));
     std::vector<TransferFunction> channels = channels_of(*model);
     lua_pop(L, 1);
     return channels;
@@ -121,7 +141,7 @@ void push_cross_validation(const Call& call, const CrossValidation& result) {
     lua_createtable(L, 0, 5);
     give_columns(call, result.fit_percent);
     lua_setfield(L, -2, "fit_percent");
-    set_field(call, "mean", result.mean, "std", result.spread, "message", told(call, result.message));
+    set_field(call, "mean", result.mean, "std", result.spread, "message", localized(call, result.message));
     give_list(call, result.folds, [&](const CrossValidationFold& fold) {
         give_table(call, "experiment", static_cast<double>(fold.experiment + 1), "first",
                    static_cast<double>(fold.first), "last", static_cast<double>(fold.last));
@@ -134,29 +154,28 @@ void push_cross_validation(const Call& call, const CrossValidation& result) {
 int validate_across(Call& call) {
     call.at_most(3);
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    if (call.type(2) != LUA_TFUNCTION) wrong_argument(call.state(), 2, "fit", "function of a data object");
-    const Options options(call, 3, {"folds", "by_experiment", "InitialState", "Offset"});
+    if (call.type(2) != LUA_TFUNCTION) wrong_argument(call.state(), 2, "fit", Message("a function of a data object"));
+    const Options options(call, 3, kFoldsTables);
     CrossValidationOptions wanted;
-    wanted.folds = static_cast<int>(options.size("folds", wanted.folds));
-    wanted.by_experiment = options.flag("by_experiment", false);
-    wanted.simulation = compare_options(options, "estimate");
+    options.read(wanted);
+    wanted.simulation = compare_options(options, InitialState::kEstimate);
     wanted.cancel = call.cancel();
     lua_State* L = call.state();
     const CrossValidation result = cross_validate(
         data, [L](const IdData& training) { return call_fitter(L, training); }, wanted);
-    call.print(told(call, result.message) + "\n");
+    call.print(localized(call, result.message) + "\n");
     give_figure(call, cross_validation_plot(result, data.output_names));
     push_cross_validation(call, result);
     return 2;
 }
 
 constexpr FunctionEntry kResidualsFunctions[] = {
-    {"resid", "validation",
-     "resid(data, G, {lags =, confidence =, InitialState =, Offset =, prediction =, quiet =}) -> fig, table",
-     "is the simulation error white and independent of the input? with a verdict in words", guarded<test_residuals>},
-    {"crossvalidate", "validation",
-     "crossvalidate(data, fit, {folds =, by_experiment =, InitialState =, Offset =}) -> fig, table",
-     "fits on all parts but one and simulates on that one, part by part", guarded<validate_across>},
+    {"resid", "validation", "resid(data, G, {options}) -> fig, table",
+     "is the simulation error white and independent of the input? with a verdict in words", guarded<test_residuals>,
+     kResidualsTables, kRecordAndModel},
+    {"crossvalidate", "validation", "crossvalidate(data, fit, {options}) -> fig, table",
+     "fits on all parts but one and simulates on that one, part by part", guarded<validate_across>, kFoldsTables,
+     kFoldArguments},
 };
 
 }  // namespace

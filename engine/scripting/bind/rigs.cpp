@@ -1,12 +1,27 @@
+#include <array>
 
 #include "numerics/rigs/catalogue.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/conversions/option_member.h"
 #include "scripting/conversions/table_fields.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/model.h"
 
 namespace dynlab::inline scripting {
 namespace {
+
+constexpr double kLargestRigSeed = 0xFFFFFFFF;
+constexpr std::array kRigSeedOptions = {option<&RigChoice::seed>(
+    "seed", about("seed of the noise and of random inputs"), {.least = 0, .most = kLargestRigSeed})};
+constexpr std::array kRigSpecimenOptions = {
+    option<&RigChoice::specimen>("specimen", about("number of the apparatus; 0 is the one that `SOURCE.md` describes"),
+                                 {.least = 0, .most = kLargestRigSeed})};
+constexpr OptionTable kRigTables[] = {kRigSeedOptions, kRigSpecimenOptions}, kRigTruthTables[] = {kRigSpecimenOptions};
+
+constexpr std::array kRigArguments = {
+    ArgumentEntry{"name", ValueKind::kText,
+                  about("\"crane\", \"drifting_process\", \"drive\", \"heat_exchanger\", \"heat_transfer\", "
+                        "\"linear_system\", \"step_response\", \"suspension\", \"thruster\" or \"two_tanks\"")}};
 
 void give_values(const Call& call, const RigValues& values, const std::string& path);
 
@@ -37,14 +52,7 @@ const Rig& rig_of(const Call& call) {
     if (const Rig* rig = find_rig(name)) return *rig;
     std::vector<std::string> names;
     for (const Rig& rig : rig_catalogue()) names.push_back(rig.name);
-    throw InvalidArgument(fmt::format("there is no rig '{}'; there are {}", name, fmt::join(names, ", ")));
-}
-
-std::uint32_t seed_number(const Options& options, const char* name, Index fallback) {
-    const Index number = options.size(name, fallback);
-    if (number > 0xFFFFFFFF)
-        throw InvalidArgument(fmt::format("option '{}' must be a whole number from 0 to 4294967295", name));
-    return static_cast<std::uint32_t>(number);
+    throw InvalidArgument("there is no rig '{}'; there are {}", name, listed(names));
 }
 
 void give_description(const Call& call, const Rig& rig) {
@@ -67,15 +75,13 @@ int give_descriptions(const Call& call) {
     return 1;
 }
 
-/// rig(name, {seed =, specimen =}): the course's experiments, with the parameters their headers state or another
-/// specimen's; rig() tells which there are.
+/// The course's experiments, with the parameters their headers state or another specimen's; rig() tells which there
+/// are.
 int rig(Call& call) {
     call.at_most(2);
     if (call.count() == 0) return give_descriptions(call);
-    const Options options(call, 2, {"seed", "specimen"});
-    const RigChoice stored;
-    const RigChoice choice{seed_number(options, "specimen", stored.specimen),
-                           seed_number(options, "seed", stored.seed)};
+    RigChoice choice;
+    Options(call, 2, kRigTables).read(choice);
     const Rig& rig = rig_of(call);
     give_values(call, rig.record(choice), rig.name);
     return 1;
@@ -86,20 +92,21 @@ int rig(Call& call) {
 int rig_truth(Call& call) {
     constexpr std::uint32_t kOfNobody = 0x8000'0000;
     call.at_most(2);
-    const Options options(call, 2, {"specimen"});
+    RigChoice choice;
+    Options(call, 2, kRigTruthTables).read(choice);
     const Rig& rig = rig_of(call);
-    const std::uint32_t specimen = seed_number(options, "specimen", 0);
     const bool graded = call.context().options.graded;
-    give_values(call, rig.truth(graded ? specimen | kOfNobody : specimen), "the truth of " + rig.name);
+    give_values(call, rig.truth(graded ? choice.specimen | kOfNobody : choice.specimen), "the truth of " + rig.name);
     return 1;
 }
 
 constexpr FunctionEntry kRigsFunctions[] = {
-    {"rig", "data", "rig(name, {seed =, specimen =}) -> table",
+    {"rig", "data", "rig(name, {options}) -> table",
      "repeats one of the course's simulated experiments, with other noise for another seed",
-     guarded<memoized_call<rig>>},
-    {"rig_truth", "data", "rig_truth(name, {specimen =}) -> table",
-     "what theory says of one of the course's simulated experiments", guarded<rig_truth>},
+     guarded<memoized_call<rig>>, kRigTables, kRigArguments},
+    {"rig_truth", "data", "rig_truth(name, {options}) -> table",
+     "what theory says of one of the course's simulated experiments", guarded<rig_truth>, kRigTruthTables,
+     kRigArguments},
 };
 
 }  // namespace

@@ -1,10 +1,12 @@
 #include <algorithm>
+#include <array>
 
 #include "data_io/csv_file.h"
 #include "data_io/json_file.h"
 #include "data_io/mat_file.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/conversions/boxed.h"
+#include "scripting/conversions/option_member.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/exchange.h"
 #include "scripting/runtime/output_path.h"
@@ -12,25 +14,50 @@
 namespace dynlab::inline scripting {
 namespace {
 
+constexpr std::array kSaveCsvOptions = {
+    OptionEntry{"units", ValueKind::kTable, about("units by column, such as {t = \"s\"}")},
+    OptionEntry{"title", ValueKind::kText, about("text of the first comment line")},
+    OptionEntry{
+        "columns", ValueKind::kAny,
+        about("names of the columns in the order of the file; by default t, then the others in alphabetical order")},
+    option<&CsvTable::Ts>("Ts", about("sampling time to note in the file"), {.unit = "s"}),
+    OptionEntry{"digits",
+                ValueKind::kCount,
+                about("number of significant digits; 17 keeps every bit"),
+                {.initial = "7", .least = 1, .most = 17}}};
+constexpr std::array kSaveMatOptions = {
+    OptionEntry{"digits",
+                ValueKind::kCount,
+                about("number of significant digits to round to; 17 for no rounding"),
+                {.initial = "17", .least = 1, .most = 17}}};
+constexpr OptionTable kSaveCsvTables[] = {kSaveCsvOptions}, kSaveMatTables[] = {kSaveMatOptions};
+
+constexpr std::array kSaveCsvArguments = {
+    ArgumentEntry{"path", ValueKind::kText,
+                  about("file name ending in .csv, below the output folder or the script's folder")},
+    ArgumentEntry{
+        "data", ValueKind::kData,
+        about("data object with one experiment, or a table of vectors, lists of numbers and lists of texts by name")}};
+constexpr std::array kSaveMatArguments = {
+    ArgumentEntry{"path", ValueKind::kText,
+                  about("file name ending in .mat, below the output folder or the script's folder")},
+    ArgumentEntry{
+        "variables", ValueKind::kTable,
+        about("table of models, data, vectors, matrices, numbers, texts, lists of texts and such tables by name")}};
+constexpr std::array kSaveJsonArguments = {
+    ArgumentEntry{"path", ValueKind::kText,
+                  about("file name ending in .json, below the output folder or the script's folder")},
+    kSaveMatArguments[1]};
+
 std::filesystem::path file_to_write(const Call& call, const char* extension) {
     const std::filesystem::path file = output_path(call.context(), call.text(1, "path"));
     if (file.extension() != extension)
-        throw InvalidArgument(
-            fmt::format("the file name must end in {}, but '{}' does not", extension, file.filename().string()));
+        throw InvalidArgument("the file name must end in {}, but '{}' does not", extension, file.filename().string());
     return file;
 }
 
-int digits_of(const Options& options, int fallback) {
-    const Index digits = options.size("digits", fallback);
-    if (digits < 1 || digits > 17)
-        throw InvalidArgument(fmt::format("option 'digits' must be a whole number from 1 to 17, but it is {}", digits));
-    return static_cast<int>(digits);
-}
-
-/// Names of the table's entries: t first, the others in alphabetical order, or as option 'columns' says.
-std::vector<std::string> names_of_entries(const Call& call, int index, const Options& options) {
-    if (options.has("columns")) return options.texts("columns");
-    lua_State* L = call.state();
+/// Names of the table's entries: t first, the others in alphabetical order.
+std::vector<std::string> names_of_entries(lua_State* L, int index) {
     std::vector<std::string> names;
     lua_pushnil(L);
     while (lua_next(L, index)) {
@@ -56,7 +83,7 @@ std::vector<std::string> list_of_texts(lua_State* L, int index) {
     std::vector<std::string> texts;
     for (lua_Unsigned i = 1; i <= lua_rawlen(L, index); ++i) {
         if (lua_rawgeti(L, index, static_cast<lua_Integer>(i)) != LUA_TSTRING)
-            throw InvalidArgument(fmt::format("entry {} of a list of texts is {}", i, given_text(L, -1)));
+            throw InvalidArgument("entry {} of a list of texts is {}", i, given_value(L, -1));
         texts.emplace_back(lua_tostring(L, -1));
         lua_pop(L, 1);
     }
@@ -67,8 +94,7 @@ Vector list_of_numbers(lua_State* L, int index, const std::string& name) {
     Vector numbers(static_cast<Index>(lua_rawlen(L, index)));
     for (Index i = 0; i < numbers.size(); ++i) {
         if (lua_rawgeti(L, index, i + 1) != LUA_TNUMBER)
-            throw InvalidArgument(
-                fmt::format("'{}': entry {} of a list of numbers is {}", name, i + 1, given_text(L, -1)));
+            throw InvalidArgument("'{}': entry {} of a list of numbers is {}", name, i + 1, given_value(L, -1));
         numbers[i] = lua_tonumber(L, -1);
         lua_pop(L, 1);
     }
@@ -76,9 +102,8 @@ Vector list_of_numbers(lua_State* L, int index, const std::string& name) {
 }
 
 [[noreturn]] void refuse_entry(lua_State* L, const std::string& name) {
-    if (lua_isnil(L, -1)) throw InvalidArgument(fmt::format("the table has no entry '{}'", name));
-    throw InvalidArgument(
-        fmt::format("'{}' must be a vector or a list of texts, but it is {}", name, given_text(L, -1)));
+    if (lua_isnil(L, -1)) throw InvalidArgument("the table has no entry '{}'", name);
+    throw InvalidArgument("'{}' must be a vector or a list of texts, but it is {}", name, given_value(L, -1));
 }
 
 void add_channels(CsvTable& table, const Matrix& channels, const std::vector<std::string>& names,
@@ -111,7 +136,8 @@ CsvTable table_of_data(const IdData& data) {
 CsvTable table_of_columns(const Call& call, int index, const Options& options) {
     lua_State* L = call.state();
     CsvTable table;
-    for (const std::string& name : names_of_entries(call, index, options)) {
+    const bool chosen = options.has("columns");
+    for (const std::string& name : chosen ? options.texts("columns") : names_of_entries(L, index)) {
         lua_getfield(L, index, name.c_str());
         table.names.push_back(name);
         table.columns.emplace_back();
@@ -135,12 +161,11 @@ std::map<std::string, std::string> texts_by_name(const Call& call, const Options
     if (!options.has(option)) return texts;
     lua_State* L = call.state();
     const int index = options.push(option);
-    if (lua_type(L, index) != LUA_TTABLE)
-        throw InvalidArgument(fmt::format("option '{}' must be a table like {{t = \"s\"}}", option));
+    if (lua_type(L, index) != LUA_TTABLE) throw InvalidArgument("option '{}' must be a table like {t = \"s\"}", option);
     lua_pushnil(L);
     while (lua_next(L, index)) {
         if (lua_type(L, -2) != LUA_TSTRING || lua_type(L, -1) != LUA_TSTRING)
-            throw InvalidArgument(fmt::format("option '{}' must give a text for each name", option));
+            throw InvalidArgument("option '{}' must give a text for each name", option);
         texts[lua_tostring(L, -2)] = lua_tostring(L, -1);
         lua_pop(L, 1);
     }
@@ -151,15 +176,15 @@ std::map<std::string, std::string> texts_by_name(const Call& call, const Options
 int save_csv(Call& call) {
     call.at_most(3);
     const std::filesystem::path file = file_to_write(call, ".csv");
-    const Options options(call, 3, {"units", "title", "columns", "digits", "Ts"});
+    const Options options(call, 3, kSaveCsvTables);
     const IdData* data = to_object<IdData>(call.state(), 2);
     if (data == nullptr && call.type(2) != LUA_TTABLE)
-        wrong_argument(call.state(), 2, "data", "iddata object or a table of vectors by name");
+        wrong_argument(call.state(), 2, "data", Message("an iddata object or a table of vectors by name"));
     CsvTable table = data != nullptr ? table_of_data(*data) : table_of_columns(call, 2, options);
     for (const auto& [name, unit] : texts_by_name(call, options, "units")) table.units[name] = unit;
     if (options.has("title")) table.remarks["title"] = options.text("title", "");
-    if (options.has("Ts")) table.Ts = options.number("Ts", 0);
-    write_csv_file(file, table, digits_of(options, 7));
+    options.read(table);
+    write_csv_file(file, table, static_cast<int>(options.size("digits", 7)));
     return 0;
 }
 
@@ -198,10 +223,10 @@ Variable variable_on_top(const Call& call, const std::string& name, int depth) {
 
 VariableTable variables_of(const Call& call, int index, int depth) {
     if (depth > kDeepestSavedTable)
-        throw InvalidArgument(fmt::format("tables within tables are written to {} levels only", kDeepestSavedTable));
+        throw InvalidArgument("tables within tables are written to {} levels only", kDeepestSavedTable);
     luaL_checkstack(call.state(), 8, "the tables are nested too deeply");
     VariableTable variables;
-    for (const std::string& name : names_of_entries(call, index, Options(call, 0, {}))) {
+    for (const std::string& name : names_of_entries(call.state(), index)) {
         lua_getfield(call.state(), index, name.c_str());
         variables[name] = variable_on_top(call, name, depth);
         lua_pop(call.state(), 1);
@@ -212,27 +237,30 @@ VariableTable variables_of(const Call& call, int index, int depth) {
 int save_mat(Call& call) {
     call.at_most(3);
     const std::filesystem::path file = file_to_write(call, ".mat");
-    const Options options(call, 3, {"digits"});
-    if (call.type(2) != LUA_TTABLE) wrong_argument(call.state(), 2, "variables", "a table of variables by name");
-    write_mat_file(file, variables_of(call, 2, 1), digits_of(options, 17));
+    const Options options(call, 3, kSaveMatTables);
+    if (call.type(2) != LUA_TTABLE)
+        wrong_argument(call.state(), 2, "variables", Message("a table of variables by name"));
+    write_mat_file(file, variables_of(call, 2, 1), static_cast<int>(options.size("digits", 17)));
     return 0;
 }
 
 int save_json(Call& call) {
     call.at_most(2);
     const std::filesystem::path file = file_to_write(call, ".json");
-    if (call.type(2) != LUA_TTABLE) wrong_argument(call.state(), 2, "variables", "a table of variables by name");
+    if (call.type(2) != LUA_TTABLE)
+        wrong_argument(call.state(), 2, "variables", Message("a table of variables by name"));
     write_json_file(file, variables_of(call, 2, 1));
     return 0;
 }
 
 constexpr FunctionEntry kSavingFunctions[] = {
-    {"save_csv", "data", "save_csv(path, data, {units =, title =, columns =, Ts =, digits =})",
-     "writes data, or a table of vectors, as CSV", guarded<save_csv>},
-    {"save_mat", "data", "save_mat(path, variables, {digits =})",
-     "writes models, data, vectors, numbers, texts and tables of them as a MAT file", guarded<save_mat>},
+    {"save_csv", "data", "save_csv(path, data, {options})", "writes data, or a table of vectors, as CSV",
+     guarded<save_csv>, kSaveCsvTables, kSaveCsvArguments},
+    {"save_mat", "data", "save_mat(path, variables, {options})",
+     "writes models, data, vectors, numbers, texts and tables of them as a MAT file", guarded<save_mat>, kSaveMatTables,
+     kSaveMatArguments},
     {"save_json", "data", "save_json(path, variables)", "the same as a JSON file, for Python and others",
-     guarded<save_json>},
+     guarded<save_json>, kNoOptions, kSaveJsonArguments},
 };
 
 }  // namespace

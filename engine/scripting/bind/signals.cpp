@@ -1,23 +1,69 @@
+#include <array>
 
-#include "numerics/number_text.h"
 #include "numerics/signals/excitation.h"
 #include "numerics/signals/prbs.h"
 #include "numerics/signals/random_phase_multisine.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/conversions/boxed.h"
 #include "scripting/conversions/numeric.h"
+#include "scripting/conversions/option_member.h"
 #include "scripting/conversions/table_fields.h"
 
 namespace dynlab::inline scripting {
 namespace {
+
+constexpr std::array kChirpShapes = {"sine", "square"};
+constexpr std::array kSineOptions = {
+    OptionEntry{"amplitude", ValueKind::kNumber, about("amplitude of the sine"), {.initial = "1"}},
+    OptionEntry{"phase", ValueKind::kNumber, about("phase of the sine at time 0"), {.initial = "0", .unit = "rad"}}};
+constexpr std::array kChirpOptions = {OptionEntry{
+    "shape", ValueKind::kChoice, about("shape of the wave"), {.initial = "\"sine\"", .choices = kChirpShapes}}};
+constexpr std::array kMultisineOptions = {
+    option<&RandomPhaseOptions::lines>(
+        "lines", about("sines, in whole turns in a period, from 1 to below N/2; line k lies at k/(N Ts) hertz")),
+    option<&RandomPhaseOptions::odd>("odd",
+                                     about("true keeps the odd lines only; the even lines then show even distortion")),
+    option<&RandomPhaseOptions::detection>("detection", about("lines in each group of which one, chosen at random, has "
+                                                              "no input and so shows odd distortion; 0 for no groups")),
+    option<&RandomPhaseOptions::amplitude>("amplitude", about("root mean square of the signal")),
+    option<&RandomPhaseOptions::low_crest>("low_crest", about("true moves the phases until the peaks are low")),
+    OptionEntry{"periods", ValueKind::kCount, about("number of periods"), {.initial = "1", .least = 1}},
+    OptionEntry{"seed", ValueKind::kCount, about("seed of the phases; by default they follow `rng`")}};
+constexpr OptionTable kSineTables[] = {kSineOptions}, kChirpTables[] = {kChirpOptions},
+                      kMultisineTables[] = {kMultisineOptions};
+
+constexpr ArgumentEntry kSignalLength = {"N", ValueKind::kCount, about("number of samples")},
+                        kSignalHold = {"p", ValueKind::kCount,
+                                       about("samples for which each value is held, by default 1")},
+                        kSignalLevels = {"{low, high}", ValueKind::kVector,
+                                         about("levels of the signal, by default {-1, 1}")},
+                        kSignalDuration = {"T", ValueKind::kNumber, about("duration in seconds")},
+                        kSignalPeriod = {"Ts", ValueKind::kNumber, about("sampling time in seconds")};
+constexpr std::array kPrbsArguments = {
+    ArgumentEntry{"n", ValueKind::kCount, about("number of stages, 3 to 18; the sequence has 2^n - 1 bits")},
+    kSignalHold, kSignalLevels};
+constexpr std::array kRbsArguments = {kSignalLength, kSignalHold, kSignalLevels};
+constexpr std::array kStepSignalArguments = {
+    kSignalLength, ArgumentEntry{"first", ValueKind::kCount, about("sample at which the signal changes, by default 1")},
+    ArgumentEntry{"{low, high}", ValueKind::kVector, about("levels before and after the step, by default {0, 1}")}};
+constexpr std::array kSineArguments = {ArgumentEntry{"f", ValueKind::kNumber, about("frequency in hertz")},
+                                       kSignalDuration, kSignalPeriod};
+constexpr std::array kChirpArguments = {ArgumentEntry{"f0", ValueKind::kNumber, about("first frequency in hertz")},
+                                        ArgumentEntry{"f1", ValueKind::kNumber, about("last frequency in hertz")},
+                                        kSignalDuration, kSignalPeriod};
+constexpr std::array kMultisineArguments = {
+    ArgumentEntry{"{f1, f2, ...}", ValueKind::kVector, about("frequencies in hertz, all different")},
+    ArgumentEntry{"T", ValueKind::kNumber,
+                  about("duration in seconds; a whole number of periods of every sine repeats without a jump")},
+    kSignalPeriod, ArgumentEntry{"N", ValueKind::kCount, about("number of samples of a period")}};
 
 /// {low, high} of a signal with two levels.
 std::pair<double, double> levels(const Call& call, int index, double low, double high) {
     if (!call.given(index)) return {low, high};
     const VectorMap values = call.vector(index, "{low, high}");
     if (values.size() != 2)
-        throw InvalidArgument(
-            fmt::format("the levels are written {{low, high}}, not {}", counted(values.size(), "number")));
+        throw InvalidArgument("the levels are written {low, high}, not {}",
+                              plural(values.size(), "{} number", "{} numbers"));
     return {values[0], values[1]};
 }
 
@@ -45,7 +91,7 @@ int make_step(Call& call) {
 
 int make_sine(Call& call) {
     call.at_most(4);
-    const Options options(call, 4, {"amplitude", "phase"});
+    const Options options(call, 4, kSineTables);
     need_room_for_signal(call.state(), call.number(2, "T") / call.number(3, "Ts"));
     return call.give_vector(sine(call.number(1, "frequency"), call.number(2, "T"), call.number(3, "Ts"),
                                  options.number("amplitude", 1), options.number("phase", 0)));
@@ -53,9 +99,9 @@ int make_sine(Call& call) {
 
 int make_chirp(Call& call) {
     call.at_most(5);
-    const Options options(call, 5, {"shape"});
-    const ChirpShape shape =
-        options.choice("shape", {"sine", "square"}, 0) == 0 ? ChirpShape::kSine : ChirpShape::kSquare;
+    const Options options(call, 5, kChirpTables);
+    const auto shape =
+        options.has("shape") ? static_cast<ChirpShape>(options.choice(kChirpOptions[0])) : ChirpShape::kSine;
     need_room_for_signal(call.state(), call.number(3, "T") / call.number(4, "Ts"));
     return call.give_vector(
         chirp(call.number(1, "f0"), call.number(2, "f1"), call.number(3, "T"), call.number(4, "Ts"), shape));
@@ -64,15 +110,10 @@ int make_chirp(Call& call) {
 /// One period of random phases, repeated: multisine(N, {options})
 int make_random_phases(Call& call) {
     call.at_most(2);
-    const Options options(call, 2, {"lines", "odd", "detection", "amplitude", "low_crest", "periods", "seed"});
+    const Options options(call, 2, kMultisineTables);
     RandomPhaseOptions wanted;
-    if (options.has("lines")) wanted.lines = options.vector("lines");
-    wanted.odd = options.flag("odd", false);
-    wanted.detection = options.size("detection", 0);
-    wanted.amplitude = options.number("amplitude", 1);
-    wanted.low_crest = options.flag("low_crest", false);
+    options.read(wanted);
     const Index period = call.size(1, "N"), periods = options.size("periods", 1);
-    if (periods < 1) throw InvalidArgument("option 'periods' must be at least 1, but 0 was given");
     need_room_for_signal(call.state(), static_cast<double>(period) * static_cast<double>(periods));
     RandomStream own(static_cast<std::uint32_t>(options.size("seed", 1)));
     const RandomPhaseMultisine signal =
@@ -92,18 +133,21 @@ int make_multisine(Call& call) {
 
 constexpr FunctionEntry kSignalsFunctions[] = {
     {"prbs", "signals", "prbs(n, p, {low, high}) -> u",
-     "pseudo-random binary sequence of n stages, each bit held for p samples", guarded<make_prbs>},
+     "pseudo-random binary sequence of n stages, each bit held for p samples", guarded<make_prbs>, kNoOptions,
+     kPrbsArguments},
     {"rbs", "signals", "rbs(N, p, {low, high}) -> u",
-     "N samples of a random binary signal, each value held for p samples", guarded<make_rbs>},
+     "N samples of a random binary signal, each value held for p samples", guarded<make_rbs>, kNoOptions,
+     kRbsArguments},
     {"step_signal", "signals", "step_signal(N, first, {low, high}) -> u",
-     "N samples that change from low to high at sample `first`", guarded<make_step>},
-    {"sine", "signals", "sine(f, T, Ts, {amplitude =, phase =}) -> u", "a sine of f hertz for T seconds",
-     guarded<make_sine>},
-    {"chirp", "signals", "chirp(f0, f1, T, Ts, {shape = \"sine\" | \"square\"}) -> u",
-     "a sine or square wave whose frequency (hertz) runs from f0 to f1", guarded<make_chirp>},
-    {"multisine", "signals",
-     "multisine({f1, f2, ...}, T, Ts) -> u; multisine(N, {lines =, odd =, detection =, ...}) -> u, grid",
-     "a sum of sines: with low peaks, or one period of random phases", guarded<make_multisine>},
+     "N samples that change from low to high at sample `first`", guarded<make_step>, kNoOptions, kStepSignalArguments},
+    {"sine", "signals", "sine(f, T, Ts, {options}) -> u", "a sine of f hertz for T seconds", guarded<make_sine>,
+     kSineTables, kSineArguments},
+    {"chirp", "signals", "chirp(f0, f1, T, Ts, {options}) -> u",
+     "a sine or square wave whose frequency (hertz) runs from f0 to f1", guarded<make_chirp>, kChirpTables,
+     kChirpArguments},
+    {"multisine", "signals", "multisine({f1, f2, ...}, T, Ts) -> u; multisine(N, {options}) -> u, grid",
+     "a sum of sines: with low peaks, or one period of random phases", guarded<make_multisine>, kMultisineTables,
+     kMultisineArguments},
 };
 
 }  // namespace

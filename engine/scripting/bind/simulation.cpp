@@ -1,10 +1,10 @@
+#include <array>
 
 #include "figures/histogram.h"
 #include "figures/plots/bode_plot.h"
 #include "figures/plots/nyquist_plot.h"
 #include "figures/plots/pole_zero_map.h"
 #include "figures/plots/time_response_plots.h"
-#include "numerics/number_text.h"
 #include "numerics/simulation/frequency_response.h"
 #include "numerics/simulation/lsim.h"
 #include "numerics/simulation/time_response.h"
@@ -19,6 +19,61 @@
 
 namespace dynlab::inline scripting {
 namespace {
+
+constexpr std::array kLsimOptions = {
+    kHoldOption,
+    OptionEntry{"x0", ValueKind::kVector,
+                about("state at the first sample, in the controllable canonical form of a transfer function")}};
+constexpr std::array kSvfOptions = {
+    OptionEntry{"Ts", ValueKind::kNumber, about("sampling time; it must be given"), {.unit = "s"}},
+    OptionEntry{"hold",
+                ValueKind::kChoice,
+                about("behavior of the signal between its samples: straight lines (\"foh\"), as measured outputs have, "
+                      "or constant (\"zoh\"), as held inputs are"),
+                {.initial = "\"foh\"", .choices = kHolds}}};
+constexpr std::array kModelNameOptions = {
+    OptionEntry{"labels", ValueKind::kAny, about("names of the models in the legend, a list with one for each")}};
+constexpr std::array kRegionOptions = {
+    OptionEntry{"confidence",
+                ValueKind::kAny,
+                about("probability of the confidence regions of estimated continuous-time models; false for none"),
+                {.initial = "0.99"}}};
+constexpr std::array kHistogramOptions = {
+    option<&HistogramOptions::bins>("bins", about("number of bins; 0 chooses it from the scatter of the values")),
+    option<&HistogramOptions::truth>("truth", about("value that a line marks")),
+    OptionEntry{"xlabel", ValueKind::kText, about("label of the x axis")},
+    OptionEntry{"label", ValueKind::kText, about("name of the bars in the legend")},
+    OptionEntry{
+        "truth_label", ValueKind::kText, about("name of the line in the legend"), {.initial = "\"true value\""}}};
+constexpr OptionTable kLsimTables[] = {kLsimOptions}, kSvfTables[] = {kSvfOptions},
+                      kNamedTables[] = {kModelNameOptions}, kRegionTables[] = {kModelNameOptions, kRegionOptions},
+                      kHistogramTables[] = {kHistogramOptions};
+
+constexpr ArgumentEntry kOneModel = {"G", ValueKind::kModel, about("model")},
+                        kDrawnModels = {"G1, G2, ...", ValueKind::kModel, about("models to draw")},
+                        kDrawnFrequencies = {"w", ValueKind::kVector, about("vector of frequencies in rad/s")},
+                        kDrawnInstants = {"t", ValueKind::kVector, about("vector of instants in seconds, from 0 on")};
+constexpr std::array kLsimArguments = {
+    ArgumentEntry{"G", ValueKind::kModel, about("model with at least as many poles as zeros")},
+    ArgumentEntry{"u", ValueKind::kVector,
+                  about("vector of N samples; for several inputs a matrix with a column each")},
+    ArgumentEntry{"t_or_Ts", ValueKind::kVector,
+                  about("sampling time in seconds, or a vector of N increasing instants, which may be irregular")}};
+constexpr std::array kSvfArguments = {
+    ArgumentEntry{"x", ValueKind::kVector, about("vector of N samples")},
+    ArgumentEntry{"n", ValueKind::kCount, about("order of the filter, 1 to 50")},
+    ArgumentEntry{"lambda", ValueKind::kNumber, about("cut-off frequency of the filter in rad/s")}};
+constexpr std::array kFreqrespArguments = {kOneModel, kDrawnFrequencies};
+constexpr std::array kTimeResponseArguments = {kOneModel, kDrawnInstants, kDrawnModels};
+constexpr std::array kNyquistArguments = {kDrawnModels, kDrawnFrequencies};
+constexpr std::array kBodeArguments = {
+    ArgumentEntry{"G1, G2, ...", ValueKind::kModel,
+                  about("models, and measured frequency responses (idfrd, bla, spa, etfe), in any order")},
+    kDrawnFrequencies};
+constexpr std::array kPzmapArguments = {
+    ArgumentEntry{"G1, G2, ...", ValueKind::kModel, about("models, all continuous or all discrete")}};
+constexpr std::array kHistogramArguments = {
+    ArgumentEntry{"values", ValueKind::kVector, about("vector of finite values")}};
 
 /// Several inputs or outputs: columns of a matrix.
 int simulate_system(Call& call, const StateSpace& system, const Options& options, const VectorView& x0) {
@@ -43,13 +98,13 @@ int simulate_grey_box(Call& call, const GreyFit& grey, const Options& options, c
     if (call.type(3) == LUA_TNUMBER)
         inputs.t = call.number(3, "Ts") * Vector::LinSpaced(N, 0, static_cast<double>(N - 1));
     else
-        inputs.t = call.vector(3, "t or Ts");
+        inputs.t = call.vector(3, Message("t or Ts"));
     return give_columns(call, grey_response(grey, inputs, x0));
 }
 
 int simulate(Call& call) {
     call.at_most(4);
-    const Options options(call, 4, {"hold", "x0"});
+    const Options options(call, 4, kLsimTables);
     const Vector x0 = options.has("x0") ? Vector(options.vector("x0")) : Vector();
     if (const GreyEstimate grey = to_grey_box(call, 1)) return simulate_grey_box(call, *grey, options, x0);
     if (const SimulatedModel* model = simulated_model(call, 1)) return simulate_freely(call, *model->run, options, x0);
@@ -59,12 +114,12 @@ int simulate(Call& call) {
     const VectorMap u = call.vector(2, "u");
     const Hold hold = hold_option(options, Hold::kZoh);
     if (call.type(3) == LUA_TNUMBER) return call.give_vector(lsim(model.G, u, call.number(3, "Ts"), hold, x0));
-    return call.give_vector(lsim(model.G, u, call.vector(3, "t or Ts"), hold, x0));
+    return call.give_vector(lsim(model.G, u, call.vector(3, Message("t or Ts")), hold, x0));
 }
 
 int filter_states(Call& call) {
     call.at_most(4);
-    const Options options(call, 4, {"hold", "Ts"});
+    const Options options(call, 4, kSvfTables);
     const auto Ts = options.optional_number("Ts");
     if (!Ts) throw InvalidArgument("the sampling time is needed: svf(x, n, lambda, {Ts = 0.01})");
     const VectorMap x = call.vector(1, "x");
@@ -82,8 +137,8 @@ int frequency_response_of(Call& call) {
 /// G1, G2, ... up to the vector of instants or frequencies, or the options, that end the arguments.
 std::vector<NamedModel> models_to_draw(const Call& call, int& next) {
     std::vector<NamedModel> models;
-    for (next = 1; holds_model(call, next); ++next) models.push_back({"", model_argument(call, next, "G").G});
-    if (models.empty()) wrong_argument(call.state(), 1, "G", "model");
+    for (next = 1; holds_model(call, next); ++next) models.push_back({{}, model_argument(call, next, "G").G});
+    if (models.empty()) wrong_argument(call.state(), 1, "G", with_article("model"));
     return models;
 }
 
@@ -91,21 +146,21 @@ std::vector<NamedModel> models_to_draw(const Call& call, int& next) {
 std::vector<std::string> given_labels(const Options& options, std::size_t count) {
     std::vector<std::string> labels = options.texts("labels");
     if (!labels.empty() && labels.size() != count)
-        throw InvalidArgument(
-            fmt::format("option 'labels' has {} for {}", counted(labels.size(), "text"), counted(count, "model")));
+        throw InvalidArgument("option 'labels' has {} for {}", plural(labels.size(), "{} text", "{} texts"),
+                              plural(count, "{} model", "{} models"));
     return labels;
 }
 
-std::string usual_name(const Call& call, int index) {
+Message usual_name(const Call& call, int index) {
     const std::string method = method_of_model(call, index);
-    return method.empty() ? fmt::format("model {}", index) : method;
+    return method.empty() ? Message("model {}", index) : Message::verbatim(method);
 }
 
 void name_models(const Call& call, const Options& options, std::vector<NamedModel>& models) {
     const std::vector<std::string> labels = given_labels(options, models.size());
     for (std::size_t i = 0; i < models.size(); ++i) {
         if (!labels.empty())
-            models[i].name = labels[i];
+            models[i].name = Message::verbatim(labels[i]);
         else if (models.size() > 1)
             models[i].name = usual_name(call, static_cast<int>(i + 1));
     }
@@ -120,8 +175,8 @@ std::optional<double> confidence_level(const Options& options) {
     if (flag) return wanted ? std::optional(kUsual) : std::nullopt;
     const double level = options.number("confidence", kUsual);
     if (level > 0 && level < 1) return level;
-    throw InvalidArgument(fmt::format(
-        "option 'confidence' must be a probability between 0 and 1, such as 0.99, or false, but {} was given", level));
+    refuse_option("confidence", Message("a probability between 0 and 1, such as 0.99, or false"),
+                  Message("{}", significant(level, 10)));
 }
 
 std::optional<ModelConfidence> confidence_of(const Call& call, int index, const std::optional<double>& level) {
@@ -149,10 +204,10 @@ template <Figure (*kPlot)(const std::vector<NamedModel>&, const Vector&), bool k
 int draw_models(Call& call) {
     int next = 0;
     std::vector<NamedModel> models = models_to_draw(call, next);
-    const Vector grid = call.holds_vector(next) ? Vector(call.vector(next++, "t or w")) : Vector();
+    const Vector grid = call.holds_vector(next) ? Vector(call.vector(next++, Message("t or w"))) : Vector();
     if (kBands) refuse_option_texts(call, next);
     call.at_most(next);
-    const Options options = kBands ? Options(call, next, {"labels", "confidence"}) : Options(call, next, {"labels"});
+    const Options options(call, next, kBands ? OptionTables(kRegionTables) : OptionTables(kNamedTables));
     name_models(call, options, models);
     if (kBands) add_confidence(call, options, models);
     return give_figure(call, kPlot(models, grid));
@@ -162,21 +217,21 @@ int draw_models(Call& call) {
 int draw_bode(Call& call) {
     int count = 0;
     while (holds_model(call, count + 1) || holds_response(call, count + 1)) ++count;
-    if (count == 0) wrong_argument(call.state(), 1, "G", "model");
+    if (count == 0) wrong_argument(call.state(), 1, "G", with_article("model"));
     int next = count + 1;
     const Vector grid = call.holds_vector(next) ? Vector(call.vector(next++, "w")) : Vector();
     refuse_option_texts(call, next);
     call.at_most(next);
-    const Options options(call, next, {"labels", "confidence"});
+    const Options options(call, next, kRegionTables);
     const std::vector<std::string> labels = given_labels(options, static_cast<std::size_t>(count));
     const std::optional<double> level = confidence_level(options);
     std::vector<NamedModel> models;
     std::vector<NamedResponse> responses;
     for (int i = 1; i <= count; ++i) {
-        std::string name = labels.empty() ? "" : labels[static_cast<std::size_t>(i - 1)];
+        Message name = labels.empty() ? Message() : Message::verbatim(labels[static_cast<std::size_t>(i - 1)]);
         if (holds_response(call, i)) {
             FrequencyData data = object_argument<FrequencyData>(call, i, "F");
-            if (labels.empty()) name = data.method.empty() ? "measured" : data.method;
+            if (labels.empty()) name = data.method.empty() ? Message("measured") : Message::verbatim(data.method);
             if (!level) data.variance.resize(0);
             responses.push_back({name, std::move(data), level.value_or(0.99)});
         } else {
@@ -191,7 +246,7 @@ int draw_poles_and_zeros(Call& call) {
     int next = 0;
     std::vector<NamedModel> models = models_to_draw(call, next);
     call.at_most(next);
-    const Options options(call, next, {"labels", "confidence"});
+    const Options options(call, next, kRegionTables);
     name_models(call, options, models);
     add_confidence(call, options, models);
     return give_figure(call, pole_zero_map(models));
@@ -212,38 +267,38 @@ int time_response(Call& call) {
 
 int draw_histogram(Call& call) {
     call.at_most(2);
-    const Options options(call, 2, {"bins", "truth", "label", "xlabel", "truth_label"});
+    const Options options(call, 2, kHistogramTables);
     HistogramOptions wanted;
-    wanted.bins = options.size("bins", 0);
-    wanted.truth = options.optional_number("truth");
-    wanted.label = options.text("label", "");
-    wanted.x_label = options.text("xlabel", "");
-    wanted.truth_label = options.text("truth_label", wanted.truth_label);
+    options.read(wanted);
+    wanted.label = Message::verbatim(options.text("label", ""));
+    wanted.x_label = Message::verbatim(options.text("xlabel", ""));
+    if (options.has("truth_label")) wanted.truth_label = Message::verbatim(options.text("truth_label", ""));
     return give_figure(call, histogram(call.vector(1, "values"), wanted));
 }
 
 constexpr const char* kFigures = "figures";
 constexpr FunctionEntry kSimulationFunctions[] = {
-    {"lsim", "simulation", "lsim(G, u, t_or_Ts, {hold = \"zoh\" | \"foh\", x0 =}) -> y",
-     "response of a model to an input, exact at the samples", guarded<simulate>},
-    {"svf", "simulation", "svf(x, n, lambda, {Ts =, hold = \"zoh\" | \"foh\"}) -> matrix",
-     "outputs of the state-variable filter, highest derivative first", guarded<filter_states>},
-    {"step", "simulation", "step(G, t) -> y, t, sd; step(G1, G2, ..., {labels =, confidence =}) -> fig",
+    {"lsim", "simulation", "lsim(G, u, t_or_Ts, {options}) -> y",
+     "response of a model to an input, exact at the samples", guarded<simulate>, kLsimTables, kLsimArguments},
+    {"svf", "simulation", "svf(x, n, lambda, {options}) -> matrix",
+     "outputs of the state-variable filter, highest derivative first", guarded<filter_states>, kSvfTables,
+     kSvfArguments},
+    {"step", "simulation", "step(G, t) -> y, t, sd; step(G1, G2, ..., {options}) -> fig",
      "response to a unit step, as numbers at given instants or as a figure",
-     guarded<time_response<step_response, step_plot, true>>},
-    {"impulse", "simulation", "impulse(G, t) -> y, t; impulse(G1, G2, ..., {labels =}) -> fig",
+     guarded<time_response<step_response, step_plot, true>>, kRegionTables, kTimeResponseArguments},
+    {"impulse", "simulation", "impulse(G, t) -> y, t; impulse(G1, G2, ..., {options}) -> fig",
      "response to a unit impulse, as numbers or as a figure",
-     guarded<time_response<impulse_response, impulse_plot, false>>},
+     guarded<time_response<impulse_response, impulse_plot, false>>, kNamedTables, kTimeResponseArguments},
     {"freqresp", "simulation", "freqresp(G, w) -> complex vector", "frequency response at w (rad/s)",
-     guarded<frequency_response_of>},
-    {"bode", kFigures, "bode(G1, G2, ..., w, {labels =, confidence =}) -> fig", "magnitude and phase over frequency",
-     guarded<draw_bode>},
-    {"nyquist", kFigures, "nyquist(G1, G2, ..., w, {labels =}) -> fig", "frequency response in the complex plane",
-     guarded<draw_models<nyquist_plot, false>>},
-    {"pzmap", kFigures, "pzmap(G1, G2, ..., {labels =, confidence =}) -> fig", "poles and zeros in the complex plane",
-     guarded<draw_poles_and_zeros>},
-    {"histogram", kFigures, "histogram(values, {bins =, truth =, xlabel =}) -> fig",
-     "how often values fall into each interval", guarded<draw_histogram>},
+     guarded<frequency_response_of>, kNoOptions, kFreqrespArguments},
+    {"bode", kFigures, "bode(G1, G2, ..., w, {options}) -> fig", "magnitude and phase over frequency",
+     guarded<draw_bode>, kRegionTables, kBodeArguments},
+    {"nyquist", kFigures, "nyquist(G1, G2, ..., w, {options}) -> fig", "frequency response in the complex plane",
+     guarded<draw_models<nyquist_plot, false>>, kNamedTables, kNyquistArguments},
+    {"pzmap", kFigures, "pzmap(G1, G2, ..., {options}) -> fig", "poles and zeros in the complex plane",
+     guarded<draw_poles_and_zeros>, kRegionTables, kPzmapArguments},
+    {"histogram", kFigures, "histogram(values, {options}) -> fig", "how often values fall into each interval",
+     guarded<draw_histogram>, kHistogramTables, kHistogramArguments},
 };
 
 }  // namespace

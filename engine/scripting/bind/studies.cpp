@@ -12,10 +12,34 @@
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/model.h"
 #include "scripting/objects/study_objects.h"
+#include "scripting/runtime/errors.h"
 #include "scripting/runtime/sandbox.h"
 
 namespace dynlab::inline scripting {
 namespace {
+
+constexpr OptionEntry kStudyOptions[] = {
+    {"system", ValueKind::kModel, about("the true model in continuous time")},
+    {"input", ValueKind::kVector, about("samples of its input")},
+    {"controller", ValueKind::kModel,
+     about("controller of a closed loop u = C (r - y), instead of `input`: a model, or a number")},
+    {"reference", ValueKind::kVector, about("samples of the reference of the closed loop")},
+    {"ComputingDelay",
+     ValueKind::kCount,
+     about("number of samples that the controller takes to answer"),
+     {.initial = "0"}},
+    {"Ts", ValueKind::kNumber, about("sampling time"), {.unit = "s"}},
+    option<&MonteCarloStudy::hold>("hold", kHoldOption.description, {.initial = "\"zoh\"", .choices = kHolds}),
+    option<&MonteCarloStudy::sigma>("sigma", about("standard deviation of the noise"), {.least = 0}),
+    option<&MonteCarloStudy::snr>("snr", about("signal-to-noise ratio 20 log10(std x/std noise), instead of `sigma`"),
+                                  {.unit = "dB"}),
+    option<&MonteCarloStudy::runs>("runs", about("number of repeated experiments"), {.least = 2}),
+    option<&MonteCarloStudy::seed>(
+        "seed", about("seed of the noise: run k = 0, 1, ... adds what `rng(seed + k)` and `randn` give"),
+        {.most = kLargestSeed}),
+    option<&MonteCarloStudy::threads>("threads", about("number of threads, 0 for all cores")),
+    {"estimators", ValueKind::kTable, about("estimators by name, with their arguments after the data")}};
+constexpr OptionTable kStudyTables[] = {kStudyOptions};
 
 MonteCarloEstimate estimate_in_study(const Fit& result) {
     return {result.theta, result.std, result.names, true, result.termination == Termination::kConverged};
@@ -39,9 +63,9 @@ MonteCarloMethod method_of_table(const Call& call, const std::string& label, con
     lua_State* L = call.state();
     MethodArguments arguments{find_estimation_reader(name), {}};
     if (arguments.reader == nullptr)
-        throw InvalidArgument(fmt::format(
+        throw InvalidArgument(
             "estimator '{}' is none of {}; write any other as a function: {} = function(data) return ... end", name,
-            fmt::join(estimation_names(), ", "), label));
+            listed(estimation_names()), label);
     lua_pushlightuserdata(L, const_cast<char*>(name.c_str()));
     lua_pushlightuserdata(L, &arguments);
     lua_pushcclosure(L, guarded<read_arguments>, 2);
@@ -66,8 +90,8 @@ MonteCarloEstimate returned_estimate(lua_State* L, int first) {
     const Call call(L);
     if (const Model* model = to_object<Model>(L, first)) return estimate_of_model(*model);
     if (!call.holds_vector(first))
-        throw InvalidArgument(
-            fmt::format("it must return a model or a vector of parameters, but returned {}", given_text(L, first)));
+        throw InvalidArgument("it must return a model or a vector of parameters, but returned {}",
+                              given_value(L, first));
     MonteCarloEstimate estimate{call.vector(first, "theta")};
     if (call.holds_vector(first + 1)) estimate.std = call.vector(first + 1, "std");
     return estimate;
@@ -83,10 +107,9 @@ MonteCarloMethod method_of_function(const Call& call, const std::string& label, 
         push_object(L, data);
         if (lua_pcall(L, 1, 2, 0) != LUA_OK) {
             pass_stop_on(L);
-            const std::string message = given_text(L, -1),
-                              text = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : message;
+            const Message message = lua_type(L, -1) == LUA_TSTRING ? error_at(L, -1).with_place() : given_value(L, -1);
             lua_settop(L, top);
-            throw InvalidArgument(text);
+            throw InvalidArgument(message);
         }
         MonteCarloEstimate result = returned_estimate(L, top + 1);
         lua_settop(L, top);
@@ -109,18 +132,17 @@ MonteCarloMethod method_of_entry(const Call& call, const std::string& label) {
     const int value = lua_gettop(L);
     if (lua_isfunction(L, value)) return method_of_function(call, label, value);
     if (!lua_istable(L, value))
-        throw InvalidArgument(fmt::format(
-            "the estimator '{}' must be a table of arguments, such as lssvf = {{{{2, 1, 0}}, 3}}, or a function of the "
-            "data, but {} was given",
-            label, given_text(L, value)));
+        throw InvalidArgument(
+            "{} must be {}, but {} was given", Message("the estimator '{}'", label),
+            Message("a table of arguments, such as lssvf = {{2, 1, 0}, 3}, or a function of the data"),
+            given_value(L, value));
     const bool names_itself = lua_rawgeti(L, value, 1) == LUA_TSTRING;
     const std::string name = names_itself ? lua_tostring(L, -1) : label;
     const bool holds_function = names_itself && lua_rawgeti(L, value, 2) == LUA_TFUNCTION;
     if (lua_rawgeti(L, value, names_itself ? 2 : 1) == LUA_TNUMBER && takes_orders(call, name))
         throw InvalidArgument(
-            fmt::format("the arguments of the estimator '{0}' stand in a table, and its orders in one inside: {0} = "
-                        "{{{{1, 1, 0}}}}",
-                        name));
+            "the arguments of the estimator '{}' stand in a table, and its orders in one inside: {} = {{1, 1, 0}}",
+            name, name);
     lua_settop(L, value + (holds_function ? 2 : 0));
     if (holds_function) return method_of_function(call, label.empty() ? name : label, lua_gettop(L));
     lua_settop(L, value);
@@ -177,9 +199,10 @@ void read_excitation(const Options& options, MonteCarloStudy& study) {
     const bool loop = options.has("controller");
     const char *name = loop ? "reference" : "input", *other = loop ? "input" : "reference";
     if (options.has(other))
-        throw InvalidArgument(loop ? "in a closed loop the input follows from controller and reference: give no 'input'"
-                                   : "option 'reference' is that of a closed loop: give its 'controller', too");
-    if (!options.has(name)) throw InvalidArgument(fmt::format("option '{0}' is missing: the samples of the {0}", name));
+        throw InvalidArgument(
+            loop ? Message("in a closed loop the input follows from controller and reference: give no 'input'")
+                 : Message("option 'reference' is that of a closed loop: give its 'controller', too"));
+    if (!options.has(name)) throw InvalidArgument("option '{}' is missing: the samples of the {}", name, name);
     study.u = options.vector(name);
     if (!loop) return;
     study.controller = controller_at(options.call(), options.push("controller"));
@@ -190,24 +213,17 @@ MonteCarloStudy study_of(const Options& options) {
     MonteCarloStudy study;
     study.system = system_of(options);
     read_excitation(options, study);
+    options.read(study);
     const auto Ts = options.optional_number("Ts");
     if (!Ts) throw InvalidArgument("option 'Ts' is missing: the sampling time in seconds");
     study.Ts = *Ts;
-    study.hold = hold_option(options, Hold::kZoh);
-    study.sigma = options.optional_number("sigma");
-    study.snr = options.optional_number("snr");
-    study.runs = static_cast<int>(options.size("runs", study.runs));
-    study.seed = static_cast<std::uint32_t>(options.size("seed", study.seed));
-    study.threads = static_cast<int>(options.size("threads", study.threads));
     study.cancel = options.call().cancel();
     return study;
 }
 
 int run_study(Call& call) {
     call.at_most(1);
-    const Options options(call, 1,
-                          {"system", "input", "controller", "reference", "ComputingDelay", "Ts", "hold", "sigma", "snr",
-                           "runs", "seed", "threads", "estimators"});
+    const Options options(call, 1, kStudyTables);
     MonteCarloStudy study = study_of(options);
     const std::vector<MonteCarloMethod> methods = methods_of(call, options.push("estimators"));
     study.elsewhere = shared_out<MonteCarloRun>(call.state(), "montecarlo");
@@ -221,11 +237,9 @@ int run_study(Call& call) {
 }
 
 constexpr FunctionEntry kStudiesFunctions[] = {
-    {"montecarlo", "validation",
-     "montecarlo{system =, input = | controller =, reference =, Ts =, sigma = | snr =, runs =, seed =, "
-     "estimators = {...}} -> M",
+    {"montecarlo", "validation", "montecarlo{options} -> M",
      "the same experiment many times with fresh noise: bias and scatter of estimators",
-     guarded<memoized_call<run_study>>},
+     guarded<memoized_call<run_study>>, kStudyTables},
 };
 
 }  // namespace

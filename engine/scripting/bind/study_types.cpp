@@ -2,8 +2,8 @@
 
 #include "figures/plots/monte_carlo_plot.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/conversions/localized.h"
 #include "scripting/conversions/table_fields.h"
-#include "scripting/conversions/told_sentences.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/fit_model.h"
 #include "scripting/objects/study_objects.h"
@@ -25,7 +25,7 @@ int push_result(const Call& call, const MonteCarloResult& result) {
     if (result.truth.size() > 0) set_field(call, "truth", result.truth, "bias", result.bias);
     if (result.bound.size() > 0) set_field(call, "cramer_rao_std", result.least_spread(), "cramer_rao", result.bound);
     set_field(call, "estimated", result.estimated, "failed", result.failed, "not_converged", result.not_converged,
-              "first_failure", told(call, result.first_failure));
+              "first_failure", localized(call, result.first_failure));
     return 1;
 }
 
@@ -41,8 +41,8 @@ int study_named(Call& call) {
     const std::string label = call.text(2, "label");
     for (const MonteCarloResult& result : study.results)
         if (result.label == label) return push_result(call, result);
-    throw InvalidArgument(fmt::format("this study has no estimator or field '{}'; its estimators are {}", label,
-                                      fmt::join(labels_of(study), ", ")));
+    throw InvalidArgument("this study has no estimator or field '{}'; its estimators are {}", label,
+                          listed(labels_of(study)));
 }
 
 int draw_histograms(Call& call) {
@@ -50,11 +50,16 @@ int draw_histograms(Call& call) {
     return give_figure(call, monte_carlo_histograms(study_self(call)));
 }
 
+constexpr OptionEntry kScatterOptions[] = {
+    {"level", ValueKind::kNumber, about("probability of the ellipse"), {.initial = "0.95"}}};
+constexpr OptionTable kScatterTables[] = {kScatterOptions};
+
 int draw_scatter(Call& call) {
     call.at_most(4);
-    const Options options(call, 4, {"level"});
-    return give_figure(call, monte_carlo_scatter(study_self(call), call.text(2, "parameter on x"),
-                                                 call.text(3, "parameter on y"), options.number("level", 0.95)));
+    const Options options(call, 4, kScatterTables);
+    return give_figure(call,
+                       monte_carlo_scatter(study_self(call), call.text(2, Message("parameter on x")),
+                                           call.text(3, Message("parameter on y")), options.number("level", 0.95)));
 }
 
 constexpr std::array kStudyFields = {
@@ -62,7 +67,7 @@ constexpr std::array kStudyFields = {
     Member{"sigma", field<MonteCarlo, &MonteCarlo::sigma>}, Member{"snr", field<MonteCarlo, &MonteCarlo::snr>}};
 constexpr std::array kStudyMethods = {Member{"histograms", guarded<draw_histograms>},
                                       Member{"scatter", guarded<draw_scatter>}};
-constexpr std::array kStudyOperators = {Member{"__tostring", told_field<MonteCarlo, monte_carlo_text>},
+constexpr std::array kStudyOperators = {Member{"__tostring", localized_field<MonteCarlo, monte_carlo_text>},
                                         Member{"__named", guarded<study_named>}};
 
 // ---- order table
@@ -71,7 +76,7 @@ int push_candidate(const Call& call, const OrderCandidate& candidate) {
     lua_State* L = call.state();
     give_table(call, "poles", candidate.poles, "zeros", candidate.zeros, "delay", candidate.delay);
     if (!candidate.failure.empty()) {
-        set_field(call, "failure", told(call, candidate.failure));
+        set_field(call, "failure", localized(call, candidate.failure));
         return 1;
     }
     set_field(call, "r_squared", candidate.r_squared, "yic", candidate.yic, "aic", candidate.aic, "bic", candidate.bic,
@@ -91,16 +96,16 @@ int table_best(Call& call) {
     const OrderTable& table = object_argument<OrderTable>(call, 1, "table");
     return push_candidate(call, table.selection.candidates[table.choice.place]);
 }
-std::string recommendation(const OrderTable& table) {
+Message recommendation(const OrderTable& table) {
     return table.choice.explanation;
 }
-std::string table_text(const OrderTable& table) {
-    return order_table_text(table.selection, table.choice);
+std::string table_text(const OrderTable& table, const Reader& reader) {
+    return order_table_text(table.selection, table.choice, reader);
 }
 
 constexpr std::array kTableFields = {Member{"rows", guarded<table_rows>}, Member{"best", guarded<table_best>},
-                                     Member{"recommendation", told_field<OrderTable, recommendation>}};
-constexpr std::array kTableOperators = {Member{"__tostring", told_field<OrderTable, table_text>}};
+                                     Member{"recommendation", localized_field<OrderTable, recommendation>}};
+constexpr std::array kTableOperators = {Member{"__tostring", localized_field<OrderTable, table_text>}};
 
 // ---- table of ARX orders
 
@@ -121,16 +126,16 @@ int arx_best(Call& call) {
     const ArxSelection& table = object_argument<ArxSelection>(call, 1, "table");
     return push_arx_candidate(call, table.candidates[usual_arx_choice(table).place]);
 }
-std::string arx_recommendation(const ArxSelection& table) {
+Message arx_recommendation(const ArxSelection& table) {
     return usual_arx_choice(table).explanation;
 }
-std::string arx_text(const ArxSelection& table) {
-    return arx_table_text(table, usual_arx_choice(table));
+std::string arx_text(const ArxSelection& table, const Reader& reader) {
+    return arx_table_text(table, usual_arx_choice(table), reader);
 }
 
 constexpr std::array kArxTableFields = {Member{"rows", guarded<arx_rows>}, Member{"best", guarded<arx_best>},
-                                        Member{"recommendation", told_field<ArxSelection, arx_recommendation>}};
-constexpr std::array kArxTableOperators = {Member{"__tostring", told_field<ArxSelection, arx_text>}};
+                                        Member{"recommendation", localized_field<ArxSelection, arx_recommendation>}};
+constexpr std::array kArxTableOperators = {Member{"__tostring", localized_field<ArxSelection, arx_text>}};
 
 constexpr std::array kStudyTypes = {TypeEntry{&Boxed<ArxSelection>::type, kArxTableFields, {}, kArxTableOperators},
                                     TypeEntry{&Boxed<MonteCarlo>::type, kStudyFields, kStudyMethods, kStudyOperators},

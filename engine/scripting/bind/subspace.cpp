@@ -1,12 +1,32 @@
+#include <array>
 
+#include "base/catalog.h"
 #include "numerics/estimators/n4sid.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/conversions/option_member.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/fit_model.h"
 
 namespace dynlab::inline scripting {
 namespace {
+
+constexpr std::array kWeightings = {"MOESP", "N4SID", "CVA"};  // in the order of SubspaceWeighting
+constexpr std::array kSubspaceOptions = {
+    option<&SubspaceOptions::block_rows>(
+        "BlockRows",
+        about("samples of past, and of future, that are used, more than the order; 0 for a number that suits the order "
+              "and the length of the data"),
+        {.member = "block_rows"}),
+    option<&SubspaceOptions::weighting>("Weighting", about("how directions are weighed against the noise"),
+                                        {.initial = "\"MOESP\"", .choices = kWeightings}),
+    option<&SubspaceOptions::feedthrough>("Feedthrough", about("a direct term D, which is zero otherwise"))};
+constexpr OptionTable kSubspace[] = {kSubspaceOptions};
+
+constexpr std::array kSubspaceArguments = {
+    ArgumentEntry{"data", ValueKind::kData,
+                  about("data object, regularly sampled, any number of inputs, outputs and experiments")},
+    ArgumentEntry{"order", ValueKind::kCount, about("number of states")}};
 
 Estimate estimate_of_subspace(const SubspaceFit& result) {
     Estimate estimate = basic_estimate("n4sid", result.fit);
@@ -20,18 +40,17 @@ int estimate_n4sid(Call& call) {
     call.at_most(3);
     const IdData& data = object_argument<IdData>(call, 1, "data");
     const Index order = call.size(2, "order");
-    const Options options(call, 3, {"BlockRows", "Weighting", "Feedthrough"});
+    const Options options(call, 3, kSubspace);
     SubspaceOptions wanted;
-    wanted.block_rows = static_cast<int>(options.size("BlockRows", wanted.block_rows));
-    wanted.weighting = parse_subspace_weighting(options.text("Weighting", "MOESP"));
-    wanted.feedthrough = options.flag("Feedthrough", wanted.feedthrough);
+    options.read(wanted);
     const SubspaceFit result = n4sid(data, static_cast<int>(order), wanted);
     return give_system(call, estimate_of_subspace(result), result.fit, result.system);
 }
 
 constexpr FunctionEntry kSubspaceFunctions[] = {
-    {"n4sid", "discrete time", "n4sid(data, order, {BlockRows =, Weighting =, Feedthrough =}) -> G",
-     "a state-space model by subspace identification, without iterating", guarded<memoized_call<estimate_n4sid>>},
+    {"n4sid", "discrete time", "n4sid(data, order, {options}) -> G",
+     marked("estimator", "a state-space model by subspace identification, without iterating"),
+     guarded<memoized_call<estimate_n4sid>>, kSubspace, kSubspaceArguments},
 };
 
 }  // namespace

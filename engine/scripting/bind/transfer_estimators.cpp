@@ -1,11 +1,13 @@
 #include <array>
 
+#include "base/catalog.h"
 #include "numerics/estimators/coe.h"
 #include "numerics/estimators/ivsvf.h"
 #include "numerics/estimators/lssvf.h"
 #include "numerics/estimators/srivc.h"
 #include "numerics/fit/simulation_error.h"
 #include "scripting/arguments/estimator_arguments.h"
+#include "scripting/arguments/estimator_options.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/bind/estimation_readers.h"
 #include "scripting/bind/frequency/frequency_bindings.h"
@@ -20,19 +22,45 @@ namespace {
 constexpr std::array kCarxOrders = {kNa, kNb, kNk};
 constexpr std::array kOutputErrorOrders = {kNb, kNf, kNk};
 
+constexpr std::array kSvfFilterOptions = {kHoldOfOutput<SvfOptions>};
+constexpr std::array kMomentOptions = {
+    option<&SvfOptions::beta>("beta", about("gain of the filters; lambda unless given"), {.unit = "rad/s"}),
+    kHoldOfOutput<SvfOptions>};
+constexpr OptionTable kFiltered[] = {kSvfFilterOptions}, kMoments[] = {kMomentOptions};
+constexpr OptionTable kRefined[] = {kFirstFilterOptions, kStartOptions,   kIterationOptions,
+                                    kIntegrationOptions, kSharingOptions, kSearchOptions};
+constexpr OptionTable kTransferFunction[] = {kFirstFilterOptions, kStartOptions,      kIterationOptions,
+                                             kDelayOptions,       kKnownDelayOptions, kIntegrationOptions,
+                                             kSharingOptions,     kSearchOptions};
+
+constexpr std::array kFilteredArguments = {
+    kDataArgument,
+    ArgumentEntry{
+        "orders", ValueKind::kOrders,
+        about("na poles, nb coefficients of B (at most na + 1), nk samples of delay; with several inputs nb and nk "
+              "are tables with an entry for each input, with several outputs also for each channel")},
+    kFilterFrequency};
+constexpr std::array kRefinedArguments = {
+    kDataArgument,
+    ArgumentEntry{
+        "orders", ValueKind::kOrders,
+        about("nb coefficients of B (at most nf + 1), nf poles, nk samples of delay; with several inputs, each "
+              "with poles of its own, they are tables with an entry for each input, with several outputs also "
+              "for each channel, those of output 1 first")}};
+constexpr std::array kTransferFunctionArguments = {kDataArgument, kPoleCount, kZeroCount};
+
 /// lssvf and ivsvf; lsgpmf and ivgpmf, whose filter has a gain beta. Their standard errors know the filters' colour.
 template <auto kMethod, bool kInstruments, bool kMomentFunctionals>
 Estimation read_filtered(const Call& call) {
     call.at_most(4);
     const auto orders = order_lists(call, 2, kCarxOrders);
     if (orders[0].size() != 1)
-        throw InvalidArgument(
-            fmt::format("na is one number of poles for all inputs, but {} were given", orders[0].size()));
-    const Options options = kMomentFunctionals ? Options(call, 4, {"hold_y", "beta"}) : Options(call, 4, {"hold_y"});
+        throw InvalidArgument("na is one number of poles for all inputs, but {} were given", orders[0].size());
+    const Options options(call, 4, kMomentFunctionals ? OptionTables(kMoments) : OptionTables(kFiltered));
     SvfOptions wanted;
     wanted.lambda = call.number(3, "lambda");
-    wanted.hold_y = hold_y_of(options);
-    if constexpr (kMomentFunctionals) wanted.beta = options.optional_number("beta").value_or(wanted.lambda);
+    if constexpr (kMomentFunctionals) wanted.beta = wanted.lambda;
+    options.read(wanted);
     return
         [structure = structure_of_orders(kCarxOrders, orders, Denominators::kPerOutput), wanted](const IdData& data) {
             Fit fit = kMethod(data, structure(data), wanted);
@@ -50,36 +78,32 @@ int estimate_filtered(Call& call) {
 }
 
 template <auto kMethod>
-Estimation refined_estimation(const StartedStructure& started, const FitOptions& wanted) {
-    return [=](const IdData& data) {
-        const TransferStructure structure = started.structure(data);
-        SearchAids aids = started.aids;
-        if (aids.delays.size() == 1) aids.delays.resize(structure.channels.size(), aids.delays.front());
-        return kMethod(data, structure, wanted, aids);
-    };
+OptionedEstimation refined_estimation(const StartedStructure& started, const FitOptions& wanted) {
+    return {[=](const IdData& data) {
+                const TransferStructure structure = started.structure(data);
+                SearchAids aids = started.aids;
+                if (aids.delays.size() == 1) aids.delays.resize(structure.channels.size(), aids.delays.front());
+                return kMethod(data, structure, wanted, aids);
+            },
+            wanted};
 }
 
 /// srivc and coe: orders and fixed delays in samples.
 template <auto kMethod>
-Estimation read_refined(const Call& call, Purpose purpose) {
+OptionedEstimation read_refined(const Call& call, Purpose purpose) {
     call.at_most(3);
     const auto orders = order_lists(call, 2, kOutputErrorOrders);
-    const Options options(call, 3,
-                          {"lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol", "CommonDenominator",
-                           "Integration", "Stable", "Fixed", "OutputWeights"});
+    const Options options(call, 3, kRefined);
     return refined_estimation<kMethod>({structure_of_orders(kOutputErrorOrders, orders, sharing_of(options)), {}},
                                        fit_options(options, purpose));
 }
 
 /// tfsrivc and tfcoe: numbers of poles and zeros, and a delay that is estimated unless it is given.
 template <auto kMethod>
-Estimation read_transfer_function(const Call& call, Purpose purpose) {
+OptionedEstimation read_transfer_function(const Call& call, Purpose purpose) {
     const int last = holds_model(call, 2) ? 3 : 4;
     call.at_most(last);
-    const Options options(
-        call, last,
-        {"lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol", "CommonDenominator", "Integration", "TdMin",
-         "TdMax", "NumTd", "IODelay", "Td0", "Stable", "Fixed", "OutputWeights"});
+    const Options options(call, last, kTransferFunction);
     const FitOptions wanted = fit_options(options, purpose);
     return refined_estimation<kMethod>(started_structure(call, options, wanted), wanted);
 }
@@ -88,7 +112,8 @@ template <auto kRead>
 int estimate_refined(Call& call) {
     if (holds_response(call, 1)) return fit_response(call);
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    return give_fit(call, call.function_name(), kRead(call, Purpose::kModel)(data));
+    const OptionedEstimation wanted = kRead(call, Purpose::kModel);
+    return give_diagnosed_fit(call, call.function_name(), wanted.estimation(data), wanted.options);
 }
 
 int estimate_by_least_squares(Call& call) {
@@ -106,24 +131,32 @@ constexpr NamedReader kTransferEstimatorsReaders[] = {{"lssvf", read_filtered<ls
                                                       {"tfcoe", read_for_study<read_transfer_function<coe>>}};
 
 constexpr FunctionEntry kTransferEstimatorsFunctions[] = {
-    {"lssvf", "continuous time", "lssvf(data, {na, nb, nk}, lambda, {hold_y =}) -> G",
-     "A y = B u + e by least squares on state-variable filtered signals", guarded<estimate_by_least_squares>},
-    {"ivsvf", "continuous time", "ivsvf(data, {na, nb, nk}, lambda, {hold_y =}) -> G",
-     "the same by instrumental variables, without lssvf's bias", guarded<estimate_filtered<ivsvf, true, false>>},
-    {"lsgpmf", "continuous time", "lsgpmf(data, {na, nb, nk}, lambda, {beta =, hold_y =}) -> G",
-     "least squares on Poisson moment functionals", guarded<estimate_filtered<lssvf, false, true>>},
-    {"ivgpmf", "continuous time", "ivgpmf(data, {na, nb, nk}, lambda, {beta =, hold_y =}) -> G",
-     "instrumental variables on Poisson moment functionals", guarded<estimate_filtered<ivsvf, true, true>>},
-    {"srivc", "continuous time", "srivc(data, {nb, nf, nk}, {lambda =, MaxIter =, Tol =, ...}) -> G",
-     "y = B/F u + e by refined instrumental variables", guarded<memoized_call<estimate_refined<read_refined<srivc>>>>},
-    {"coe", "continuous time", "coe(data, {nb, nf, nk}, {lambda =, MaxIter =, Tol =, ...}) -> G",
-     "y = B/F u + e with the smallest simulation error", guarded<memoized_call<estimate_refined<read_refined<coe>>>>},
-    {"tfsrivc", "continuous time", "tfsrivc(data, np, nz, {TdMin =, TdMax =, IODelay =, Stable =, ...}) -> G",
-     "srivc by numbers of poles and zeros, the delay estimated",
-     guarded<memoized_call<estimate_refined<read_transfer_function<srivc>>>>},
-    {"tfcoe", "continuous time", "tfcoe(data, np, nz, {TdMin =, TdMax =, IODelay =, Stable =, ...}) -> G",
-     "coe by numbers of poles and zeros, the delay estimated",
-     guarded<memoized_call<estimate_refined<read_transfer_function<coe>>>>},
+    {"lssvf", "continuous time", "lssvf(data, {na, nb, nk}, lambda, {options}) -> G",
+     marked("estimator", "A y = B u + e by least squares on state-variable filtered signals"),
+     guarded<estimate_by_least_squares>, kFiltered, kFilteredArguments},
+    {"ivsvf", "continuous time", "ivsvf(data, {na, nb, nk}, lambda, {options}) -> G",
+     marked("estimator", "the same by instrumental variables, without lssvf's bias"),
+     guarded<estimate_filtered<ivsvf, true, false>>, kFiltered, kFilteredArguments},
+    {"lsgpmf", "continuous time", "lsgpmf(data, {na, nb, nk}, lambda, {options}) -> G",
+     marked("estimator", "least squares on Poisson moment functionals"), guarded<estimate_filtered<lssvf, false, true>>,
+     kMoments, kFilteredArguments},
+    {"ivgpmf", "continuous time", "ivgpmf(data, {na, nb, nk}, lambda, {options}) -> G",
+     marked("estimator", "instrumental variables on Poisson moment functionals"),
+     guarded<estimate_filtered<ivsvf, true, true>>, kMoments, kFilteredArguments},
+    {"srivc", "continuous time", "srivc(data, {nb, nf, nk}, {options}) -> G",
+     marked("estimator", "y = B/F u + e by refined instrumental variables"),
+     guarded<memoized_call<estimate_refined<read_refined<srivc>>>>, kRefined, kRefinedArguments},
+    {"coe", "continuous time", "coe(data, {nb, nf, nk}, {options}) -> G",
+     marked("estimator", "y = B/F u + e with the smallest simulation error"),
+     guarded<memoized_call<estimate_refined<read_refined<coe>>>>, kRefined, kRefinedArguments},
+    {"tfsrivc", "continuous time", "tfsrivc(data, np, nz, {options}) -> G",
+     marked("estimator", "srivc by numbers of poles and zeros, the delay estimated"),
+     guarded<memoized_call<estimate_refined<read_transfer_function<srivc>>>>, kTransferFunction,
+     kTransferFunctionArguments},
+    {"tfcoe", "continuous time", "tfcoe(data, np, nz, {options}) -> G",
+     marked("estimator", "coe by numbers of poles and zeros, the delay estimated"),
+     guarded<memoized_call<estimate_refined<read_transfer_function<coe>>>>, kTransferFunction,
+     kTransferFunctionArguments},
 };
 
 }  // namespace

@@ -5,8 +5,8 @@
 #include "numerics/validation/fit_measures.h"
 #include "scripting/arguments/simulation_options.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/conversions/localized.h"
 #include "scripting/conversions/table_fields.h"
-#include "scripting/conversions/told_sentences.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/grey_object.h"
@@ -15,15 +15,26 @@
 namespace dynlab::inline scripting {
 namespace {
 
-std::string model_name(const Call& call, int index, const std::vector<std::string>& labels, std::size_t number) {
-    if (number < labels.size()) return labels[number];
+constexpr OptionEntry kStepsOption = {
+    "k", ValueKind::kNumber,
+    about("number of samples ahead for which outputs are predicted, as by `predict`, instead of simulated")};
+constexpr std::array kComparisonOptions = {kLabelsOption, kStepsOption};
+constexpr std::array kFitOptions = {kStepsOption};
+constexpr OptionTable kCompareTables[] = {kComparisonOptions, kComparisonStart},
+                      kFitTables[] = {kFitOptions, kComparisonStart}, kMeasuresTables[] = {kComparisonStart};
+
+constexpr ArgumentEntry kCompareArguments[] = {kRecordArgument, {"G1, ...", ValueKind::kModel, about("models")}};
+constexpr std::array kTestArguments = {kModelArgument, kRecordArgument};
+
+Message model_name(const Call& call, int index, const std::vector<std::string>& labels, std::size_t number) {
+    if (number < labels.size()) return Message::verbatim(labels[number]);
     const std::string method = method_of_model(call, index);
-    return method.empty() ? fmt::format("model {}", number + 1) : method;
+    return method.empty() ? Message("model {}", number + 1) : Message::verbatim(method);
 }
 
 /// What one model says of all experiments.
 struct ModelOutputs {
-    std::string name;
+    Message name;
     std::vector<Matrix> y;
     std::vector<Vector> fit_percent;  // per output
 };
@@ -36,7 +47,7 @@ Vector fits_of(const std::vector<Result>& outputs) {
 }
 
 template <class Results>
-ModelOutputs model_outputs(std::string name, const Results& all) {
+ModelOutputs model_outputs(Message name, const Results& all) {
     ModelOutputs outputs{std::move(name), {}, {}};
     for (std::size_t k = 0; k < all.results.size(); ++k) {
         outputs.y.push_back(all.outputs(k));
@@ -53,7 +64,7 @@ Figure comparison_figure(const IdData& data, const std::vector<ModelOutputs>& mo
         std::vector<ModelOutput> outputs;
         for (const ModelOutputs& model : models) outputs.push_back({model.name, model.y[k], model.fit_percent[k]});
         Figure one = compare_plot(data, outputs, k);
-        if (data.experiments.size() > 1) one.panels.front().title = fmt::format("experiment {}", k + 1);
+        if (data.experiments.size() > 1) one.panels.front().title = Message("experiment {}", k + 1);
         all.rows += one.rows;
         for (Panel& panel : one.panels) all.panels.push_back(std::move(panel));
     }
@@ -62,17 +73,17 @@ Figure comparison_figure(const IdData& data, const std::vector<ModelOutputs>& mo
 
 /// Draws measured and simulated, with k predicted, output for the models from argument `first` on.
 int draw_comparison(Call& call, const IdData& data, int first, int options_index) {
-    const Options options(call, options_index, {"labels", "k", "InitialState", "Offset"});
+    const Options options(call, options_index, kCompareTables);
     const std::vector<std::string> labels = options.texts("labels");
     const std::optional<Index> steps = steps_option(options, std::nullopt);
     std::vector<ModelOutputs> models;
     for (int i = first; holds_model(call, i); ++i) {
-        const std::string name = model_name(call, i, labels, models.size()) + steps_text(steps);
+        const Message name = with_steps(model_name(call, i, labels, models.size()), steps);
         models.push_back(
             steps ? model_outputs(name, prediction_argument(call, i, data, {steps, compare_options(options)}))
                   : model_outputs(name, comparison_argument(call, i, data, options)));
     }
-    if (models.empty()) wrong_argument(call.state(), first, "G", "model");
+    if (models.empty()) wrong_argument(call.state(), first, "G", with_article("model"));
     return give_figure(call, comparison_figure(data, models));
 }
 
@@ -95,7 +106,7 @@ int fit(Call& call) {
     call.at_most(3);
     const IdData& data = object_argument<IdData>(call, 1, "data");
     read_steps_as_option(call, 3);
-    const Options options(call, 3, {"k", "InitialState", "Offset"});
+    const Options options(call, 3, kFitTables);
     const auto steps = steps_option(options, std::nullopt);
     const Vector percents = steps ? prediction_argument(call, 2, data, {steps, compare_options(options)}).fit_percent
                                   : comparison_argument(call, 2, data, options).fit_percent;
@@ -112,7 +123,7 @@ struct MeasuredModel {
 
 void check_one_output(Index outputs) {
     if (outputs == 1) return;
-    throw InvalidArgument(fmt::format("fit_measures is of one output, and the model has {}", outputs));
+    throw InvalidArgument("fit_measures is of one output, and the model has {}", outputs);
 }
 
 MeasuredModel measured_model(const Call& call, int index) {
@@ -136,7 +147,7 @@ MeasuredModel measured_model(const Call& call, int index) {
 int measure_fit(Call& call) {
     call.at_most(3);
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    const Options options(call, 3, {"InitialState", "Offset"});
+    const Options options(call, 3, kMeasuresTables);
     const MeasuredModel model = measured_model(call, 2);
     const Comparison comparison = comparison_argument(call, 2, data, options);
     const LevelledOutputs pair = levelled_outputs(data, comparison);
@@ -150,19 +161,21 @@ int measure_fit(Call& call) {
     if (model.covariance.size() > 0 && !lost)
         set_field(call, "yic", yic(y, pair.swing, model.theta, model.covariance).value);
     set_field(call, "output", comparison.results.front().front().output, "message",
-              told(call, comparison.results.front().front().message));
+              localized(call, comparison.results.front().front().message));
     return 1;
 }
 
 constexpr FunctionEntry kValidationFunctions[] = {
-    {"test_your_model", "step tests", "test_your_model(G, data, {InitialState =, Offset =}) -> fig",
-     "measured response and the model's over each other", guarded<test_model>},
-    {"compare", "validation", "compare(data, G1, G2, ..., {labels =, k =, InitialState =, Offset =}) -> fig",
-     "measured and simulated, or predicted, outputs with their fits", guarded<compare_models>},
-    {"fit", "validation", "fit(data, G, {k =, InitialState =, Offset =}) -> percent",
-     "fit of the simulated, or predicted, output, 100 % is perfect", guarded<fit>},
-    {"fit_measures", "validation", "fit_measures(data, G, {InitialState =, Offset =}) -> table",
-     "fit, R_T^2, RMSE, FPE, AIC, BIC and YIC of the simulated output", guarded<measure_fit>},
+    {"test_your_model", "step tests", "test_your_model(G, data, {options}) -> fig",
+     "measured response and the model's over each other", guarded<test_model>, kCompareTables, kTestArguments},
+    {"compare", "validation", "compare(data, G1, G2, ..., {options}) -> fig",
+     "measured and simulated, or predicted, outputs with their fits", guarded<compare_models>, kCompareTables,
+     kCompareArguments},
+    {"fit", "validation", "fit(data, G, {options}) -> percent",
+     "fit of the simulated, or predicted, output, 100 % is perfect", guarded<fit>, kFitTables, kRecordAndModel},
+    {"fit_measures", "validation", "fit_measures(data, G, {options}) -> table",
+     "fit, R_T^2, RMSE, FPE, AIC, BIC and YIC of the simulated output", guarded<measure_fit>, kMeasuresTables,
+     kRecordAndModel},
 };
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <functional>
 
-#include "numerics/number_text.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/conversions/boxed.h"
 #include "scripting/conversions/numeric.h"
@@ -13,13 +12,17 @@
 namespace dynlab::inline scripting {
 namespace {
 
-std::string elements_of(Index size) {
-    return size == 0 ? "no elements" : size == 1 ? "the element 1 only" : fmt::format("the elements 1 to {}", size);
+Message elements_of(Index size) {
+    return size == 0   ? Message("no elements")
+           : size == 1 ? Message("the element 1 only")
+                       : Message("the elements 1 to {}", size);
 }
 
 [[noreturn]] void refuse_element(const char* what, double number, Index size) {
-    throw InvalidArgument(fmt::format("{0}[{1:.10g}] does not exist: {0} has {2}{3}", what, number, elements_of(size),
-                                      number < 0 ? fmt::format("; the last one is {0}[#{0}]", what) : ""));
+    const Number place = significant(number, 10);
+    if (number >= 0) throw InvalidArgument("{}[{}] does not exist: {} has {}", what, place, what, elements_of(size));
+    throw InvalidArgument("{}[{}] does not exist: {} has {}; the last one is {}[#{}]", what, place, what,
+                          elements_of(size), what, what);
 }
 
 /// Reads an element number from 1 to `size`, 0-based. `what` is "v" or "row" for messages.
@@ -30,13 +33,16 @@ Index element_index(lua_State* L, int index, Index size, const char* what) {
         refuse_element(what, static_cast<double>(number), size);
     }
     if (lua_type(L, index) != LUA_TNUMBER)
-        throw InvalidArgument(fmt::format(
-            "{}[i] needs a whole number i from 1 to {}, but {} was given{}", what, size, given_text(L, index),
-            to_mask(L, index) != nullptr ? "; write v:select(mask), or loop over find(mask) to set elements" : ""));
+        throw InvalidArgument(to_mask(L, index) != nullptr
+                                  ? Message("{}[i] needs a whole number i from 1 to {}, but {} was given; write "
+                                            "v:select(mask), or loop over find(mask) to set elements",
+                                            what, size, given_value(L, index))
+                                  : Message("{}[i] needs a whole number i from 1 to {}, but {} was given", what, size,
+                                            given_value(L, index)));
     const double number = lua_tonumber(L, index);
     if (std::floor(number) != number)
-        throw InvalidArgument(
-            fmt::format("{}[{:.10g}]: an element has a whole number from 1 to {}", what, number, size));
+        throw InvalidArgument("{}[{}]: an element has a whole number from 1 to {}", what, significant(number, 10),
+                              size);
     if (number >= 1 && number <= static_cast<double>(size)) return static_cast<Index>(number) - 1;
     refuse_element(what, number, size);
 }
@@ -50,17 +56,18 @@ int write_element(Call& call) {
     NumericBlock* v = to_vector(call.state(), 1);
     if (lua_isinteger(call.state(), 2) && lua_tointeger(call.state(), 2) > v->rows)
         throw InvalidArgument(
-            fmt::format("v[{}] does not exist: v has {}, and a vector keeps its length; zeros(n) makes one to fill, "
-                        "vector{{v, x}} one that is longer by x",
-                        lua_tointeger(call.state(), 2), counted(v->rows, "element")));
+            "v[{}] does not exist: v has {}, and a vector keeps its length; zeros(n) makes one to fill, vector{v, x} "
+            "one that is longer by x",
+            lua_tointeger(call.state(), 2), plural(v->rows, "{} element", "{} elements"));
     const Index number = element_index(call.state(), 2, v->rows, "v");
-    v->data()[number] = call.number(3, "the new value");
+    v->data()[number] = call.number(3, Message("the new value"));
     return 0;
 }
 
 NumericBlock& vector_self(Call& call) {
     NumericBlock* v = to_vector(call.state(), 1);
-    if (v == nullptr) wrong_argument(call.state(), 1, "v", "vector; methods are called with a colon, v:name(...)");
+    if (v == nullptr)
+        wrong_argument(call.state(), 1, "v", Message("a vector; methods are called with a colon, v:name(...)"));
     return *v;
 }
 
@@ -76,15 +83,14 @@ int vector_range(Call& call) {
     NumericBlock& v = vector_self(call);
     const Index first = call.integer(2, "first"), last = call.integer(3, "last");
     if (first < 1 || last > v.rows || first > last + 1)
-        throw InvalidArgument(
-            fmt::format("the elements {} to {} do not exist: v has {}", first, last, elements_of(v.rows)));
+        throw InvalidArgument("the elements {} to {} do not exist: v has {}", first, last, elements_of(v.rows));
     return call.give_vector(v.vector().segment(first - 1, last - first + 1));
 }
 
 int select_by_mask(Call& call, NumericBlock& v, MaskBlock& mask) {
     if (mask.size != v.rows)
-        throw InvalidArgument(
-            fmt::format("the mask has {}, but the vector has {}", counted(mask.size, "value"), v.rows));
+        throw InvalidArgument("the mask has {}, but the vector has {}", plural(mask.size, "{} value", "{} values"),
+                              v.rows);
     const Index count = std::count(mask.data(), mask.data() + mask.size, true);
     double* target = push_vector(call.state(), count).data();
     for (Index i = 0; i < v.rows; ++i)
@@ -96,13 +102,13 @@ int vector_select(Call& call) {
     call.at_most(2);
     NumericBlock& v = vector_self(call);
     if (MaskBlock* mask = to_mask(call.state(), 2)) return select_by_mask(call, v, *mask);
-    const VectorMap numbers = call.vector(2, "mask or element numbers");
+    const VectorMap numbers = call.vector(2, Message("mask or element numbers"));
     NumericBlock& result = push_vector(call.state(), numbers.size());
     for (Index i = 0; i < numbers.size(); ++i) {
         const double number = numbers[i];
         if (std::floor(number) != number || number < 1 || number > static_cast<double>(v.rows))
-            throw InvalidArgument(
-                fmt::format("the element {:.10g} does not exist: v has {}", number, elements_of(v.rows)));
+            throw InvalidArgument("the element {} does not exist: v has {}", significant(number, 10),
+                                  elements_of(v.rows));
         result.data()[i] = v.data()[static_cast<Index>(number) - 1];
     }
     return 1;
@@ -148,7 +154,7 @@ constexpr std::array kVectorOperators = {
 
 MaskBlock& mask_self(Call& call) {
     MaskBlock* mask = to_mask(call.state(), 1);
-    if (mask == nullptr) wrong_argument(call.state(), 1, "mask", "mask");
+    if (mask == nullptr) wrong_argument(call.state(), 1, "mask", with_article("mask"));
     return *mask;
 }
 
@@ -170,8 +176,8 @@ int mask_tostring(Call& call) {
 template <class Function>
 int combine_masks(Call& call, Function function) {
     MaskBlock &a = mask_self(call), *b = to_mask(call.state(), 2);
-    if (b == nullptr) wrong_argument(call.state(), 2, "other", "mask");
-    if (a.size != b->size) throw InvalidArgument(fmt::format("the masks have {} and {} values", a.size, b->size));
+    if (b == nullptr) wrong_argument(call.state(), 2, "other", with_article("mask"));
+    if (a.size != b->size) throw InvalidArgument("the masks have {} and {} values", a.size, b->size);
     std::transform(a.data(), a.data() + a.size, b->data(), push_mask(call.state(), a.size).data(), function);
     return 1;
 }

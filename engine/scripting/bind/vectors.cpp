@@ -1,16 +1,59 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
 #include "numerics/linalg/polynomial.h"
-#include "numerics/number_text.h"
 #include "numerics/signals/interpolation.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/conversions/boxed.h"
 #include "scripting/conversions/numeric.h"
+#include "scripting/runtime/option_entry.h"
 
 namespace dynlab::inline scripting {
 namespace {
+
+constexpr std::array kOutsideModes = {"refuse", "hold"};
+constexpr std::array kInterp1Options = {OptionEntry{
+    "outside",
+    ValueKind::kChoice,
+    about("values beyond the first and the last point: none (\"refuse\"), or those of these points (\"hold\")"),
+    {.initial = "\"refuse\"", .choices = kOutsideModes}}};
+constexpr OptionTable kInterp1Tables[] = {kInterp1Options};
+
+constexpr std::array kMakeVectorArguments = {
+    ArgumentEntry{"x1, x2, ...", ValueKind::kVector, about("numbers or vectors, in braces")}};
+constexpr std::array kMakeMatrixArguments = {
+    ArgumentEntry{"{...}, {...}", ValueKind::kVector, about("tables of numbers, the rows, all equally long")},
+    ArgumentEntry{"v1, v2", ValueKind::kVector, about("vectors, the columns, all equally long")}};
+constexpr std::array kZerosArguments = {
+    ArgumentEntry{"n", ValueKind::kCount, about("number of values, or of rows where m is given")},
+    ArgumentEntry{"m", ValueKind::kCount, about("number of columns, by default 1")}};
+constexpr std::array kEyeArguments = {ArgumentEntry{"n", ValueKind::kCount, about("number of rows and of columns")}};
+constexpr std::array kLinspaceArguments = {
+    ArgumentEntry{"first", ValueKind::kNumber, about("first value")},
+    ArgumentEntry{"last", ValueKind::kNumber, about("last value; it may be smaller than the first")},
+    ArgumentEntry{"n", ValueKind::kCount, about("number of values, by default 100")}};
+constexpr std::array kLogspaceArguments = {
+    ArgumentEntry{"first", ValueKind::kNumber, about("exponent of ten of the first value")},
+    ArgumentEntry{"last", ValueKind::kNumber, about("exponent of ten of the last value")},
+    ArgumentEntry{"n", ValueKind::kCount, about("number of values, by default 50")}};
+constexpr std::array kRangeArguments = {
+    ArgumentEntry{"first", ValueKind::kNumber, about("first value")},
+    ArgumentEntry{"last", ValueKind::kNumber, about("end of the values, included when the steps reach it")},
+    ArgumentEntry{"step", ValueKind::kNumber, about("step between values, by default 1; negative to count down")}};
+constexpr std::array kOneVectorArguments = {
+    ArgumentEntry{"v", ValueKind::kVector, about("vector, or a table of numbers such as {1, 2, 3}")}};
+constexpr std::array kDotArguments = {
+    ArgumentEntry{"a", ValueKind::kVector, about("vector, or a table of numbers")},
+    ArgumentEntry{"b", ValueKind::kVector, about("vector of the same size, or a table of numbers")}};
+constexpr std::array kPolyvalArguments = {
+    ArgumentEntry{"p", ValueKind::kVector, about("vector of coefficients, at least one, highest power first")},
+    ArgumentEntry{"x", ValueKind::kVector, about("number or vector, where the polynomial is evaluated")}};
+constexpr std::array kInterp1Arguments = {
+    ArgumentEntry{"x", ValueKind::kVector, about("vector of at least two values that increase")},
+    ArgumentEntry{"y", ValueKind::kVector, about("vector of the same size, the values at x")},
+    ArgumentEntry{"x_new", ValueKind::kVector, about("number or vector, where values are wanted")}};
 
 int make_vector(Call& call) {
     if (call.count() != 1 || (to_vector(call.state(), 1) == nullptr && call.type(1) != LUA_TTABLE))
@@ -23,7 +66,7 @@ int make_matrix(Call& call) {
     if (call.count() != 1 || call.type(1) != LUA_TTABLE)
         throw InvalidArgument(
             "a matrix is written with braces: matrix{{1, 2}, {3, 4}} (rows) or matrix{v1, v2} (columns)");
-    make_matrix_of_table(call.state(), 1, "argument 1 (rows or columns)");
+    make_matrix_of_table(call.state(), 1, argument_label(1, Message("rows or columns")));
     return 1;
 }
 
@@ -90,13 +133,13 @@ int dot(Call& call) {
     call.at_most(2);
     const VectorMap a = call.vector(1, "a"), b = call.vector(2, "b");
     if (a.size() != b.size())
-        throw InvalidArgument(fmt::format("a has {}, but b has {}", counted(a.size(), "value"), b.size()));
+        throw InvalidArgument("a has {}, but b has {}", plural(a.size(), "{} value", "{} values"), b.size());
     return call.give(a.dot(b));
 }
 
-VectorMap not_empty(Call& call, int index, const char* what) {
+VectorMap not_empty(Call& call, int index, ArgumentName what) {
     const VectorMap v = call.vector(index, what);
-    if (v.size() == 0) throw InvalidArgument(fmt::format("argument {} ({}) has no elements", index, what));
+    if (v.size() == 0) throw InvalidArgument("{} has no elements", argument_label(index, what));
     return v;
 }
 
@@ -139,8 +182,9 @@ int polyval(Call& call) {
 int interp1(Call& call) {
     call.at_most(4);
     const VectorMap x = call.vector(1, "x"), y = call.vector(2, "y");
-    const Options options(call, 4, {"outside"});
-    const auto outside = static_cast<Outside>(options.choice("outside", {"refuse", "hold"}, 0));
+    const Options options(call, 4, kInterp1Tables);
+    const auto outside =
+        options.has("outside") ? static_cast<Outside>(options.choice(kInterp1Options[0])) : Outside::kRefuse;
     if (call.type(3) != LUA_TNUMBER)
         return call.give_vector(interpolate_linearly(x, y, call.vector(3, "x_new"), outside));
     return call.give(interpolate_linearly(x, y, Vector::Constant(1, call.number(3, "x_new")), outside)[0]);
@@ -148,25 +192,32 @@ int interp1(Call& call) {
 
 constexpr FunctionEntry kVectorsFunctions[] = {
     {"vector", "vectors", "vector{x1, x2, ...} -> v", "a column of numbers; vectors among the values are joined",
-     guarded<make_vector>},
+     guarded<make_vector>, kNoOptions, kMakeVectorArguments},
     {"matrix", "vectors", "matrix{{...}, {...}} or matrix{v1, v2} -> A",
-     "a matrix from its rows (tables) or its columns (vectors)", guarded<make_matrix>},
-    {"zeros", "vectors", "zeros(n, m) -> v", "n zeros, or an n x m matrix of zeros", guarded<zeros>},
-    {"ones", "vectors", "ones(n, m) -> v", "n ones, or an n x m matrix of ones", guarded<ones>},
-    {"eye", "vectors", "eye(n) -> A", "the n x n identity matrix", guarded<eye>},
+     "a matrix from its rows (tables) or its columns (vectors)", guarded<make_matrix>, kNoOptions,
+     kMakeMatrixArguments},
+    {"zeros", "vectors", "zeros(n, m) -> v", "n zeros, or an n x m matrix of zeros", guarded<zeros>, kNoOptions,
+     kZerosArguments},
+    {"ones", "vectors", "ones(n, m) -> v", "n ones, or an n x m matrix of ones", guarded<ones>, kNoOptions,
+     kZerosArguments},
+    {"eye", "vectors", "eye(n) -> A", "the n x n identity matrix", guarded<eye>, kNoOptions, kEyeArguments},
     {"linspace", "vectors", "linspace(first, last, n) -> v", "n equally spaced values from first to last",
-     guarded<linspace>},
+     guarded<linspace>, kNoOptions, kLinspaceArguments},
     {"logspace", "vectors", "logspace(first, last, n) -> v", "n values from 10^first to 10^last with equal ratios",
-     guarded<logspace>},
+     guarded<logspace>, kNoOptions, kLogspaceArguments},
     {"range", "vectors", "range(first, last) or range(first, step, last) -> v",
-     "values from first to last, step by step (MATLAB's first:step:last)", guarded<range>},
-    {"cumsum", "vectors", "cumsum(v) -> w", "running sum", guarded<cumulative_sum>},
-    {"diff", "vectors", "diff(v) -> w", "differences of neighbours, one element fewer", guarded<difference>},
-    {"dot", "vectors", "dot(a, b) -> x", "scalar product", guarded<dot>},
-    {"norm", "vectors", "norm(v) -> x", "Euclidean length", guarded<norm>},
-    {"sort", "vectors", "sort(v) -> sorted, places", "ascending order, and where each element stood", guarded<sort>},
-    {"polyval", "vectors", "polyval(p, x) -> y", "value of a polynomial, highest power first", guarded<polyval>},
-    {"interp1", "vectors", "interp1(x, y, x_new, {outside =}) -> y_new", "linear interpolation", guarded<interp1>},
+     "values from first to last, step by step (MATLAB's first:step:last)", guarded<range>, kNoOptions, kRangeArguments},
+    {"cumsum", "vectors", "cumsum(v) -> w", "running sum", guarded<cumulative_sum>, kNoOptions, kOneVectorArguments},
+    {"diff", "vectors", "diff(v) -> w", "differences of neighbours, one element fewer", guarded<difference>, kNoOptions,
+     kOneVectorArguments},
+    {"dot", "vectors", "dot(a, b) -> x", "scalar product", guarded<dot>, kNoOptions, kDotArguments},
+    {"norm", "vectors", "norm(v) -> x", "Euclidean length", guarded<norm>, kNoOptions, kOneVectorArguments},
+    {"sort", "vectors", "sort(v) -> sorted, places", "ascending order, and where each element stood", guarded<sort>,
+     kNoOptions, kOneVectorArguments},
+    {"polyval", "vectors", "polyval(p, x) -> y", "value of a polynomial, highest power first", guarded<polyval>,
+     kNoOptions, kPolyvalArguments},
+    {"interp1", "vectors", "interp1(x, y, x_new, {options}) -> y_new", "linear interpolation", guarded<interp1>,
+     kInterp1Tables, kInterp1Arguments},
 };
 
 }  // namespace

@@ -11,8 +11,25 @@
 #include "numerics/error.h"
 #include "scripting/conversions/numeric.h"
 #include "scripting/runtime/context.h"
+#include "scripting/runtime/option_entry.h"
 
 namespace dynlab::inline scripting {
+
+/// What an argument is called in messages: a name of the signature, "data", or a phrase, Message("your guess"). Made
+/// without a cost for every argument that is read; both must outlive it.
+class ArgumentName {
+  public:
+    ArgumentName(const char* name) : name_(name) {}            // NOLINT: names are arguments' names
+    ArgumentName(const Message& phrase) : phrase_(&phrase) {}  // NOLINT
+    Message message() const { return phrase_ != nullptr ? *phrase_ : Message::verbatim(name_); }
+
+  private:
+    const char* name_ = nullptr;
+    const Message* phrase_ = nullptr;
+};
+
+/// "argument 2 (orders)", with which messages begin; a method's are counted without the object (run_guarded).
+Message argument_label(int index, ArgumentName what);
 
 /// One call from a script: checked reading of its arguments, writing of its results. Reading throws InvalidArgument
 /// that names the argument, what was wanted and what was given; `guarded` turns it into a Lua error with file and line.
@@ -33,16 +50,16 @@ class Call {
     int type(int index) const { return index <= arguments_ ? lua_type(state_, index) : LUA_TNONE; }
     void at_most(int arguments) const;  ///< throws when the script gave more
 
-    double number(int index, const char* what) const;
-    double number_or(int index, const char* what, double fallback) const;
-    Index integer(int index, const char* what) const;
-    Index size(int index, const char* what) const;  ///< a whole number from 0 on
-    std::string text(int index, const char* what) const;
+    double number(int index, ArgumentName what) const;
+    double number_or(int index, ArgumentName what, double fallback) const;
+    Index integer(int index, ArgumentName what) const;
+    Index size(int index, ArgumentName what) const;  ///< a whole number from 0 on
+    std::string text(int index, ArgumentName what) const;
 
     /// A vector of the script, or a table of numbers, which is made into one in its place.
-    VectorMap vector(int index, const char* what) const;
+    VectorMap vector(int index, ArgumentName what) const;
     /// A matrix, a vector (one column) or a table of tables (rows).
-    MatrixMap matrix(int index, const char* what) const;
+    MatrixMap matrix(int index, ArgumentName what) const;
     bool holds_vector(int index) const;  ///< vector userdata or plain table of numbers
 
     std::function<bool()> cancel() const;       ///< for long work of the core: true after Ctrl-C or a limit of time
@@ -62,15 +79,26 @@ class Call {
     int arguments_;
 };
 
-[[noreturn]] void wrong_argument(lua_State* L, int index, const char* what, const char* wanted);
-/// What stands at a stack index, in words: "a text", "nil", "a vector of 5 values".
-std::string given_text(lua_State* L, int index);
+/// `wanted`: with its article, "a number".
+[[noreturn]] void wrong_argument(lua_State* L, int index, ArgumentName what, const Message& wanted);
+/// "option 'Ts'"
+Message option_label(const char* name);
+/// Throws InvalidArgument: what the option must be, and what was given.
+[[noreturn]] void refuse_option(const char* name, const Message& wanted, const Message& given);
+/// What stands at a stack index, in words: "the text "zoh"", "nil (no value)", "a vector of 5 values".
+Message given_value(lua_State* L, int index);
 
 /// A table {name = value} whose names are all known; an unknown one throws InvalidArgument with the nearest known name.
 class Options {
   public:
-    /// An absent table stands for all defaults. `index` may be any stack index.
+    /// An absent table stands for all defaults. `index` may be any stack index. Numbers are held to the bounds that
+    /// their entries state.
+    Options(const Call& call, int index, OptionTables known);
     Options(const Call& call, int index, std::initializer_list<const char*> known);
+
+    /// Sets the members of a struct that have an option which is given (conversions/option_member.h).
+    template <class T>
+    void read(T& into) const;
 
     bool has(const char* name) const;
     double number(const char* name, double fallback) const;
@@ -84,21 +112,33 @@ class Options {
     std::optional<std::pair<double, double>> range(const char* name) const;  ///< {low, high}
     /// Place of the text among `choices`; throws for any other text, naming them.
     std::size_t choice(const char* name, std::initializer_list<const char*> choices, std::size_t fallback) const;
+    std::size_t choice(const OptionEntry& option) const;  ///< of one that is given
     const Call& call() const { return call_; }
     /// Pushes the option's value (nil when absent) and returns its stack index.
     int push(const char* name) const;
 
   private:
-    void check_names(std::initializer_list<const char*> known) const;
-    std::string label(const char* name) const { return fmt::format("option '{}'", name); }
+    void check_names(const std::vector<std::string>& known) const;
+    void check_bounds(const OptionEntry& option) const;
+    void read_members(const void* tag, void* into) const;
     Call call_;
     int index_;
+    OptionTables known_;
 };
+
+template <class T>
+inline constexpr char options_tag = 0;  ///< its address tells structs of options apart
+
+template <class T>
+void Options::read(T& into) const {
+    read_members(&options_tag<T>, &into);
+}
 
 using Binding = int (*)(Call&);
 int run_guarded(lua_State* L, Binding body);
 
-/// The only way a binding is called: C++ exceptions of the core become Lua errors "file:line: function: sentence".
+/// The only way a binding is called: C++ exceptions of the core become Lua errors "file:line: function: sentence", of
+/// which the context knows the message (RuntimeContext::raised).
 /// Lua's own exceptions pass through untouched, so that destructors run.
 template <Binding kBody>
 int guarded(lua_State* L) {

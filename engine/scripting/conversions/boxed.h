@@ -1,5 +1,6 @@
 #pragma once
 #include <concepts>
+#include <memory>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -7,6 +8,7 @@
 #include "platform/hash.h"
 #include "scripting/conversions/arguments.h"
 #include "scripting/conversions/object_type.h"
+#include "scripting/runtime/kind_phrases.h"
 
 namespace dynlab::inline scripting {
 
@@ -15,7 +17,8 @@ namespace dynlab::inline scripting {
 ///   template <> struct Boxed<IdData> { static constexpr ObjectType type{"iddata"};
 ///                                      static std::size_t outside_bytes(const IdData&); };
 /// A class of large objects that nobody changes once they are pushed may also say `static Digest digest(const T&)`, of
-/// all its content: its objects are then handed out as constant, and the digest of each is computed once.
+/// all its content: its objects are then handed out as constant, and the digest of each is computed once. Such objects
+/// can be shared with C++ beyond the life of the userdata (shared_object).
 template <class T>
 struct Boxed;
 
@@ -31,7 +34,19 @@ template <class T>
 struct BoxedObject {
     T object;
     std::size_t outside_bytes;
-    std::optional<Digest> digest = {};  ///< once somebody asked
+
+    BoxedObject(T given, std::size_t bytes) : object(std::move(given)), outside_bytes(bytes) {}
+    T& get() { return object; }
+};
+template <KeepsDigest T>
+struct BoxedObject<T> {
+    std::shared_ptr<const T> object;
+    std::size_t outside_bytes;
+    std::optional<Digest> digest = {};  ///< computed at the first request
+
+    BoxedObject(T given, std::size_t bytes)
+        : object(std::make_shared<const T>(std::move(given))), outside_bytes(bytes) {}
+    const T& get() { return *object; }
 };
 
 template <class T>
@@ -57,38 +72,45 @@ void push_box_metatable(lua_State* L) {
 void charge_outside_bytes(lua_State* L, std::size_t bytes, const char* what);
 
 /// Pushes `object`; its outside bytes count against the memory limit and drive the collector.
+/// Lua code cannot see the `user_values`, which keep other Lua objects alive.
 template <class T>
-Access<T>& push_object(lua_State* L, T object) {
+Access<T>& push_object(lua_State* L, T object, int user_values = 0) {
     const std::size_t bytes = Boxed<T>::outside_bytes(object);
     charge_outside_bytes(L, bytes, Boxed<T>::type.name);
-    void* memory = lua_newuserdatauv(L, sizeof(BoxedObject<T>), 0);
-    auto* box = new (memory) BoxedObject<T>{std::move(object), bytes};
+    void* memory = lua_newuserdatauv(L, sizeof(BoxedObject<T>), user_values);
+    auto* box = new (memory) BoxedObject<T>(std::move(object), bytes);
     context_of(L).memory.add_outside(bytes);
     push_box_metatable<T>(L);
     lua_setmetatable(L, -2);
-    return box->object;
+    return box->get();
 }
 
 /// The object at a stack index, nullptr when something else is there.
 template <class T>
 Access<T>* to_object(lua_State* L, int index) {
     if (!is_object(L, index, Boxed<T>::type)) return nullptr;
-    return &static_cast<BoxedObject<T>*>(lua_touserdata(L, index))->object;
+    return &static_cast<BoxedObject<T>*>(lua_touserdata(L, index))->get();
+}
+
+/// The object at a stack index, which is of this class, shared with Lua.
+template <KeepsDigest T>
+std::shared_ptr<const T> shared_object(lua_State* L, int index) {
+    return static_cast<BoxedObject<T>*>(lua_touserdata(L, index))->object;
 }
 
 /// The digest of the object at a stack index, which is of this class.
 template <KeepsDigest T>
 Digest digest_of_object(lua_State* L, int index) {
     auto* box = static_cast<BoxedObject<T>*>(lua_touserdata(L, index));
-    if (!box->digest) box->digest = Boxed<T>::digest(box->object);
+    if (!box->digest) box->digest = Boxed<T>::digest(*box->object);
     return *box->digest;
 }
 
 /// The object of argument `index`; throws InvalidArgument naming argument and wanted kind.
 template <class T>
-Access<T>& object_argument(const Call& call, int index, const char* what) {
+Access<T>& object_argument(const Call& call, int index, ArgumentName what) {
     Access<T>* object = index <= call.count() ? to_object<T>(call.state(), index) : nullptr;
-    if (object == nullptr) wrong_argument(call.state(), index, what, Boxed<T>::type.name);
+    if (object == nullptr) wrong_argument(call.state(), index, what, with_article(Boxed<T>::type.name));
     return *object;
 }
 
@@ -96,7 +118,7 @@ Access<T>& object_argument(const Call& call, int index, const char* what) {
 template <class T>
 const T& object_itself(const Call& call) {
     const T* object = to_object<T>(call.state(), 1);
-    if (object == nullptr) wrong_argument(call.state(), 1, Boxed<T>::type.name, Boxed<T>::type.name);
+    if (object == nullptr) wrong_argument(call.state(), 1, Boxed<T>::type.name, with_article(Boxed<T>::type.name));
     return *object;
 }
 

@@ -1,11 +1,8 @@
 #include "scripting/conversions/numeric.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 #include "scripting/conversions/arguments.h"
 #include "scripting/conversions/boxed.h"
 #include "scripting/runtime/context.h"
@@ -14,21 +11,21 @@
 namespace dynlab::inline scripting {
 namespace {
 
-/// Throws InvalidArgument, naming size and limit, when `bytes` cannot be had.
-void need_memory(lua_State* L, double bytes, const char* what) {
+/// Throws InvalidArgument, naming size and limit, when `bytes` cannot be had for what() says.
+template <class What>
+void need_memory(lua_State* L, double bytes, const What& what) {
     MemoryAccount& memory = context_of(L).memory;
     const double limit = static_cast<double>(memory.limit());
     if (bytes <= limit && memory.fits(static_cast<std::size_t>(bytes))) return;
     if (bytes <= limit) lua_gc(L, LUA_GCCOLLECT);
     if (bytes > limit || !memory.fits(static_cast<std::size_t>(bytes)))
-        throw InvalidArgument(fmt::format("{} needs {}, but the script may use {} in all and holds {} already", what,
-                                          size_text(bytes), size_text(limit),
-                                          size_text(static_cast<double>(memory.used()))));
+        throw InvalidArgument("{} needs {}, but the script may use {} in all and holds {} already", what(),
+                              size_phrase(bytes), size_phrase(limit), size_phrase(static_cast<double>(memory.used())));
 }
 
-template <class Block>
-Block& push_block(lua_State* L, double bytes, const std::string& what, const ObjectType& type, int user_values = 0) {
-    need_memory(L, bytes + sizeof(Block), what.c_str());
+template <class Block, class What>
+Block& push_block(lua_State* L, double bytes, const What& what, const ObjectType& type, int user_values = 0) {
+    need_memory(L, bytes + sizeof(Block), what);
     auto* block =
         static_cast<Block*>(lua_newuserdatauv(L, sizeof(Block) + static_cast<std::size_t>(bytes), user_values));
     push_metatable(L, type);
@@ -52,50 +49,61 @@ Index entry_size(lua_State* L) {
     return block == nullptr ? -1 : block->rows;
 }
 
-Index joined_size(lua_State* L, int index, Index entries, const std::string& label) {
+Index joined_size(lua_State* L, int index, Index entries, const Message& label) {
     Index total = 0;
     for (Index i = 1; i <= entries; ++i) {
         lua_rawgeti(L, index, i);
         const Index size = entry_size(L);
         if (size < 0)
-            throw InvalidArgument(
-                fmt::format("{} must be a vector of numbers, but its element {} is {}", label, i, given_text(L, -1)));
+            throw InvalidArgument("{} must be a vector of numbers, but its element {} is {}", label, i,
+                                  given_value(L, -1));
         total += size;
         lua_pop(L, 1);
     }
     return total;
 }
 
-/// What a table is that has no numbered entries: empty, or a record of variables, say.
-std::string without_entries(lua_State* L, int index) {
+/// Of a table without numbered entries: an empty one, or a record of variables, say.
+[[noreturn]] void refuse_without_entries(lua_State* L, int index, const Message& label) {
     std::vector<std::string> names;
     collect_text_keys(L, index, names);
-    if (names.empty()) return "the table is empty";
+    if (names.empty()) throw InvalidArgument("{} must have rows or columns, but the table is empty", label);
     std::sort(names.begin(), names.end());
-    return fmt::format("the table holds {}: give one of these, such as data.{}", fmt::join(names, ", "), names.front());
+    throw InvalidArgument("{} must have rows or columns, but the table holds {}: give one of these, such as data.{}",
+                          label, listed(names), names.front());
 }
 
-/// Checks that entry `i` on top has the length of the first.
-void check_length(Index length, Index first_length, Index i, const char* kind, const std::string& label) {
-    if (length != first_length)
-        throw InvalidArgument(fmt::format("{}: {} {} has {}, but {} 1 has {}", label, kind, i, counted(length, "value"),
-                                          kind, first_length));
+/// Checks that the row or column `i` on top has the length of the first.
+void check_length(Index length, Index first_length, Index i, bool row, const Message& label) {
+    if (length == first_length) return;
+    const Message values = plural(length, "{} value", "{} values");
+    throw InvalidArgument(row ? Message("{}: row {} has {}, but row 1 has {}", label, i, values, first_length)
+                              : Message("{}: column {} has {}, but column 1 has {}", label, i, values, first_length));
 }
 
 }  // namespace
 
 void charge_outside_bytes(lua_State* L, std::size_t bytes, const char* what) {
-    need_memory(L, static_cast<double>(bytes), what);
+    need_memory(L, static_cast<double>(bytes), [what] { return Message::verbatim(what); });
     if (bytes >= 1024) lua_gc(L, LUA_GCSTEP, static_cast<int>(std::min<std::size_t>(bytes / 1024, 1 << 20)));
 }
 
-std::string numbered_from_one(Index count) {
-    return count == 0 ? "there is none" : count == 1 ? "there is 1 only" : fmt::format("there are 1 to {}", count);
+Message numbered_from_one(Index count) {
+    return count == 0   ? Message("there is none")
+           : count == 1 ? Message("there is 1 only")
+                        : Message("there are 1 to {}", count);
+}
+
+Message vector_shape(Index size) {
+    return Message("a vector of {}", plural(size, "{} value", "{} values"));
+}
+Message matrix_shape(Index rows, Index columns) {
+    return Message("a {} x {} matrix", rows, columns);
 }
 
 NumericBlock& push_vector(lua_State* L, Index size) {
-    auto& block =
-        push_block<NumericBlock>(L, bytes_of(size, 1), fmt::format("a vector of {} values", size), kVectorType);
+    auto& block = push_block<NumericBlock>(
+        L, bytes_of(size, 1), [size] { return vector_shape(size); }, kVectorType);
     block = {size, 1};
     return block;
 }
@@ -103,11 +111,13 @@ NumericBlock& push_vector(lua_State* L, Index size) {
 void need_room_for_signal(lua_State* L, double count) {
     constexpr double kAtOnce = 3;
     if (count >= 1)  // else the calculation says what is wrong with it
-        need_memory(L, kAtOnce * sizeof(double) * count, fmt::format("a vector of {:.0f} values", count).c_str());
+        need_memory(L, kAtOnce * sizeof(double) * count,
+                    [count] { return Message("a vector of {} values", decimals(count, 0)); });
 }
 
 void push_named_vector(lua_State* L, const Vector& values, const std::vector<std::string>& names) {
-    auto& block = push_block<NumericBlock>(L, bytes_of(values.size(), 1), "a vector with names", kVectorType, 1);
+    auto& block = push_block<NumericBlock>(
+        L, bytes_of(values.size(), 1), [] { return Message("a vector with names"); }, kVectorType, 1);
     block = {values.size(), 1};
     block.vector() = values;
     lua_createtable(L, 0, static_cast<int>(names.size()));
@@ -119,15 +129,16 @@ void push_named_vector(lua_State* L, const Vector& values, const std::vector<std
 }
 
 NumericBlock& push_matrix(lua_State* L, Index rows, Index columns) {
-    auto& block = push_block<NumericBlock>(L, bytes_of(rows, columns), fmt::format("a {} x {} matrix", rows, columns),
-                                           kMatrixType);
+    auto& block = push_block<NumericBlock>(
+        L, bytes_of(rows, columns), [=] { return matrix_shape(rows, columns); }, kMatrixType);
     block = {rows, columns};
     return block;
 }
 
 MaskBlock& push_mask(lua_State* L, Index size) {
-    auto& block =
-        push_block<MaskBlock>(L, static_cast<double>(size), fmt::format("a mask of {} values", size), kMaskType);
+    auto& block = push_block<MaskBlock>(
+        L, static_cast<double>(size), [size] { return Message("a mask of {}", plural(size, "{} value", "{} values")); },
+        kMaskType);
     block = {size};
     return block;
 }
@@ -142,7 +153,7 @@ MaskBlock* to_mask(lua_State* L, int index) {
     return block_at<MaskBlock>(L, index, kMaskType);
 }
 
-void make_vector_of_table(lua_State* L, int index, const std::string& label) {
+void make_vector_of_table(lua_State* L, int index, const Message& label) {
     index = lua_absindex(L, index);
     const auto entries = static_cast<Index>(lua_rawlen(L, index));
     const Index total = joined_size(L, index, entries, label);
@@ -159,27 +170,28 @@ void make_vector_of_table(lua_State* L, int index, const std::string& label) {
     lua_replace(L, index);
 }
 
-void make_matrix_of_table(lua_State* L, int index, const std::string& label) {
+void make_matrix_of_table(lua_State* L, int index, const Message& label) {
     index = lua_absindex(L, index);
     const auto entries = static_cast<Index>(lua_rawlen(L, index));
-    if (entries == 0) throw InvalidArgument(label + " must have rows or columns, but " + without_entries(L, index));
+    if (entries == 0) refuse_without_entries(L, index, label);
     const bool by_rows = lua_rawgeti(L, index, 1) == LUA_TTABLE;
-    const char* kind = by_rows ? "row" : "column";
     const Index length = by_rows ? static_cast<Index>(lua_rawlen(L, -1)) : entry_size(L);
     if (length < 0 || lua_isnumber(L, -1))
-        throw InvalidArgument(fmt::format(
-            "{} must be a list of rows {{{{1, 2}}, {{3, 4}}}} or of vectors (its columns), but its entry 1 is {}",
-            label, given_text(L, -1)));
+        throw InvalidArgument(
+            "{} must be a list of rows {{1, 2}, {3, 4}} or of vectors (its columns), but its entry 1 is {}", label,
+            given_value(L, -1));
     lua_pop(L, 1);
     NumericBlock& block = by_rows ? push_matrix(L, entries, length) : push_matrix(L, length, entries);
     for (Index i = 0; i < entries; ++i) {
-        const std::string entry = fmt::format("{}, {} {}", label, kind, i + 1);
-        if ((lua_rawgeti(L, index, i + 1) == LUA_TTABLE) != by_rows || (!by_rows && to_vector(L, -1) == nullptr))
-            throw InvalidArgument(
-                fmt::format("{} must be a {} like the first, but it is {}", entry, kind, given_text(L, -1)));
+        const Message entry = by_rows ? Message("{}, row {}", label, i + 1) : Message("{}, column {}", label, i + 1);
+        if ((lua_rawgeti(L, index, i + 1) == LUA_TTABLE) != by_rows || (!by_rows && to_vector(L, -1) == nullptr)) {
+            const Message given = given_value(L, -1);
+            throw InvalidArgument(by_rows ? Message("{} must be a row like the first, but it is {}", entry, given)
+                                          : Message("{} must be a column like the first, but it is {}", entry, given));
+        }
         if (by_rows) make_vector_of_table(L, -1, entry);
         NumericBlock* part = to_vector(L, -1);
-        check_length(part->rows, length, i + 1, kind, label);
+        check_length(part->rows, length, i + 1, by_rows, label);
         if (by_rows) {
             block.matrix().row(i) = part->vector().transpose();
         } else {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "numerics/linalg/types.h"
 #include "scripting/conversions/object_type.h"
 
@@ -47,7 +48,10 @@ NumericBlock* to_matrix(lua_State* L, int index);
 MaskBlock* to_mask(lua_State* L, int index);
 
 /// Which numbers of elements, rows or the like there are: "there are 1 to 3", "there is 1 only".
-std::string numbered_from_one(Index count);
+Message numbered_from_one(Index count);
+/// "a vector of 5 values", "a 2 x 3 matrix"
+Message vector_shape(Index size);
+Message matrix_shape(Index rows, Index columns);
 
 /// Pushes a vector whose values can be read by these names, too: v.k1.
 void push_named_vector(lua_State* L, const Vector& values, const std::vector<std::string>& names);
@@ -56,9 +60,9 @@ inline constexpr ObjectType kVectorType{"vector"}, kMatrixType{"matrix"}, kMaskT
 
 /// Replaces a table of numbers at stack index `index` by a vector; entries may also be vectors, which are joined.
 /// `label` names the table in messages.
-void make_vector_of_table(lua_State* L, int index, const std::string& label);
+void make_vector_of_table(lua_State* L, int index, const Message& label);
 
 /// Replaces a table at `index` by a matrix: plain tables of numbers are its rows, vectors its columns.
-void make_matrix_of_table(lua_State* L, int index, const std::string& label);
+void make_matrix_of_table(lua_State* L, int index, const Message& label);
 
 }  // namespace dynlab::inline scripting

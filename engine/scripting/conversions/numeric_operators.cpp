@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "numerics/number_text.h"
 #include "scripting/conversions/numeric.h"
 
 namespace dynlab::inline scripting {
@@ -15,19 +14,19 @@ struct Operand {
     bool is_vector = false;
 };
 
-std::string shape_text(const Operand& operand) {
-    if (operand.block == nullptr) return "a number";
-    return operand.is_vector ? "a vector of " + counted(operand.block->rows, "value")
-                             : fmt::format("a {} x {} matrix", operand.block->rows, operand.block->columns);
+Message shape_of(const Operand& operand) {
+    if (operand.block == nullptr) return Message("a number");
+    return operand.is_vector ? vector_shape(operand.block->rows)
+                             : matrix_shape(operand.block->rows, operand.block->columns);
 }
 
 Operand operand(const Call& call, int index, const char* sign) {
     lua_State* L = call.state();
     if (call.type(index) == LUA_TNUMBER) return {nullptr, lua_tonumber(L, index), false};
-    if (call.type(index) == LUA_TTABLE) make_vector_of_table(L, index, fmt::format("x {} y: the table", sign));
+    if (call.type(index) == LUA_TTABLE) make_vector_of_table(L, index, Message("x {} y: the table", sign));
     if (NumericBlock* vector = to_vector(L, index)) return {vector, 0, true};
     if (NumericBlock* matrix = to_matrix(L, index)) return {matrix, 0, false};
-    throw InvalidArgument(fmt::format("x {} y cannot work with {}", sign, given_text(L, index)));
+    throw InvalidArgument("x {} y cannot work with {}", sign, given_value(L, index));
 }
 
 /// Room for a result shaped like `model`, on top of the stack.
@@ -38,8 +37,7 @@ NumericBlock& push_like(const Call& call, const Operand& model) {
 
 void check_equal_shape(const Operand& a, const Operand& b, const char* sign) {
     if (a.is_vector == b.is_vector && a.block->rows == b.block->rows && a.block->columns == b.block->columns) return;
-    throw InvalidArgument(
-        fmt::format("x {} y needs equal sizes, but x is {} and y is {}", sign, shape_text(a), shape_text(b)));
+    throw InvalidArgument("x {} y needs equal sizes, but x is {} and y is {}", sign, shape_of(a), shape_of(b));
 }
 
 /// Applies `function` element by element, numbers being used for every element.
@@ -61,11 +59,11 @@ int elementwise(const Call& call, const char* sign, Function function) {
 
 int matrix_product(const Call& call, const Operand& a, const Operand& b) {
     if (a.is_vector)
-        throw InvalidArgument(fmt::format("x * y is the matrix product, but x is {} and y is {}; write A*v, or A:t()*v",
-                                          shape_text(a), shape_text(b)));
+        throw InvalidArgument("x * y is the matrix product, but x is {} and y is {}; write A*v, or A:t()*v",
+                              shape_of(a), shape_of(b));
     if (a.block->columns != b.block->rows)
-        throw InvalidArgument(fmt::format("A * B needs as many columns in A as rows in B, but A is {} and B is {}",
-                                          shape_text(a), shape_text(b)));
+        throw InvalidArgument("A * B needs as many columns in A as rows in B, but A is {} and B is {}", shape_of(a),
+                              shape_of(b));
     NumericBlock& result = b.is_vector ? push_vector(call.state(), a.block->rows)
                                        : push_matrix(call.state(), a.block->rows, b.block->columns);
     result.matrix().noalias() = a.block->matrix() * b.block->matrix();

@@ -1,7 +1,5 @@
 #include "scripting/conversions/object_type.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <string_view>
@@ -10,7 +8,7 @@
 
 #include "platform/spelling.h"
 #include "scripting/runtime/context.h"
-#include "scripting/runtime/errors.h"
+#include "scripting/runtime/kind_phrases.h"
 #include "scripting/runtime/matlab_hints.h"
 #include "scripting/runtime/sandbox.h"
 
@@ -36,23 +34,27 @@ bool is_library_function(lua_State* L, const std::string& name) {
     return found;
 }
 
-std::string unknown_member_message(lua_State* L, const TypeEntry& members, const std::string& key) {
+Message unknown_member_of(lua_State* L, const TypeEntry& members, const std::string& key) {
     const ObjectType& type = *members.type;
     std::vector<std::string> names;
     for (const Member& member : members.fields) names.emplace_back(member.name);
     for (const Member& member : members.methods) names.emplace_back(member.name);
     const auto near = nearest_word(key, names);
-    std::string message = fmt::format("{} has no field or method '{}'", article(type.name), key);
+    const Message object = with_article(type.name);
     const std::string singular = key.ends_with('s') ? key.substr(0, key.size() - 1) : key;
-    const auto as_function = [&](const std::string& name) {
-        return fmt::format("; write it as a function, {}(...)", name);
+    const auto with_hint = [&](const Message& hint) {
+        return Message("{} has no field or method '{}'; {}", object, key, hint);
     };
-    if (is_library_function(L, key)) return message + as_function(key);
-    if (const char* hint = foreign_member_hint(type.name, key)) return message + "; " + hint;
-    if (near) return message + fmt::format("; did you mean '{}'?", *near);
-    if (is_library_function(L, singular)) return message + as_function(singular);
-    if (const char* hint = matlab_name_hint(key)) return message + "; " + hint;
-    return names.empty() ? message : message + fmt::format("; it has {}", fmt::join(names, ", "));
+    const auto as_function = [&](const std::string& name) {
+        return with_hint(Message("write it as a function, {}(...)", name));
+    };
+    if (is_library_function(L, key)) return as_function(key);
+    if (const Message* const hint = foreign_member_hint(type.name, key)) return with_hint(*hint);
+    if (near) return Message("{} has no field or method '{}'; did you mean '{}'?", object, key, *near);
+    if (is_library_function(L, singular)) return as_function(singular);
+    if (const Message* const hint = matlab_name_hint(key)) return with_hint(*hint);
+    return names.empty() ? Message("{} has no field or method '{}'", object, key)
+                         : Message("{} has no field or method '{}'; it has {}", object, key, listed(names));
 }
 
 /// The help page that tells what an object of this kind has.
@@ -73,6 +75,14 @@ std::string_view page_of(std::string_view kind) {
     return found == kPages.end() ? kind : found->second;
 }
 
+Message no_elements(const ObjectType& type) {
+    if (std::string_view(type.name) == "figure")
+        return Message(
+            "a figure has no elements; help(\"figure\") tells what it has, and bode_values(G, w), freqresp(G, w) and "
+            "lsim(G, u, t) give numbers");
+    return Message("{} has no elements; help(\"{}\") tells what it has", with_article(type.name), page_of(type.name));
+}
+
 /// __index; upvalues: methods, fields, the entry of the type.
 int read_member(lua_State* L) {
     const auto& entry = *static_cast<const TypeEntry*>(lua_touserdata(L, lua_upvalueindex(3)));
@@ -86,13 +96,7 @@ int read_member(lua_State* L) {
         return 1;
     }
     lua_settop(L, 2);
-    const ObjectType& type = *entry.type;
-    if (lua_type(L, 2) != LUA_TSTRING)
-        raise_error(L, fmt::format("{} has no elements; help(\"{}\") tells what it has{}", article(type.name),
-                                   page_of(type.name),
-                                   std::string_view(type.name) == "figure"
-                                       ? ", and bode_values(G, w), freqresp(G, w) and lsim(G, u, t) give numbers"
-                                       : ""));
+    if (lua_type(L, 2) != LUA_TSTRING) raise_error(L, no_elements(*entry.type));
     if (luaL_getmetafield(L, 1, "__named") !=
         LUA_TNIL) {  // names that only the object knows; raises for others, or nil
         lua_pushvalue(L, 1);
@@ -101,18 +105,18 @@ int read_member(lua_State* L) {
         if (!lua_isnil(L, -1)) return 1;
         lua_settop(L, 2);
     }
-    raise_error(L, unknown_member_message(L, entry, lua_tostring(L, 2)));
+    raise_error(L, unknown_member_of(L, entry, lua_tostring(L, 2)));
 }
 
 int refuse_writing(lua_State* L) {
     const auto& type = *static_cast<const ObjectType*>(lua_touserdata(L, lua_upvalueindex(1)));
-    raise_error(L, fmt::format("{} cannot be changed; make a new one", article(type.name)));
+    raise_error(L, Message("{} cannot be changed; make a new one", with_article(type.name)));
 }
 
 /// __concat: Lua would say "concatenate a userdata value".
 int refuse_joining(lua_State* L) {
     const auto& type = *static_cast<const ObjectType*>(lua_touserdata(L, lua_upvalueindex(1)));
-    raise_error(L, fmt::format(".. joins texts; make a text of the {} first: tostring(x)", type.name));
+    raise_error(L, Message(".. joins texts; make a text of {} first: tostring(x)", with_the(type.name)));
 }
 
 void set_with_type(lua_State* L, const char* name, lua_CFunction function, const ObjectType& type) {

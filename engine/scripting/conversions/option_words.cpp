@@ -1,12 +1,13 @@
 #include "scripting/conversions/option_words.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <optional>
 #include <utility>
+#include <variant>
 
+#include "base/reader.h"
 #include "platform/spelling.h"
 
 namespace dynlab::inline scripting {
@@ -29,7 +30,6 @@ constexpr std::array kOptionWords = {
     OptionWord{"bins", "Bins"},
     OptionWord{"breakpoints", "Breakpoints"},
     OptionWord{"block_rows", "BlockRows"},
-    OptionWord{"weighting", "Weighting"},
     OptionWord{"transient", "transient"},
     OptionWord{"noise_variance", "NoiseVariance"},
     OptionWord{"history_points", "HistoryPoints"},
@@ -42,7 +42,6 @@ constexpr std::array kOptionWords = {
     OptionWord{"rank", "rank"},
     OptionWord{"delays", "delays"},
     OptionWord{"runs", "runs"},
-    OptionWord{"kind", "kind"},
     OptionWord{"confidence", "confidence"},
     OptionWord{"points", "points"},
     OptionWord{"range", "range"},
@@ -51,34 +50,39 @@ constexpr std::array kOptionWords = {
     OptionWord{"outputs", "outputs"},
 };
 
+std::optional<std::string> word_of(std::string_view name) {
+    const auto found = std::ranges::find(kOptionWords, name, &OptionWord::first);
+    return found == kOptionWords.end() ? std::nullopt : std::optional<std::string>(found->second);
+}
+
 }  // namespace
 
-std::string in_lua_words(std::string_view message) {
-    std::string text;
-    while (!message.empty()) {
-        const std::size_t begin = message.find('`'), end = message.find('`', begin + 1);
-        if (begin == std::string_view::npos || end == std::string_view::npos) break;
-        const std::string_view name = message.substr(begin + 1, end - begin - 1);
-        const auto word = std::ranges::find(kOptionWords, name, &OptionWord::first);
-        const bool known = word != kOptionWords.end();
-        text += message.substr(0, known ? begin : end);  // a closing backtick may open the next name
-        if (known) text += word->second;
-        message.remove_prefix(known ? end + 1 : end);
+std::string option_name(std::string_view member) {
+    return word_of(member).value_or("`" + std::string(member) + "`");
+}
+
+Message with_script_options(const Message& message) {
+    std::vector<MessageArgument> arguments = message.arguments();
+    for (MessageArgument& argument : arguments) {
+        if (const auto* const option = std::get_if<OptionName>(&argument)) {
+            argument = option_name(option->member);
+        } else if (auto* const list = std::get_if<MessageList>(&argument)) {
+            for (Message& item : list->items) item = with_script_options(item);
+        }
     }
-    return text += message;
+    return Message::stored(message.id(), message.many(), std::move(arguments));
 }
 
-std::string with_other_case(std::string name) {
-    if (name.empty()) return name;
-    const auto first = static_cast<unsigned char>(name[0]);
-    name[0] = static_cast<char>(std::isupper(first) ? std::tolower(first) : std::toupper(first));
-    return name;
-}
-
-std::string unknown_option_sentence(const std::string& name, const std::vector<std::string>& known) {
+Message unknown_option(const std::string& name, const std::vector<std::string>& known) {
     const auto near = nearest_word(name, known);
-    return near ? fmt::format("option '{}' is unknown; did you mean '{}'?", name, *near)
-                : fmt::format("option '{}' is unknown; the options are {}", name, fmt::join(known, ", "));
+    return near ? Message("option '{}' is unknown; did you mean '{}'?", name, *near)
+                : Message("option '{}' is unknown; the options are {}", name, listed(known));
+}
+
+MessageList listed_in_quotes(const std::vector<std::string>& texts) {
+    MessageList list;
+    for (const std::string& text : texts) list.items.push_back(Message::verbatim('"' + text + '"'));
+    return list;
 }
 
 std::vector<std::string> translated_options() {

@@ -3,19 +3,22 @@
 #include <string_view>
 #include <vector>
 
+#include "base/message.h"
+
 namespace dynlab::inline scripting {
 
-/// Numerics names its options in backticks, `max_iterations`, and knows no word of Lua: here they become the names that
-/// scripts use, MaxIter. Other text in backticks stays as it is.
-std::string in_lua_words(std::string_view message);
+/// The name that scripts have for an option of numerics, MaxIter for max_iterations; in backticks what is none. For
+/// Reader::option_name.
+std::string option_name(std::string_view member);
+/// The message with these names in the place of its OptionName arguments, so that every reader sees them.
+Message with_script_options(const Message& message);
 
-/// The names of numerics' options that in_lua_words() knows.
+/// The names of numerics' options that have one in scripts.
 std::vector<std::string> translated_options();
 
-/// The name with its first letter in the other case: MATLAB's options are a mixture, Lambda and lambda.
-std::string with_other_case(std::string name);
-
 /// About an option that is none of these.
-std::string unknown_option_sentence(const std::string& name, const std::vector<std::string>& known);
+Message unknown_option(const std::string& name, const std::vector<std::string>& known);
+/// "zoh", "foh"
+MessageList listed_in_quotes(const std::vector<std::string>& texts);
 
 }  // namespace dynlab::inline scripting

@@ -36,6 +36,12 @@ const std::vector<FunctionEntry>& catalogue_of_functions() {
     return catalogue;
 }
 
+const FunctionEntry* find_function(const std::string& name) {
+    for (const FunctionEntry& entry : catalogue_of_functions())
+        if (name == entry.name) return &entry;
+    return nullptr;
+}
+
 const std::vector<TypeEntry>& catalogue_of_types() {
     static const std::vector<TypeEntry> catalogue = [] {
         std::vector<TypeEntry> all;

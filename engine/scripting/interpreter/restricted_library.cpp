@@ -1,7 +1,5 @@
 #include "scripting/interpreter/restricted_library.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <vector>
 
@@ -29,7 +27,7 @@ int call_with_checked_length(lua_State* L) {
     if (luaL_getmetafield(L, 1, "__len") != LUA_TNIL) {
         lua_pop(L, 1);
         if (luaL_len(L, 1) > kLongestTable)
-            raise_error(L, "the table claims to have more elements than fit into memory");
+            raise_error(L, Message("the table claims to have more elements than fit into memory"));
     }
     return call_original(L);
 }
@@ -42,8 +40,7 @@ int call_with_checked_range(lua_State* L) {
         const lua_Integer last = luaL_checkinteger(L, kFirst + 1);
         const bool far_apart = last > first && static_cast<lua_Unsigned>(last) - static_cast<lua_Unsigned>(first) >
                                                    static_cast<lua_Unsigned>(kLongestTable);
-        if (far_apart)
-            raise_error(L, fmt::format("the range from {} to {} is longer than a table can be", first, last));
+        if (far_apart) raise_error(L, Message("the range from {} to {} is longer than a table can be", first, last));
     }
     return call_with_checked_length(L);
 }
@@ -61,8 +58,9 @@ int repeat_string(lua_State* L) {
     const double bytes = static_cast<double>(length + separator) * static_cast<double>(count);
     const MemoryAccount& memory = context_of(L).memory;
     if (bytes > static_cast<double>(memory.limit()))
-        raise_error(L, fmt::format("rep: the text would take {}, but the script may use {}", size_text(bytes),
-                                   size_text(static_cast<double>(memory.limit()))));
+        raise_error(L, Message("{}: {}", "rep",
+                               Message("the text would take {}, but the script may use {}", size_phrase(bytes),
+                                       size_phrase(static_cast<double>(memory.limit())))));
     return call_original(L);
 }
 
@@ -71,7 +69,8 @@ int script_setmetatable(lua_State* L) {
     if (lua_istable(L, 2)) {
         lua_pushliteral(L, "__gc");
         if (lua_rawget(L, 2) != LUA_TNIL)
-            raise_error(L, "setmetatable: the field __gc (finalizers) is not available to scripts");
+            raise_error(L, Message("{}: {}", "setmetatable",
+                                   Message("the field __gc (finalizers) is not available to scripts")));
         lua_pop(L, 1);
     }
     return call_original(L);

@@ -1,10 +1,9 @@
 #include "scripting/interpreter/runtime.h"
 
-#include <fmt/format.h>
-
 #include <cstring>
 #include <utility>
 
+#include "base/languages.h"
 #include "numerics/error.h"
 #include "platform/error.h"
 #include "scripting/interpreter/catalogue.h"
@@ -33,14 +32,10 @@ int final_message(lua_State* L) {
     translate_error(L);
     context_of(L).calls = call_chain(L);
     if (lua_type(L, 1) == LUA_TSTRING) return 1;
-    if (lua_isnil(L, 1)) {
-        lua_pushliteral(L, "error() was called without a message");
-    } else {
-        const std::string text = value_text(L, 1);
-        lua_pushlstring(L, text.data(), text.size());
-    }
-    const std::string location = script_location(L);
-    if (!location.empty()) lua_pushfstring(L, "%s: %s", location.c_str(), lua_tostring(L, -1));
+    ScriptPlace place = script_place(L);
+    push_error(L,
+               {lua_isnil(L, 1) ? Message("error() was called without a message") : Message::verbatim(value_text(L, 1)),
+                std::move(place.file), place.line});
     return 1;
 }
 
@@ -133,7 +128,7 @@ void call_protected(lua_State* L, lua_CFunction function, const void* argument =
     if (lua_pcall(L, 1, 0, 0) == LUA_OK) return;
     const std::string message = lua_tostring(L, -1);
     lua_pop(L, 1);
-    throw InvalidArgument("the script engine could not be set up: " + message);
+    throw InvalidArgument("the script engine could not be set up: {}", message);
 }
 
 }  // namespace
@@ -190,7 +185,7 @@ RunRecord Runtime::run_part(const PercentScript& script, const ScriptPart& part)
     context_->recorder.follow(script);
     run_with_variables(
         read_script_part(std::string(static_cast<std::size_t>(part.first_line) - 1, '\n') + part.code, shown_calls()));
-    RunRecord record = context_->recorder.so_far();
+    RunRecord record = context_->recorder.so_far({catalog_of(context_->services.language_code())});
     throw_if_stopped();
     return record;
 }
@@ -229,7 +224,7 @@ RunRecord Runtime::run_recorded(const PercentScript& script, const std::function
     prepare(script);
     begin_recording(script);
     work();
-    RunRecord record = context_->recorder.finish();
+    RunRecord record = context_->recorder.finish({catalog_of(context_->services.language_code())});
     throw_if_stopped();
     return record;
 }
@@ -243,8 +238,7 @@ void Runtime::run_source(const std::string& source, const PromptStatement* state
     if (shows) lua_pushcfunction(L, show_values);
     const std::string chunk_name = "@" + context.script_name;
     if (const std::optional<MisreadLine> misread = misread_line_of(source)) {
-        lua_pushstring(L, LocatedMessage{context.script_name, misread->line, misread->sentence}.joined().c_str());
-        return record_error(LUA_ERRRUN, {});
+        return record_error({misread->sentence, context.script_name, misread->line});
     }
     int status = luaL_loadbufferx(L, source.data(), source.size(), chunk_name.c_str(), "t");
     if (status == LUA_OK) {
@@ -257,21 +251,23 @@ void Runtime::run_source(const std::string& source, const PromptStatement* state
         status = lua_pcall(L, shows ? 1 : 0, 0, 1);
         context.running = false;
         lua_sethook(L, nullptr, 0, 0);
-        if (status != LUA_OK) record_error(status, {});
+        if (status != LUA_OK) record_error(error_of_run(status));
     } else {
-        record_error(status, statement != nullptr ? statement->source : context.source);
+        const std::string& text = statement != nullptr ? statement->source : context.source;
+        record_error(status == LUA_ERRMEM ? memory_error(context) : syntax_error(lua_tostring(L, -1), text));
     }
 }
 
-void Runtime::record_error(int status, const std::string& source) {
+PlacedMessage Runtime::error_of_run(int status) const {
+    if (status == LUA_ERRMEM) return memory_error(*context_);
+    lua_State* L = context_->main;
+    return lua_type(L, -1) == LUA_TSTRING ? error_at(L, -1) : PlacedMessage{Message("the script failed")};
+}
+
+void Runtime::record_error(PlacedMessage error) {
     RuntimeContext& context = *context_;
-    lua_State* L = context.main;
-    std::string message = lua_isstring(L, -1) ? lua_tostring(L, -1) : "the script failed";
-    if (status == LUA_ERRMEM) message = memory_message(context);
-    if (status == LUA_ERRSYNTAX) message = plain_syntax_message(message, source);
-    const LocatedMessage placed = take_apart(message);
-    const int line = placed.file == context.script_name ? placed.line : 0;
-    context.recorder.record().error = RecordedError{std::move(message), line, std::move(context.calls)};
+    context.recorder.record().error =
+        RecordedError{std::move(error.message), std::move(error.file), error.line, std::move(context.calls)};
 }
 
 std::size_t Runtime::peak_memory_bytes() const {

@@ -13,6 +13,7 @@
 
 namespace dynlab::inline scripting {
 
+struct PlacedMessage;
 struct RuntimeContext;
 
 /// One Lua state with dynlab's functions. Scripts get safe libraries only: no files, processes, chunk loading or debug
@@ -60,7 +61,8 @@ class Runtime {
     void throw_if_stopped();
     RunRecord run_recorded(const PercentScript& script, const std::function<void()>& work);
     void run_source(const std::string& source, const PromptStatement* statement);
-    void record_error(int status, const std::string& source);
+    PlacedMessage error_of_run(int status) const;
+    void record_error(PlacedMessage error);
     std::unique_ptr<RuntimeContext> context_;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "base/reader.h"
 #include "scripting/interpreter/catalogue.h"
 #include "scripting/lint/function_forms.h"
 #include "scripting/lint/lint.h"
@@ -58,7 +59,7 @@ json all_completions() {
     for (const FunctionEntry& entry : catalogue_of_functions())
         items.push_back({{"label", entry.name},
                          {"kind", kFunction},
-                         {"detail", entry.signature},
+                         {"detail", signature_text(entry)},
                          {"documentation", entry.summary}});
     return items;
 }
@@ -114,9 +115,8 @@ json LanguageServer::result_of(const std::string& method, const json& parameters
     if (method == "textDocument/hover") {
         const FunctionEntry* const function = find_function(word_at(parameters));
         if (function == nullptr) return nullptr;
-        return {
-            {"contents",
-             {{"kind", "markdown"}, {"value", std::string("`") + function->signature + "`\n\n" + function->summary}}}};
+        return {{"contents",
+                 {{"kind", "markdown"}, {"value", "`" + signature_text(*function) + "`\n\n" + function->summary}}}};
     }
     throw std::invalid_argument("there is no " + method + " here");
 }
@@ -136,7 +136,7 @@ json LanguageServer::diagnostics_of(const std::string& uri) const {
                        {"severity", found.kind == "unused-answer" ? kWarning : kError},
                        {"source", "dynlab"},
                        {"code", found.kind},
-                       {"message", found.message}});
+                       {"message", message_text(found.message)}});
     }
     return {{"jsonrpc", "2.0"},
             {"method", "textDocument/publishDiagnostics"},

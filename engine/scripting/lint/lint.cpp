@@ -1,7 +1,5 @@
 #include "scripting/lint/lint.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <map>
 #include <set>
@@ -53,7 +51,7 @@ class Linter {
     }
 
   private:
-    void add(std::size_t offset, const char* kind, std::string message) {
+    void add(std::size_t offset, const char* kind, Message message) {
         const auto behind = std::ranges::upper_bound(line_begins_, offset);
         const std::size_t begin = *std::prev(behind);
         const auto characters = std::count_if(source_.begin() + static_cast<std::ptrdiff_t>(begin),
@@ -78,7 +76,7 @@ class Linter {
             header_ = parse_percent_script(source_, file_).header;
         } catch (const DocumentError& error) {
             const LocatedMessage told = take_apart(error.what());
-            add(offset_of_line(std::max(told.line, 1)), "header", told.text);
+            add(offset_of_line(std::max(told.line, 1)), "header", Message::verbatim(told.text));
         }
     }
 
@@ -91,11 +89,11 @@ class Linter {
         }
         const auto error = reader.error_of(read);
         if (!error) return true;
-        const LocatedMessage told = take_apart(plain_syntax_message(*error, source_));
+        const PlacedMessage told = syntax_error(*error, source_);
         const std::size_t end = source_.find_last_not_of(" \t\r\n") + 1;  // what is missing there is told there
         const std::size_t place = std::min(offset_of_line(std::max(told.line, 1)), end), stop = stopping_place(reader);
         const bool same_line = stop >= place && source_.find('\n', place) >= stop;
-        add(same_line ? stop : place, "syntax", told.text);
+        add(same_line ? stop : place, "syntax", told.message);
         return false;
     }
 
@@ -136,15 +134,15 @@ class Linter {
         const auto known = library_names().find(use.name);
         if (known == library_names().end()) {
             if (!own.contains(use.name))
-                add(use.begin, "unknown-name", unknown_name_sentence(use.name, line_at(use.begin), names));
+                add(use.begin, "unknown-name", unknown_name(use.name, line_at(use.begin), names));
             return;
         }
-        if (use.written) return add(use.begin, "library-name", replaced_name_sentence(use.name));
+        if (use.written) return add(use.begin, "library-name", replaced_name(use.name));
         const std::vector<std::string>& members = known->second;
         const bool table = !members.empty() && !own.contains(use.name);
         if (!table || use.member.empty() || std::ranges::find(members, use.member) != members.end()) return;
         const bool by_itself = find_function(use.member) != nullptr;
-        add(use.member_begin, "unknown-name", unknown_member_sentence(use.name, use.member, by_itself, members));
+        add(use.member_begin, "unknown-name", unknown_member(use.name, use.member, by_itself, members));
     }
 
     std::string line_at(std::size_t offset) const {
@@ -155,11 +153,14 @@ class Linter {
     void look_at_options(const WrittenCall& call) {
         const std::string function = call.function.starts_with("dynlab.") ? call.function.substr(7) : call.function;
         if (call.arguments.empty() || call.arguments.back().kind != WrittenArgument::Kind::kTable) return;
-        const auto options = options_of_function(function);
-        if (!options || call.arguments.size() <= options->first_place) return;
+        const FunctionEntry* const entry = find_function(function);
+        if (entry == nullptr || entry->options.empty()) return;
+        const std::optional<std::size_t> place = place_of_options(*entry);
+        if (!place || call.arguments.size() <= *place) return;
         for (const WrittenKey& key : call.arguments.back().keys)
-            if (!options->knows(key.name))
-                add(key.begin, "unknown-option", function + ": " + unknown_option_sentence(key.name, options->names));
+            if (find_option(entry->options, key.name) == nullptr)
+                add(key.begin, "unknown-option",
+                    Message("{}: {}", function, unknown_option(key.name, option_names(entry->options))));
     }
 
     void look_at_answers(const std::vector<WrittenCall>& calls) {
@@ -175,15 +176,14 @@ class Linter {
             computed = computed || name.kind != WrittenArgument::Kind::kText;
             if (name.kind != WrittenArgument::Kind::kText) continue;
             given.insert(name.text);
-            if (!known.contains(name.text))
-                add(name.begin, "unknown-answer", undeclared_answer_sentence(name.text, declared));
+            if (!known.contains(name.text)) add(name.begin, "unknown-answer", undeclared_answer(name.text, declared));
         }
         if (computed) return;
         const std::map<std::string, std::size_t> places = declarations();
         for (const std::string& name : declared)
             if (!given.contains(name))
                 add(places.contains(name) ? places.at(name) : 0, "unused-answer",
-                    fmt::format("the answer \"{0}\" is never handed in: answer(\"{0}\", ...)", name));
+                    Message("the answer \"{}\" is never handed in: answer(\"{}\", ...)", name, name));
     }
 
     /// Where the header names each answer: there may be thousands, so its lines are read once.

@@ -4,13 +4,15 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
+
 namespace dynlab::inline scripting {
 
 /// Something in a script that will not work, found without running it.
 struct LintFinding {
     int line = 1, column = 1;  ///< from 1; columns count characters, not bytes
     std::string kind;          ///< "syntax", "header", "unknown-name", "unknown-option", ...
-    std::string message;       ///< in the words in which a run would tell it
+    Message message;           ///< in the words in which a run would tell it
 };
 
 /// What scripts may use without having made it: each name with its members where it is a table.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "base/reader.h"
 #include "documents/text_lines.h"
 #include "scripting/interpreter/catalogue.h"
 #include "scripting/lint/function_forms.h"
@@ -78,20 +79,28 @@ std::string overload(const std::string& function, const std::string& form) {
     return fmt::format("---@overload fun({}){}\n", parameters, results);
 }
 
-/// In one line, without what would end a comment's line.
-std::string in_one_line(const std::string& text) {
-    return replaced(trimmed(text), "\n", " ");
+const char* type_of(ValueKind kind) {
+    switch (kind) {
+        case ValueKind::kNumber:
+            return "number";
+        case ValueKind::kCount:
+            return "integer";
+        case ValueKind::kFlag:
+            return "boolean";
+        case ValueKind::kChoice:
+        case ValueKind::kText:
+            return "string";
+        default:
+            return "any";
+    }
 }
 
-std::string options_class(const std::string& function) {
-    const auto options = options_of_function(function);
-    std::string text = fmt::format("---@class {}\n", class_of_options(function));
-    if (!options) return text;
-    const auto described = described_options(function);
-    for (const std::string& name : options->names) {
-        const auto words = std::ranges::find_if(described, [&](const auto& one) { return one.first == name; });
-        text += fmt::format("---@field {}? any {}\n", name, words == described.end() ? "" : in_one_line(words->second));
-    }
+std::string options_class(const FunctionEntry& function) {
+    std::string text = fmt::format("---@class {}\n", class_of_options(function.name));
+    for (const OptionTable& table : function.options)
+        for (const OptionEntry& option : table)
+            text += fmt::format("---@field {}? {} {}\n", option.name, type_of(option.kind),
+                                message_text(Message(option.description)));
     return text;
 }
 
@@ -103,8 +112,8 @@ std::string stub_of(const FunctionEntry& entry) {
     const std::vector<Parameter> parameters = parameters_of(function, form);
     const bool with_options =
         std::ranges::any_of(forms, [](const std::string& one) { return one.find('{') != std::string::npos; });
-    std::string text = with_options ? options_class(function) + "\n" : "";
-    text += fmt::format("---{}\n---\n---`{}`\n", entry.summary, entry.signature);
+    std::string text = with_options ? options_class(entry) + "\n" : "";
+    text += fmt::format("---{}\n---\n---`{}`\n", entry.summary, signature_text(entry));
     std::string names;
     for (const Parameter& one : parameters) {
         text += fmt::format("---@param {}{} {}\n", one.name, one.optional ? "?" : "", one.type);

@@ -19,7 +19,7 @@ Elsewhere<Piece> shared_out(lua_State* L, const std::string& what) {
         std::vector<Piece> all;
         for (const std::string& part : parts)
             for (Piece& piece : from_cbor<std::vector<Piece>>(part)) all.push_back(std::move(piece));
-        if (all.size() != pieces) throw EnvironmentError("the parts of " + what + " do not make up the whole");
+        if (all.size() != pieces) throw EnvironmentError("the parts of {} do not make up the whole", what);
         return all;
     };
 }

@@ -40,20 +40,19 @@ Digest Boxed<IdData>::digest(const IdData& data) {
     return digest.digest();
 }
 
-const IdData& signals_of_argument(const Call& call, int index, const char* what) {
+const IdData& signals_of_argument(const Call& call, int index, ArgumentName what) {
     const IdData* data = index <= call.count() ? to_object<IdData>(call.state(), index) : nullptr;
-    if (data == nullptr) wrong_argument(call.state(), index, what, Boxed<IdData>::type.name);
+    if (data == nullptr) wrong_argument(call.state(), index, what, with_article(Boxed<IdData>::type.name));
     return *data;
 }
 
 template <>
-Access<IdData>& object_argument<IdData>(const Call& call, int index, const char* what) {
+Access<IdData>& object_argument<IdData>(const Call& call, int index, ArgumentName what) {
     const IdData& data = signals_of_argument(call, index, what);
     if (data.output_count() > 0) return data;
     throw InvalidArgument(
-        fmt::format("argument {} ({}) must have an output, and these data hold inputs only, which is enough for sim, "
-                    "simsd and idplot",
-                    index, what));
+        "{} must have an output, and these data hold inputs only, which is enough for sim, simsd and idplot",
+        argument_label(index, what));
 }
 
 int give_data(const Call& call, IdData data) {

@@ -13,9 +13,9 @@ struct Boxed<IdData> {
 
 /// The data of argument `index`, which must have an output: all functions but simulations and pictures need one.
 template <>
-Access<IdData>& object_argument<IdData>(const Call& call, int index, const char* what);
+Access<IdData>& object_argument<IdData>(const Call& call, int index, ArgumentName what);
 /// The same, or inputs alone as iddata(nil, u, Ts) gives them.
-const IdData& signals_of_argument(const Call& call, int index, const char* what);
+const IdData& signals_of_argument(const Call& call, int index, ArgumentName what);
 
 int give_data(const Call& call, IdData data);
 

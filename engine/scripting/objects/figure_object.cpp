@@ -19,7 +19,7 @@ int give_figure(const Call& call, Figure figure) {
     return 1;
 }
 
-ScriptFigure& used_figure(const Call& call, int index, const char* what) {
+ScriptFigure& used_figure(const Call& call, int index, ArgumentName what) {
     ScriptFigure& figure = *object_argument<FigurePointer>(call, index, what);
     figure.used = true;
     return figure;

@@ -14,6 +14,6 @@ struct Boxed<FigurePointer> {
 int give_figure(const Call& call, Figure figure);
 
 /// The figure of an argument that puts it somewhere: it no longer belongs to its cell alone.
-ScriptFigure& used_figure(const Call& call, int index, const char* what);
+ScriptFigure& used_figure(const Call& call, int index, ArgumentName what);
 
 }  // namespace dynlab::inline scripting

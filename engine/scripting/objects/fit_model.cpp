@@ -1,8 +1,8 @@
 #include "scripting/objects/fit_model.h"
 
-#include "scripting/conversions/option_words.h"
+#include "scripting/conversions/localized.h"
 #include "scripting/conversions/table_fields.h"
-#include "scripting/conversions/told_sentences.h"
+#include "scripting/objects/data_object.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -65,6 +65,18 @@ bool is_of_coefficients(const Fit& fit) {
     return fit.models.front().pole_count() == own;
 }
 
+void push_fitted(const Call& call, Estimate estimate, const Fit& fit, int user_values) {
+    Model model{fit.polynomial ? fit.polynomial->transfer_function() : fit.models.front()};
+    if (fit.models.size() > 1) {
+        model.channels = fit.models;
+        model.outputs = static_cast<std::size_t>(fit.structure.outputs);
+    }
+    if (fit.process) model.process = *fit.process;
+    if (fit.polynomial) model.polynomial = std::make_shared<PolynomialModel>(*fit.polynomial);
+    model.estimate = std::make_shared<Estimate>(std::move(estimate));
+    push_object(call.state(), std::move(model), user_values);
+}
+
 }  // namespace
 
 Estimate basic_estimate(const char* method, const Fit& fit) {
@@ -74,8 +86,8 @@ Estimate basic_estimate(const char* method, const Fit& fit) {
     estimate.theta = fit.theta;
     estimate.std = fit.std;
     estimate.covariance = fit.covariance;
-    estimate.message = in_lua_words(fit.message);
-    for (const std::string& warning : fit.warnings) estimate.warnings.push_back(in_lua_words(warning));
+    estimate.message = fit.full_message();
+    estimate.warnings = fit.warnings;
     estimate.converged = fit.termination == Termination::kConverged;
     estimate.numbers = {
         {"fit_percent", fit.fit_percent[0]}, {"loss", fit.loss}, {"condition_number", fit.condition_number}};
@@ -84,21 +96,20 @@ Estimate basic_estimate(const char* method, const Fit& fit) {
 }
 
 void push_report(const Call& call, const Estimate& estimate) {
-    give_table(call, "method", estimate.method, "message", told(call, estimate.message), "converged",
+    give_table(call, "method", estimate.method, "message", localized(call, estimate.full_message()), "converged",
                estimate.converged);
     for (const auto& [name, value] : estimate.numbers) set_field(call, name.c_str(), value);
     for (const auto& [name, values] : estimate.vectors) set_field(call, name.c_str(), values);
     for (const auto& [name, values] : estimate.matrices) set_field(call, name.c_str(), values);
-    if (const auto& assessment = estimate.doubts.assessment)
-        set_field(call, "white", assessment->white, "residual_verdict", told(call, assessment->verdict));
-    set_field(call, "warnings", told(call, estimate.warnings));
+    if (const auto assessment = estimate.diagnostics.assessment())
+        set_field(call, "white", assessment->white, "residual_verdict", localized(call, assessment->verdict));
+    set_field(call, "warnings", localized(call, estimate.all_warnings()));
 }
 
 Estimate estimate_of(const char* method, const Fit& fit, FitForm form) {
     Estimate estimate = basic_estimate(method, fit);
     estimate.carx = form == FitForm::kEquationError;
     estimate.of_coefficients = is_of_coefficients(fit);
-    estimate.doubts = fit.doubts;
     estimate.vectors.clear();  // those of each kind of fit
     estimate.numbers.insert(estimate.numbers.end(), {{"noise_variance", fit.noise_variance[0]},
                                                      {"iterations", static_cast<double>(fit.trace.size())}});
@@ -115,16 +126,17 @@ int give_fit(const Call& call, const char* method, const Fit& fit, FitForm form)
     return give_estimate(call, estimate_of(method, fit, form), fit);
 }
 
+int give_diagnosed_fit(const Call& call, const char* method, const Fit& fit, const FitOptions& options) {
+    Estimate estimate = estimate_of(method, fit);
+    estimate.diagnostics = DeferredDiagnostics(fit, shared_object<IdData>(call.state(), 1), options);
+    push_fitted(call, std::move(estimate), fit, 1);
+    lua_pushvalue(call.state(), 1);  // the data are charged to Lua's memory as long as the model refers to them
+    lua_setiuservalue(call.state(), -2, 1);
+    return 1;
+}
+
 int give_estimate(const Call& call, Estimate estimate, const Fit& fit) {
-    Model model{fit.polynomial ? fit.polynomial->transfer_function() : fit.models.front()};
-    if (fit.models.size() > 1) {
-        model.channels = fit.models;
-        model.outputs = static_cast<std::size_t>(fit.structure.outputs);
-    }
-    if (fit.process) model.process = *fit.process;
-    if (fit.polynomial) model.polynomial = std::make_shared<PolynomialModel>(*fit.polynomial);
-    model.estimate = std::make_shared<Estimate>(std::move(estimate));
-    push_object(call.state(), std::move(model));
+    push_fitted(call, std::move(estimate), fit, 0);
     return 1;
 }
 

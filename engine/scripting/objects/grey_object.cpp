@@ -2,32 +2,50 @@
 
 #include <cmath>
 
-#include "numerics/number_text.h"
-#include "scripting/conversions/option_words.h"
+#include "base/reader.h"
 
 namespace dynlab::inline scripting {
 namespace {
 
-std::string parameter_line(const GreyFit& grey, Index i) {
+std::string parameter_line(const GreyFit& grey, Index i, const Reader& reader) {
     const auto place = static_cast<std::size_t>(i);
-    std::string line = fmt::format("  {:<8} {:>12}", grey.fit.names[place], number_text(grey.fit.theta[i], 6));
-    if (grey.model.parameters[place].fixed) return line + "  (fixed)\n";
-    if (grey.fit.at_bound[place]) return line + "  (at its bound)\n";
-    if (!std::isfinite(grey.fit.std[i])) return line + "  (not told by the record)\n";
-    return line + fmt::format("  +- {:<10} 95 %: {} to {}\n", number_text(grey.fit.std[i], 3),
-                              number_text(grey.intervals(i, 0), 5), number_text(grey.intervals(i, 1), 5));
+    const auto number = [&](double value, int digits) { return number_text(significant(value, digits), reader); };
+    const std::string line = fmt::format("  {:<8} {:>12}  ", grey.fit.names[place], number(grey.fit.theta[i], 6));
+    if (grey.model.parameters[place].fixed) return line + message_text(Message("(fixed)"), reader) + "\n";
+    if (grey.fit.at_bound[place]) return line + message_text(Message("(at its bound)"), reader) + "\n";
+    if (!std::isfinite(grey.fit.std[i])) return line + message_text(Message("(not told by the record)"), reader) + "\n";
+    return line + fmt::format("+- {:<10} ", number(grey.fit.std[i], 3)) +
+           message_text(
+               Message("95 %: {} to {}", significant(grey.intervals(i, 0), 5), significant(grey.intervals(i, 1), 5)),
+               reader) +
+           "\n";
 }
 
-std::string initial_lines(const GreyFit& grey) {
+std::string initial_lines(const GreyFit& grey, const Reader& reader) {
     std::string text;
+    const auto number = [&](double value, int digits) { return number_text(significant(value, digits), reader); };
     for (Index k = 0; k < grey.initial_states.cols(); ++k)
         for (Index i = 0; i < grey.initial_states.rows(); ++i) {
             if (grey.initial_std(i, k) == 0) continue;
-            text += fmt::format("  {:<8} {:>12}  +- {}{}\n", grey.model.state_names[static_cast<std::size_t>(i)],
-                                number_text(grey.initial_states(i, k), 6), number_text(grey.initial_std(i, k), 3),
-                                grey.initial_states.cols() > 1 ? fmt::format("  (experiment {})", k + 1) : "");
+            text += fmt::format("  {:<8} {:>12}  +- {}", grey.model.state_names[static_cast<std::size_t>(i)],
+                                number(grey.initial_states(i, k), 6), number(grey.initial_std(i, k), 3));
+            if (grey.initial_states.cols() > 1) text += "  " + message_text(Message("(experiment {})", k + 1), reader);
+            text += "\n";
         }
-    return text.empty() ? text : "Initial state:\n" + text;
+    return text.empty() ? text : message_text(Message("Initial state:"), reader) + "\n" + text;
+}
+
+MessageList numbers_of(const Vector& values) {
+    MessageList list{{}, Join::kAnd};
+    for (const double value : values) list.items.push_back(Message("{}", significant(value, 4)));
+    return list;
+}
+
+/// "93.2 % and 88.1"; the % behind the last one is the sentence's.
+MessageList percents_of(const Vector& values) {
+    MessageList list = numbers_of(values);
+    for (std::size_t i = 0; i + 1 < list.items.size(); ++i) list.items[i] = Message("{} %", list.items[i]);
+    return list;
 }
 
 }  // namespace
@@ -46,17 +64,16 @@ GreyEstimate to_grey_box(const Call& call, int index) {
     return model != nullptr ? std::make_shared<const GreyFit>(unfitted_grey_box(*model)) : nullptr;
 }
 
-std::string grey_presentation(const GreyFit& grey) {
+std::string grey_presentation(const GreyFit& grey, const Reader& reader) {
     std::string text =
-        fmt::format("grey-box model with the states {}\nParameters:\n", fmt::join(grey.model.state_names, ", "));
-    for (Index i = 0; i < grey.fit.theta.size(); ++i) text += parameter_line(grey, i);
-    text += initial_lines(grey) + "Estimated by greyest, fit to the estimation data ";
-    for (Index i = 0; i < grey.fit.fit_percent.size(); ++i)
-        text += (i > 0 ? " % and " : "") + number_text(grey.fit.fit_percent[i], 4);
-    text += " % (simulation), noise variance ";
-    for (Index i = 0; i < grey.fit.noise_variance.size(); ++i)
-        text += (i > 0 ? " and " : "") + number_text(grey.fit.noise_variance[i], 4);
-    return text + ".\n" + in_lua_words(grey.fit.message) + "\n";
+        message_text(Message("grey-box model with the states {}", listed(grey.model.state_names)), reader);
+    text += "\n" + message_text(Message("Parameters:"), reader) + "\n";
+    for (Index i = 0; i < grey.fit.theta.size(); ++i) text += parameter_line(grey, i, reader);
+    text += initial_lines(grey, reader);
+    text += message_text(Message("Estimated by {}, fit to the estimation data {} % (simulation), noise variance {}.",
+                                 "greyest", percents_of(grey.fit.fit_percent), numbers_of(grey.fit.noise_variance)),
+                         reader);
+    return text + "\n" + message_text(grey.fit.full_message(), reader) + "\n";
 }
 
 }  // namespace dynlab::inline scripting

@@ -26,6 +26,6 @@ struct Boxed<GreyEstimate> {
 GreyEstimate to_grey_box(const Call& call, int index);
 
 /// All that is known of an estimate, in words.
-std::string grey_presentation(const GreyFit& fit);
+std::string grey_presentation(const GreyFit& fit, const Reader& reader);
 
 }  // namespace dynlab::inline scripting

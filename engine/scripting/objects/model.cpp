@@ -1,6 +1,5 @@
 #include "scripting/objects/model.h"
 
-#include "numerics/number_text.h"
 #include "numerics/simulation/grey_simulation.h"
 #include "scripting/objects/grey_object.h"
 #include "scripting/objects/simulated_model.h"
@@ -21,60 +20,78 @@ std::size_t Boxed<StateSpace>::outside_bytes(const StateSpace& system) {
            static_cast<std::size_t>(system.A.size() + system.B.size() + system.C.size() + system.D.size());
 }
 
+Message Estimate::full_message() const {
+    const std::optional<MissedStructure> missed = diagnostics.missed();
+    if (!missed) return message;
+    return message.empty() ? sentence_of(*missed) : sentences({message, sentence_of(*missed)});
+}
+
+std::vector<Message> Estimate::all_warnings() const {
+    std::vector<Message> all = warnings;
+    if (const std::optional<MissedStructure> missed = diagnostics.missed()) all.push_back(sentence_of(*missed));
+    return all;
+}
+
+std::shared_ptr<const Assessment> Estimate::colour() const {
+    std::shared_ptr<const Assessment> assessment = diagnostics.assessment();
+    return assessment && !assessment->white ? assessment : nullptr;
+}
+
+Matrix Estimate::trusted_covariance() const {
+    const auto coloured = colour();
+    return coloured ? coloured->covariance : covariance;
+}
+
 bool holds_model(const Call& call, int index) {
     return index <= lua_gettop(call.state()) &&
            (runs_freely(call, index) || to_object<Model>(call.state(), index) != nullptr ||
             to_object<StateSpace>(call.state(), index) != nullptr);
 }
 
-std::string channels_hint(const Model& model) {
-    return fmt::format("it has {} and {}: take one of its channels, {}",
-                       counted(static_cast<Index>(model.inputs()), "input"),
-                       counted(static_cast<Index>(model.outputs), "output"),
-                       model.outputs == 1 ? "G.channels[1] for the first input"
-                                          : "G.channels[2][1] for the second output and first input");
+Message channels_hint(const Model& model) {
+    return Message("it has {} and {}: take one of its channels, {}", plural(model.inputs(), "{} input", "{} inputs"),
+                   plural(model.outputs, "{} output", "{} outputs"),
+                   model.outputs == 1 ? Message("G.channels[1] for the first input")
+                                      : Message("G.channels[2][1] for the second output and first input"));
 }
 
 namespace {
 
-[[noreturn]] void refuse_simulated(int index, const char* what, const char* kind) {
-    throw InvalidArgument(
-        fmt::format("argument {} ({}) must be a linear model, but {} is not linear; lsim, compare, fit and resid "
-                    "simulate it",
-                    index, what, kind));
+[[noreturn]] void refuse_simulated(int index, ArgumentName what, const Message& kind) {
+    throw InvalidArgument("{} must be a linear model, but {} is not linear; lsim, compare, fit and resid simulate it",
+                          argument_label(index, what), kind);
 }
 
 /// A grey box with linear equations, one input and one output.
-Model linear_grey_model(const GreyFit& grey, int index, const char* what) {
+Model linear_grey_model(const GreyFit& grey, int index, ArgumentName what) {
     const auto system = linear_system_of(grey.model, grey.fit.theta);
-    if (!system) refuse_simulated(index, what, "this grey box");
+    if (!system) refuse_simulated(index, what, Message("this grey box"));
     if (system->B.cols() == 1 && system->C.rows() == 1) return {to_transfer_function(*system)};
-    throw InvalidArgument(fmt::format("argument {} ({}) must have one input and one output, but it has {} and {}",
-                                      index, what, system->B.cols(), system->C.rows()));
+    throw InvalidArgument("{} must have one input and one output, but it has {} and {}", argument_label(index, what),
+                          system->B.cols(), system->C.rows());
 }
 
 }  // namespace
 
-Model model_argument(const Call& call, int index, const char* what) {
+Model model_argument(const Call& call, int index, ArgumentName what) {
     if (index <= call.count()) {
         if (const Model* model = to_object<Model>(call.state(), index)) {
             if (model->single_channel()) return *model;
-            throw InvalidArgument(fmt::format("argument {} ({}) must have one input and one output, but {}", index,
-                                              what, channels_hint(*model)));
+            throw InvalidArgument("{} must have one input and one output, but {}", argument_label(index, what),
+                                  channels_hint(*model));
         }
         if (const GreyEstimate grey = to_grey_box(call, index)) return linear_grey_model(*grey, index, what);
         if (const SimulatedModel* simulated = simulated_model(call, index))
-            refuse_simulated(index, what, ("this model by " + simulated->estimate->method).c_str());
+            refuse_simulated(index, what, Message("this model by {}", simulated->estimate->method));
         if (call.type(index) == LUA_TNUMBER)
             return {TransferFunction(Vector::Constant(1, call.number(index, what)), Vector::Ones(1))};
         if (const StateSpace* system = to_object<StateSpace>(call.state(), index)) {
             if (system->B.cols() == 1 && system->C.rows() == 1) return {to_transfer_function(*system)};
-            throw InvalidArgument(
-                fmt::format("argument {} ({}) must have one input and one output, but it has {} and {}", index, what,
-                            system->B.cols(), system->C.rows()));
+            throw InvalidArgument("{} must have one input and one output, but it has {} and {}",
+                                  argument_label(index, what), system->B.cols(), system->C.rows());
         }
     }
-    wrong_argument(call.state(), index, what, "model");
+    wrong_argument(call.state(), index, what, with_article("model"));
 }
 
 int give_model(const Call& call, TransferFunction G) {
@@ -92,7 +109,7 @@ std::vector<TransferFunction> channels_of(const Model& model) {
 
 std::optional<UncertainModel> uncertain_model(const Model& model) {
     if (!model.estimate || !model.G.continuous() || !model.single_channel()) return std::nullopt;
-    const Matrix& covariance = model.estimate->trusted_covariance();
+    const Matrix covariance = model.estimate->trusted_covariance();
     if (covariance.size() == 0 || !covariance.allFinite()) return std::nullopt;
     if (model.process) return UncertainModel(*model.process, covariance);
     if (!model.estimate->of_coefficients) return std::nullopt;

@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "numerics/estimators/step_test.h"
-#include "numerics/fit/assessment.h"
-#include "numerics/fit/fit.h"
+#include "numerics/fit/diagnostics.h"
 #include "numerics/models/polynomial_model.h"
 #include "numerics/models/process_model.h"
 #include "numerics/models/state_space.h"
@@ -22,8 +21,8 @@ struct Estimate {
     std::vector<std::string> names;  ///< of the parameters
     Vector theta, std;               ///< std is empty when the method gives none
     Matrix covariance;
-    std::string message;
-    std::vector<std::string> warnings;
+    Message message;                                            ///< how the estimation ended, with its warnings
+    std::vector<Message> warnings;                              ///< of the estimation
     std::vector<std::pair<std::string, double>> numbers;        ///< fit_percent, noise_variance, iterations, ...
     std::vector<std::pair<std::string, Vector>> vectors;        ///< output, delay_grid, delay_loss, ...
     std::vector<std::pair<std::string, Matrix>> matrices = {};  ///< path (parameters after each iteration)
@@ -32,15 +31,17 @@ struct Estimate {
         true;           ///< theta and covariance are those of G's coefficients, with the delay where it is free
     bool carx = false;  ///< of the equation A(p) y = B(p) u + e: G has fields A and B
     std::shared_ptr<const StepTestResult> step_test = {};  ///< of the graphical methods
-    FitDoubts doubts = {};
+    DeferredDiagnostics diagnostics = {};                  ///< computed when something below is read
     std::shared_ptr<const NoiseModel> noise = {};          ///< of rivc
     std::shared_ptr<const ParameterHistory> history = {};  ///< of recursive methods
 
-    bool errors_are_coloured() const { return doubts.assessment && !doubts.assessment->white; }
+    /// Message and warnings with what the diagnostics add.
+    Message full_message() const;
+    std::vector<Message> all_warnings() const;
+    /// The assessment of errors that are coloured; nothing for others.
+    std::shared_ptr<const Assessment> colour() const;
     /// The robust covariance when the output errors are coloured.
-    const Matrix& trusted_covariance() const {
-        return errors_are_coloured() ? doubts.assessment->covariance : covariance;
-    }
+    Matrix trusted_covariance() const;
 };
 
 /// A model as scripts hold it: a transfer function, with its process parameters, polynomials and estimate where it has
@@ -90,9 +91,9 @@ struct Boxed<ComplexVector> {
 
 bool holds_model(const Call& call, int index);
 /// A tf, idproc or estimated model or a state-space model, with one input and one output; a number as a gain.
-Model model_argument(const Call& call, int index, const char* what);
+Model model_argument(const Call& call, int index, ArgumentName what);
 /// "it has 2 inputs and 1 outputs: take one of its channels, ..." for messages.
-std::string channels_hint(const Model& model);
+Message channels_hint(const Model& model);
 int give_model(const Call& call, TransferFunction G);
 
 /// The transfer functions of all channels, output by output.

@@ -14,12 +14,12 @@ DYNLAB_DESCRIBE(ParameterHistory, t, theta, std)
 template <Is<Estimate> T, class V>
 void describe(T& object, V& member) {
     auto& [method, names, theta, std, covariance, message, warnings, numbers, vectors, matrices, converged,
-           of_coefficients, carx, step_test, doubts, noise, history] = object;
+           of_coefficients, carx, step_test, diagnostics, noise, history] = object;
     member("method", method), member("names", names), member("theta", theta), member("std", std);
     member("covariance", covariance), member("message", message), member("warnings", warnings);
     member("numbers", numbers), member.kept("vectors", vectors), member.kept("matrices", matrices);
     member("converged", converged), member("of_coefficients", of_coefficients), member("carx", carx);
-    member.kept("step_test", step_test), member.kept("doubts", doubts), member.kept("noise", noise);
+    member.kept("step_test", step_test), member.kept("diagnostics", diagnostics), member.kept("noise", noise);
     member.kept("history", history);
 }
 void check_value(const Estimate& estimate, const ValueLimits& limits);

@@ -7,19 +7,41 @@
 
 #include "figures/figure_text.h"
 #include "figures/plots/monte_carlo_plot.h"
+#include "scripting/conversions/option_words.h"
 
 namespace dynlab::inline scripting {
 namespace {
 
-constexpr std::array kStyleNames = {"line", "points", "line_points", "stairs", "stems", "bars", "band"};
+constexpr std::array kMarkPlaceOptions = {OptionEntry{"x", ValueKind::kNumber, about("position on the x axis")},
+                                          OptionEntry{"y", ValueKind::kNumber, about("position on the y axis")}};
+constexpr std::array kReferenceOptions = {
+    OptionEntry{"label", ValueKind::kText, about("text beside the line")},
+    option<&ReferenceLine::dash>(
+        "dash", about("dash pattern: 0 solid, 1 dashed, 2 dotted, 3 dash-dot, 4 to 7 further patterns"))};
+constexpr std::array kAnnotationOptions = {
+    OptionEntry{"text", ValueKind::kText, about("text beside the point")},
+    option<&Annotation::marker>("marker", about("true draws a mark at the point"))};
+constexpr std::array kArrowOptions = {
+    OptionEntry{"x0", ValueKind::kNumber, about("x at the beginning of the arrow")},
+    OptionEntry{"y0", ValueKind::kNumber, about("y at the beginning of the arrow")},
+    OptionEntry{"x1", ValueKind::kNumber, about("x at the end of the arrow")},
+    OptionEntry{"y1", ValueKind::kNumber, about("y at the end of the arrow")},
+    OptionEntry{"text", ValueKind::kText, about("text at the middle of the arrow")},
+    option<&Arrow::both_heads>("both_heads", about("true draws a head at both ends"))};
+constexpr std::array kOneCurveOptions = {
+    OptionEntry{"x", ValueKind::kVector, about("values on the x axis, by default 1, 2, 3, ...")},
+    OptionEntry{"y", ValueKind::kVector, about("values on the y axis")},
+    OptionEntry{"y_upper", ValueKind::kVector, about("upper end of a band, whose lower end is y")}};
+constexpr OptionTable kPanelTables[] = {kPanelOptions}, kReferenceTables[] = {kMarkPlaceOptions, kReferenceOptions},
+                      kAnnotationTables[] = {kMarkPlaceOptions, kAnnotationOptions}, kArrowTables[] = {kArrowOptions},
+                      kOneCurveTables[] = {kOneCurveOptions, kCurveLookOptions};
 
 /// Calls `read` with the stack index of every entry of the list under `name`.
 void for_each_entry(const Call& call, const Options& options, const char* name, const std::function<void(int)>& read) {
     lua_State* L = call.state();
     const int list = options.push(name);
     if (!lua_isnil(L, list) && lua_type(L, list) != LUA_TTABLE)
-        throw InvalidArgument(
-            fmt::format("option '{}' must be a list of tables, but {} was given", name, given_text(L, list)));
+        refuse_option(name, Message("a list of tables"), given_value(L, list));
     if (!lua_isnil(L, list)) {
         for (lua_Integer i = 1; lua_rawgeti(L, list, i) != LUA_TNIL; ++i) {
             read(lua_gettop(L));
@@ -29,66 +51,57 @@ void for_each_entry(const Call& call, const Options& options, const char* name, 
     lua_settop(L, list - 1);
 }
 
-double needed_number(const Options& options, const char* name, const char* whose) {
+double needed_number(const Options& options, const char* name, const Message& whose) {
     const auto value = options.optional_number(name);
-    if (!value) throw InvalidArgument(fmt::format("{} needs {} = number", whose, name));
+    if (!value) throw InvalidArgument("{} needs {} = number", whose, name);
     return *value;
 }
 
 ReferenceLine read_reference(const Call& call, int index) {
-    const Options options(call, index, {"x", "y", "label", "dash"});
+    const Options options(call, index, kReferenceTables);
     if (options.has("x") == options.has("y"))
         throw InvalidArgument("a reference is {y = level} or {x = instant}, one of both");
     ReferenceLine line;
     line.horizontal = options.has("y");
     line.at = line.horizontal ? options.number("y", 0) : options.number("x", 0);
-    line.label = with_marked_indices(options.text("label", ""));
-    line.dash = static_cast<int>(options.size("dash", line.dash));
+    line.label = label_option(options, "label");
+    options.read(line);
     return line;
 }
 
 Annotation read_annotation(const Call& call, int index) {
-    const Options options(call, index, {"x", "y", "text", "marker"});
-    return {needed_number(options, "x", "an annotation"), needed_number(options, "y", "an annotation"),
-            options.text("text", ""), options.flag("marker", true)};
+    const Options options(call, index, kAnnotationTables);
+    return {needed_number(options, "x", Message("an annotation")),
+            needed_number(options, "y", Message("an annotation")), Message::verbatim(options.text("text", "")),
+            options.flag("marker", true)};
 }
 
 Arrow read_arrow(const Call& call, int index) {
-    const Options options(call, index, {"x0", "y0", "x1", "y1", "text", "both_heads"});
-    return {needed_number(options, "x0", "an arrow"),
-            needed_number(options, "y0", "an arrow"),
-            needed_number(options, "x1", "an arrow"),
-            needed_number(options, "y1", "an arrow"),
-            options.text("text", ""),
-            options.flag("both_heads", false)};
+    const Options options(call, index, kArrowTables);
+    return {needed_number(options, "x0", Message("an arrow")), needed_number(options, "y0", Message("an arrow")),
+            needed_number(options, "x1", Message("an arrow")), needed_number(options, "y1", Message("an arrow")),
+            Message::verbatim(options.text("text", "")),       options.flag("both_heads", false)};
 }
 
-struct ColourName {
-    std::string_view name;
-    int place;  ///< in the palette of figures/style
-};
-
-constexpr std::array kColourNames = {ColourName{"blue", 0},  ColourName{"orange", 1},  ColourName{"black", 2},
-                                     ColourName{"green", 3}, ColourName{"purple", 4},  ColourName{"cyan", 5},
-                                     ColourName{"red", 6},   ColourName{"magenta", 7}, ColourName{"grey", 8},
-                                     ColourName{"gray", 8}};
+/// In the order of the palette of figures/style; "gray" is "grey".
+constexpr std::array kColourNames = {"blue", "orange", "black",   "green", "purple",
+                                     "cyan", "red",    "magenta", "grey",  "gray"};
+constexpr std::ptrdiff_t kGrey = 8;
 
 int colour_at(const Call& call, int index) {
     lua_State* L = call.state();
     if (lua_type(L, index) == LUA_TSTRING) {
         const std::string name = lua_tostring(L, index);
-        for (const ColourName& known : kColourNames)
-            if (known.name == name) return known.place;
-        std::string all;
-        for (const ColourName& known : kColourNames)
-            all += (all.empty() ? "\"" : ", \"") + std::string(known.name) + '"';
+        const auto found = std::ranges::find(kColourNames, name);
+        if (found != kColourNames.end()) return static_cast<int>(std::min(found - kColourNames.begin(), kGrey));
         throw InvalidArgument(
-            fmt::format("option 'colour' must be a number from 0 on, or one of {}, but \"{}\" was given", all, name));
+            "{} must be {}, but \"{}\" was given", option_label("colour"),
+            Message("a number from 0 on, or one of {}", listed_in_quotes({kColourNames.begin(), kColourNames.end()})),
+            name);
     }
     const double number = lua_type(L, index) == LUA_TNUMBER ? lua_tonumber(L, index) : -1;
     if (number < 0 || number != std::floor(number) || number > 1000)
-        throw InvalidArgument("option 'colour' must be a whole number from 0 on, or a name such as \"red\", but " +
-                              given_text(L, index) + " was given");
+        refuse_option("colour", Message("a whole number from 0 on, or a name such as \"red\""), given_value(L, index));
     return static_cast<int>(number);
 }
 
@@ -99,7 +112,7 @@ std::optional<int> optional_index(const Options& options, const char* name) {
 
 /// A curve from its table; x defaults to 1, 2, 3, ...
 Curve read_curve(const Call& call, int index) {
-    const Options options(call, index, kCurveOptions);
+    const Options options(call, index, kOneCurveTables);
     Curve curve;
     curve.y = options.vector("y");
     curve.x = options.has("x") ? Vector(options.vector("x"))
@@ -108,19 +121,23 @@ Curve read_curve(const Call& call, int index) {
         curve.y_upper = options.vector("y_upper");
         curve.style = CurveStyle::kBand;
     }
-    curve.label = with_marked_indices(options.text("label", ""));
+    curve.label = label_option(options, "label");
     read_curve_look(options, curve);
     return curve;
 }
 
 }  // namespace
 
+Message label_option(const Options& options, const char* name) {
+    return Message::verbatim(with_marked_indices(options.text(name, "")));
+}
+
 CurveStyle parse_curve_style(const std::string& name) {
-    const auto found = std::find(kStyleNames.begin(), kStyleNames.end(), name);
-    if (found == kStyleNames.end())
-        throw InvalidArgument(fmt::format("option 'style' must be one of \"{}\", but \"{}\" was given",
-                                          fmt::join(kStyleNames, "\", \""), name));
-    return static_cast<CurveStyle>(found - kStyleNames.begin());
+    const auto found = std::find(kCurveStyles.begin(), kCurveStyles.end(), name);
+    if (found == kCurveStyles.end())
+        throw InvalidArgument("{} must be one of {}, but \"{}\" was given", option_label("style"),
+                              listed_in_quotes({kCurveStyles.begin(), kCurveStyles.end()}), name);
+    return static_cast<CurveStyle>(found - kCurveStyles.begin());
 }
 
 std::vector<int> colours_of(const Options& options) {
@@ -145,26 +162,21 @@ std::vector<int> colours_of(const Options& options) {
 }
 
 void read_curve_look(const Options& options, Curve& curve) {
-    if (options.has("style")) curve.style = parse_curve_style(options.text("style", ""));
+    options.read(curve);
     if (const std::vector<int> colours = colours_of(options); !colours.empty()) curve.colour = colours.front();
     curve.dash = optional_index(options, "dash");
     curve.marker = optional_index(options, "marker");
-    curve.line_width = options.number("line_width", curve.line_width);
 }
 
 void read_panel_options(const Call& call, const Options& options, Panel& panel) {
     const bool counted = !panel.title.empty() && panel.title == outside_text(panel);
-    panel.title = with_marked_indices(options.text("title", panel.title));
-    panel.x_label = with_marked_indices(options.text("xlabel", panel.x_label));
-    panel.y_label = with_marked_indices(options.text("ylabel", panel.y_label));
+    if (options.has("title")) panel.title = label_option(options, "title");
+    if (options.has("xlabel")) panel.x_label = label_option(options, "xlabel");
+    if (options.has("ylabel")) panel.y_label = label_option(options, "ylabel");
     if (options.has("x_range")) panel.x_range = options.range("x_range");
     if (options.has("y_range")) panel.y_range = options.range("y_range");
     if (counted && !options.has("title")) panel.title = outside_text(panel);
-    panel.log_x = options.flag("x_log", panel.log_x);
-    panel.log_y = options.flag("y_log", panel.log_y);
-    panel.equal_axes = options.flag("equal_axes", panel.equal_axes);
-    panel.legend = static_cast<LegendPlace>(options.choice("legend", {"automatic", "above", "right", "none", "direct"},
-                                                           static_cast<std::size_t>(panel.legend)));
+    options.read(panel);
     for_each_entry(call, options, "curves", [&](int entry) { panel.curves.push_back(read_curve(call, entry)); });
     for_each_entry(call, options, "references",
                    [&](int entry) { panel.references.push_back(read_reference(call, entry)); });
@@ -175,7 +187,7 @@ void read_panel_options(const Call& call, const Options& options, Panel& panel) 
 
 Panel read_panel(const Call& call, int index) {
     Panel panel;
-    read_panel_options(call, Options(call, index, kPanelOptions), panel);
+    read_panel_options(call, Options(call, index, kPanelTables), panel);
     return panel;
 }
 

@@ -1,17 +1,51 @@
 #pragma once
-#include <initializer_list>
+#include <array>
 
 #include "figures/figure.h"
-#include "scripting/conversions/arguments.h"
+#include "scripting/conversions/option_member.h"
 
 namespace dynlab::inline scripting {
 
-/// Options that describe a panel (axes and marks), a curve and a whole figure; the names scripts use.
-inline constexpr std::initializer_list<const char*> kCurveOptions = {"x",      "y",    "y_upper",    "label", "style",
-                                                                     "colour", "dash", "line_width", "marker"};
-inline constexpr std::initializer_list<const char*> kPanelOptions = {
-    "title",      "xlabel", "ylabel", "x_range",    "y_range",     "x_log", "y_log",
-    "equal_axes", "legend", "curves", "references", "annotations", "arrows"};
+inline constexpr std::array kCurveStyles = {"line", "points", "line_points", "stairs", "stems", "bars", "band"};
+inline constexpr std::array kLegendPlaces = {"automatic", "above", "right", "none", "direct"};
+
+/// The options of a panel, of one curve's look and of a whole figure, for plot, figure and the methods of figures.
+inline constexpr std::array kPanelOptions = {
+    OptionEntry{"title", ValueKind::kText, about("text above the panel, or above all panels of a figure")},
+    OptionEntry{"xlabel", ValueKind::kText, about("label of the x axis")},
+    OptionEntry{"ylabel", ValueKind::kText, about("label of the y axis")},
+    OptionEntry{"x_range", ValueKind::kVector, about("ends of the x axis, {low, high}")},
+    OptionEntry{"y_range", ValueKind::kVector, about("ends of the y axis, {low, high}")},
+    option<&Panel::log_x>("x_log", about("true for a logarithmic x axis")),
+    option<&Panel::log_y>("y_log", about("true for a logarithmic y axis")),
+    option<&Panel::equal_axes>("equal_axes", about("true makes a unit equally long on both axes")),
+    option<&Panel::legend>("legend",
+                           about("place of the legend; \"direct\" writes each name beside its curve, or makes a legend "
+                                 "where a name finds no clear space"),
+                           {.initial = "\"automatic\"", .choices = kLegendPlaces}),
+    OptionEntry{"curves", ValueKind::kTable,
+                about("list of curves, {x =, y =, label =, style =, colour =, dash =, line_width =, marker =}; with "
+                      "y_upper = a band from y to y_upper")},
+    OptionEntry{"references", ValueKind::kTable,
+                about("list of straight lines, {y = level, label =, dash =} or {x = instant, label =, dash =}")},
+    OptionEntry{"annotations", ValueKind::kTable, about("list of marked points, {x =, y =, text =, marker =}")},
+    OptionEntry{"arrows", ValueKind::kTable, about("list of arrows, {x0 =, y0 =, x1 =, y1 =, text =, both_heads =}")}};
+
+inline constexpr std::array kCurveLookOptions = {
+    OptionEntry{"label", ValueKind::kText, about("name of the curve in the legend")},
+    option<&Curve::style>("style", about("how the values are drawn"), {.initial = "\"line\"", .choices = kCurveStyles}),
+    OptionEntry{"colour", ValueKind::kAny, about("number in the palette, from 0 on, or a name such as \"red\"")},
+    OptionEntry{"dash", ValueKind::kCount,
+                about("dash pattern: 0 solid, 1 dashed, 2 dotted, 3 dash-dot, 4 to 7 further patterns")},
+    OptionEntry{"marker", ValueKind::kCount,
+                about("shape of the points: 0 dot, 1 square, 2 triangle, 3 diamond, 4 to 7 the same open, 8 cross, 9 "
+                      "plus, 10 asterisk")},
+    option<&Curve::line_width>("line_width", about("line width"), {.unit = "points"})};
+
+inline constexpr std::array kFigureSizeOptions = {
+    option<&Figure::width_cm>("width", about("width of the figure"), {.unit = "cm"}),
+    option<&Figure::height_cm>("height", about("height of the figure; 0 for a height that follows from the panels"),
+                               {.unit = "cm"})};
 
 /// Sets of `panel` what the options name.
 void read_panel_options(const Call& call, const Options& options, Panel& panel);
@@ -19,6 +53,8 @@ void read_panel_options(const Call& call, const Options& options, Panel& panel);
 std::vector<int> colours_of(const Options& options);
 /// Sets style, colour, dash, width and marker of `curve`.
 void read_curve_look(const Options& options, Curve& curve);
+/// What an author wrote, with its indices marked; empty where the option is not given.
+Message label_option(const Options& options, const char* name);
 CurveStyle parse_curve_style(const std::string& name);
 /// A panel from its table.
 Panel read_panel(const Call& call, int index);

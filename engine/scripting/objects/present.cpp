@@ -3,65 +3,92 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/reader.h"
 #include "scripting/runtime/text_form.h"
 
 namespace dynlab::inline scripting {
 namespace {
 
-std::string kind_of(const Model& model) {
-    const std::string time = model.G.continuous() ? "continuous-time" : "discrete-time";
-    if (model.process) return fmt::format("{} process model {}", time, model.process->structure.text());
-    if (model.system) return fmt::format("{} state-space model of order {}", time, model.system->order());
-    if (model.polynomial) return time + " polynomial model A y = B/F u + C/D e";
-    return time + " transfer function";
+Message kind_of(const Model& model) {
+    const bool continuous = model.G.continuous();
+    if (model.process) return Message("continuous-time process model {}", model.process->structure.text());
+    if (model.system)
+        return continuous ? Message("continuous-time state-space model of order {}", model.system->order())
+                          : Message("discrete-time state-space model of order {}", model.system->order());
+    if (model.polynomial) return Message("discrete-time polynomial model A y = B/F u + C/D e");
+    return continuous ? Message("continuous-time transfer function") : Message("discrete-time transfer function");
 }
 
+/// Builds the text for one reader.
+class Presentation {
+  public:
+    explicit Presentation(const Reader& reader) : reader_(reader) {}
+    std::string of(const Model& model) const;
+    std::string channels(const Model& model) const;
+
+  private:
+    std::string text(const Message& message) const { return message_text(message, reader_); }
+    std::string text(double value, int digits = 5) const { return number_text(significant(value, digits), reader_); }
+    std::string to_the_error(double value, double error, int error_digits, int otherwise) const;
+    std::string with_error(double value, double error, int digits = 5) const;
+    std::string error_of(const Vector& std, Index index) const;
+    std::string parameter_lines(const Model& model) const;
+    struct PoleColumns {
+        int frequency, damping, time;
+    };
+    std::string pole_row(const PoleDescription& row, const ModeUncertainty* errors, const PoleColumns& widths) const;
+    std::string gain_and_poles(const TransferFunction& G, const std::optional<ModelUncertainty>& uncertainty) const;
+    std::string polynomial_lines(const PolynomialModel& model) const;
+    std::string noise_lines(const NoiseModel& noise) const;
+    std::string channel_lines(const TransferFunction& G, const std::optional<ModelUncertainty>& uncertainty) const;
+    std::string estimate_lines(const Estimate& estimate) const;
+
+    Reader reader_;
+};
+
 /// A value with the digits that its standard error bears, of which so many are printed; without an error, `otherwise`.
-std::string to_the_error(double value, double error, int error_digits, int otherwise) {
+std::string Presentation::to_the_error(double value, double error, int error_digits, int otherwise) const {
     constexpr int kMost = 9;
-    if (!(error > 0) || !std::isfinite(error) || value == 0 || !std::isfinite(value))
-        return number_text(value, otherwise);
+    if (!(error > 0) || !std::isfinite(error) || value == 0 || !std::isfinite(value)) return text(value, otherwise);
     const auto place = [](double x) { return static_cast<int>(std::floor(std::log10(std::abs(x)))); };
-    return number_text(value, std::clamp(place(value) - place(error) + error_digits, 1, kMost));
+    return text(value, std::clamp(place(value) - place(error) + error_digits, 1, kMost));
 }
 
 /// "  ± 0.0312"; an error of exactly zero beside others belongs to a parameter that the search left at its bound.
-std::string error_text(const Vector& std, Index index) {
-    if (std[index] == 0 && (std.array() > 0).any()) return "  (at its bound)";
-    return "  ± " + number_text(std[index], 3);
+std::string Presentation::error_of(const Vector& std, Index index) const {
+    if (std[index] == 0 && (std.array() > 0).any()) return "  " + text(Message("(at its bound)"));
+    return "  ± " + text(std[index], 3);
 }
 
-std::string parameter_lines(const Model& model) {
+std::string Presentation::parameter_lines(const Model& model) const {
     const ModelParameters parameters = parameters_of(model);
-    const bool coloured = model.estimate && model.estimate->errors_are_coloured();
-    std::string text = "Parameters:\n";
+    const auto coloured = model.estimate ? model.estimate->colour() : nullptr;
+    std::string lines = text(Message("Parameters:")) + "\n";
     for (std::size_t i = 0; i < parameters.names.size(); ++i) {
         const auto index = static_cast<Index>(i);
         const bool has_error = parameters.std.size() > index;
-        text += fmt::format("  {:<5} {:>12}", parameters.names[i],
-                            to_the_error(parameters.values[index], has_error ? parameters.std[index] : 0, 3, 6));
-        if (has_error) text += error_text(parameters.std, index);
-        if (coloured && model.estimate->doubts.assessment->std[index] > 0)
-            text += fmt::format("  (robust ± {})", number_text(model.estimate->doubts.assessment->std[index], 3));
-        text += '\n';
+        lines += fmt::format("  {:<5} {:>12}", parameters.names[i],
+                             to_the_error(parameters.values[index], has_error ? parameters.std[index] : 0, 3, 6));
+        if (has_error) lines += error_of(parameters.std, index);
+        if (coloured && coloured->std[index] > 0)
+            lines += "  " + text(Message("(robust ± {})", significant(coloured->std[index], 3)));
+        lines += '\n';
     }
-    return text;
+    return lines;
 }
 
 /// "1.25 ± 0.031", or the value alone when its error is not known, or is none, as the damping of a real pole.
-std::string with_error(double value, double error, int digits = 5) {
-    const std::string text = to_the_error(value, error, 2, digits);
-    return std::isfinite(error) && error > 0 ? text + " ± " + number_text(error, 2) : text;
+std::string Presentation::with_error(double value, double error, int digits) const {
+    const std::string number = to_the_error(value, error, 2, digits);
+    return std::isfinite(error) && error > 0 ? number + " ± " + text(error, 2) : number;
 }
 
-struct PoleColumns {
-    int frequency, damping, time;
-};
-
-std::string pole_row(const PoleDescription& row, const ModeUncertainty* errors, const PoleColumns& widths) {
+std::string Presentation::pole_row(const PoleDescription& row, const ModeUncertainty* errors,
+                                   const PoleColumns& widths) const {
     const auto cell = [&](double value, int digits, double ModeUncertainty::*error, int width) {
         const double own_error = errors != nullptr ? errors->*error : std::nan("");
-        return fmt::format("  {:>{}}", std::isfinite(value) ? with_error(value, own_error, digits) : "none", width);
+        return fmt::format("  {:>{}}",
+                           std::isfinite(value) ? with_error(value, own_error, digits) : text(Message("none")), width);
     };
     return fmt::format("  {:<24}", complex_text(row.pole)) +
            cell(row.natural_frequency, 5, &ModeUncertainty::natural_frequency_std, widths.frequency) +
@@ -70,25 +97,29 @@ std::string pole_row(const PoleDescription& row, const ModeUncertainty* errors, 
 }
 
 /// Steady-state gain and poles of one channel, with their standard errors where they are known.
-std::string gain_and_poles(const TransferFunction& G, const std::optional<ModelUncertainty>& uncertainty) {
+std::string Presentation::gain_and_poles(const TransferFunction& G,
+                                         const std::optional<ModelUncertainty>& uncertainty) const {
     const double gain_error = uncertainty ? uncertainty->gain_std : std::nan("");
-    std::string text = "Steady-state gain: " + with_error(G.dc_gain(), gain_error) + "\n";
-    if (G.pole_count() == 0) return text;
+    std::string lines = text(Message("Steady-state gain: {}", with_error(G.dc_gain(), gain_error))) + "\n";
+    if (G.pole_count() == 0) return lines;
     const PoleColumns widths = uncertainty ? PoleColumns{19, 18, 19} : PoleColumns{17, 8, 17};
-    text += fmt::format("{:<26}  {:>{}}  {:>{}}  {:>{}}\n", "Poles:", "frequency (rad/s)", widths.frequency, "damping",
-                        widths.damping, "time constant (s)", widths.time);
+    lines += fmt::format("{:<26}  {:>{}}  {:>{}}  {:>{}}\n", text(Message("Poles:")),
+                         text(Message("frequency (rad/s)")), widths.frequency, text(Message("damping")), widths.damping,
+                         text(Message("time constant (s)")), widths.time);
     const std::vector<PoleDescription> rows = damping(G);
     for (std::size_t i = 0; i < rows.size(); ++i)
-        text += pole_row(rows[i], uncertainty ? &uncertainty->modes[i] : nullptr, widths);
+        lines += pole_row(rows[i], uncertainty ? &uncertainty->modes[i] : nullptr, widths);
     if (uncertainty)
-        for (const std::string& warning : uncertainty->warnings) text += warning + "\n";
-    return text;
+        for (const Message& warning : uncertainty->warnings) lines += text(warning) + "\n";
+    return lines;
 }
 
-std::string polynomial_lines(const PolynomialModel& model) {
-    std::string text;
+std::string Presentation::polynomial_lines(const PolynomialModel& model) const {
+    std::string lines =
+        text(Message("Polynomials (weights of the present sample, the one before, ...; those not shown are 1):")) +
+        "\n";
     const auto add = [&](const std::string& name, const Vector& p) {
-        if (p.size() > 1 || p[0] != 1) text += fmt::format("  {:<5} {}\n", name, vector_text(p));
+        if (p.size() > 1 || p[0] != 1) lines += fmt::format("  {:<5} {}\n", name, vector_text(p));
     };
     add("A", model.A);
     for (std::size_t i = 0; i < model.B.size(); ++i) {
@@ -98,74 +129,96 @@ std::string polynomial_lines(const PolynomialModel& model) {
     }
     add("C", model.C);
     add("D", model.D);
-    return "Polynomials (weights of the present sample, the one before, ...; those not shown are 1):\n" + text;
+    return lines;
 }
 
-std::string noise_lines(const NoiseModel& noise) {
-    std::string text = "Noise C(q^-1)/D(q^-1) e, e white (weights of the samples before; the present one's is 1):\n";
+std::string Presentation::noise_lines(const NoiseModel& noise) const {
+    if (noise.C.size() + noise.D.size() <= 2) return text(Message("Noise: taken as white")) + "\n";
+    std::string lines =
+        text(Message("Noise C(q^-1)/D(q^-1) e, e white (weights of the samples before; the present one's is 1):")) +
+        "\n";
     const auto add = [&](const char* name, const Vector& p, const Vector& std) {
         for (Index i = 1; i < p.size(); ++i)
-            text += fmt::format("  {:<5} {:>12}  ± {}\n", fmt::format("{}{}", name, i),
-                                to_the_error(p[i], std[i], 3, 6), number_text(std[i], 3));
+            lines += fmt::format("  {:<5} {:>12}  ± {}\n", fmt::format("{}{}", name, i),
+                                 to_the_error(p[i], std[i], 3, 6), text(std[i], 3));
     };
     add("c", noise.C, noise.C_std);
     add("d", noise.D, noise.D_std);
-    return noise.C.size() + noise.D.size() > 2 ? text : "Noise: taken as white\n";
+    return lines;
 }
 
-std::string channel_name(const Model& model, std::size_t channel) {
-    const std::string input = fmt::format("From input {}", channel % model.inputs() + 1);
-    return model.outputs == 1 ? input : fmt::format("{} to output {}", input, channel / model.inputs() + 1);
+Message channel_name(const Model& model, std::size_t channel) {
+    const std::size_t input = channel % model.inputs() + 1;
+    return model.outputs == 1 ? Message("From input {}:", input)
+                              : Message("From input {} to output {}:", input, channel / model.inputs() + 1);
 }
 
 /// Delay, gain and poles of one channel.
-std::string channel_lines(const TransferFunction& G, const std::optional<ModelUncertainty>& uncertainty) {
-    const std::string delay = G.delay() > 0 ? fmt::format("Delay: {} s\n", number_text(G.delay())) : "";
+std::string Presentation::channel_lines(const TransferFunction& G,
+                                        const std::optional<ModelUncertainty>& uncertainty) const {
+    const std::string delay = G.delay() > 0 ? text(Message("Delay: {} s", G.delay())) + "\n" : "";
     return delay + gain_and_poles(G, uncertainty);
 }
 
-std::string estimate_lines(const Estimate& estimate) {
-    std::string text = fmt::format("Estimated by {}", estimate.method);
-    const bool of_response = std::any_of(estimate.numbers.begin(), estimate.numbers.end(),
-                                         [](const auto& number) { return number.first == "frequencies"; });
-    for (const auto& [name, value] : estimate.numbers) {
-        if (of_response) break;  // its message says it
-        if (name == "fit_percent")
-            text += fmt::format(", fit to the estimation data {} % (simulation)", number_text(value, 4));
-        if (name == "noise_variance") text += fmt::format(", noise variance {}", number_text(value, 4));
+std::string Presentation::estimate_lines(const Estimate& estimate) const {
+    const auto number = [&estimate](std::string_view name) {
+        const auto found = std::ranges::find(estimate.numbers, name, [](const auto& one) { return one.first; });
+        return found == estimate.numbers.end() ? std::nullopt : std::optional(significant(found->second, 4));
+    };
+    // The message of an estimate from a frequency response says how well it fits.
+    const bool of_response = number("frequencies").has_value();
+    const std::optional<Number> fit = of_response ? std::nullopt : number("fit_percent"),
+                                variance = of_response ? std::nullopt : number("noise_variance");
+    std::string lines;
+    if (fit && variance)
+        lines = text(Message("Estimated by {}, fit to the estimation data {} % (simulation), noise variance {}.",
+                             estimate.method, *fit, *variance));
+    else if (fit)
+        lines = text(Message("Estimated by {}, fit to the estimation data {} % (simulation).", estimate.method, *fit));
+    else if (variance)
+        lines = text(Message("Estimated by {}, noise variance {}.", estimate.method, *variance));
+    else
+        lines = text(Message("Estimated by {}.", estimate.method));
+    lines += "\n";
+    if (const Message message = estimate.full_message(); !message.empty()) lines += text(message) + "\n";
+    if (const auto coloured = estimate.colour()) lines += text(coloured->verdict) + "\n";
+    return lines;
+}
+
+std::string Presentation::channels(const Model& model) const {
+    const std::vector<TransferFunction> each = channels_of(model);
+    if (each.size() == 1) return to_text(each.front());
+    std::string lines;
+    for (std::size_t i = 0; i < each.size(); ++i)
+        lines += (i > 0 ? "\n" : "") + text(channel_name(model, i)) + "\n" + to_text(each[i]);
+    return lines;
+}
+
+std::string Presentation::of(const Model& model) const {
+    std::string lines = text(kind_of(model)) + "\n" + channels(model) + "\n";
+    if (model.polynomial) lines += polynomial_lines(*model.polynomial);
+    if (!model.system) lines += parameter_lines(model);
+    if (model.estimate && model.estimate->noise) lines += noise_lines(*model.estimate->noise);
+    if (!model.G.continuous()) lines += text(Message("Sampling time: {} s", model.G.Ts())) + "\n";
+    std::optional<ModelUncertainty> uncertainty;
+    if (const auto uncertain = uncertain_model(model)) uncertainty = describe_uncertainty(*uncertain);
+    const std::vector<TransferFunction> each = channels_of(model);
+    for (std::size_t i = 0; i < each.size(); ++i) {
+        if (each.size() > 1) lines += text(channel_name(model, i)) + " ";
+        lines += channel_lines(each[i], uncertainty);
     }
-    text += ".\n";
-    if (!estimate.message.empty()) text += estimate.message + "\n";
-    if (estimate.errors_are_coloured()) text += estimate.doubts.assessment->verdict + "\n";
-    return text;
+    if (model.estimate) lines += estimate_lines(*model.estimate);
+    return lines;
 }
 
 }  // namespace
 
-std::string channels_text(const Model& model) {
-    const std::vector<TransferFunction> channels = channels_of(model);
-    if (channels.size() == 1) return to_text(channels.front());
-    std::string text;
-    for (std::size_t i = 0; i < channels.size(); ++i)
-        text += fmt::format("{}{}:\n{}", i > 0 ? "\n" : "", channel_name(model, i), to_text(channels[i]));
-    return text;
+std::string channels_text(const Model& model, const Reader& reader) {
+    return Presentation(reader).channels(model);
 }
 
-std::string presentation(const Model& model) {
-    std::string text = kind_of(model) + "\n" + channels_text(model) + "\n";
-    if (model.polynomial) text += polynomial_lines(*model.polynomial);
-    if (!model.system) text += parameter_lines(model);
-    if (model.estimate && model.estimate->noise) text += noise_lines(*model.estimate->noise);
-    if (!model.G.continuous()) text += fmt::format("Sampling time: {} s\n", number_text(model.G.Ts()));
-    std::optional<ModelUncertainty> uncertainty;
-    if (const auto uncertain = uncertain_model(model)) uncertainty = describe_uncertainty(*uncertain);
-    const std::vector<TransferFunction> channels = channels_of(model);
-    for (std::size_t i = 0; i < channels.size(); ++i) {
-        if (channels.size() > 1) text += channel_name(model, i) + ": ";
-        text += channel_lines(channels[i], uncertainty);
-    }
-    if (model.estimate) text += estimate_lines(*model.estimate);
-    return text;
+std::string presentation(const Model& model, const Reader& reader) {
+    return Presentation(reader).of(model);
 }
 
 }  // namespace dynlab::inline scripting

@@ -1,7 +1,5 @@
 #include "scripting/objects/rig_drawing.h"
 
-#include <fmt/format.h>
-
 #include <lua.hpp>
 #include <memory>
 #include <vector>
@@ -53,7 +51,8 @@ class DrawingReader {
     void check(int outcome) {
         if (outcome == LUA_OK) return;
         const char* const message = lua_tostring(state_.get(), -1);
-        throw EnvironmentError(fmt::format("a drawing cannot be read: {}", message ? message : "no reason is told"));
+        throw EnvironmentError("a drawing cannot be read: {}",
+                               message != nullptr ? Message::verbatim(message) : Message("no reason is given"));
     }
     void run(const fs::path& file) {
         check(luaL_loadfilex(state_.get(), file.c_str(), "t"));
@@ -141,8 +140,7 @@ RigDrawing rig_drawing(const std::string& name) {
     DrawingReader reader;
     const std::vector<std::string> names = reader.names();
     if (std::find(names.begin(), names.end(), name) == names.end())
-        throw InvalidArgument(
-            fmt::format("there is no rig '{}' that moves; there are {}", name, fmt::join(names, ", ")));
+        throw InvalidArgument("there is no rig '{}' that moves; there are {}", name, listed(names));
     return reader.read(name);
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "numerics/number_text.h"
 #include "scripting/conversions/table_fields.h"
 #include "scripting/objects/fit_model.h"
 #include "scripting/objects/grey_object.h"
@@ -65,19 +64,21 @@ std::string method_of_model(const Call& call, int index) {
     return model != nullptr && model->estimate ? model->estimate->method : "";
 }
 
-std::string presentation(const SimulatedModel& model) {
+std::string presentation(const SimulatedModel& model, const Reader& reader) {
     const Estimate& estimate = *model.estimate;
     std::string text = equations_text(model) + "\n";
     std::size_t widest = 5;
     for (const std::string& name : estimate.names) widest = std::max(widest, name.size());
-    if (!estimate.names.empty()) text += "Parameters:\n";
+    if (!estimate.names.empty()) text += message_text(Message("Parameters:"), reader) + "\n";
     for (std::size_t i = 0; i < estimate.names.size(); ++i) {
         const auto index = static_cast<Index>(i);
-        text += fmt::format("  {:<{}} {:>12}", estimate.names[i], widest, number_text(estimate.theta[index], 6));
-        if (estimate.std.size() > index) text += "  +- " + number_text(estimate.std[index], 3);
+        text += fmt::format("  {:<{}} {:>12}", estimate.names[i], widest,
+                            number_text(significant(estimate.theta[index], 6), reader));
+        if (estimate.std.size() > index) text += "  +- " + number_text(significant(estimate.std[index], 3), reader);
         text += '\n';
     }
-    return text + fmt::format("Estimated by {}.\n{}\n", estimate.method, estimate.message);
+    return text + message_text(Message("Estimated by {}.", estimate.method), reader) + "\n" +
+           message_text(estimate.message, reader) + "\n";
 }
 
 }  // namespace dynlab::inline scripting

@@ -31,6 +31,6 @@ bool runs_freely(const Call& call, int index);
 std::string method_of_model(const Call& call, int index);
 
 /// What present(G) prints: equations, parameters with their standard errors where they have any, fit and message.
-std::string presentation(const SimulatedModel& model);
+std::string presentation(const SimulatedModel& model, const Reader& reader);
 
 }  // namespace dynlab::inline scripting

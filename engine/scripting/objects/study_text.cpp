@@ -5,127 +5,170 @@
 #include <algorithm>
 #include <cmath>
 
-#include "numerics/number_text.h"
-#include "scripting/conversions/option_words.h"
+#include "base/reader.h"
 
 namespace dynlab::inline scripting {
 namespace {
 
 constexpr double kSignificantDeviation = 4;  // standard errors of a mean beyond which an offset is significant
 
+/// Builds the tables for one reader.
+class StudyText {
+  public:
+    explicit StudyText(const Reader& reader) : reader_(reader) {}
+    std::string of(const MonteCarlo& study) const;
+    std::string of(const OrderSelection& selection, const OrderChoice& choice) const;
+    std::string of(const ArxSelection& selection, const OrderChoice& choice) const;
+
+  private:
+    std::string text(const Message& message) const { return message_text(message, reader_); }
+    std::string text(double value, int digits = 5) const { return number_text(significant(value, digits), reader_); }
+    std::string fixed(double value, int digits) const { return number_text(decimals(value, digits), reader_); }
+    std::string value_row(const std::string& who, const std::string& what, const Vector& values, int who_width) const;
+    std::string header_of(const MonteCarloResult& result, int who_width) const;
+    std::string block_of(const MonteCarloResult& result, int who_width) const;
+    std::string bias_of(const MonteCarloResult& result) const;
+    std::string troubles_of(const MonteCarloResult& result, int runs) const;
+    std::string candidate_row(const OrderCandidate& candidate, bool chosen, bool validated, bool delays) const;
+
+    Reader reader_;
+};
+
 /// A row of a study's table: who, what, a value for each parameter.
-std::string value_row(const std::string& who, const char* what, const Vector& values, int who_width) {
+std::string StudyText::value_row(const std::string& who, const std::string& what, const Vector& values,
+                                 int who_width) const {
     std::string row = fmt::format("  {:<{}}  {:<15}", who, who_width, what);
-    for (const double value : values) row += fmt::format("{:>12}", std::isfinite(value) ? number_text(value) : "-");
+    for (const double value : values) row += fmt::format("{:>12}", std::isfinite(value) ? text(value) : "-");
     return row + "\n";
 }
 
-std::string header_of(const MonteCarloResult& result, int who_width) {
-    std::string text = fmt::format("  {:<{}}  {:<15}", "", who_width, "");
-    for (const std::string& name : result.names) text += fmt::format("{:>12}", name);
-    text += "\n";
-    if (result.truth.size() > 0) text += value_row("truth", "", result.truth, who_width);
-    if (result.bound.size() > 0) text += value_row("", "Cramer-Rao std", result.least_spread(), who_width);
-    return text;
+std::string StudyText::header_of(const MonteCarloResult& result, int who_width) const {
+    std::string rows = fmt::format("  {:<{}}  {:<15}", "", who_width, "");
+    for (const std::string& name : result.names) rows += fmt::format("{:>12}", name);
+    rows += "\n";
+    if (result.truth.size() > 0) rows += value_row(text(Message("truth")), "", result.truth, who_width);
+    if (result.bound.size() > 0)
+        rows += value_row("", text(Message("Cramer-Rao std")), result.least_spread(), who_width);
+    return rows;
 }
 
-std::string block_of(const MonteCarloResult& result, int who_width) {
-    std::string text = value_row(result.label, "mean", result.mean, who_width);
-    text += value_row("", "std", result.spread, who_width);
-    if (result.reported.array().isFinite().any()) text += value_row("", "reported std", result.reported, who_width);
-    return text;
+std::string StudyText::block_of(const MonteCarloResult& result, int who_width) const {
+    std::string rows = value_row(result.label, text(Message("mean")), result.mean, who_width);
+    rows += value_row("", text(Message("std")), result.spread, who_width);
+    if (result.reported.array().isFinite().any())
+        rows += value_row("", text(Message("reported std")), result.reported, who_width);
+    return rows;
 }
 
-std::string bias_of(const MonteCarloResult& result) {
+std::string StudyText::bias_of(const MonteCarloResult& result) const {
     std::vector<std::string> names;
     const double root = std::sqrt(static_cast<double>(result.estimated));
     for (Index i = 0; i < result.bias.size(); ++i)
         if (std::abs(result.bias[i]) > kSignificantDeviation * result.spread[i] / root)
             names.push_back(result.names[static_cast<std::size_t>(i)]);
     if (names.empty()) return "";
-    return fmt::format("{} is biased: the mean of {} is off the true value by more than chance explains.\n",
-                       result.label, fmt::join(names, ", "));
+    return text(Message("{} is biased: the mean of {} is off the true value by more than chance explains.",
+                        result.label, listed(names))) +
+           "\n";
 }
 
-std::string troubles_of(const MonteCarloResult& result, int runs) {
-    std::string text;
+std::string StudyText::troubles_of(const MonteCarloResult& result, int runs) const {
+    std::string lines;
     if (result.failed > 0)
-        text += fmt::format("{}: {} of {} runs failed and are left out; the first one says: {}.\n", result.label,
-                            result.failed, runs, in_lua_words(result.first_failure));
+        lines += text(Message("{}: {} of {} runs failed and are left out; the first one says: {}.", result.label,
+                              result.failed, runs, result.first_failure)) +
+                 "\n";
     if (result.not_converged > 0)
-        text += fmt::format("{}: {} of {} runs did not converge; their last values are counted.\n", result.label,
-                            result.not_converged, runs);
-    return text;
+        lines += text(Message("{}: {} of {} runs did not converge; their last values are counted.", result.label,
+                              result.not_converged, runs)) +
+                 "\n";
+    return lines;
 }
 
-std::string notes_on(const OrderCandidate& candidate) {
-    std::vector<std::string> notes;
-    if (candidate.cancellation) notes.emplace_back("a zero cancels a pole");
+Message notes_on(const OrderCandidate& candidate) {
+    MessageList notes{{}, Join::kSemicolon};
+    if (candidate.cancellation) notes.items.push_back(Message("a zero cancels a pole"));
     if (!candidate.undetermined.empty())
-        notes.push_back(fmt::format("{} undetermined", fmt::join(candidate.undetermined, ", ")));
-    if (!candidate.converged) notes.emplace_back("not converged");
-    return fmt::format("{}", fmt::join(notes, "; "));
+        notes.items.push_back(Message("{} undetermined", listed(candidate.undetermined)));
+    if (!candidate.converged) notes.items.push_back(Message("not converged"));
+    return notes.items.empty() ? Message() : Message("{}", notes);
 }
 
-std::string candidate_row(const OrderCandidate& candidate, bool chosen, bool validated, bool delays) {
+std::string StudyText::candidate_row(const OrderCandidate& candidate, bool chosen, bool validated, bool delays) const {
     std::string row = fmt::format("{} {:>5} {:>5}", chosen ? '*' : ' ', candidate.poles, candidate.zeros);
-    if (delays) row += fmt::format(" {:>9}", number_text(candidate.delay, 4));
-    if (!candidate.failure.empty()) return row + "  not estimated: " + in_lua_words(candidate.failure) + "\n";
-    row += fmt::format(" {:>9.5f} {:>8.3f} {:>9.4f} {:>9.4f} {:>10} {:>8.2f} {:>5} {:>7.2f}", candidate.r_squared,
-                       candidate.yic, candidate.aic, candidate.bic, number_text(candidate.fpe, 4),
-                       candidate.log_condition, candidate.iterations, candidate.fit_percent);
-    if (validated) row += fmt::format(" {:>8.2f}", *candidate.validation_fit);
-    const std::string notes = notes_on(candidate);
-    return row + (notes.empty() ? "" : "  " + notes) + "\n";
+    if (delays) row += fmt::format(" {:>9}", text(candidate.delay, 4));
+    if (!candidate.failure.empty()) return row + "  " + text(Message("not estimated: {}", candidate.failure)) + "\n";
+    row +=
+        fmt::format(" {:>9} {:>8} {:>9} {:>9} {:>10} {:>8} {:>5} {:>7}", fixed(candidate.r_squared, 5),
+                    fixed(candidate.yic, 3), fixed(candidate.aic, 4), fixed(candidate.bic, 4), text(candidate.fpe, 4),
+                    fixed(candidate.log_condition, 2), candidate.iterations, fixed(candidate.fit_percent, 2));
+    if (validated) row += fmt::format(" {:>8}", fixed(*candidate.validation_fit, 2));
+    const Message notes = notes_on(candidate);
+    return row + (notes.empty() ? "" : "  " + text(notes)) + "\n";
 }
 
-}  // namespace
-
-std::string monte_carlo_text(const MonteCarlo& study) {
-    std::string text = fmt::format("Monte Carlo study of {} runs, noise of standard deviation {}", study.runs,
-                                   number_text(study.sigma));
-    text += std::isfinite(study.snr) ? fmt::format(" (SNR {} dB)\n", number_text(study.snr, 3)) : "\n";
-    if (study.cancelled) text += "The study was stopped before its end.\n";
+std::string StudyText::of(const MonteCarlo& study) const {
+    const Number sigma = significant(study.sigma, 5);
+    std::string lines =
+        text(std::isfinite(study.snr)
+                 ? Message("Monte Carlo study of {} runs, noise of standard deviation {} (SNR {} dB)", study.runs,
+                           sigma, significant(study.snr, 3))
+                 : Message("Monte Carlo study of {} runs, noise of standard deviation {}", study.runs, sigma)) +
+        "\n";
+    if (study.cancelled) lines += text(Message("The study was stopped before its end.")) + "\n";
     std::size_t who_width = 5;
     for (const MonteCarloResult& result : study.results) who_width = std::max(who_width, result.label.size());
     const MonteCarloResult* before = nullptr;
     for (const MonteCarloResult& result : study.results) {
         if (result.estimated == 0) continue;
-        if (before == nullptr || before->names != result.names) text += header_of(result, static_cast<int>(who_width));
-        text += block_of(result, static_cast<int>(who_width));
+        if (before == nullptr || before->names != result.names) lines += header_of(result, static_cast<int>(who_width));
+        lines += block_of(result, static_cast<int>(who_width));
         before = &result;
     }
-    for (const MonteCarloResult& result : study.results) text += bias_of(result) + troubles_of(result, study.runs);
-    return text;
+    for (const MonteCarloResult& result : study.results) lines += bias_of(result) + troubles_of(result, study.runs);
+    return lines;
 }
 
-std::string order_table_text(const OrderSelection& selection, const OrderChoice& choice) {
+std::string StudyText::of(const OrderSelection& selection, const OrderChoice& choice) const {
     const bool delays = std::any_of(selection.candidates.begin(), selection.candidates.end(),
                                     [](const OrderCandidate& candidate) { return candidate.delay > 0; });
-    std::string text = fmt::format("  {:>5} {:>5}", "poles", "zeros");
-    if (delays) text += fmt::format(" {:>9}", "delay (s)");
-    text += fmt::format(" {:>9} {:>8} {:>9} {:>9} {:>10} {:>8} {:>5} {:>7}", "R_T^2", "YIC", "AIC", "BIC", "FPE",
-                        "log cond", "iter", "fit (%)");
-    if (selection.validated) text += fmt::format(" {:>8}", "val. (%)");
-    text += "\n";
+    std::string lines = fmt::format("  {:>5} {:>5}", text(Message("poles")), text(Message("zeros")));
+    if (delays) lines += fmt::format(" {:>9}", text(Message("delay (s)")));
+    lines += fmt::format(" {:>9} {:>8} {:>9} {:>9} {:>10} {:>8} {:>5} {:>7}", "R_T^2", "YIC", "AIC", "BIC", "FPE",
+                         "log cond", "iter", text(Message("fit (%)")));
+    if (selection.validated) lines += fmt::format(" {:>8}", text(Message("val. (%)")));
+    lines += "\n";
     for (std::size_t i = 0; i < selection.candidates.size(); ++i)
-        text += candidate_row(selection.candidates[i], i == choice.place, selection.validated, delays);
-    return text + in_lua_words(choice.explanation) + "\n";
+        lines += candidate_row(selection.candidates[i], i == choice.place, selection.validated, delays);
+    return lines + text(choice.explanation) + "\n";
 }
 
-std::string arx_table_text(const ArxSelection& selection, const OrderChoice& choice) {
-    std::string text = fmt::format("  {:>4} {:>4} {:>4} {:>10} {:>11} {:>9} {:>9}", "na", "nb", "nk", "parameters",
-                                   "loss", "AIC", "BIC");
-    if (selection.validated) text += fmt::format(" {:>11}", "val. loss");
-    text += "\n";
+std::string StudyText::of(const ArxSelection& selection, const OrderChoice& choice) const {
+    std::string lines = fmt::format("  {:>4} {:>4} {:>4} {:>10} {:>11} {:>9} {:>9}", "na", "nb", "nk",
+                                    text(Message("parameters")), text(Message("loss")), "AIC", "BIC");
+    if (selection.validated) lines += fmt::format(" {:>11}", text(Message("val. loss")));
+    lines += "\n";
     for (std::size_t i = 0; i < selection.candidates.size(); ++i) {
         const ArxCandidate& one = selection.candidates[i];
-        text += fmt::format("{} {:>4} {:>4} {:>4} {:>10} {:>11} {:>9.4f} {:>9.4f}", i == choice.place ? '*' : ' ',
-                            one.na, one.nb, one.nk, one.parameters(), number_text(one.loss, 5), one.aic, one.bic);
-        if (one.validation_loss) text += fmt::format(" {:>11}", number_text(*one.validation_loss, 5));
-        text += one.determined ? "\n" : "  not determined: the input is too poor\n";
+        lines += fmt::format("{} {:>4} {:>4} {:>4} {:>10} {:>11} {:>9} {:>9}", i == choice.place ? '*' : ' ', one.na,
+                             one.nb, one.nk, one.parameters(), text(one.loss), fixed(one.aic, 4), fixed(one.bic, 4));
+        if (one.validation_loss) lines += fmt::format(" {:>11}", text(*one.validation_loss));
+        if (!one.determined) lines += "  " + text(Message("not determined: the input is too poor"));
+        lines += "\n";
     }
-    return text + choice.explanation + "\n";
+    return lines + text(choice.explanation) + "\n";
+}
+
+}  // namespace
+
+std::string monte_carlo_text(const MonteCarlo& study, const Reader& reader) {
+    return StudyText(reader).of(study);
+}
+std::string order_table_text(const OrderSelection& selection, const OrderChoice& choice, const Reader& reader) {
+    return StudyText(reader).of(selection, choice);
+}
+std::string arx_table_text(const ArxSelection& selection, const OrderChoice& choice, const Reader& reader) {
+    return StudyText(reader).of(selection, choice);
 }
 
 }  // namespace dynlab::inline scripting

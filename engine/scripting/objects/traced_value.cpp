@@ -9,9 +9,8 @@ using Node = ExpressionTape::Node;
 
 Node operand_of(const Call& call, int index, const std::shared_ptr<Trace>& trace) {
     if (const auto node = traced_node(call.state(), index, trace)) return *node;
-    throw InvalidArgument(
-        fmt::format("with a value that is not known yet only numbers can be combined, but {} was given",
-                    given_text(call.state(), index)));
+    throw InvalidArgument("with a value that is not known yet only numbers can be combined, but {} was given",
+                          given_value(call.state(), index));
 }
 
 template <Operation kOperation, int kOperands>
@@ -29,8 +28,8 @@ int input_of(Call& call) {
     const TracedValue& value = object_argument<TracedValue>(call, 1, "u");
     if (!value.inputs)
         throw InvalidArgument("this is a single value: only the inputs u have elements, u[1], u[2], ...");
-    const Index i = call.integer(2, "number of the input");
-    if (i < 1 || i > 1000) throw InvalidArgument(fmt::format("u[{}] does not exist: inputs are counted from 1", i));
+    const Index i = call.integer(2, Message("number of the input"));
+    if (i < 1 || i > 1000) throw InvalidArgument("u[{}] does not exist: inputs are counted from 1", i);
     value.trace->inputs = std::max(value.trace->inputs, i);
     value.trace->inputs_indexed = true;
     return give_traced(call, value.trace, value.trace->tape.variable(Operation::kInput, i - 1));
@@ -81,7 +80,7 @@ std::shared_ptr<Trace> trace_among(const Call& call) {
 int give_traced_operation(const Call& call, const std::shared_ptr<Trace>& trace, Operation operation, int operands) {
     std::array<Node, 3> nodes = {-1, -1, -1};
     for (int i = 0; i < operands; ++i) {
-        if (i >= call.count()) throw InvalidArgument(fmt::format("argument {} is missing", i + 1));
+        if (i >= call.count()) throw InvalidArgument("argument {} is missing", i + 1);
         nodes[static_cast<std::size_t>(i)] = operand_of(call, i + 1, trace);
     }
     return give_traced(call, trace, trace->tape.apply(operation, nodes[0], nodes[1], nodes[2]));

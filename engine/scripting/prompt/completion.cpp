@@ -1,7 +1,5 @@
 #include "scripting/prompt/completion.h"
 
-#include <re2/re2.h>
-
 #include <algorithm>
 #include <filesystem>
 
@@ -69,13 +67,9 @@ const FunctionEntry* find_function(lua_State* L, const std::string& name) {
     return nullptr;
 }
 
-/// The names before "=" inside the braces of a signature: "lsim(G, u, {hold = ..., x0 =})" has hold and x0.
 std::vector<std::string> options_of(const FunctionEntry& entry) {
-    static const RE2 option(R"(([A-Za-z_]\w*) *=)", RE2::Latin1);
-    std::vector<std::string> names;
-    std::string name;
-    for (re2::StringPiece rest = entry.signature; RE2::FindAndConsume(&rest, option, &name);)
-        names.push_back(name + " = ");
+    std::vector<std::string> names = option_names(entry.options);
+    for (std::string& name : names) name += " = ";
     return names;
 }
 
@@ -152,7 +146,7 @@ Completion complete_word(lua_State* L, const Tokens& before, std::string_view ty
     std::vector<std::string> names;
     if (function != nullptr && surroundings.in_braces && starts_item) names = options_of(*function);
     Completion completion = choose(typed, std::move(names));
-    if (typed.empty() && function != nullptr) completion.note = function->signature;
+    if (typed.empty() && function != nullptr) completion.note = signature_text(*function);
     if (typed.empty() || !completion.candidates.empty()) return completion;
     names = visible_names(L);
     append(names, names_in(before));

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <iostream>
 
+#include "base/reader.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/interrupt.h"
@@ -14,7 +15,7 @@
 #include "scripting/interpreter/catalogue.h"
 #include "scripting/prompt/line_editor.h"
 #include "scripting/prompt/prompt_session.h"
-#include "scripting/runtime/errors.h"
+#include "scripting/runtime/placed_message.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -27,6 +28,14 @@ constexpr int kInterruptsToExit =
 
 void show_figures(const StatementResult& result) {
     for (const auto& file : result.figures) print_now("figure: " + file.string() + '\n');
+}
+
+/// The message, and below it the calls that led to it.
+Message with_calls(const RecordedError& error) {
+    MessageList lines{{error.message}, Join::kLines};
+    for (const RecordedCall& call : error.calls)
+        lines.items.push_back(Message("  {}:{}: {}", call.file, call.line, call.what));
+    return Message("{}", lines);
 }
 
 class Prompt {
@@ -82,16 +91,15 @@ class Prompt {
         if (interrupted()) print_now("\n");  // the terminal has shown ^C
         forget_interrupts(kInterruptsToExit);
         show_figures(result);
-        if (!result.error.empty()) show_error(message_of(result.error, name, statement.source));
+        if (result.error) show_error(message_text(shown_message(*result.error, name, statement.source)));
     }
 
     /// With its location where that helps: the line of a longer statement, or that it was an earlier one's.
-    static std::string message_of(const std::string& error, const std::string& name, const std::string& source) {
-        const LocatedMessage placed = take_apart(error);
-        if (placed.line == 0) return error;
-        if (placed.file != name) return fmt::format("{} (in line {} of {})", placed.text, placed.line, placed.file);
-        if (source.find('\n') == std::string::npos) return placed.text;
-        return fmt::format("line {}: {}", placed.line, placed.text);
+    static Message shown_message(const RecordedError& error, const std::string& name, const std::string& source) {
+        const Message said = with_calls(error);
+        if (error.line == 0) return said;
+        if (error.file != name) return Message("{} (in line {} of {})", said, error.line, error.file);
+        return source.find('\n') == std::string::npos ? said : Message("line {}: {}", error.line, said);
     }
 
     void show_error(const std::string& message) const {
@@ -117,10 +125,10 @@ bool run_from_pipe(PromptSession& session, const PromptStatement& statement, int
     const StatementResult result = session.run(statement, kPipeName);
     show_figures(result);
     if (interrupted()) throw Interrupted();
-    if (result.error.empty()) return true;
-    const bool placed = take_apart(result.error).line > 0;
-    std::cerr << "dynlab: " << (placed ? "" : fmt::format("{}:{}: ", kPipeName, first_line)) << result.error
-              << std::endl;
+    if (!result.error) return true;
+    const auto& [message, file, line, calls] = *result.error;
+    const PlacedMessage placed{with_calls(*result.error), line > 0 ? file : kPipeName, line > 0 ? line : first_line};
+    std::cerr << "dynlab: " << placed.text() << std::endl;
     return false;
 }
 

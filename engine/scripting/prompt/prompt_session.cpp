@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "base/error.h"
 #include "platform/error.h"
 #include "platform/text/read_number.h"
 
@@ -24,12 +25,6 @@ unsigned highest_figure(const fs::path& folder) {
     return highest;
 }
 
-std::string with_calls(const RecordedError& error) {
-    std::string text = error.message;
-    for (const RecordedCall& call : error.calls) text += fmt::format("\n  {}:{}: {}", call.file, call.line, call.what);
-    return text;
-}
-
 RunOptions options_of_prompt(std::function<void(const std::string&)> print) {
     RunOptions options;
     options.print = std::move(print);
@@ -50,12 +45,15 @@ StatementResult PromptSession::run(const PromptStatement& statement, const std::
     StatementResult result;
     try {
         const RunRecord record = runtime_.run_statement(statement, name);
-        if (record.error) result.error = with_calls(*record.error);
+        result.error = record.error;
         save_figures(record, result);
     } catch (const Interrupted& error) {
-        result.error = error.what();
+        result.error = RecordedError{message_of(error)};
     } catch (const std::exception& error) {
-        result.error = result.error.empty() ? error.what() : result.error + "; " + error.what();
+        if (result.error)
+            result.error->message = Message("{}; {}", result.error->message, message_of(error));
+        else
+            result.error = RecordedError{message_of(error)};
     }
     written_.settle();
     return result;

@@ -15,7 +15,7 @@ namespace dynlab::inline scripting {
 
 /// The outcome of a statement, besides the text it printed.
 struct StatementResult {
-    std::string error;  ///< a sentence with its location ("prompt:2: ..."); empty when all went well
+    std::optional<RecordedError> error;          ///< with its place ("prompt", 2); nothing when all went well
     std::vector<std::filesystem::path> figures;  ///< files of the figures it made, also before an error
 };
 

@@ -27,9 +27,9 @@ std::string short_value_text(lua_State* L, int index) {
 }
 
 /// "gain(x = 2)" of an activation record.
-std::string call_words(lua_State* L, lua_Debug& record) {
+Message call_words(lua_State* L, lua_Debug& record) {
     lua_getinfo(L, "nSu", &record);
-    if (std::string_view(record.what) == "main") return fmt::format("ran {}", record.short_src);
+    if (std::string_view(record.what) == "main") return Message("ran {}", record.short_src);
     std::vector<std::string> arguments;
     const int count = std::min<int>(record.nparams, kMostArguments);
     for (int i = 1; i <= count; ++i) {
@@ -39,15 +39,15 @@ std::string call_words(lua_State* L, lua_Debug& record) {
         lua_pop(L, 1);
     }
     if (record.nparams > count || record.isvararg != 0) arguments.emplace_back("...");
-    const std::string name =
-        record.name != nullptr ? record.name : fmt::format("the function of line {} ", record.linedefined);
-    return fmt::format("called {}({})", name, fmt::join(arguments, ", "));
+    const std::string given = fmt::format("({})", fmt::join(arguments, ", "));
+    if (record.name == nullptr) return Message("called the function of line {} {}", record.linedefined, given);
+    return Message("called {}", record.name + given);
 }
 
 /// The vector's address is its argument.
 int collect_calls(lua_State* L) {
     auto& calls = *static_cast<std::vector<RecordedCall>*>(lua_touserdata(L, 1));
-    std::string called;
+    Message called;
     lua_Debug record;
     for (int level = 0; level < kMostLevels && lua_getstack(L, level, &record) != 0; ++level) {
         lua_getinfo(L, "Sl", &record);
@@ -55,7 +55,8 @@ int collect_calls(lua_State* L) {
         if (!called.empty()) {
             if (calls.size() == kLongestChain) {
                 RuntimeContext& context = context_of(L);
-                calls.push_back({"began a longer chain of calls", context.script_name, main_chunk_line(context)});
+                calls.push_back(
+                    {Message("began a longer chain of calls"), context.script_name, main_chunk_line(context)});
                 break;
             }
             calls.push_back({called, record.short_src, record.currentline});

@@ -1,6 +1,8 @@
 #include "scripting/runtime/context.h"
 
-#include <fmt/format.h>
+#include <algorithm>
+#include <cstdlib>
+#include <utility>
 
 #include "platform/interrupt.h"
 
@@ -21,25 +23,26 @@ bool outermost_call(lua_State* L, lua_Debug& record) {
     return lua_getstack(L, inside, &record) != 0;
 }
 
-std::string innermost_line(lua_State* L) {
+ScriptPlace innermost_line(lua_State* L) {
     lua_Debug record;
     for (int level = 0; lua_getstack(L, level, &record); ++level) {
         lua_getinfo(L, "Sl", &record);
-        if (record.currentline > 0) return fmt::format("{}:{}", record.short_src, record.currentline);
+        if (record.currentline > 0) return {record.short_src, record.currentline};
     }
     return {};
 }
 
-std::string stop_sentence(const RuntimeContext& context, StopReason reason) {
+Message stop_sentence(const RuntimeContext& context, StopReason reason) {
     switch (reason) {
         case StopReason::kProcessorTime:
-            return "the script " + context.options.time->told(TimeLimit::kProcessor);
+            return Message("the script used more than {} s of processor time",
+                           context.options.time->seconds(TimeLimit::kProcessor));
         case StopReason::kClockTime:
-            return "the script " + context.options.time->told(TimeLimit::kClock);
+            return Message("the script had not ended after {} s", context.options.time->seconds(TimeLimit::kClock));
         case StopReason::kOutputLimit:
-            return "the script printed more text than a run may keep";
+            return Message("the script printed more text than a run may keep");
         default:
-            return "interrupted";
+            return Message("interrupted");
     }
 }
 
@@ -57,10 +60,10 @@ int main_chunk_line(RuntimeContext& context) {
     return std::max(context.main_chunk.currentline, 0);
 }
 
-std::string script_location(lua_State* L) {
-    std::string location = innermost_line(L);
+ScriptPlace script_place(lua_State* L) {
+    ScriptPlace place = innermost_line(L);
     lua_State* main = context_of(L).main;
-    return location.empty() && main != L ? innermost_line(main) : location;
+    return place.line == 0 && main != L ? innermost_line(main) : place;
 }
 
 void poll_stop(lua_State* L) {
@@ -90,10 +93,15 @@ void raise_stop(lua_State* L, StopReason reason) {
     raise_error(L, stop_sentence(context, reason));
 }
 
-void raise_error(lua_State* L, const std::string& message) {
-    const std::string location = script_location(L);
-    const std::string text = location.empty() ? message : location + ": " + message;
+void push_error(lua_State* L, PlacedMessage error) {
+    std::string text = error.text();
     lua_pushlstring(L, text.data(), text.size());
+    context_of(L).raised = {std::move(text), std::move(error)};
+}
+
+void raise_error(lua_State* L, const Message& message) {
+    ScriptPlace place = script_place(L);
+    push_error(L, {message, std::move(place.file), place.line});
     lua_error(L);
     std::abort();  // not reached: lua_error does not return
 }

@@ -10,6 +10,7 @@
 #include "numerics/signals/random.h"
 #include "scripting/runtime/function_entry.h"
 #include "scripting/runtime/memory_account.h"
+#include "scripting/runtime/placed_message.h"
 #include "scripting/runtime/recorder.h"
 #include "scripting/runtime/run_options.h"
 #include "scripting/runtime/services.h"
@@ -19,6 +20,12 @@
 namespace dynlab::inline scripting {
 
 enum class StopReason { kNone, kInterrupted, kProcessorTime, kClockTime, kOutputLimit };
+
+/// An error, and the text of it that Lua has.
+struct RaisedError {
+    std::string text;
+    PlacedMessage error;
+};
 
 /// What the bindings of one Lua state share.
 struct RuntimeContext {
@@ -52,6 +59,7 @@ struct RuntimeContext {
     std::shared_ptr<TimeBudget> budget;      ///< of the script, where it has limits
     std::string* printed_by_call = nullptr;  ///< also gets what is printed, while a call is watched
     int refusal_line = 0;                    ///< of the main chunk when memory was last refused
+    RaisedError raised;                      ///< last, whether or not the script caught it
     std::vector<RecordedCall> calls;         ///< that led to the error which stopped the script
 };
 
@@ -59,14 +67,20 @@ RuntimeContext& context_of(lua_State* L);
 
 /// Line of the main chunk that runs now, 0 when none does.
 int main_chunk_line(RuntimeContext& context);
-/// "file:line" of the innermost script line, empty when no script is running.
-std::string script_location(lua_State* L);
+/// The innermost script line; line 0 when no script is running.
+struct ScriptPlace {
+    std::string file;
+    int line = 0;
+};
+ScriptPlace script_place(lua_State* L);
 /// Raises the stop when Ctrl-C was pressed or a limit of time is reached; cheap enough for every protected call.
 void poll_stop(lua_State* L);
 /// Passes a stop on that is under way, whatever the script tried to catch.
 void pass_stop_on(lua_State* L);
 [[noreturn]] void raise_stop(lua_State* L, StopReason reason);
-/// Raises "location: message" for the script.
-[[noreturn]] void raise_error(lua_State* L, const std::string& message);
+/// Pushes the text of an error, for scripts to catch, and remembers what it stands for.
+void push_error(lua_State* L, PlacedMessage error);
+/// Raises it with the place of the script's line.
+[[noreturn]] void raise_error(lua_State* L, const Message& message);
 
 }  // namespace dynlab::inline scripting

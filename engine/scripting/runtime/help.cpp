@@ -1,13 +1,16 @@
 #include "scripting/runtime/help.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <re2/re2.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 #include <sstream>
 
+#include "base/reader.h"
 #include "documents/text_lines.h"
 #include "numerics/error.h"
 #include "platform/spelling.h"
@@ -78,7 +81,7 @@ std::vector<Found> pages_about(const std::string& asked, const FunctionList& fun
     };
     for (const FunctionEntry* entry : functions) {
         const auto page = find_help_page(entry->name);
-        look(entry->name, entry->summary, page ? page->text : std::string_view());
+        look(entry->name, entry->summary, page ? page_text(*page, entry) : std::string());
     }
     for (const HelpPage& page : help_pages())
         if (entry_of(page.name, functions) == nullptr) look(std::string(page.name), subject_of(page), page.text);
@@ -95,7 +98,8 @@ std::string list_of(const std::vector<Found>& found, std::size_t width) {
 }
 
 /// What is written here for a function of MATLAB or another program, and the pages of what it calls.
-std::string matlab_answer(const std::string& name, const char* hint, const FunctionList& functions, std::size_t width) {
+std::string matlab_answer(const std::string& name, const std::string& hint, const FunctionList& functions,
+                          std::size_t width) {
     std::string text = filled(fmt::format("{} is a word of other programs; here: {}.", name, hint), width) + '\n';
     static const RE2 kCall("([a-z][a-z_0-9.]*)[({]", RE2::Latin1);
     std::string called;
@@ -160,10 +164,83 @@ std::optional<std::string> lua_answer(const std::string& word, std::size_t width
     return laid_out(fmt::format("`{}` belongs to Lua itself; help lua tells the most important of it.\n", word), width);
 }
 
+std::string text_of(const MessageId<>& description) {
+    return message_text(Message(description));
+}
+
+/// "number from 0 to 1"
+std::string with_bounds(const char* kind, const OptionFacts& facts) {
+    const bool least = std::isfinite(facts.least), most = std::isfinite(facts.most);
+    std::string text = kind;
+    if (least && most) return text + fmt::format(" from {} to {}", facts.least, facts.most);
+    if (least) text += fmt::format(", at least {}", facts.least);
+    if (most) text += fmt::format(", at most {}", facts.most);
+    return text;
+}
+
+/// What the option takes, as far as one phrase says it.
+std::string kind_of(const OptionEntry& option) {
+    switch (option.kind) {
+        case ValueKind::kNumber:
+            return with_bounds("number", option.facts);
+        case ValueKind::kCount:
+            return with_bounds("whole number", option.facts);
+        case ValueKind::kFlag:
+            return "true or false";
+        case ValueKind::kText:
+            return "text";
+        case ValueKind::kVector:
+            return "vector";
+        case ValueKind::kTable:
+            return "table";
+        case ValueKind::kChoice: {
+            std::vector<std::string> texts;
+            for (const char* choice : option.facts.choices) texts.push_back(fmt::format("`\"{}\"`", choice));
+            return fmt::format("{}", fmt::join(texts, ", "));
+        }
+        default:
+            return "";
+    }
+}
+
+/// "- `Tol` (number, default 1e-6): relative change of the parameters at which the search stops."
+std::string item_of(const OptionEntry& option) {
+    std::vector<std::string> facts;
+    if (const std::string kind = kind_of(option); !kind.empty()) facts.push_back(kind);
+    if (*option.facts.unit != '\0') facts.push_back(option.facts.unit);
+    if (const std::string initial = initial_text(option); !initial.empty())
+        facts.push_back(fmt::format("default `{}`", initial));
+    return fmt::format("- `{}`{}: {}.\n", option.name,
+                       facts.empty() ? "" : fmt::format(" ({})", fmt::join(facts, ", ")), text_of(option.description));
+}
+
+std::string items_of(const FunctionEntry& function) {
+    std::string items;
+    for (const ArgumentEntry& argument : function.arguments)
+        items += fmt::format("- `{}`: {}.\n", argument.name, text_of(argument.description));
+    for (const OptionTable& table : function.options)
+        for (const OptionEntry& option : table) items += item_of(option);
+    return items;
+}
+
+/// The page with the items at the beginning of its part "Arguments", which it is given where it has none.
+std::string with_items(std::string page, const std::string& items) {
+    if (items.empty()) return page;
+    static constexpr std::string_view kHeading = "## Arguments\n\n";
+    if (const std::size_t at = page.find(kHeading); at != page.npos) {
+        const std::size_t begin = at + kHeading.size();
+        const bool list = page.compare(begin, 2, "- ") == 0;
+        return page.insert(begin, items + (list ? "" : "\n"));
+    }
+    const std::size_t next = page.find("\n## ");
+    if (next == page.npos) return page + "\n" + std::string(kHeading) + items;
+    return page.insert(next + 1, std::string(kHeading) + items + "\n");
+}
+
 [[noreturn]] void refuse_topic(const std::string& name, const FunctionList& functions) {
     const auto near = nearest_word(name, help_names(functions));
-    throw InvalidArgument(fmt::format("there is no help about '{}'{}", name,
-                                      near ? fmt::format("; did you mean '{}'?", *near) : "; help() lists everything"));
+    if (near) throw InvalidArgument("there is no help about '{}'; did you mean '{}'?", name, *near);
+    throw InvalidArgument("there is no help about '{}'; help() lists everything", name);
 }
 
 }  // namespace
@@ -172,6 +249,10 @@ std::optional<HelpPage> find_help_page(std::string_view name) {
     for (const HelpPage& page : help_pages())
         if (page.name == name) return page;
     return std::nullopt;
+}
+
+std::string page_text(const HelpPage& page, const FunctionEntry* function) {
+    return function == nullptr ? std::string(page.text) : with_items(std::string(page.text), items_of(*function));
 }
 
 std::string subject_of(const HelpPage& page) {
@@ -203,11 +284,12 @@ std::string help_overview(const FunctionList& functions, std::size_t width) {
 }
 
 std::string help_text(const std::string& name, const FunctionList& functions, std::size_t width) {
-    if (const auto page = find_help_page(name)) return laid_out(page->text, width);
+    if (const auto page = find_help_page(name)) return laid_out(page_text(*page, entry_of(name, functions)), width);
     if (const FunctionEntry* entry = entry_of(name, functions))
-        return fmt::format("{}\n  {}\n", entry->signature, entry->summary);
+        return fmt::format("{}\n  {}\n", signature_text(*entry), entry->summary);
     if (const auto method = method_answer(name, width)) return *method;
-    if (const char* hint = matlab_name_hint(name)) return matlab_answer(name, hint, functions, width);
+    if (const Message* const hint = matlab_name_hint(name))
+        return matlab_answer(name, message_text(*hint), functions, width);
     if (const auto words = lua_answer(name, width)) return *words;
     if (const std::string small = in_small_letters(name); small != name && find_help_page(small))
         return help_text(small, functions, width);

@@ -15,9 +15,11 @@ struct HelpPage {
     std::string_view text;  ///< Markdown
 };
 
-/// All pages, sorted by name (from reference/*.md and reference/guides/*.md, made at build time).
+/// All pages, sorted by name, as reference/*.md and reference/guides/*.md are.
 std::span<const HelpPage> help_pages();
 std::optional<HelpPage> find_help_page(std::string_view name);
+/// The page of a function with its arguments and options, which its row declares; others as they are (nullptr).
+std::string page_text(const HelpPage& page, const FunctionEntry* function);
 /// What stands behind "guide: " or "subject: " in the third line of a page that is no function's.
 std::string subject_of(const HelpPage& page);
 

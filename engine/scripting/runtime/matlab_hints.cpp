@@ -13,31 +13,40 @@
 namespace dynlab::inline scripting {
 namespace {
 
-constexpr const char* kCommentHint = "a comment starts with -- in Lua";
+Message comment_form() {
+    return Message("a comment starts with -- in Lua");
+}
+Message for_loop_form() {
+    return Message("a loop is written: for k = 1, N do ... end");
+}
+Message condition_form() {
+    return Message("a condition is written: if a > b then ... end");
+}
+Message named_function_form() {
+    return Message("a function is written: function name(x) ... return y end");
+}
+Message inline_function_form() {
+    return Message("a function is written function(x) return x^2 end");
+}
 
 /// A character that word processors and printed pages put in the place of one that Lua knows.
 struct ForeignCharacter {
     char32_t character;
-    const char* instead;
+    const char* instead;  ///< empty for one that is to be taken out
 };
 
-constexpr std::array kForeign = {ForeignCharacter{U'\u201c', "\""},      ForeignCharacter{U'\u201d', "\""},
-                                 ForeignCharacter{U'\u201e', "\""},      ForeignCharacter{U'\u00ab', "\""},
-                                 ForeignCharacter{U'\u00bb', "\""},      ForeignCharacter{U'\u2018', "'"},
-                                 ForeignCharacter{U'\u2019', "'"},       ForeignCharacter{U'\u00b4', "'"},
-                                 ForeignCharacter{U'\u2010', "-"},       ForeignCharacter{U'\u2011', "-"},
-                                 ForeignCharacter{U'\u2012', "-"},       ForeignCharacter{U'\u2013', "-"},
-                                 ForeignCharacter{U'\u2014', "-"},       ForeignCharacter{U'\u2212', "-"},
-                                 ForeignCharacter{U'\u00d7', "*"},       ForeignCharacter{U'\u00b7', "*"},
-                                 ForeignCharacter{U'\u22c5', "*"},       ForeignCharacter{U'\u00f7', "/"},
-                                 ForeignCharacter{U'\u2044', "/"},       ForeignCharacter{U'\u2264', "<="},
-                                 ForeignCharacter{U'\u2265', ">="},      ForeignCharacter{U'\u2260', "~="},
-                                 ForeignCharacter{U'\u02c6', "^"},       ForeignCharacter{U'\u00b2', "^2"},
-                                 ForeignCharacter{U'\u00b3', "^3"},      ForeignCharacter{U'\u221a', "sqrt(x)"},
-                                 ForeignCharacter{U'\u03c0', "math.pi"}, ForeignCharacter{U'\u2026', "..."},
-                                 ForeignCharacter{U'\u00a0', "a space"}, ForeignCharacter{U'\u2009', "a space"},
-                                 ForeignCharacter{U'\u202f', "a space"}, ForeignCharacter{U'\u200b', "nothing"},
-                                 ForeignCharacter{U'\ufeff', "nothing"}};
+constexpr std::array kForeign = {
+    ForeignCharacter{U'\u201c', "\""},  ForeignCharacter{U'\u201d', "\""},      ForeignCharacter{U'\u201e', "\""},
+    ForeignCharacter{U'\u00ab', "\""},  ForeignCharacter{U'\u00bb', "\""},      ForeignCharacter{U'\u2018', "'"},
+    ForeignCharacter{U'\u2019', "'"},   ForeignCharacter{U'\u00b4', "'"},       ForeignCharacter{U'\u2010', "-"},
+    ForeignCharacter{U'\u2011', "-"},   ForeignCharacter{U'\u2012', "-"},       ForeignCharacter{U'\u2013', "-"},
+    ForeignCharacter{U'\u2014', "-"},   ForeignCharacter{U'\u2212', "-"},       ForeignCharacter{U'\u00d7', "*"},
+    ForeignCharacter{U'\u00b7', "*"},   ForeignCharacter{U'\u22c5', "*"},       ForeignCharacter{U'\u00f7', "/"},
+    ForeignCharacter{U'\u2044', "/"},   ForeignCharacter{U'\u2264', "<="},      ForeignCharacter{U'\u2265', ">="},
+    ForeignCharacter{U'\u2260', "~="},  ForeignCharacter{U'\u02c6', "^"},       ForeignCharacter{U'\u00b2', "^2"},
+    ForeignCharacter{U'\u00b3', "^3"},  ForeignCharacter{U'\u221a', "sqrt(x)"}, ForeignCharacter{U'\u03c0', "math.pi"},
+    ForeignCharacter{U'\u2026', "..."}, ForeignCharacter{U'\u00a0', " "},       ForeignCharacter{U'\u2009', " "},
+    ForeignCharacter{U'\u202f', " "},   ForeignCharacter{U'\u200b', ""},        ForeignCharacter{U'\ufeff', ""}};
 
 /// The line without its strings and Lua comment, so that their contents are not taken for code.
 std::string code_only(const std::string& line) {
@@ -124,118 +133,120 @@ bool has_assignment_condition(const std::string& code) {
     return false;
 }
 
-std::string element_hint(const std::string& code) {
+Message element_hint(const std::string& code) {
     static const RE2 kWholeLine(R"(\w[\[(]\s*(:\s*,|[\w.]+\s*,\s*:\s*[\])]))", RE2::Latin1);
-    if (RE2::PartialMatch(code, kWholeLine)) return "the row i of a matrix is A:row(i), the column j is A:col(j)";
+    if (RE2::PartialMatch(code, kWholeLine))
+        return Message("the row i of a matrix is A:row(i), the column j is A:col(j)");
     static const RE2 kTakenOut(R"(=\s*\[\s*\]\s*;?\s*$)", RE2::Latin1);
     if (RE2::PartialMatch(code, kTakenOut) && contains(code, ")"))
-        return "a vector keeps its length; v:select(mask) or v:select({1, 3}) gives the elements that stay";
+        return Message("a vector keeps its length; v:select(mask) or v:select({1, 3}) gives the elements that stay");
     if (contains(code, "[end") || contains(code, "(end"))
-        return "the last element is x[#x]; vector{x, y} appends y to x";
+        return Message("the last element is x[#x]; vector{x, y} appends y to x");
     static const RE2 kTwoPlaces(R"(\w\[\s*[\w.:]+\s*,)", RE2::Latin1);
-    if (RE2::PartialMatch(code, kTwoPlaces)) return "the element in row 1 and column 2 is A[{1, 2}]";
-    if (contains(code, "?")) return "write if ... then ... else ... end instead of ?";
+    if (RE2::PartialMatch(code, kTwoPlaces)) return Message("the element in row 1 and column 2 is A[{1, 2}]");
+    if (contains(code, "?")) return Message("write if ... then ... else ... end instead of ?");
     static const RE2 kElementSet(R"(\s*(?:local\s+)?([A-Za-z_]\w*)\(([\w\s,:#]+)\)\s*=[^=].*)", RE2::Latin1);
     std::string name, place;
     if (RE2::FullMatch(code, kElementSet, &name, &place))
-        return contains(place, ",") ? fmt::format("an element of a matrix is written {}[{{{}}}]", name, place)
-                                    : fmt::format("an element is written {}[{}]", name, place);
+        return contains(place, ",") ? Message("an element of a matrix is written {}[{{}}]", name, place)
+                                    : Message("an element is written {}[{}]", name, place);
     static const RE2 kImaginary(R"((^|[^\w.])\d+(\.\d*)?[ij]\b)", RE2::Latin1);
     if (RE2::PartialMatch(code, kImaginary))
-        return "there are no complex numbers to calculate with; those that functions give have the fields re, im, abs, "
-               "arg";
+        return Message(
+            "there are no complex numbers to calculate with; those that functions give have the fields re, im, abs, "
+            "arg");
     return {};
 }
 
-std::string operator_hint(const std::string& code) {
-    if (contains(code, ".*")) return "for vectors write x*y, for matrices A:times(B), instead of .*";
-    if (contains(code, "./")) return "for vectors write x/y instead of ./";
-    if (contains(code, ".^")) return "for vectors write x^2 instead of .^";
-    if (contains(code, "**")) return "a power is written x^2";
-    if (contains(code, "!=") || contains(code, "<>")) return "'not equal' is ~= in Lua";
-    if (contains(code, "!")) return "'not' is written not x";
-    if (contains(code, ":=")) return "a value is given by =: x = 3";
-    if (contains(code, "&&")) return "'and' is written and";
-    if (contains(code, "||")) return "'or' is written or";
+Message operator_hint(const std::string& code) {
+    if (contains(code, ".*")) return Message("for vectors write x*y, for matrices A:times(B), instead of .*");
+    if (contains(code, "./")) return Message("for vectors write x/y instead of ./");
+    if (contains(code, ".^")) return Message("for vectors write x^2 instead of .^");
+    if (contains(code, "**")) return Message("a power is written x^2");
+    if (contains(code, "!=") || contains(code, "<>")) return Message("'not equal' is ~= in Lua");
+    if (contains(code, "!")) return Message("'not' is written not x");
+    if (contains(code, ":=")) return Message("a value is given by =: x = 3");
+    if (contains(code, "&&")) return Message("'and' is written and");
+    if (contains(code, "||")) return Message("'or' is written or");
     if (contains(code, "+=") || contains(code, "-=") || contains(code, "*="))
-        return "write x = x + 1 instead of x += 1";
-    if (contains(code, "++")) return "write x = x + 1 instead of x++";
+        return Message("write x = x + 1 instead of x += 1");
+    if (contains(code, "++")) return Message("write x = x + 1 instead of x++");
     return {};
 }
 
-std::string block_hint(const std::string& code) {
+Message block_hint(const std::string& code) {
     const std::string word = first_word(code);
     if ((word == "for" || word == "while") && !contains(code, " do"))
-        return word == "for" ? "a loop is written: for k = 1, N do ... end"
-                             : "a loop is written: while condition do ... end";
-    if ((word == "if" || word == "elseif") && !contains(code, "then"))
-        return "a condition is written: if a > b then ... end";
-    if (word == "function" && contains(code, "=")) return "a function is written: function name(x) ... return y end";
+        return word == "for" ? for_loop_form() : Message("a loop is written: while condition do ... end");
+    if ((word == "if" || word == "elseif") && !contains(code, "then")) return condition_form();
+    if (word == "function" && contains(code, "=")) return named_function_form();
     if (word == "switch" || word == "case" || word == "otherwise")
-        return "Lua has no switch: write if ... elseif ... else ... end";
-    if (word == "elif" || word == "elsif") return "write elseif ... then";
-    if (word == "def") return "a function is written: function name(x) ... return y end";
-    if (word == "const" || word == "let" || word == "var") return "a variable is written: local x = 3";
-    if (word == "try" || word == "catch") return "write local ok, message = pcall(f) instead of try";
-    if (word == "end" && contains(code, "end;")) return "one 'end' too many, or a block that was not opened";
+        return Message("Lua has no switch: write if ... elseif ... else ... end");
+    if (word == "elif" || word == "elsif") return Message("write elseif ... then");
+    if (word == "def") return named_function_form();
+    if (word == "const" || word == "let" || word == "var") return Message("a variable is written: local x = 3");
+    if (word == "try" || word == "catch") return Message("write local ok, message = pcall(f) instead of try");
+    if (word == "end" && contains(code, "end;")) return Message("one 'end' too many, or a block that was not opened");
     return {};
 }
 
 /// Commands of words alone: hold on, close all, clear x y; step G; ?lsim.
-std::string command_hint(const std::string& code, const std::string& near) {
+Message command_hint(const std::string& code, const std::string& near) {
     static const RE2 kAsked(R"(\s*\?\s*(\w+)\s*)", RE2::Latin1),
         kTwoWords(R"(\s*([A-Za-z_]\w*)[ \t]+(\w+)[\s;]*)", RE2::Latin1);
     std::string first, second;
-    if (RE2::FullMatch(code, kAsked, &first)) return fmt::format("help is asked for by help(\"{}\")", first);
+    if (RE2::FullMatch(code, kAsked, &first)) return Message("help is asked for by help(\"{}\")", first);
     const bool words_only = std::ranges::all_of(
         code, [](char c) { return name_character(c) || std::string_view(" \t\r;").find(c) != std::string_view::npos; });
-    const char* hint = words_only ? matlab_name_hint(first_word(code)) : nullptr;
-    if (hint != nullptr) return hint;
-    const std::string block = block_hint(code);
-    if (block.empty() && RE2::FullMatch(code, kTwoWords, &first, &second) && second == near && first != "local" &&
-        first != "return" && first != "goto" && first != "function")
+    const Message* const hint = words_only ? matlab_name_hint(first_word(code)) : nullptr;
+    if (hint != nullptr) return *hint;
+    if (block_hint(code).empty() && RE2::FullMatch(code, kTwoWords, &first, &second) && second == near &&
+        first != "local" && first != "return" && first != "goto" && first != "function")
         return first == "help" || first == "load" || first == "run" || first == "require"
-                   ? fmt::format("a call is written {}(\"{}\")", first, second)
-                   : fmt::format("a call is written {}({})", first, second);
+                   ? Message("a call is written {}(\"{}\")", first, second)
+                   : Message("a call is written {}({})", first, second);
     return {};
 }
 
 }  // namespace
 
-std::string lone_word_hint(const std::string& line) {
+Message lone_word_hint(const std::string& line) {
     const std::string code = code_only(line), word = first_word(code);
     const auto last = code.find_last_not_of(" \t\r;");
     if (last == std::string::npos || last + 1 != code.find(word) + word.size()) return {};
-    return word == "try" || word == "catch" ? "'" + word + "' is no word of Lua; " + block_hint(code) : "";
+    return word == "try" || word == "catch" ? Message("'{}' is no word of Lua; {}", word, block_hint(code)) : Message();
 }
 
-std::string colon_block_hint(const std::string& line) {
+Message colon_block_hint(const std::string& line) {
     const std::string code = code_only(line), word = first_word(code);
     if (!ends_with(code, ":")) return {};
-    if (word == "for" || word == "while") return "a loop is written: for k = 1, N do ... end";
-    return word == "if" || word == "else" || word == "elif" ? "a condition is written: if a > b then ... end" : "";
+    if (word == "for" || word == "while") return for_loop_form();
+    return word == "if" || word == "else" || word == "elif" ? condition_form() : Message();
 }
 
-std::optional<std::string> foreign_character_sentence(const std::string& line) {
+Message foreign_character_sentence(const std::string& line) {
     const std::string code = code_only(line);
     std::string_view rest = code;
     while (!rest.empty()) {
         const std::optional<char32_t> character = take_character(rest);
-        if (!character) return "a byte that is not UTF-8 cannot stand here; save the script as UTF-8";
+        if (!character) return Message("a byte that is not UTF-8 cannot stand here; save the script as UTF-8");
         if (*character < 128) continue;
         const auto known = std::ranges::find(kForeign, *character, &ForeignCharacter::character);
-        const std::string instead = known == kForeign.end() ? "names are made of the letters a to z, digits and _"
-                                                            : std::string("write ") + known->instead + " instead";
-        return fmt::format("the character {} (U+{:04X}) cannot stand here; {}", utf8_of(*character),
-                           static_cast<unsigned>(*character), instead);
+        const std::string_view instead = known == kForeign.end() ? std::string_view() : known->instead;
+        const Message advice = known == kForeign.end() ? Message("names are made of the letters a to z, digits and _")
+                               : instead.empty()       ? Message("write nothing instead")
+                               : instead == " "        ? Message("write a space instead")
+                                                       : Message("write {} instead", instead);
+        return Message("the character {} ({}) cannot stand here; {}", utf8_of(*character),
+                       fmt::format("U+{:04X}", static_cast<unsigned>(*character)), advice);
     }
-    return std::nullopt;
+    return {};
 }
 
-std::string comment_hint(const std::string& line, const std::string& name) {
+Message comment_hint(const std::string& line, const std::string& name) {
     const std::string code = code_only(line);
     const auto sign = std::min(code.find_first_of("%#"), code.find("// "));
-    return sign != std::string::npos && code.find(name, sign) != std::string::npos ? kCommentHint : "";
+    return sign != std::string::npos && code.find(name, sign) != std::string::npos ? comment_form() : Message();
 }
 
 bool begins_foreign_comment(const std::string& line) {
@@ -244,27 +255,28 @@ bool begins_foreign_comment(const std::string& line) {
            (line[first] == '%' || line.compare(first, 2, "# ") == 0 || line.compare(first, 2, "//") == 0);
 }
 
-std::string matlab_syntax_hint(const std::string& line, const std::string& near) {
+Message matlab_syntax_hint(const std::string& line, const std::string& near) {
     const std::string code = code_only(line);
-    if (std::string hint = command_hint(code, near); !hint.empty()) return hint;
+    if (Message hint = command_hint(code, near); !hint.empty()) return hint;
     const auto first = code.find_first_not_of(" \t");
-    if (first != std::string::npos && (code[first] == '%' || code[first] == '#')) return kCommentHint;
-    if (has_assignment_condition(code)) return "to compare, write == instead of =";
-    if (std::string hint = operator_hint(code); !hint.empty()) return hint;
-    if (ends_with(code, "...") && near != ")") return "a statement may simply go on in the next line, without ...";
-    if (has_transpose(code)) return "the transpose is A:t(); vectors are columns already";
-    if (std::string hint = block_hint(code); !hint.empty()) return hint;
-    if (std::string hint = element_hint(code); !hint.empty()) return hint;
-    if (has_bracket_list(code)) return "a vector is written vector{1, 2, 3}, a matrix matrix{{1, 2}, {3, 4}}";
-    if (contains(code, "lambda ")) return "a function is written function(x) return x^2 end";
+    if (first != std::string::npos && (code[first] == '%' || code[first] == '#')) return comment_form();
+    if (has_assignment_condition(code)) return Message("to compare, write == instead of =");
+    if (Message hint = operator_hint(code); !hint.empty()) return hint;
+    if (ends_with(code, "...") && near != ")")
+        return Message("a statement may simply go on in the next line, without ...");
+    if (has_transpose(code)) return Message("the transpose is A:t(); vectors are columns already");
+    if (Message hint = block_hint(code); !hint.empty()) return hint;
+    if (Message hint = element_hint(code); !hint.empty()) return hint;
+    if (has_bracket_list(code)) return Message("a vector is written vector{1, 2, 3}, a matrix matrix{{1, 2}, {3, 4}}");
+    if (contains(code, "lambda ")) return inline_function_form();
     if (has_colon_range(code))
-        return "a range is range(first, last) or range(first, step, last), a part of a vector v:range(i, j)";
-    if (contains(code, "%") || contains(code, "# ")) return kCommentHint;
-    if (contains(code, "\\")) return "A\\b is written solve(A, b)";
+        return Message("a range is range(first, last) or range(first, step, last), a part of a vector v:range(i, j)");
+    if (contains(code, "%") || contains(code, "# ")) return comment_form();
+    if (contains(code, "\\")) return Message("A\\b is written solve(A, b)");
     static const RE2 kBeginsWithDigit(R"(\d+[A-Za-z_]\w*)", RE2::Latin1), kContinue(R"(\bcontinue\b)", RE2::Latin1);
-    if (RE2::FullMatch(near, kBeginsWithDigit)) return "a name begins with a letter";
-    if (RE2::PartialMatch(code, kContinue)) return matlab_name_hint("continue");
-    if (contains(code, "@(")) return "a function is written function(x) return x^2 end";
+    if (RE2::FullMatch(near, kBeginsWithDigit)) return Message("a name begins with a letter");
+    if (RE2::PartialMatch(code, kContinue)) return *matlab_name_hint("continue");
+    if (contains(code, "@(")) return inline_function_form();
     return {};
 }
 

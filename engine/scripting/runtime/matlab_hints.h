@@ -1,24 +1,26 @@
 #pragma once
-#include <optional>
 #include <string>
+#include <string_view>
+
+#include "base/message.h"
 
 namespace dynlab::inline scripting {
 
 /// How a habit from MATLAB or another language is written in Lua; nothing (nullptr, empty) where none is recognised.
-const char* matlab_name_hint(const std::string& name);
+const Message* matlab_name_hint(std::string_view name);
 /// The same for a field or method of an object of this type.
-const char* foreign_member_hint(const std::string& type, const std::string& name);
+const Message* foreign_member_hint(std::string_view type, std::string_view name);
 /// For a line that Lua cannot read; `near` is the word at which it stopped.
-std::string matlab_syntax_hint(const std::string& line, const std::string& near);
+Message matlab_syntax_hint(const std::string& line, const std::string& near);
 /// For a word that is no variable, where it stands behind the % or # of a comment.
-std::string comment_hint(const std::string& line, const std::string& name);
+Message comment_hint(const std::string& line, const std::string& name);
 /// Whether a line begins as a comment does in other languages.
 bool begins_foreign_comment(const std::string& line);
 /// For a line that Lua read to its end, but whose block it never found closed, as Python writes one: for k in x:
-std::string colon_block_hint(const std::string& line);
+Message colon_block_hint(const std::string& line);
 /// For a line of one word that opens a block elsewhere and is none here: "try".
-std::string lone_word_hint(const std::string& line);
+Message lone_word_hint(const std::string& line);
 /// About the first character outside of texts that no program can hold: typographic quotes, dashes, accents.
-std::optional<std::string> foreign_character_sentence(const std::string& line);
+Message foreign_character_sentence(const std::string& line);
 
 }  // namespace dynlab::inline scripting

@@ -1,7 +1,5 @@
 #include "scripting/runtime/memory_account.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstdlib>
 
@@ -32,8 +30,8 @@ void MemoryAccount::add_outside(std::size_t bytes) {
     peak_ = std::max(peak_, used_);
 }
 
-std::string size_text(double bytes) {
-    return bytes >= 1e9 ? fmt::format("{:.3g} GB", bytes / 1e9) : fmt::format("{:.3g} MB", bytes / 1e6);
+Message size_phrase(double bytes) {
+    return bytes >= 1e9 ? Message("{} GB", significant(bytes / 1e9, 3)) : Message("{} MB", significant(bytes / 1e6, 3));
 }
 
 }  // namespace dynlab::inline scripting

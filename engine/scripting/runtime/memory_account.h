@@ -1,7 +1,8 @@
 #pragma once
 #include <cstddef>
 #include <functional>
-#include <string>
+
+#include "base/message.h"
 
 namespace dynlab::inline scripting {
 
@@ -28,7 +29,7 @@ class MemoryAccount {
     std::size_t limit_, used_ = 0, peak_ = 0;
 };
 
-/// As messages write it: "2.15 GB", "67.1 MB".
-std::string size_text(double bytes);
+/// "2.15 GB", "67.1 MB"
+Message size_phrase(double bytes);
 
 }  // namespace dynlab::inline scripting

@@ -1,7 +1,7 @@
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "platform/spelling.h"
@@ -38,10 +38,9 @@ void collect_locals(lua_State* L, std::vector<std::string>& names) {
     }
 }
 
-std::string suggestion(const std::string& word, std::vector<std::string> names) {
+std::optional<std::string> nearest(const std::string& word, std::vector<std::string> names) {
     std::sort(names.begin(), names.end());
-    const auto near = nearest_word(word, names);
-    return near ? fmt::format("; did you mean '{}'?", *near) : std::string();
+    return nearest_word(word, names);
 }
 
 std::string key_text(lua_State* L, int index) {
@@ -51,11 +50,11 @@ std::string key_text(lua_State* L, int index) {
 
 /// __index of the table of functions: the script read a name that nobody defined.
 int unknown_global(lua_State* L) {
-    std::string message;
+    Message message;
     {
         const std::string name = key_text(L, 2);
         RuntimeContext& context = context_of(L);
-        const LocatedMessage here = take_apart(script_location(L) + ": ");
+        const ScriptPlace here = script_place(L);
         const bool of_script = here.file == context.script_name;
         std::vector<std::string> names;
         push_library(L);
@@ -63,7 +62,7 @@ int unknown_global(lua_State* L) {
         lua_pushglobaltable(L);
         collect_text_keys(L, -1, names);
         collect_locals(L, names);
-        message = unknown_name_sentence(name, of_script ? line_of(context.source, here.line) : "", std::move(names));
+        message = unknown_name(name, of_script ? line_of(context.source, here.line) : "", std::move(names));
     }
     raise_error(L, message);
 }
@@ -72,19 +71,15 @@ int unknown_global(lua_State* L) {
 int set_global(lua_State* L) {
     push_library(L);
     lua_pushvalue(L, 2);
-    if (lua_rawget(L, -2) != LUA_TNIL) {
-        const std::string name = key_text(L, 2);
-        const std::string message = replaced_name_sentence(name);
-        raise_error(L, message);
-    }
+    if (lua_rawget(L, -2) != LUA_TNIL) raise_error(L, replaced_name(key_text(L, 2)));
     lua_settop(L, 3);
     lua_rawset(L, 1);
     return 0;
 }
 
 /// __index behind a sealed table; upvalue 1 is the table's name.
-int unknown_member(lua_State* L) {
-    std::string message;
+int refuse_unknown_member(lua_State* L) {
+    Message message;
     {
         std::vector<std::string> names;
         collect_text_keys(L, 1, names);
@@ -92,16 +87,15 @@ int unknown_member(lua_State* L) {
         push_library(L);
         lua_pushstring(L, key.c_str());
         const bool of_library = lua_rawget(L, -2) == LUA_TFUNCTION;
-        message = unknown_member_sentence(lua_tostring(L, lua_upvalueindex(1)), key, of_library, std::move(names));
+        message = unknown_member(lua_tostring(L, lua_upvalueindex(1)), key, of_library, std::move(names));
     }
     raise_error(L, message);
 }
 
 int refuse_change(lua_State* L) {
     const std::string table = lua_tostring(L, lua_upvalueindex(1));
-    raise_error(L,
-                fmt::format("'{}' belongs to dynlab and cannot be changed; use a table or a local function of your own",
-                            table));
+    raise_error(
+        L, Message("'{}' belongs to dynlab and cannot be changed; use a table or a local function of your own", table));
 }
 
 /// __pairs of a sealed table: walks a copy of what it shows.
@@ -143,7 +137,7 @@ void push_sealed(lua_State* L, const char* name) {
 void report_unknown_members(lua_State* L, const char* name) {
     lua_createtable(L, 0, 1);
     lua_pushstring(L, name);
-    lua_pushcclosure(L, unknown_member, 1);
+    lua_pushcclosure(L, refuse_unknown_member, 1);
     lua_setfield(L, -2, "__index");
     lua_setmetatable(L, -2);
 }
@@ -174,26 +168,30 @@ void collect_text_keys(lua_State* L, int table, std::vector<std::string>& names)
     }
 }
 
-std::string unknown_name_sentence(const std::string& name, const std::string& line, std::vector<std::string> names) {
-    const std::string comment = comment_hint(line, name);
-    if (!comment.empty()) return fmt::format("there is no variable '{}'; {}", name, comment);
-    if (const char* matlab = matlab_name_hint(name))
-        return fmt::format("there is no function '{}' here; {}", name, matlab);
-    return fmt::format("there is no function or variable '{}'{}", name, suggestion(name, std::move(names)));
+Message unknown_name(const std::string& name, const std::string& line, std::vector<std::string> names) {
+    if (const Message comment = comment_hint(line, name); !comment.empty())
+        return Message("there is no variable '{}'; {}", name, comment);
+    if (const Message* const matlab = matlab_name_hint(name))
+        return Message("there is no function '{}' here; {}", name, *matlab);
+    const auto near = nearest(name, std::move(names));
+    return near ? Message("there is no function or variable '{}'; did you mean '{}'?", name, *near)
+                : Message("there is no function or variable '{}'", name);
 }
 
-std::string replaced_name_sentence(const std::string& name) {
-    return fmt::format(
-        "'{0}' is a function or table of dynlab and cannot be replaced; choose another name, or write 'local {0} = "
-        "...' to use the name for a variable of your own",
-        name);
+Message replaced_name(const std::string& name) {
+    return Message(
+        "'{}' is a function or table of dynlab and cannot be replaced; choose another name, or write 'local {} = ...' "
+        "to use the name for a variable of your own",
+        name, name);
 }
 
-std::string unknown_member_sentence(const std::string& table, const std::string& key, bool of_library,
-                                    std::vector<std::string> names) {
-    if (key == "randomseed") return "the random numbers of a run begin with rng(seed)";
-    if (of_library) return fmt::format("'{0}' has no member '{1}'; write {1}(x), without {0}", table, key);
-    return fmt::format("'{}' has no member '{}'{}", table, key, suggestion(key, std::move(names)));
+Message unknown_member(const std::string& table, const std::string& key, bool of_library,
+                       std::vector<std::string> names) {
+    if (key == "randomseed") return Message("the random numbers of a run begin with rng(seed)");
+    if (of_library) return Message("'{}' has no member '{}'; write {}(x), without {}", table, key, key, table);
+    const auto near = nearest(key, std::move(names));
+    return near ? Message("'{}' has no member '{}'; did you mean '{}'?", table, key, *near)
+                : Message("'{}' has no member '{}'", table, key);
 }
 
 void push_library(lua_State* L) {

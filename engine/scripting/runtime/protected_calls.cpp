@@ -9,7 +9,7 @@ namespace {
 int finish_protected_call(lua_State* L, int status, lua_KContext) {
     if (status == LUA_OK || status == LUA_YIELD) return lua_gettop(L) - 1;
     pass_stop_on(L);
-    if (status == LUA_ERRMEM) push_memory_message(L);
+    if (status == LUA_ERRMEM) push_memory_error(L);
     lua_pushboolean(L, 0);
     lua_insert(L, -2);
     return 2;
@@ -64,7 +64,7 @@ int resume_coroutine(lua_State* L, lua_State* co, int count) {
     const int status = lua_resume(co, L, count, &result_count);
     if (status != LUA_OK && status != LUA_YIELD) {
         pass_stop_on(L);
-        if (status == LUA_ERRMEM) push_memory_message(co);
+        if (status == LUA_ERRMEM) push_memory_error(co);
         lua_xmove(co, L, 1);
         translate_value_on_top(L);
         return kFailed;
@@ -114,7 +114,9 @@ int coroutine_close(lua_State* L) {
     poll_stop(L);
     lua_Debug record;
     const bool suspended = co != L && (lua_status(co) == LUA_YIELD || lua_getstack(co, 0, &record) == 0);
-    if (!suspended) raise_error(L, "coroutine.close: only a coroutine that does not run can be closed");
+    if (!suspended)
+        raise_error(L,
+                    Message("{}: {}", "coroutine.close", Message("only a coroutine that does not run can be closed")));
     if (lua_resetthread(co) == LUA_OK) {
         lua_pushboolean(L, 1);
         return 1;

@@ -26,8 +26,8 @@ void Recorder::follow(const PercentScript& script) {
     timed_since_ = std::chrono::steady_clock::now();
 }
 
-RunRecord Recorder::so_far() const {
-    return Recorder(*this).finish();
+RunRecord Recorder::so_far(const Reader& reader) const {
+    return Recorder(*this).finish(reader);
 }
 
 void Recorder::tell_of_cell() const {
@@ -103,7 +103,7 @@ void Recorder::note_file_read(const std::filesystem::path& file) {
     if (std::ranges::find(files, file) == files.end()) files.push_back(file);
 }
 
-void Recorder::capture_figures(const std::string& cell, const std::vector<Piece>& pieces) {
+void Recorder::capture_figures(const std::string& cell, const std::vector<Piece>& pieces, const Reader& reader) {
     std::vector<CellOutput> outputs;
     int count = 0;
     std::string printed;
@@ -112,9 +112,10 @@ void Recorder::capture_figures(const std::string& cell, const std::vector<Piece>
         if (!piece.figure || piece.figure->used) continue;
         const std::string name = cell + "-figure-" + std::to_string(++count);
         const Figure& figure = piece.figure->figure;
-        const std::string caption =
+        const Message& title =
             !figure.title.empty() || figure.panels.empty() ? figure.title : figure.panels.front().title;
-        record_.figures[name] = {std::make_shared<const Figure>(figure), caption, {}, piece.figure->order};
+        record_.figures[name] = {
+            std::make_shared<const Figure>(figure), message_text(title, reader), {}, piece.figure->order};
         outputs.push_back({std::move(printed), name});
         printed.clear();
     }
@@ -122,10 +123,10 @@ void Recorder::capture_figures(const std::string& cell, const std::vector<Piece>
     if (!outputs.empty()) record_.outputs[cell] = std::move(outputs);
 }
 
-RunRecord Recorder::finish() {
+RunRecord Recorder::finish(const Reader& reader) {
     record_.timings[timed_cell_] +=
         std::chrono::duration<double>(std::chrono::steady_clock::now() - timed_since_).count();
-    for (const auto& [cell, pieces] : pieces_) capture_figures(cell, pieces);
+    for (const auto& [cell, pieces] : pieces_) capture_figures(cell, pieces, reader);
     for (const auto& [name, reported] : reported_)
         record_.figures[name] = {
             std::make_shared<const Figure>(reported.figure->figure), reported.caption, {}, reported.figure->order};

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/reader.h"
 #include "documents/percent_script.h"
 #include "documents/run_record.h"
 #include "figures/figure.h"
@@ -35,9 +36,10 @@ class Recorder {
     /// Goes on with another text of the script: the lines of its cells, and the answers it promises.
     void follow(const PercentScript& script);
     /// What the run has produced up to here, as finish() would give it; the run goes on.
-    RunRecord so_far() const;
-    /// Ends the run: names the figures that were made and dropped, and hands the record over.
-    RunRecord finish();
+    RunRecord so_far(const Reader& reader) const;
+    /// Ends the run: names the figures that were made and dropped, with their titles as captions for the reader, and
+    /// hands the record over.
+    RunRecord finish(const Reader& reader);
 
     void print(const std::string& text);
     /// Several lines that belong together were printed.
@@ -70,7 +72,7 @@ class Recorder {
         FigurePointer figure;
         std::string caption;
     };
-    void capture_figures(const std::string& cell, const std::vector<Piece>& pieces);
+    void capture_figures(const std::string& cell, const std::vector<Piece>& pieces, const Reader& reader);
 
     RunRecord record_;
     std::vector<ExpectedAnswer> expected_;

@@ -2,6 +2,7 @@
 #include <optional>
 #include <string>
 
+#include "base/message.h"
 #include "scripting/runtime/shown_calls.h"
 
 namespace dynlab::inline scripting {
@@ -22,7 +23,7 @@ std::optional<int> line_with_semicolon_rows(const std::string& source);
 /// A line that Lua takes for something else than its writer meant, and what to write instead.
 struct MisreadLine {
     int line;
-    std::string sentence;
+    Message sentence;
 };
 /// The first such line: rows of a matrix set apart by semicolons, a decimal comma as in `x = 3,5`, which Lua reads as
 /// two values, or a math.max or math.min whose last argument is max(v) or min(v) of one vector, which give the place of

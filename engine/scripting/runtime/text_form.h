@@ -2,8 +2,8 @@
 #include <lua.hpp>
 #include <string>
 
+#include "base/number_text.h"
 #include "numerics/linalg/types.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline scripting {
 

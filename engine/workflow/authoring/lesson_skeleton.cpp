@@ -154,18 +154,29 @@ constexpr const char* kFrenchHints = R"(# Question 1
 1. Retranchez de l'allongement ce que le modèle fait de la force.
 )";
 
-constexpr const char* kFrenchChecks = R"(# What checks.lua tells, in French.
+constexpr const char* kFrenchChecks = R"(# What checks.lua says, in French.
+msgid ""
+msgstr ""
+"Project-Id-Version: dynlab\n"
+"Language: fr\n"
+"MIME-Version: 1.0\n"
+"Content-Type: text/plain; charset=UTF-8\n"
+"Content-Transfer-Encoding: 8bit\n"
 
-The stiffness of the spring
-  La raideur du ressort
-This is the compliance in mm/N; the stiffness is its inverse.
-  C'est la souplesse en mm/N ; la raideur en est l'inverse.
-Which of the two, force or elongation, is divided by the other?
-  Laquelle des deux, force ou allongement, divise l'autre ?
-The measuring errors
-  Les erreurs de mesure
-What does the model leave over?
-  Que laisse le modèle ?
+msgid "The stiffness of the spring"
+msgstr "La raideur du ressort"
+
+msgid "This is the compliance in mm/N; the stiffness is its inverse."
+msgstr "C'est la souplesse en mm/N ; la raideur en est l'inverse."
+
+msgid "Which of the two, force or elongation, is divided by the other?"
+msgstr "Laquelle des deux, force ou allongement, divise l'autre ?"
+
+msgid "The measuring errors"
+msgstr "Les erreurs de mesure"
+
+msgid "What does the model leave over?"
+msgstr "Que laisse le modèle ?"
 )";
 
 /// 24 loadings of a spring of 2.5 N/mm; the errors come from no random numbers, so that the file is the same
@@ -185,8 +196,8 @@ std::vector<std::string> make_lesson_skeleton(const fs::path& folder) {
     const fs::path whole = fs::absolute(folder).lexically_normal();
     const std::string slug = (whole.has_filename() ? whole : whole.parent_path()).filename().string();
     if (!is_name("_" + slug))
-        throw EnvironmentError("'" + slug +
-                               "' is no name for a lesson: letters, digits, _ and - make one, as in 08_springs");
+        throw EnvironmentError("'{}' is no name for a lesson: letters, digits, _ and - make one, as in 08_springs",
+                               slug);
     const std::map<std::string, std::string> files = {{"lesson.lua", replaced(kLesson, "SLUG", slug)},
                                                       {"record.csv", record()},
                                                       {"checks.lua", kChecks},
@@ -195,7 +206,7 @@ std::vector<std::string> make_lesson_skeleton(const fs::path& folder) {
                                                       {"hints.md", kHints},
                                                       {"tasks.fr.lua", kFrenchTasks},
                                                       {"hints.fr.md", kFrenchHints},
-                                                      {"checks.fr.txt", kFrenchChecks}};
+                                                      {"checks.fr.po", kFrenchChecks}};
     std::vector<std::string> names;
     make_whole_folder(folder, [&](const fs::path& growing) {
         for (const auto& [name, text] : files) {

@@ -1,6 +1,5 @@
 #include "workflow/manual/course_text.h"
 
-#include <fmt/format.h>
 #include <re2/re2.h>
 
 #include <set>
@@ -32,7 +31,7 @@ RunRecord run_for_paper(const ReportRequest& request, const fs::path& folder, co
     run.out_folder = folder;
     run.call_cache = &calls;
     RunRecord record = run_script(run, renderer);
-    if (record.error) throw DocumentError(record.error->message);
+    if (record.error) throw DocumentError(Message::verbatim(record.error->text()));
     draw_figures(record, renderer, folder, FigureFormat::kPdf, request.script.header.language);
     renderer.finish();
     runs.remember(record);

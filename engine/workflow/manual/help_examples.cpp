@@ -1,7 +1,5 @@
 #include "workflow/manual/help_examples.h"
 
-#include <fmt/format.h>
-
 #include "documents/error.h"
 #include "documents/text_lines.h"
 #include "figures/gnuplot_renderer.h"
@@ -31,7 +29,8 @@ Cell cell_of(Cell::Kind kind, const std::string& id, const std::string& content)
 PercentScript page_in_cells(const HelpPage& page) {
     PercentScript script;
     script.file = std::string(page.name) + ".md";
-    const std::string text(page.text), begin = "\n```lua\n", end = "\n```\n";
+    const std::string text = page_text(page, find_function(std::string(page.name))), begin = "\n```lua\n",
+                      end = "\n```\n";
     const std::size_t code = is_function(page.name) ? text.find(begin) : std::string::npos;
     if (code == std::string::npos) {
         script.cells = {cell_of(Cell::Kind::kText, "text", text)};
@@ -80,7 +79,7 @@ HelpExamples run_help_examples(const std::filesystem::path& folder, const Cache&
             options.out_folder = options.script_folder = folder;
             options.call_cache = &calls;
             RunRecord run = Runtime(options, renderer).run_code(script.cells[1].content, name + ".lua");
-            if (run.error) throw DocumentError(fmt::format("the example of help {}: {}", name, run.error->message));
+            if (run.error) throw DocumentError(Message("the example of help {}: {}", name, run.error->text()));
             take_results(name, std::move(run), examples.record);
         }
         examples.pages.emplace(name, std::move(script));

@@ -1,7 +1,5 @@
 #include "workflow/manual/make_manual.h"
 
-#include <fmt/format.h>
-
 #include <chrono>
 
 #include "documents/error.h"
@@ -39,7 +37,7 @@ std::string file_of(const std::string& name) {
 std::string between(const std::string& text, const std::string& begin, const std::string& end) {
     const std::size_t from = text.find(begin), to = text.rfind(end);
     if (from == std::string::npos || to == std::string::npos)
-        throw DocumentError("a page of the manual has no " + begin);
+        throw DocumentError(Message("a page of the manual has no {}", begin));
     return text.substr(from, to - from);
 }
 
@@ -49,20 +47,20 @@ class ManualMaker {
 
     ManualResult make() {
         check_manual_folder(request_.folder);
-        timed("the examples of the help pages", [&] { examples_ = run_help_examples(work_.path(), cache_); });
-        timed("lessons", [&] { add_lessons(); });
-        timed("demonstrations", [&] { add_demonstrations(); });
-        timed("figures", [&] { draw(FigureFormat::kSvg); });
-        timed("guides and functions", [&] { add_texts(); });
-        timed("manual.pdf", [&] { add_pdf(); });
-        timed("lists and search", [&] { add_lists(); });
-        timed("files", [&] { write(); });
+        timed(Message("the examples of the help pages"), [&] { examples_ = run_help_examples(work_.path(), cache_); });
+        timed(Message("lessons"), [&] { add_lessons(); });
+        timed(Message("demonstrations"), [&] { add_demonstrations(); });
+        timed(Message("figures"), [&] { draw(FigureFormat::kSvg); });
+        timed(Message("guides and functions"), [&] { add_texts(); });
+        timed(Message("manual.pdf"), [&] { add_pdf(); });
+        timed(Message("lists and search"), [&] { add_lists(); });
+        timed(Message("files"), [&] { write(); });
         return std::move(result_);
     }
 
   private:
     template <typename Work>
-    void timed(const std::string& step, Work work) {
+    void timed(const Message& step, Work work) {
         if (request_.step) request_.step(step);
         const auto begin = std::chrono::steady_clock::now();
         work();
@@ -195,7 +193,7 @@ class ManualMaker {
         const std::string style = read_file(shared / "html/document.css") + read_file(shared / "html/manual.css");
         for (const ManualPage& page : pages_) files_[page.file] = framed_page(page, style);
         files_["search.js"] = search_index(pages_);
-        files_["document.js"] = scripts_of_pages(shared);
+        files_["document.js"] = scripts_of_pages(shared, "en");
         files_["manual.js"] = read_file(shared / "html/manual.js");
         result_.pages = pages_.size();
     }

@@ -5,16 +5,18 @@
 #include <utility>
 #include <vector>
 
+#include "base/message.h"
+
 namespace dynlab::inline workflow {
 
 struct ManualRequest {
     std::filesystem::path folder;
-    std::function<void(const std::string&)> step = {};  ///< called with each step as it begins; may be empty
+    std::function<void(const Message&)> step = {};  ///< called with each step as it begins; may be empty
 };
 
 struct ManualResult {
     std::size_t pages = 0;
-    std::vector<std::pair<std::string, double>> timings;  ///< seconds of each step
+    std::vector<std::pair<Message, double>> timings;  ///< seconds of each step
 };
 
 /// The manual as a site that needs neither network nor server: the lessons as students get them (without solutions),

@@ -1,7 +1,5 @@
 #include "workflow/manual/manual_folder.h"
 
-#include <fmt/format.h>
-
 #include <set>
 
 #include "documents/text_lines.h"
@@ -33,9 +31,8 @@ WrittenBefore written_before(const fs::path& folder) {
     return written;
 }
 
-[[noreturn]] void refuse(const fs::path& folder, const std::string& why) {
-    throw EnvironmentError(
-        fmt::format("{}: {}; give a new or an empty folder, nothing was changed", folder.string(), why));
+[[noreturn]] void refuse(const fs::path& folder, const Message& why) {
+    throw EnvironmentError("{}: {}; give a new or an empty folder, nothing was changed", folder.string(), why);
 }
 
 /// A file in the way that is not as the manual of before wrote it.
@@ -43,19 +40,19 @@ void check_file(const fs::path& folder, const std::string& name, const WrittenBe
     const fs::path file = folder / name;
     if (!fs::exists(fs::symlink_status(file))) return;
     const auto known = before.find(name);
-    if (known == before.end()) refuse(folder, "it has a file " + name + " that no manual wrote");
+    if (known == before.end()) refuse(folder, Message("it has a file {} that no manual wrote", name));
     if (!fs::is_regular_file(fs::symlink_status(file)) || !known->second.count(sha256_of_file(file)))
-        refuse(folder, name + " was changed since the manual was made");
+        refuse(folder, Message("{} was changed since the manual was made", name));
 }
 
 }  // namespace
 
 void check_manual_folder(const fs::path& folder) {
     if (!fs::exists(fs::symlink_status(folder))) return;
-    if (!fs::is_directory(folder)) refuse(folder, "it is a file");
+    if (!fs::is_directory(folder)) refuse(folder, Message("it is a file"));
     if (fs::is_empty(folder)) return;
     const auto before = written_before(folder);
-    if (before.empty()) refuse(folder, "it holds other things than a manual");
+    if (before.empty()) refuse(folder, Message("it holds other things than a manual"));
     for (const auto& [name, hashes] : before) check_file(folder, name, before);
 }
 

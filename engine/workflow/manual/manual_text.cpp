@@ -103,7 +103,7 @@ MarkdownText headed_guide(const HelpPage& page, const MarkdownText& text) {
     MarkdownText headed;
     std::size_t number = 0;
     for (const std::string& line : lines_of(text.text)) {
-        const SourceLine origin = text.origin_of(static_cast<int>(++number));
+        const Place origin = text.origin_of(static_cast<int>(++number));
         headed.text += number == 1   ? "# " + title_of_guide(page)
                        : number == 3 ? fmt::format("In a terminal: `dynlab help {}`.", page.name)
                                      : line;

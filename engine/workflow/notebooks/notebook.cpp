@@ -6,7 +6,10 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <utility>
+#include <variant>
 
+#include "base/reader.h"
 #include "documents/error.h"
 #include "documents/percent_script.h"
 #include "documents/text_lines.h"
@@ -146,8 +149,8 @@ json outputs_of(const RunRecord& record, const Cell& cell, bool stopped_here,
     if (stopped_here)
         outputs.push_back({{"output_type", "error"},
                            {"ename", "error"},
-                           {"evalue", record.error->message},
-                           {"traceback", json::array({record.error->message})}});
+                           {"evalue", record.error->text()},
+                           {"traceback", json::array({record.error->text()})}});
     return outputs;
 }
 
@@ -169,31 +172,32 @@ json notebook_metadata() {
             {"language_info", {{"name", kKernelLanguage}, {"file_extension", ".lua"}, {"mimetype", "text/x-lua"}}}};
 }
 
-[[noreturn]] void refuse_notebook(const std::filesystem::path& name, const std::string& what) {
-    throw DocumentError(name.string() + ": " + what);
+[[noreturn]] void refuse_notebook(const std::filesystem::path& name, const Message& what) {
+    throw DocumentError(Place{name}, what);
 }
 
 /// The cells of a notebook that we can read, or the sentence why we cannot.
 const json& checked_cells(const json& notebook, const std::filesystem::path& name) {
-    if (!notebook.is_object()) refuse_notebook(name, "this is JSON, but no Jupyter notebook");
+    if (!notebook.is_object()) refuse_notebook(name, Message("this is JSON, but no Jupyter notebook"));
     const auto format = notebook.find("nbformat");
     if (format == notebook.end() || !format->is_number_integer())
-        refuse_notebook(name, "this is JSON, but no Jupyter notebook (it has no nbformat)");
+        refuse_notebook(name, Message("this is JSON, but no Jupyter notebook (it has no nbformat)"));
     if (*format != 4)
-        refuse_notebook(
-            name, fmt::format("a notebook of nbformat {}, and nbformat 4 is read: open and save it in a Jupyter of "
-                              "today, or run python3 -m nbconvert --to notebook",
-                              format->dump()));
+        refuse_notebook(name,
+                        Message("a notebook of nbformat {}, and nbformat 4 is read: open and save it in a Jupyter of "
+                                "today, or run python3 -m nbconvert --to notebook",
+                                format->dump()));
     const json& metadata = object_at(notebook, "metadata");
     for (const json* told : {&object_at(metadata, "language_info"), &object_at(metadata, "kernelspec")}) {
         const std::string language = text_at(*told, told == &object_at(metadata, "kernelspec") ? "language" : "name");
         if (!language.empty() && language != kKernelLanguage && language != "Lua")
             refuse_notebook(name,
-                            fmt::format("a notebook in {}; dynlab runs notebooks in Lua, of its own kernel", language));
+                            Message("a notebook in {}; dynlab runs notebooks in Lua, of its own kernel", language));
     }
     const auto cells = notebook.find("cells");
-    if (cells == notebook.end() || !cells->is_array()) refuse_notebook(name, "this notebook has no list of cells");
-    if (cells->empty()) refuse_notebook(name, "this notebook has no cells");
+    if (cells == notebook.end() || !cells->is_array())
+        refuse_notebook(name, Message("this notebook has no list of cells"));
+    if (cells->empty()) refuse_notebook(name, Message("this notebook has no cells"));
     return *cells;
 }
 
@@ -229,7 +233,9 @@ bool is_notebook(const std::filesystem::path& file) {
 std::string notebook_of(const PercentScript& script, const RunRecord* record,
                         const std::map<std::string, std::string>& figures) {
     const std::vector<Segment> segments = segments_of(script.source);
-    const Cell* const failed = record && record->error ? script.cell_at_line(record->error->line) : nullptr;
+    const Cell* const failed = record && record->error
+                                   ? script.cell_at_line(record->error->line_in(script.file.filename().string()))
+                                   : nullptr;
     NotebookIds ids;
     json cells = json::array();
     int runs = 0;
@@ -263,7 +269,8 @@ std::string notebook_of(const PercentScript& script, const RunRecord* record,
 
 NotebookScript script_of_notebook(std::string_view text, const std::filesystem::path& name) {
     const json notebook = json::parse(text, nullptr, false);
-    if (notebook.is_discarded()) refuse_notebook(name, "this is no Jupyter notebook: it is not JSON, or cut off");
+    if (notebook.is_discarded())
+        refuse_notebook(name, Message("this is no Jupyter notebook: it is not JSON, or cut off"));
     const json& cells = checked_cells(notebook, name);
     NotebookScript script;
     int number = 0;
@@ -271,11 +278,11 @@ NotebookScript script_of_notebook(std::string_view text, const std::filesystem::
         const bool first = ++number == 1, last = static_cast<std::size_t>(number) == cells.size();
         const std::string kind = text_at(cell, "cell_type");
         if (kind != "code" && kind != "markdown" && kind != "raw")
-            refuse_notebook(name, fmt::format("cell {} is neither code nor text", number));
+            refuse_notebook(name, Message("cell {} is neither code nor text", number));
         if (!object_at(cell, "attachments").empty())
-            script.losses.push_back(
-                fmt::format("{}: cell {} has a picture that was pasted; save it as a file and name that in the text",
-                            name.string(), number));
+            script.losses.push_back(placed(
+                {name},
+                Message("cell {} has a picture that was pasted; save it as a file and name that in the text", number)));
         const CellText read = cell_of_json(cell, first);
         std::string written = remembered(cell, read);
         if (written.empty()) written = write_cell(read, last);
@@ -289,12 +296,12 @@ NotebookScript read_notebook(const std::filesystem::path& file) {
     std::error_code unknown;
     const std::uintmax_t bytes = std::filesystem::file_size(file, unknown);
     if (!unknown && bytes > kMostNotebookBytes)
-        refuse_notebook(file, fmt::format("a notebook of {} MB, and at most {} MB are read: clear its outputs",
-                                          bytes >> 20, kMostNotebookBytes >> 20));
+        refuse_notebook(file, Message("a notebook of {} MB, and at most {} MB are read: clear its outputs", bytes >> 20,
+                                      kMostNotebookBytes >> 20));
     NotebookScript script = script_of_notebook(read_text(file), file);
     if (script.source.size() > kMostSourceBytes)
-        refuse_notebook(file, fmt::format("its cells have {} MB of text, and a script has at most {} MB",
-                                          (script.source.size() + (1 << 20) - 1) >> 20, kMostSourceBytes >> 20));
+        refuse_notebook(file, Message("its cells have {} MB of text, and a script has at most {} MB",
+                                      (script.source.size() + (1 << 20) - 1) >> 20, kMostSourceBytes >> 20));
     return script;
 }
 
@@ -304,37 +311,85 @@ PercentScript read_script_or_notebook(const std::filesystem::path& file) {
 
 namespace {
 
-std::string place_in_segments(const std::vector<Segment>& segments, int line) {
+Message place_in_segments(const std::vector<Segment>& segments, int line) {
     const auto behind = std::upper_bound(segments.begin(), segments.end(), line,
                                          [](int wanted, const Segment& one) { return wanted < one.first_line; });
     if (behind == segments.begin()) return {};
     const Segment& segment = *(behind - 1);
     const int behind_marker = line - segment.first_line + (is_cell_marker(first_line_of(segment.written)) ? 0 : 1);
-    return behind_marker == 0 ? "" : fmt::format("cell {}, line {}", behind - segments.begin(), behind_marker);
+    return behind_marker == 0 ? Message() : Message("cell {}, line {}", behind - segments.begin(), behind_marker);
 }
 
 }  // namespace
 
-std::string place_in_notebook(const std::string& source, int line) {
+Message place_in_notebook(const std::string& source, int line) {
     return place_in_segments(segments_of(source), line);
+}
+
+namespace {
+
+/// What a text says of places in a script, as a notebook's author knows them.
+class NotebookPlaces {
+  public:
+    NotebookPlaces(const std::string& script, const std::string& notebook, const std::string& source)
+        : script_(script), notebook_(notebook), segments_(segments_of(source)) {}
+
+    /// The text in pieces: texts, and the places between them.
+    std::vector<MessageArgument> pieces(const std::string& text) const {
+        std::vector<MessageArgument> all;
+        std::string piece;
+        std::size_t at = 0;
+        for (std::size_t found; (found = text.find(script_, at)) != std::string::npos;) {
+            piece += text.substr(at, found - at) + notebook_;
+            at = found + script_.size();
+            std::size_t end = at + 1;
+            while (end < text.size() && std::isdigit(static_cast<unsigned char>(text[end]))) ++end;
+            const bool has_line = at < text.size() && text[at] == ':' && end > at + 1 && end < at + 9;
+            const Message place =
+                has_line ? place_in_segments(segments_, std::stoi(text.substr(at + 1, 8))) : Message();
+            if (place.empty()) continue;
+            all.emplace_back(std::exchange(piece, "") + ", ");
+            all.emplace_back(message_argument(place));
+            at = end;
+        }
+        all.emplace_back(piece + text.substr(at));
+        return all;
+    }
+
+    Message in(const Message& message) const {
+        std::vector<MessageArgument> arguments = message.arguments();
+        for (MessageArgument& argument : arguments) {
+            if (const auto* const text = std::get_if<std::string>(&argument)) {
+                argument = joined(pieces(*text));
+            } else if (auto* const list = std::get_if<MessageList>(&argument)) {
+                for (Message& item : list->items) item = in(item);
+            }
+        }
+        return Message::stored(message.id(), message.many(), std::move(arguments));
+    }
+
+  private:
+    static MessageArgument joined(std::vector<MessageArgument> pieces) {
+        if (pieces.size() == 1) return pieces.front();
+        std::string format;
+        for (std::size_t i = 0; i < pieces.size(); ++i) format += "{}";
+        return message_argument(Message::stored(format, "", std::move(pieces)));
+    }
+
+    const std::string &script_, &notebook_;
+    std::vector<Segment> segments_;
+};
+
+}  // namespace
+
+Message with_places_in_notebook(const Message& message, const std::string& script, const std::string& notebook,
+                                const std::string& source) {
+    return NotebookPlaces(script, notebook, source).in(message);
 }
 
 std::string with_places_in_notebook(const std::string& text, const std::string& script, const std::string& notebook,
                                     const std::string& source) {
-    const std::vector<Segment> segments = segments_of(source);
-    std::string result;
-    std::size_t at = 0;
-    for (std::size_t found; (found = text.find(script, at)) != std::string::npos;) {
-        result += text.substr(at, found - at);
-        at = found + script.size();
-        std::size_t end = at + 1;
-        while (end < text.size() && std::isdigit(static_cast<unsigned char>(text[end]))) ++end;
-        const bool placed = at < text.size() && text[at] == ':' && end > at + 1 && end < at + 9;
-        const std::string place = placed ? place_in_segments(segments, std::stoi(text.substr(at + 1, 8))) : "";
-        result += notebook + (place.empty() ? "" : ", " + place);
-        if (!place.empty()) at = end;
-    }
-    return result + text.substr(at);
+    return message_text(with_places_in_notebook(Message::verbatim(text), script, notebook, source));
 }
 
 }  // namespace dynlab::inline workflow

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/message.h"
 #include "documents/percent_script.h"
 #include "documents/run_record.h"
 
@@ -28,8 +29,8 @@ std::string notebook_of(const PercentScript& script, const RunRecord* record = n
                         const std::map<std::string, std::string>& figures = {});
 
 struct NotebookScript {
-    std::string source;               ///< the script
-    std::vector<std::string> losses;  ///< sentences about what a script cannot hold
+    std::string source;           ///< the script
+    std::vector<Message> losses;  ///< what a script cannot hold
 };
 
 /// The script that a notebook says. `name` stands for the file in messages. Throws DocumentError for what is not
@@ -42,8 +43,10 @@ NotebookScript read_notebook(const std::filesystem::path& file);
 PercentScript read_script_or_notebook(const std::filesystem::path& file);
 
 /// "cell 3, line 2" for a line of the script that a notebook became; empty for the line of a marker.
-std::string place_in_notebook(const std::string& source, int line);
-/// A text in which every "SCRIPT:12" is "NOTEBOOK, cell 3, line 2", and SCRIPT is NOTEBOOK elsewhere.
+Message place_in_notebook(const std::string& source, int line);
+/// A message, or a text, in which every "SCRIPT:12" is "NOTEBOOK, cell 3, line 2", and SCRIPT is NOTEBOOK elsewhere.
+Message with_places_in_notebook(const Message& message, const std::string& script, const std::string& notebook,
+                                const std::string& source);
 std::string with_places_in_notebook(const std::string& text, const std::string& script, const std::string& notebook,
                                     const std::string& source);
 

@@ -1,7 +1,5 @@
 #include "workflow/shares/coordinator.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -113,7 +111,7 @@ void Coordinator::look_around() {
         spool_.tell(status_);
         if (engine_ && now >= next_start_) {
             engine_->tend(alive_);
-            for (const std::string& sentence : engine_->complaints()) complain(sentence);
+            for (const Message& message : engine_->complaints()) complain(message);
         }
     }
     if (now >= next_roll_call_) {
@@ -129,17 +127,17 @@ void Coordinator::collect_results() {
         if (!out_.contains(key)) continue;
         auto result = spool_.result(key);
         if (!result) {
-            complain(
-                fmt::format("a result in {} is not signed by any worker of this session; it is refused, and its "
-                            "job is done again. Somebody else writes into that folder.",
-                            spool_.folder().string()));
+            complain(Message(
+                "a result in {} is not signed by any worker of this session; it is refused, and its job is done again. "
+                "Somebody else writes into that folder.",
+                spool_.folder().string()));
             spool_.refuse_result(key);
             continue;
         }
         spool_.accept_result(key);
         out_.erase(key);
         ++status_.done, ++done_here_;
-        finished_.push_back({key, std::move(result), ""});
+        finished_.push_back({key, std::move(result), {}});
     }
 }
 
@@ -148,9 +146,9 @@ void Coordinator::watch_workers() {
     for (auto& [id, worker] : spool_.workers()) {
         HeartbeatWatch& heart = hearts_[id];
         heart.see(worker.beat);
-        if (!worker.refused.empty()) complain("a worker is refused: " + worker.refused);
+        if (!worker.refused.empty()) complain(Message("a worker is refused: {}", worker.refused));
         if (worker.ended || !worker.refused.empty() || !heart.heard() || is_silent(heart)) continue;
-        if (!worker.trouble.empty()) complain(fmt::format("{} waits: {}", worker.node, worker.trouble));
+        if (!worker.trouble.empty()) complain(Message("{} waits: {}", worker.node, worker.trouble));
         alive_[id] = std::move(worker);
     }
 }
@@ -208,24 +206,25 @@ void Coordinator::judge_suspects() {
         status_.blamed += static_cast<std::uint64_t>(losses);
         if (out_.erase(key) == 0) continue;
         ++status_.given_up;
-        finished_.push_back({key, {}, fmt::format("{} workers were lost with it{}", losses, log_of(job))});
+        finished_.push_back({key, {}, reason_to_give_up(job)});
     }
 }
 
-std::string Coordinator::log_of(const JobFile& job) const {
+Message Coordinator::reason_to_give_up(const JobFile& job) const {
     std::string log;
     for (int k = 0; k < job.losses && log.size() <= kMostOfLog; ++k) log += spool_.logged({job.key, k}, kMostOfLog);
     if (log.size() > kMostOfLog) log = log.substr(0, kMostOfLog) + " ...";
     while (!log.empty() && log.back() == '\n') log.pop_back();
     std::replace(log.begin(), log.end(), '\n', ';');
-    return log.empty() ? "; they said nothing before" : ": " + log;
+    return log.empty() ? Message("{} workers were lost with it; they said nothing before", job.losses)
+                       : Message("{} workers were lost with it: {}", job.losses, log);
 }
 
 /// A job whose files somebody removed is not waited for.
 void Coordinator::report_vanished() {
     if (!spool_.exists())
-        throw EnvironmentError(
-            fmt::format("the spool {} is gone; start again: what was finished is kept", spool_.folder().string()));
+        throw EnvironmentError("the spool {} is gone; start again: what was finished is kept",
+                               spool_.folder().string());
     std::set<std::string> present = spool_.results();
     for (const char* folder : {"jobs", "leases", "done", "suspects"})
         for (const auto& [key, losses] : spool_.listed(folder)) present.insert(key);
@@ -234,32 +233,36 @@ void Coordinator::report_vanished() {
         const int times = present.contains(*key) ? 0 : missing_[*key] + 1;
         if (times > 0 && times < kRollCalls) missing[*key] = times;
         if (times >= kRollCalls)
-            finished_.push_back({*key, {}, "it vanished from the spool, into which somebody else must have written"});
+            finished_.push_back(
+                {*key, {}, Message("it vanished from the spool, into which somebody else must have written")});
         key = times >= kRollCalls ? out_.erase(key) : std::next(key);
     }
     missing_ = std::move(missing);
 }
 
-void Coordinator::complain(const std::string& sentence) {
-    if (complained_.insert(sentence).second) complaints_.push_back(sentence);
+void Coordinator::complain(const Message& message) {
+    if (std::ranges::find(complained_, message) != complained_.end()) return;
+    complained_.push_back(message);
+    complaints_.push_back(message);
 }
 
-std::vector<std::string> Coordinator::complaints() {
+std::vector<Message> Coordinator::complaints() {
     const std::lock_guard lock(mutex_);
     return std::exchange(complaints_, {});
 }
 
-std::string Coordinator::sight() {
+Message Coordinator::sight() {
     const std::lock_guard lock(mutex_);
     std::set<std::string> nodes;
     for (const auto& [id, worker] : alive_) nodes.insert(worker.node);
     const double seconds = std::chrono::duration<double>(Clock::now() - began_).count();
-    std::string text = nodes.empty() ? "waiting for workers"
-                                     : fmt::format("{} node{}, {:.2g}/s", nodes.size(), nodes.size() == 1 ? "" : "s",
-                                                   static_cast<double>(done_here_) / seconds);
-    if (status_.lost > 0) text += fmt::format(", {} lost", status_.lost);
-    if (status_.given_up > 0) text += fmt::format(", {} given up", status_.given_up);
-    return text;
+    MessageList parts;
+    parts.items.push_back(nodes.empty() ? Message("waiting for workers")
+                                        : plural(nodes.size(), "{} node, {}/s", "{} nodes, {}/s",
+                                                 significant(static_cast<double>(done_here_) / seconds, 2)));
+    if (status_.lost > 0) parts.items.push_back(Message("{} lost", status_.lost));
+    if (status_.given_up > 0) parts.items.push_back(Message("{} given up", status_.given_up));
+    return Message("{}", parts);
 }
 
 /// Whoever still lives is asked to end, and waited for; then the engine ends what did not listen.
@@ -267,7 +270,7 @@ void Coordinator::leave() {
     spool_.stop();
     if (engine_) {
         engine_->end();
-        for (const std::string& sentence : engine_->complaints()) complain(sentence);
+        for (const Message& message : engine_->complaints()) complain(message);
     }
     const auto latest = Clock::now() + kEndOfWorkers;
     while (some_worker_lives() && Clock::now() < latest) std::this_thread::sleep_for(50ms);

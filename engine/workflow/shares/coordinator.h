@@ -37,7 +37,7 @@ class Coordinator {
     struct Finished {
         std::string key;
         std::optional<ShareResult> result;  ///< nothing: given up
-        std::string trouble;                ///< then why, with its log
+        Message trouble;                    ///< then why, with its log
     };
     /// One that is done, if there is any now.
     std::optional<Finished> finished();
@@ -48,8 +48,8 @@ class Coordinator {
     /// All is done: workers end, the spool goes.
     void conclude();
 
-    std::string sight();                    ///< "2 nodes, 3.1/s, 1 given up"
-    std::vector<std::string> complaints();  ///< sentences for the user, since the last call
+    Message sight();                    ///< "2 nodes, 3.1/s, 1 given up"
+    std::vector<Message> complaints();  ///< for the user, since the last call
 
   private:
     void watch();
@@ -61,13 +61,13 @@ class Coordinator {
     void watch_workers();
     void count_losses();
     void count_losses(const std::string& key, int losses);
-    void complain(const std::string& sentence);
+    void complain(const Message& message);
     void leave();
     bool some_worker_lives();
     void end_workers();
     bool is_silent(const HeartbeatWatch& heart) const;
     bool is_guilty(int losses) const;
-    std::string log_of(const JobFile& job) const;
+    Message reason_to_give_up(const JobFile& job) const;
 
     SlowEnding slow_ending_;
     Spool spool_;
@@ -80,8 +80,8 @@ class Coordinator {
     std::map<std::string, WorkerStatus> alive_;
     std::map<std::string, int> losses_;
     std::map<std::string, int> missing_;  ///< how often a key was found nowhere
-    std::set<std::string> complained_;
-    std::vector<std::string> complaints_;
+    std::vector<Message> complained_;     ///< ever
+    std::vector<Message> complaints_;     ///< since they were asked for
     CoordinatorStatus status_;
     HeartbeatWatch::Clock::time_point began_ = HeartbeatWatch::Clock::now(), next_tending_{}, next_start_{},
                                       next_roll_call_{};

@@ -1,6 +1,4 @@
 // Workers on hosts that ssh reaches, started by GNU parallel.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <map>
 #include <set>
@@ -39,8 +37,7 @@ std::vector<SshHost> ssh_hosts_in(const std::string& list) {
         if (host.name.empty() || host.name.front() == '-' || !number ||
             host.name.find_first_not_of(allowed) != std::string::npos)
             throw EnvironmentError(
-                fmt::format("\"{}\" in --on parallel:{} is no host: write HOST, USER@HOST, or 4/HOST for four at once",
-                            word, list));
+                "\"{}\" in --on parallel:{} is no host: write HOST, USER@HOST, or 4/HOST for four at once", word, list);
         if (!count.empty()) host.hands = std::stoi(count);
         hosts.push_back(host);
     }
@@ -78,7 +75,7 @@ class ParallelHosts : public WorkerEngine {
         runs_.clear();
     }
 
-    std::vector<std::string> complaints() override { return std::exchange(complaints_, {}); }
+    std::vector<Message> complaints() override { return std::exchange(complaints_, {}); }
 
   private:
     void start(const SshHost& host) {
@@ -105,8 +102,8 @@ class ParallelHosts : public WorkerEngine {
             }
             const std::string said = run->second.wait().error_output;
             if (!said.empty()) {
-                last_ = fmt::format("{} says: {}", run->first, said.substr(0, said.find_first_of("\r\n")));
-                complaints_.push_back("no worker on " + last_);
+                last_ = Message("{} says: {}", run->first, said.substr(0, said.find_first_of("\r\n")));
+                complaints_.push_back(Message("no worker on {}", last_));
                 ++refusals_[run->first];
             }
             run = runs_.erase(run);
@@ -120,18 +117,18 @@ class ParallelHosts : public WorkerEngine {
             return found != refusals_.end() && found->second >= kMostRefusals;
         });
         if (hopeless)
-            throw EnvironmentError(fmt::format(
+            throw EnvironmentError(
                 "no worker can be started on any host; {}. Try `ssh HOST {} --version` for each: it must work without "
                 "a password, and the host must see the folders of spool and results",
-                last_, command_.words.at(command_.words.size() - 3)));
+                last_, command_.words.at(command_.words.size() - 3));
     }
 
     std::vector<SshHost> hosts_;
     WorkerCommand command_;
     std::map<std::string, ChildProcess> runs_;  ///< by host
     std::map<std::string, int> refusals_;
-    std::vector<std::string> complaints_;
-    std::string last_;
+    std::vector<Message> complaints_;
+    Message last_;
     ParallelClock::time_point not_before_{}, last_life_ = ParallelClock::now();
 };
 

@@ -49,9 +49,9 @@ SlurmOptions slurm_options_in(const std::string& list, WorkerCommand& command) {
         const bool ours = name == "tasks" || name == "hands";
         if (name.empty() || value.empty() || !known_letters || (ours && (!number || std::stoi(value) > kMostTasks)))
             throw EnvironmentError(
-                fmt::format("\"{}\" in --on slurm:{} is no OPTION=VALUE: tasks=N and hands=N (up to {}), or any option "
-                            "of sbatch, such as partition=short or time=2:00:00",
-                            word, list, kMostTasks));
+                "\"{}\" in --on slurm:{} is no OPTION=VALUE: tasks=N and hands=N (up to {}), or any option of sbatch, "
+                "such as partition=short or time=2:00:00",
+                word, list, kMostTasks);
         if (name == "tasks") options.tasks = std::stoi(value);
         if (name == "hands") command.hands = std::stoi(value);
         options.time = options.time || name == "time";
@@ -78,8 +78,8 @@ class SlurmTasks : public WorkerEngine {
         if (!tasks) return;  // it does not answer now; the tasks work on
         if (*tasks >= options_.tasks) return;
         if (submitted_ && !worked_ && *tasks == 0 && ++quick_ends_ >= kMostQuickEnds)
-            throw EnvironmentError(
-                fmt::format("Slurm's tasks end without having worked; the last one says: {}", last_words_of_a_task()));
+            throw EnvironmentError("Slurm's tasks end without having worked; the last one says: {}",
+                                   last_words_of_a_task());
         submit(options_.tasks - *tasks);
     }
 
@@ -96,7 +96,7 @@ class SlurmTasks : public WorkerEngine {
             std::this_thread::sleep_for(300ms);
     }
 
-    std::vector<std::string> complaints() override { return std::exchange(complaints_, {}); }
+    std::vector<Message> complaints() override { return std::exchange(complaints_, {}); }
 
   private:
     fs::path logs() const { return spool_.folder() / "logs"; }
@@ -117,16 +117,17 @@ class SlurmTasks : public WorkerEngine {
             ask({"squeue", "--noheader", "--array", "--format=%T", fmt::format("--jobs={}", fmt::join(arrays_, ","))});
         const bool forgotten = told.error_output.find("Invalid job id") != std::string::npos;
         if (told.exit_code != 0 && !forgotten) {
-            if (std::exchange(answers_, false)) complaints_.push_back("Slurm does not answer now: " + first_line(told));
+            if (std::exchange(answers_, false))
+                complaints_.push_back(Message("Slurm does not answer now: {}", first_line(told)));
             return {};
         }
         answers_ = true;
         return static_cast<int>(words_between_spaces(told.output).size());
     }
 
-    static std::string first_line(const ChildResult& told) {
+    static Message first_line(const ChildResult& told) {
         const std::string said = told.error_output.substr(0, told.error_output.find('\n'));
-        return said.empty() ? fmt::format("no word, exit code {}", told.exit_code) : said;
+        return said.empty() ? Message("no word, exit code {}", told.exit_code) : Message::verbatim(said);
     }
 
     void submit(int tasks) {
@@ -152,7 +153,7 @@ class SlurmTasks : public WorkerEngine {
         const std::vector<std::string> array = words_between_spaces(told.output);
         if (told.exit_code != 0 || array.empty()) {
             if (submitted_) {  // some work already
-                complaints_.push_back("Slurm takes no further task: " + first_line(told));
+                complaints_.push_back(Message("Slurm takes no further task: {}", first_line(told)));
                 return;
             }
             refuse(told);
@@ -164,20 +165,20 @@ class SlurmTasks : public WorkerEngine {
 
     [[noreturn]] void refuse(const ChildResult& told) const {
         const std::string said = told.error_output;
-        std::string remedy = "sbatch takes the options that stand behind slurm: in --on";
+        Message remedy = Message("sbatch takes the options that stand behind slurm: in --on");
         if (said.find("partition") != std::string::npos) {
             const ChildResult known = ask({"sinfo", "--noheader", "--format=%R"});
-            remedy = fmt::format("the partitions here are {}", fmt::join(words_between_spaces(known.output), ", "));
+            remedy = Message("the partitions here are {}", listed(words_between_spaces(known.output)));
         } else if (said.find("contact slurm controller") != std::string::npos ||
                    said.find("onnection refused") != std::string::npos || told.timed_out) {
-            remedy =
-                "slurmctld is not running or cannot be reached; `sinfo` must answer. Until then, "
-                "--on processes:N does the work on this machine";
+            remedy = Message(
+                "slurmctld is not running or cannot be reached; `sinfo` must answer. Until then, --on processes:N does "
+                "the work on this machine");
         }
-        throw EnvironmentError(fmt::format("Slurm does not take the work ({}): {}", first_line(told), remedy));
+        throw EnvironmentError("Slurm does not take the work ({}): {}", first_line(told), remedy);
     }
 
-    std::string last_words_of_a_task() const {
+    Message last_words_of_a_task() const {
         std::string words;
         fs::file_time_type newest{};
         std::error_code gone;
@@ -189,14 +190,15 @@ class SlurmTasks : public WorkerEngine {
         }
         while (!words.empty() && words.back() == '\n') words.pop_back();
         words = words.substr(words.rfind('\n') + 1);
-        return words.empty() ? "nothing (does the node see " + spool_.folder().string() + "?)" : words;
+        return words.empty() ? Message("nothing (does the node see {}?)", spool_.folder().string())
+                             : Message::verbatim(words);
     }
 
     const Spool spool_;
     WorkerCommand command_;
     SlurmOptions options_;
     std::vector<std::string> arrays_;  ///< ids of array jobs
-    std::vector<std::string> complaints_;
+    std::vector<Message> complaints_;
     SlurmClock::time_point next_{};
     bool submitted_ = false, worked_ = false, answers_ = true;
     int quick_ends_ = 0;

@@ -4,6 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "base/message.h"
+
 namespace dynlab::inline workflow {
 
 /// What a worker says of itself again and again: its heartbeat.
@@ -12,8 +14,8 @@ struct WorkerStatus {
     int hands = 0;           ///< processes that work at once
     std::uint64_t beat = 0;  ///< grows
     std::uint64_t done = 0;  ///< jobs
-    std::string trouble;     ///< why it waits ("no space left on device"); empty as long as it works
-    std::string refused;     ///< why it must not work here at all
+    Message trouble;         ///< why it waits ("no space left on device"); empty as long as it works
+    Message refused;         ///< why it must not work here at all
     bool ended = false;
 };
 

@@ -59,10 +59,10 @@ class StudyOnWorker : public SharedPieces {
             if (part->call > call) return parts_of(part->earlier.at(call));
             hand_.finish(*current_, [&] {
                 if (part->what != what || part->pieces != pieces)
-                    throw EnvironmentError(fmt::format(
+                    throw EnvironmentError(
                         "the script's call {} is {} of {} pieces here, but {} of {} where it began: it must do the "
                         "same in every run, and so must not ask for the time",
-                        call + 1, what, pieces, part->what, part->pieces));
+                        call + 1, what, pieces, part->what, part->pieces);
                 return some(part->first, part->count);
             });
             current_ = hand_.next();
@@ -76,8 +76,9 @@ class StudyOnWorker : public SharedPieces {
         const auto part = part_of(*current_, common_);
         if (!part || part->call < calls_) return hand_.take_back(*std::exchange(current_, std::nullopt));
         hand_.finish(*current_, [&]() -> std::string {
-            throw EnvironmentError(trouble.empty() ? "the script ended before this call, other than where it began"
-                                                   : trouble);
+            throw EnvironmentError(trouble.empty()
+                                       ? Message("the script ended before this call, other than where it began")
+                                       : Message::verbatim(trouble));
         });
     }
 
@@ -110,9 +111,8 @@ std::size_t pieces_of_a_part(std::size_t pieces) {
 SharedStudy::SharedStudy(const Request& request) : lock_(request.key.parent_path() / ".lock") {
     if (!lock_.held())
         throw EnvironmentError(
-            fmt::format("another dynlab study is at work in {}; wait until it is done, or name another folder with "
-                        "--out",
-                        request.key.parent_path().string()));
+            "another dynlab study is at work in {}; wait until it is done, or name another folder with --out",
+            request.key.parent_path().string());
     const fs::path script = fs::absolute(request.script).lexically_normal();
     SpoolIdentity identity;
     identity.purpose = "study " + script.string();
@@ -135,10 +135,10 @@ std::vector<std::string> SharedStudy::all(const std::string& what, std::size_t p
     do {
         while (auto finished = coordinator_->finished()) {
             const std::size_t place = places.at(finished->key);
-            const std::string trouble = !finished->result ? finished->trouble : finished->result->trouble.value_or("");
+            const Message trouble =
+                !finished->result ? finished->trouble : finished->result->trouble.value_or(Message());
             if (!trouble.empty())
-                throw EnvironmentError(
-                    fmt::format("the pieces from {} on could not be made: {}", place * size + 1, trouble));
+                throw EnvironmentError("the pieces from {} on could not be made: {}", place * size + 1, trouble);
             bytes[place] = std::move(finished->result->bytes);
             bar.advance(std::min(pieces, ++done * size));
         }
@@ -149,7 +149,7 @@ std::vector<std::string> SharedStudy::all(const std::string& what, std::size_t p
                 coordinator_->put({kStudyKind, common_, fmt::format("{} from {}", what, first + 1), cbor_of(part)});
             places[keys[put]] = put;
         }
-        bar.message(fmt::format("{} on {}", what, coordinator_->sight()));
+        bar.message(message_text(Message("{} on {}", what, coordinator_->sight())));
     } while (coordinator_->wait());
     calls_.push_back(std::move(keys));
     return bytes;
@@ -171,7 +171,7 @@ ShareWork study_share() {
         request.out_folder = files.path();
         GnuplotRenderer renderer;
         const RunRecord record = run_script(request, renderer);
-        shared.settle(record.error ? record.error->message : "");
+        shared.settle(record.error ? record.error->text() : "");
     };
 }
 

@@ -30,7 +30,7 @@ class SharedStudy : public SharedPieces {
     std::vector<std::string> all(const std::string& what, std::size_t pieces, const Some& some) override;
 
     void conclude() { coordinator_->conclude(); }
-    std::vector<std::string> notes() { return coordinator_->complaints(); }
+    std::vector<Message> notes() { return coordinator_->complaints(); }
 
   private:
     FileLock lock_;  ///< two at once would take each other's parts

@@ -9,9 +9,11 @@
 
 #include "data_io/values/cbor_values.h"
 #include "data_io/values/json_values.h"
+#include "data_io/values/message_values.h"
 #include "platform/error.h"
 #include "platform/files/plain_file.h"
 #include "platform/files/replacement_file.h"
+#include "platform/files/temporary_file.h"
 #include "platform/keys/secure_random.h"
 #include "platform/signature.h"
 #include "platform/system_call.h"
@@ -33,6 +35,7 @@ constexpr char kNoticeFile[] = "spool.json";
 constexpr std::uintmax_t kMostOfAFile = std::uintmax_t{2} << 30, kMostOfANotice = 1 << 16;
 constexpr const char* kSpoolFolders[] = {"jobs",    "suspects", "leases", "done",    "failed", "results",
                                          "refused", "common",   "logs",   "workers", "keys"};
+constexpr const char* kSpoolFiles[] = {"spool.json", "identity", "stop", "slurm"};
 
 /// What stands in a spool for anybody to read.
 struct SpoolNotice {
@@ -46,8 +49,8 @@ std::optional<SpoolNotice> notice_of(const fs::path& folder) {
         return from_json<SpoolNotice>(read_plain_file(folder / kNoticeFile, kMostOfANotice).value_or(""));
     } catch (const ValueError&) {
         throw EnvironmentError(
-            fmt::format("{} is spoilt; remove {} and begin again: what was finished stays in the folder of results",
-                        (folder / kNoticeFile).string(), folder.string()));
+            "{} is spoilt; remove {} and begin again: what was finished stays in the folder of results",
+            (folder / kNoticeFile).string(), folder.string());
     }
 }
 
@@ -86,9 +89,10 @@ std::optional<T> value_of(const std::optional<std::string>& bytes) {
 
 [[noreturn]] void refuse_spool_of(const fs::path& folder, const std::string& purpose, const std::string& ours) {
     throw EnvironmentError(
-        fmt::format("the spool {} belongs to other work (\"{}\", not \"{}\"); give this one a folder of its own with "
-                    "--spool FOLDER, or end the other first",
-                    folder.string(), purpose, ours));
+        "the spool {} belongs to other work (\"{}\", not \"{}\"); give this one a folder of its own with --spool "
+        "FOLDER, "
+        "or end the other first",
+        folder.string(), purpose, ours);
 }
 
 /// In a stranger's folder jobs and keys would be taken that the stranger put there, and links be followed out of it.
@@ -96,27 +100,38 @@ void refuse_places_of_others(const fs::path& folder) {
     struct stat status {};
     if (::stat(folder.c_str(), &status) != 0 || !S_ISDIR(status.st_mode)) return;
     if (status.st_uid != ::geteuid())
-        throw EnvironmentError(
-            fmt::format("the spool {} belongs to another user; name a folder of yours with --spool", folder.string()));
+        throw EnvironmentError("the spool {} belongs to another user; name a folder of yours with --spool",
+                               folder.string());
     for (const char* name : kSpoolFolders) {
         const fs::path inner = folder / name;
         if (::lstat(inner.c_str(), &status) != 0) continue;
         if (!S_ISDIR(status.st_mode) || status.st_uid != ::geteuid())
             throw EnvironmentError(
-                fmt::format("{} is no folder that this spool made; somebody else writes there: name a folder that is "
-                            "yours alone with --spool",
-                            inner.string()));
+                "{} is no folder that this spool made; somebody else writes there: name a folder that is yours alone "
+                "with --spool",
+                inner.string());
     }
+}
+
+/// Whether the folder holds what spools hold and nothing else: the process that made or removed one was killed.
+bool is_abandoned_spool(const fs::path& folder) {
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        const std::string name = entry.path().filename();
+        const bool own = entry.is_directory() ? std::ranges::count(kSpoolFolders, name) > 0
+                                              : std::ranges::count(kSpoolFiles, name) > 0;
+        if (!own || entry.is_symlink()) return false;
+    }
+    return true;
 }
 
 /// Logs are what programs said; and a folder that others may write into is no place to work.
 void refuse_open_folder(const fs::path& folder) {
     struct stat status {};
     if (::stat(folder.c_str(), &status) == 0 && (status.st_mode & 077) != 0)
-        throw EnvironmentError(fmt::format(
-            "others may look into the spool {0}; `chmod 700 {0}`, or, where its file system keeps no such permissions, "
+        throw EnvironmentError(
+            "others may look into the spool {}; `chmod 700 {}`, or, where its file system keeps no such permissions, "
             "name a folder on another one with --spool",
-            folder.string()));
+            folder.string(), folder.string());
 }
 
 std::string log_name(const JobFile& job) {
@@ -138,8 +153,7 @@ void Spool::make_folders() const {
     fs::create_directories(folder_.parent_path(), error);
     if (::mkdir(folder_.c_str(), 0700) != 0 && errno != EEXIST) fail_to_write(folder_ / kNoticeFile, errno);
     if (::chmod(folder_.c_str(), 0700) != 0)
-        throw EnvironmentError(
-            fmt::format("the spool {} cannot be made yours alone: {}", folder_.string(), system_reason(errno)));
+        throw EnvironmentError("the spool {} cannot be made yours alone: {}", folder_.string(), system_reason(errno));
     refuse_open_folder(folder_);
     for (const char* name : kSpoolFolders)
         if (::mkdir((folder_ / name).c_str(), 0700) != 0 && errno != EEXIST) fail_to_write(folder_ / name, errno);
@@ -149,14 +163,15 @@ Spool Spool::begin(const fs::path& folder, const fs::path& key_file, SpoolIdenti
     const fs::path place = fs::absolute(folder).lexically_normal();
     const fs::path key = fs::absolute(key_file).lexically_normal();
     refuse_places_of_others(place);
+    remove_leftover_files(place);
+    for (const char* name : kSpoolFolders) remove_leftover_files(place / name);
     const auto notice = notice_of(place);
     if (notice && (notice->purpose != identity.purpose || notice->key != key))
         refuse_spool_of(place, notice->purpose, identity.purpose);
-    if (!notice && fs::is_directory(place) && !fs::is_empty(place))
+    if (!notice && fs::is_directory(place) && !is_abandoned_spool(place))
         throw EnvironmentError(
-            fmt::format("{} holds other things than a spool; name an empty folder, or one that is "
-                        "not there yet, with --spool",
-                        place.string()));
+            "{} holds other things than a spool; name an empty folder, or one that is not there yet, with --spool",
+            place.string());
     if (notice && fs::exists(key)) {
         Spool spool(place, SessionKey::in_file(key));
         spool.key_file_ = key;
@@ -186,14 +201,13 @@ Spool Spool::open(const fs::path& folder) {
     if (notice) refuse_open_folder(place);
     if (!notice)
         throw EnvironmentError(
-            fmt::format("there is no spool {0} here; `dynlab grade --on` makes one, and this machine "
-                        "must see it under the same name",
-                        place.string()));
+            "there is no spool {} here; `dynlab grade --on` makes one, and this machine must see it under the same "
+            "name",
+            place.string());
     Spool spool(place, SessionKey::in_file(notice->key));
     spool.key_file_ = notice->key;
     const auto identity = value_of<SpoolIdentity>(spool.read_sealed(place / "identity", "identity"));
-    if (!identity)
-        throw EnvironmentError(fmt::format("the key {} does not belong to the spool {}", notice->key, place.string()));
+    if (!identity) throw EnvironmentError("the key {} does not belong to the spool {}", notice->key, place.string());
     spool.identity_ = *identity;
     return spool;
 }
@@ -233,8 +247,8 @@ std::optional<std::string> Spool::read_sealed(const fs::path& file, const std::s
 void Spool::write_sealed(const fs::path& file, const std::string& place, const std::string& bytes) const {
     const std::string sealed = key_.seal(bytes, place);
     if (sealed.size() > kMostOfAFile)
-        throw EnvironmentError(fmt::format("{} MB at once are too many for a spool, which takes {} MB",
-                                           sealed.size() >> 20, kMostOfAFile >> 20));
+        throw EnvironmentError("{} MB at once are too many for a spool, which takes {} MB", sealed.size() >> 20,
+                               kMostOfAFile >> 20);
     write_plain_file(file, sealed);
 }
 
@@ -281,8 +295,8 @@ std::set<std::string> Spool::results() const {
 
 std::string Spool::signed_text(const std::string& key, const ShareResult& result) const {
     std::string text = "dynlab share";
-    for (const std::string& part :
-         {identity_.id, key, result.worker, result.node, result.bytes, result.trouble.value_or("")})
+    const std::string trouble = result.trouble ? cbor_of(*result.trouble) : "";
+    for (const std::string& part : {identity_.id, key, result.worker, result.node, result.bytes, trouble})
         text += fmt::format("\n{}:", part.size()) + part;
     return text + (result.trouble ? "!" : "");
 }

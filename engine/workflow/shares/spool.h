@@ -36,7 +36,7 @@ struct ShareResult {
     std::string node;       ///< where
     std::string signature;  ///< of its key over spool, job and what follows
     std::string bytes;
-    std::optional<std::string> trouble;
+    std::optional<Message> trouble;
 };
 
 /// A job's place in the folder: its name says how many workers it has lost.

@@ -15,6 +15,8 @@
 #include <thread>
 #include <vector>
 
+#include "data_io/values/cbor_values.h"
+#include "data_io/values/message_values.h"
 #include "platform/error.h"
 #include "platform/interrupt.h"
 #include "platform/keys/secure_random.h"
@@ -29,12 +31,28 @@ namespace dynlab::inline workflow {
 
 struct HandReport {
     std::atomic<std::uint64_t> done{0};
-    std::array<char, 240> trouble{};  ///< why it waits; a reader may see it half written, which is shown as it is
 
-    void wait_because(const std::string& reason) {
-        trouble.fill('\0');
-        std::memcpy(trouble.data(), reason.data(), std::min(reason.size(), trouble.size() - 1));
+    /// Why it waits; empty: it does not. A message too long for the memory counts as one without a reason.
+    void wait_because(const Message& reason) {
+        const std::string bytes = reason.empty() ? "" : cbor_of(reason);
+        size_ = 0;
+        if (bytes.size() > bytes_.size()) return;
+        std::memcpy(bytes_.data(), bytes.data(), bytes.size());
+        size_ = bytes.size();
     }
+    /// A reader may see a message half written, and then reads none.
+    Message trouble() const {
+        const std::string bytes(bytes_.data(), size_);
+        try {
+            return bytes.empty() ? Message() : from_cbor<Message>(bytes);
+        } catch (const ValueError&) {
+            return {};
+        }
+    }
+
+  private:
+    std::array<char, 2000> bytes_{};
+    std::atomic<std::size_t> size_{0};
 };
 
 namespace {
@@ -68,9 +86,9 @@ class ErrorLog {
 };
 
 /// "signal 11 (segmentation fault)"
-std::string end_of_process(int status) {
-    if (WIFSIGNALED(status)) return fmt::format("signal {} ({})", WTERMSIG(status), ::strsignal(WTERMSIG(status)));
-    return fmt::format("exit code {}", WEXITSTATUS(status));
+Message end_of_process(int status) {
+    if (WIFSIGNALED(status)) return Message("signal {} ({})", WTERMSIG(status), ::strsignal(WTERMSIG(status)));
+    return Message("exit code {}", WEXITSTATUS(status));
 }
 
 /// A worker: starts hands, replaces those that crash, shows that it lives.
@@ -87,7 +105,7 @@ class WorkerProcess {
         status_.isolation = spool.identity().isolation;
         void* const shared = ::mmap(nullptr, sizeof(HandReport) * static_cast<std::size_t>(options.hands),
                                     PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-        if (shared == MAP_FAILED) throw EnvironmentError("no memory for a worker: " + system_reason(errno));
+        if (shared == MAP_FAILED) throw EnvironmentError("no memory for a worker: {}", system_reason(errno));
         reports_ = static_cast<HandReport*>(shared);
         for (int i = 0; i < options.hands; ++i) new (reports_ + i) HandReport;
         hands_.resize(static_cast<std::size_t>(options.hands));
@@ -96,7 +114,7 @@ class WorkerProcess {
     WorkerProcess(const WorkerProcess&) = delete;
     WorkerProcess& operator=(const WorkerProcess&) = delete;
 
-    std::optional<std::string> run() {
+    std::optional<Message> run() {
         const SlowEnding hands_are_told_to_end;
         status_.refused = reason_to_refuse();
         if (!status_.refused.empty()) {
@@ -129,15 +147,15 @@ class WorkerProcess {
     }
     std::string name_of_hand(std::size_t i) const { return fmt::format("{}.{}", id_, i); }
 
-    std::string reason_to_refuse() const {
+    Message reason_to_refuse() const {
         if (spool_.identity().program != shared_identity())
-            return fmt::format(
+            return Message(
                 "{} has another version of dynlab, of its lessons or of their data than the coordinator, or a "
                 "processor of another level; install the same one there",
                 options_.node);
-        if (spool_.identity().isolation != isolation_name(Isolation::kFull)) return "";
+        if (spool_.identity().isolation != isolation_name(Isolation::kFull)) return {};
         const auto obstacle = obstacle_to(Isolation::kFull);
-        return obstacle ? fmt::format("{}: {}", options_.node, *obstacle) : "";
+        return obstacle ? Message("{}: {}", options_.node, *obstacle) : Message();
     }
 
     bool must_end() {
@@ -162,7 +180,7 @@ class WorkerProcess {
                 const auto kind = options_.kinds.find(job->job.kind);
                 if (kind == options_.kinds.end())
                     hand.finish(*job, [&]() -> std::string {
-                        throw EnvironmentError("no worker knows how to do jobs of the kind " + job->job.kind);
+                        throw EnvironmentError("no worker knows how to do jobs of the kind {}", job->job.kind);
                     });
                 else
                     kind->second(hand, *std::move(job));
@@ -180,11 +198,10 @@ class WorkerProcess {
         next_beat_ = Clock::now() + kBeat;
         ++status_.beat;
         status_.done = 0;
-        status_.trouble.clear();
+        status_.trouble = {};
         for (std::size_t i = 0; i < hands_.size(); ++i) {
             status_.done += reports_[i].done;
-            const auto& text = reports_[i].trouble;
-            if (text[0] != '\0') status_.trouble = std::string(text.data(), ::strnlen(text.data(), text.size()));
+            if (Message trouble = reports_[i].trouble(); !trouble.empty()) status_.trouble = std::move(trouble);
         }
         spool_.tell(id_, status_);
     }
@@ -210,8 +227,9 @@ class WorkerProcess {
                 spool_.give_back(lease);
                 continue;
             }
-            const std::string line =
-                fmt::format("on {}: the process that did it ended with {}\n", options_.node, end_of_process(status));
+            const std::string line = message_text(Message("on {}: the process that did it ended with {}", options_.node,
+                                                          end_of_process(status))) +
+                                     "\n";
             if (const FileDescriptor log = spool_.log_of(lease.job)) write_all(log.get(), line.data(), line.size());
             spool_.lose(lease);
         }
@@ -254,18 +272,18 @@ class WorkerProcess {
 };
 
 /// Why jobs cannot be done on this machine now ("... has 3 MB left, and 512 are needed"), or nothing.
-std::optional<std::string> trouble_of_machine() {
+std::optional<Message> trouble_of_machine() {
     const fs::path folder = parent_of_temporary_folders();
     struct statvfs room {};
     if (::statvfs(folder.c_str(), &room) != 0)
-        return fmt::format("{} cannot be looked at: {}", folder.string(), system_reason(errno));
-    if ((room.f_flag & ST_RDONLY) != 0) return fmt::format("nothing can be written to {}", folder.string());
+        return Message("{} cannot be looked at: {}", folder.string(), system_reason(errno));
+    if ((room.f_flag & ST_RDONLY) != 0) return Message("nothing can be written to {}", folder.string());
     const std::uint64_t bytes = static_cast<std::uint64_t>(room.f_bavail) * room.f_frsize;
     if (bytes < kRoomNeeded)
-        return fmt::format("{} has {} MB left, and {} are needed: make room, or set TMPDIR", folder.string(),
-                           bytes >> 20, kRoomNeeded >> 20);
+        return Message("{} has {} MB left, and {} are needed: make room, or set TMPDIR", folder.string(), bytes >> 20,
+                       kRoomNeeded >> 20);
     if (::access(folder.c_str(), W_OK) != 0)
-        return fmt::format("{} cannot be written to: {}", folder.string(), system_reason(errno));
+        return Message("{} cannot be written to: {}", folder.string(), system_reason(errno));
     return {};
 }
 
@@ -296,7 +314,7 @@ std::optional<Spool::Claimed> WorkingHand::next() {
     for (int waited = 0; !must_end(); wait_a_little(waited)) {
         if (waiting_) return std::exchange(waiting_, std::nullopt);
         const auto trouble = trouble_of_machine();
-        report_.wait_because(trouble.value_or(""));
+        report_.wait_because(trouble.value_or(Message()));
         if (trouble) continue;
         if (auto job = spool_.claim(worker_)) return job;
     }
@@ -311,7 +329,7 @@ void WorkingHand::finish(const Spool::Claimed& job, const std::function<std::str
         try {
             result.bytes = work();
         } catch (const std::exception& error) {
-            result.trouble = error.what();
+            result.trouble = message_of(error);
         }
     }
     if (interrupted()) {  // what it returned or threw may be for that: a study stops half way, and gives that half
@@ -333,17 +351,17 @@ void WorkingHand::hand_in(const Spool::Claimed& job, ShareResult result) {
             spool_.finish(job.lease, result);
             break;
         } catch (const EnvironmentError& error) {
-            report_.wait_because(error.what());
+            report_.wait_because(error.message());
         }
         if (!must_end()) continue;
         spool_.give_back(job.lease);
         throw Interrupted();
     }
-    report_.wait_because("");
+    report_.wait_because({});
     ++report_.done;
 }
 
-std::optional<std::string> work_for(const Spool& spool, const WorkerOptions& options) {
+std::optional<Message> work_for(const Spool& spool, const WorkerOptions& options) {
     return WorkerProcess(spool, options).run();
 }
 

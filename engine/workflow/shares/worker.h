@@ -54,7 +54,7 @@ struct WorkerOptions {
 /// then what is being done is given back. The hands are processes of their own: one that a job crashed is replaced, and
 /// the job counted as lost. Returns why this machine must not work there ("another version of dynlab ..."), or nothing.
 /// No thread may run when it is called.
-std::optional<std::string> work_for(const Spool& spool, const WorkerOptions& options);
+std::optional<Message> work_for(const Spool& spool, const WorkerOptions& options);
 
 /// What the machine is called: Slurm's name of the node, else the host's.
 std::string name_of_node();

@@ -45,20 +45,20 @@ class LocalProcesses : public WorkerEngine {
         for (auto& process : processes_) process.reset();
     }
 
-    std::vector<std::string> complaints() override { return std::exchange(complaints_, {}); }
+    std::vector<Message> complaints() override { return std::exchange(complaints_, {}); }
 
   private:
     /// One that cannot work here at all says so and ends; one that was killed says nothing.
     void tell_end(const ChildResult& result) {
         if (result.exit_code == 0 || result.exit_code >= 128) return;
         const std::string said = result.error_output.substr(0, result.error_output.find('\n'));
-        complaints_.push_back("a worker of this machine ended: " + said);
-        if (++ends_ > 3 * wanted()) throw EnvironmentError("no worker can be started on this machine: " + said);
+        complaints_.push_back(Message("a worker of this machine ended: {}", said));
+        if (++ends_ > 3 * wanted()) throw EnvironmentError("no worker can be started on this machine: {}", said);
     }
 
     WorkerCommand command_;
     std::vector<std::unique_ptr<ChildProcess>> processes_;
-    std::vector<std::string> complaints_;
+    std::vector<Message> complaints_;
     int ends_ = 0;
 };
 
@@ -96,9 +96,9 @@ std::unique_ptr<WorkerEngine> engine_of(const std::string& words, const Spool& s
         return local_processes(std::stoi(rest), std::move(command));
     if (name == "parallel" && !rest.empty()) return hosts_by_parallel(rest, std::move(command));
     if (name == "slurm") return slurm_tasks(rest, spool, std::move(command));
-    throw EnvironmentError(fmt::format(
+    throw EnvironmentError(
         "--on \"{}\" is none of processes:N (1 to {}), parallel:HOST,N/HOST,... and slurm[:OPTION=VALUE,...]", words,
-        kMostProcesses));
+        kMostProcesses);
 }
 
 }  // namespace dynlab::inline workflow

@@ -20,7 +20,7 @@ class WorkerEngine {
     /// What it started is not needed any more; returns when all of it is gone, or cannot be reached.
     virtual void end() = 0;
     /// Sentences for the user, about what could not be started beside what was; each once.
-    virtual std::vector<std::string> complaints() { return {}; }
+    virtual std::vector<Message> complaints() { return {}; }
     /// Workers at once, as they were asked for.
     virtual int wanted() const = 0;
 };

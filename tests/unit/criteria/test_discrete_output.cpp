@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 
+#include "base/reader.h"
 #include "numerics/criteria/discrete_output.h"
 #include "numerics/linalg/polynomial.h"
 #include "support/difference_equation.h"
@@ -70,7 +71,7 @@ TEST(discrete_output, sensitivities_are_derivatives) {  // oracle: central diffe
             model.simulate(theta + step, ahead, nullptr);
             model.simulate(theta - step, behind, nullptr);
             EXPECT_LT(worst(sensitivities.col(i), (ahead - behind) / 2e-6), 1e-6 * sensitivities.col(i).norm())
-                << description(condition) << " " << i;
+                << message_text(description(condition)) << " " << i;
         }
     }
 }

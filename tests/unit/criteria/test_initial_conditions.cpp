@@ -11,19 +11,6 @@ using namespace dynlab;
 
 const Vector kStep{{2.0, 2.0, 5.0, 5.0}}, kFlat{{3.0, 3.0, 3.0, 3.0}}, kRich{{1.0, -1.0, 1.0, 1.0}};
 
-TEST(initial_conditions, words_are_understood) {  // oracle: definition
-    EXPECT_EQ(parse_initial_state("zero"), InitialState::kZero);
-    EXPECT_EQ(parse_initial_state("steady"), InitialState::kSteady);
-    EXPECT_EQ(parse_initial_state("estimate"), InitialState::kEstimate);
-    EXPECT_EQ(parse_initial_state("auto"), InitialState::kAuto);
-    EXPECT_EQ(parse_offset("none"), Offset::kNone);
-    EXPECT_EQ(parse_offset("remove"), Offset::kRemove);
-    EXPECT_EQ(parse_offset("estimate"), Offset::kEstimate);
-    EXPECT_EQ(parse_offset("auto"), Offset::kAuto);
-    EXPECT_THROW(parse_initial_state("Zero"), InvalidArgument);
-    EXPECT_THROW(parse_offset(""), InvalidArgument);
-}
-
 TEST(initial_conditions, operating_point_of_a_step_lies_before_it) {  // oracle: definition
     const Vector y{{10.0, 12.0, 11.0, 40.0}};
     EXPECT_EQ(joint_operating_point(kStep, y).inputs[0], 2);

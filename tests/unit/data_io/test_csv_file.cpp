@@ -12,11 +12,13 @@
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/temporary_folder.h"
+#include "support/message_texts.h"
 #include "support/peak_memory.h"
 
 namespace dynlab {
 namespace test_csv_file {
 
+using test::texts_of;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -105,6 +107,18 @@ TEST_F(csv_file, names_line_and_column_of_what_is_wrong) {
               ", line 3, column y: wanted a number, given \"" + std::string(40, 'z') + "...\"" + remedy);
 }
 
+// Oracle: file, line and counts of this table.
+TEST_F(csv_file, error_has_the_file_and_the_line_as_arguments) {
+    write_file_atomically(file_, "t,y\n0,1\n1\n");
+    try {
+        read_csv_file(file_);
+        FAIL() << "the last row is too short";
+    } catch (const EnvironmentError& error) {
+        EXPECT_EQ(error.message(), Message("{}, line {}: wanted {} as in the header line, given {}", file_.string(), 3,
+                                           plural(2, "{} cell", "{} cells"), 1));
+    }
+}
+
 TEST_F(csv_file, names_what_is_wrong_above_the_rows) {
     EXPECT_EQ(complaint(""), ": there is no header line with the names of the columns");
     EXPECT_EQ(complaint("# only: remarks\n"), ": there is no header line with the names of the columns");
@@ -156,7 +170,8 @@ TEST_F(csv_file, finds_the_separator) {
           "t,u,y\n0,-1,2.5,\n0.1,1e-5,3,\n0.2,3,-4.5,\n"})
         EXPECT_EQ(shown_table(read(text)), wanted) << text;
     EXPECT_EQ(shown_table(read("y\n1,5\n2,5\n")), "y\n1.5\n2.5");
-    EXPECT_THAT(read("t;u\n0;1,5\n").notes, ElementsAre("numbers are written with a decimal comma, such as 1,5"));
+    EXPECT_THAT(texts_of(read("t;u\n0;1,5\n").notes),
+                ElementsAre("numbers are written with a decimal comma, such as 1,5"));
     EXPECT_THAT(read("t,u\n0,1.5\n").notes, testing::IsEmpty());
 }
 
@@ -167,9 +182,9 @@ TEST_F(csv_file, passes_over_what_stands_around_a_table) {
                              "Model,TDS 210\nRecord Length,2500\nSample Interval,0.001\nt,y\n0,1\n1,2\n",
                              "# t,y\n0,1\n1,2\n", "% t  y\n0 1\n1 2\n"})
         EXPECT_EQ(shown_table(read(text)), wanted) << text;
-    EXPECT_THAT(read("A\nB\n\nt;y\n0;1\n1;2\n").notes,
+    EXPECT_THAT(texts_of(read("A\nB\n\nt;y\n0;1\n1;2\n").notes),
                 ElementsAre("the table begins in line 4; 2 lines above it are passed over"));
-    EXPECT_THAT(read("# t,y\n0,1\n1,2\n").notes,
+    EXPECT_THAT(texts_of(read("# t,y\n0,1\n1,2\n").notes),
                 ElementsAre("the names of the columns are those of the comment above the numbers"));
 }
 
@@ -178,13 +193,14 @@ TEST_F(csv_file, takes_missing_numbers_for_nan_and_says_so) {
     for (const char* missing : {"", "NaN", "nan", "NA", "N/A", "#N/A", "null", "-", "\"\"", " "}) {
         const CsvTable table = read(fmt::format("t,y\n0,{0}\n1,2\n2,{0}\n3,4\n", missing));
         EXPECT_EQ(shown_table(table), wanted) << missing;
-        EXPECT_THAT(table.notes,
+        EXPECT_THAT(texts_of(table.notes),
                     ElementsAre("numbers are missing, NaN stands for them and fillmissing fills them: 2 of "
                                 "4 in y (first in line 2)"));
     }
     const CsvTable benchmark = read("u,y,Ts,\n0,1,4,\n1,2,,\n2,3,,\n");
     EXPECT_EQ(benchmark.columns[2], (Vector{{4}}));
-    EXPECT_THAT(benchmark.notes, ElementsAre("the only number in column Ts, in its first row, is the sampling time"));
+    EXPECT_THAT(texts_of(benchmark.notes),
+                ElementsAre("the only number in column Ts, in its first row, is the sampling time"));
     EXPECT_EQ(shown_table(read("y,t\n#N/A,0\n1,2\n")), "y|t\nnan|0\n1|2");
     EXPECT_EQ(shown_table(read("name,score\nAnna,\nBob,3\n")), "name|score\nAnna|nan\nBob|3");
 }
@@ -192,22 +208,23 @@ TEST_F(csv_file, takes_missing_numbers_for_nan_and_says_so) {
 TEST_F(csv_file, gives_names_where_there_are_none) {
     const CsvTable pandas = read(",t,y\n0,0,1\n1,0.1,2\n");
     EXPECT_EQ(shown_table(pandas), "index|t|y\n0|0|1\n1|0.1|2");
-    EXPECT_THAT(pandas.notes, ElementsAre("the header has no name for it: column 1 is called index"));
+    EXPECT_THAT(texts_of(pandas.notes), ElementsAre("the header has no name for it: column 1 is called index"));
     EXPECT_EQ(shown_table(read("\"t\" \"y\"\n\"1\" 0 1\n\"2\" 0.1 2\n")), "index|t|y\n1|0|1\n2|0.1|2");  // as R does
     EXPECT_EQ(shown_table(read("t,,y\n1,2,3\n")), "t|column_2|y\n1|2|3");
     const CsvTable twice = read("t,y,y,y_2,y\n1,2,3,4,5\n");
     EXPECT_THAT(twice.names, ElementsAre("t", "y", "y_3", "y_2", "y_4"));
-    EXPECT_THAT(twice.notes, ElementsAre("columns of equal names are numbered: y_3, y_4"));
+    EXPECT_THAT(texts_of(twice.notes), ElementsAre("columns of equal names are numbered: y_3, y_4"));
     const CsvTable bare = read("0 1\n1 2\n");
     EXPECT_EQ(shown_table(bare), "c1|c2\n0|1\n1|2");
-    EXPECT_THAT(bare.notes, ElementsAre(HasSubstr("there is no line of names, so the columns are called c1, c2")));
+    EXPECT_THAT(texts_of(bare.notes),
+                ElementsAre(HasSubstr("there is no line of names, so the columns are called c1, c2")));
 }
 
 TEST_F(csv_file, finds_units) {
     const CsvTable row = read("t,u,y,label\ns,V,deg C,\n0,1,2,a\n1,2,3,b\n");
     EXPECT_EQ(shown_table(row), "t|u|y|label\n0|1|2|a\n1|2|3|b");
     EXPECT_EQ(row.units, (std::map<std::string, std::string>{{"t", "s"}, {"u", "V"}, {"y", "deg C"}}));
-    EXPECT_THAT(row.notes, ElementsAre("line 2 is taken for units: t in s, u in V, y in deg C"));
+    EXPECT_THAT(texts_of(row.notes), ElementsAre("line 2 is taken for units: t in s, u in V, y in deg C"));
     EXPECT_EQ(read("t\ty\n(ms)\t[m/s^2]\n0\t1\n").units.at("y"), "m/s^2");
     const CsvTable scope = read("x-axis,1,2\nsecond,Volt,Volt\n-0.1,0.5,0.25\n0,0.6,0.3\n");
     EXPECT_EQ(shown_table(scope), "x-axis|1|2\n-0.1|0.5|0.25\n0|0.6|0.3");
@@ -216,7 +233,7 @@ TEST_F(csv_file, finds_units) {
     EXPECT_THAT(header.names, ElementsAre("time", "u", "y (filtered)", "z(2)"));
     EXPECT_EQ(header.units, (std::map<std::string, std::string>{{"time", "s"}, {"u", "V"}}));
     EXPECT_EQ(header.headers, (std::map<std::string, std::string>{{"time (s)", "time"}, {"u [V]", "u"}}));
-    EXPECT_THAT(header.notes, ElementsAre("units from the headers: time in s, u in V"));
+    EXPECT_THAT(texts_of(header.notes), ElementsAre("units from the headers: time in s, u in V"));
     EXPECT_THAT(read("y (V),y (m)\n0,1\n").names, ElementsAre("y (V)", "y (m)"));
     EXPECT_EQ(read("# unit u (V): mV\nt,u (V)\n0,1\n").units.at("u"), "mV");
 }
@@ -229,7 +246,7 @@ TEST_F(csv_file, reads_other_alphabets) {
         "C)\r\n0;20,5\r\n1;21\r\n");
     EXPECT_EQ(shown_table(windows), wanted);
     EXPECT_EQ(windows.units.at("Temp\u00E9rature"), "\u00B0C");
-    EXPECT_EQ(windows.notes.front(),
+    EXPECT_EQ(message_text(windows.notes.front()),
               "the text is not UTF-8 and is read as Windows-1252, for example \"Temp\u00E9rature\"");
     for (const bool big_endian : {false, true}) {
         std::string utf16 = big_endian ? "\xFE\xFF" : "\xFF\xFE";
@@ -380,7 +397,7 @@ TEST_F(csv_file, headers_of_one_name_are_numbered_at_once) {
     EXPECT_EQ(table.names[0], "y");
     EXPECT_EQ(table.names[1], "y_2");
     EXPECT_EQ(table.names.back(), fmt::format("y_{}", kColumns));
-    EXPECT_LT(table.notes.back().size(), 200u);
+    EXPECT_LT(message_text(table.notes.back()).size(), 200u);
 }
 
 TEST_F(csv_file, numbered_names_pass_over_those_that_are_there) {

@@ -215,6 +215,13 @@ TEST_F(dataset_index, links_lead_a_graded_script_nowhere) {
     for (const char* name : {"own", "own_link.mat", "heat_exchanger"}) EXPECT_EQ(complaint(name, true), "no error");
 }
 
+TEST_F(dataset_index, refusal_to_leave_the_folder_is_known_where_another_message_quotes_it) {
+    const Message refusal = refusal_outside("../a.csv");
+    EXPECT_TRUE(is_refusal_outside(refusal));
+    EXPECT_TRUE(is_refusal_outside(Message("{}: {}", "load", Message("{}{}", "a.lua:3: ", refusal))));
+    EXPECT_FALSE(is_refusal_outside(Message("{}: {}", "load", message_text(refusal)))) << "the same words";
+}
+
 TEST_F(dataset_index, refuses_damaged_records_of_packages) {
     const fs::path folder = home_.path() / "data/kiln", file = folder / "kiln.gz";
     fs::create_directories(folder);

@@ -15,10 +15,12 @@
 #include "platform/error.h"
 #include "platform/temporary_folder.h"
 #include "sample_variables.h"
+#include "support/message_texts.h"
 
 namespace dynlab {
 namespace test_mat_file {
 
+using test::texts_of;
 using testing::HasSubstr;
 
 class mat_file : public testing::Test {
@@ -227,10 +229,10 @@ TEST_F(mat_file, tells_where_a_table_stands) {
     const std::string table = element_5(6, std::string("\x11\0\0\0\0\0\0\0", 8)) + element_5(1, "weather") +
                               element_5(1, "MCOS") + element_5(1, "table") + numbers;
     write_file_atomically(file_, read_file(file_) + element_5(14, table));
-    std::vector<std::string> left_out;
+    std::vector<Message> left_out;
     EXPECT_TRUE(equal(read_mat_file(file_, true, &left_out), one));
-    EXPECT_THAT(left_out, testing::ElementsAre(testing::StartsWith(
-                              "variable number 2 (after a) is an object, a table or a string array")));
+    EXPECT_THAT(texts_of(left_out), testing::ElementsAre(testing::StartsWith(
+                                        "variable number 2 (after a) is an object, a table or a string array")));
     // What follows it is read as well.
     VariableTable last;
     last["z"] = {Vector{{1, 2, 3}}};
@@ -256,10 +258,13 @@ TEST_F(mat_file, an_unreadable_variable_does_not_block_the_others) {
                 ASSERT_EQ(Mat_VarWrite(mat.get(), to_mat({7.0}, "c").get(), compression), 0);
             }
             for (const bool guarded : {true, false}) {
-                std::vector<std::string> left_out;
+                std::vector<Message> left_out;
                 EXPECT_TRUE(equal(read_mat_file(file_, guarded, &left_out), {{"a", {Vector{{5, 6}}}}, {"c", {7.0}}}));
-                EXPECT_THAT(left_out, testing::ElementsAre("variable b has 3 dimensions; only vectors and matrices can "
-                                                           "be read"));
+                EXPECT_EQ(left_out.at(0),
+                          Message("variable {} has {} dimensions; only vectors and matrices can be read", "b", 3));
+                EXPECT_THAT(texts_of(left_out),
+                            testing::ElementsAre("variable b has 3 dimensions; only vectors and matrices can "
+                                                 "be read"));
             }
         }
     }
@@ -271,10 +276,10 @@ TEST_F(mat_file, a_link_to_another_file_is_not_followed) {
     std::filesystem::copy_file(data / "external_link.mat", file_);
     std::filesystem::copy_file(data / "link_target.mat", folder_.path() / "outside.mat");
     EXPECT_TRUE(equal(read_mat_file(folder_.path() / "outside.mat"), {{"y", {Vector{{41, 42, 43}}}}}));
-    std::vector<std::string> left_out;
+    std::vector<Message> left_out;
     const Vector numbers{{1, 2, 3}};
     EXPECT_TRUE(equal(read_mat_file(file_, true, &left_out), {{"x", {numbers}}, {"z", {numbers}}}));
-    EXPECT_THAT(left_out, testing::ElementsAre("what lies in other files or is damaged cannot be read"));
+    EXPECT_THAT(texts_of(left_out), testing::ElementsAre("what lies in other files or is damaged cannot be read"));
 }
 
 TEST_F(mat_file, says_what_is_wrong_with_a_file) {

@@ -10,6 +10,7 @@
 #include <memory>
 #include <random>
 
+#include "base/reader.h"
 #include "data_io/data_file.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
@@ -106,7 +107,7 @@ TEST_F(workbook, is_read_as_a_table) {
     EXPECT_EQ(voltage[0], 0.025);
     EXPECT_TRUE(std::isnan(voltage[1]) && std::isnan(voltage[2]));
     EXPECT_EQ(data.units.at("voltage"), "V");
-    EXPECT_THAT(data.notes.front(), HasSubstr("of its sheets Run 1, Run 2 the first is read"));
+    EXPECT_THAT(message_text(data.notes.front()), HasSubstr("of its sheets Run 1, Run 2 the first is read"));
     ImportOptions second;
     second.sheet = "Run 2";
     EXPECT_EQ(std::get<Vector>(read_data_file(file_, true, second).variables.at("c1").value), (Vector{{5}}));
@@ -118,6 +119,18 @@ TEST_F(workbook, is_read_as_a_table) {
         ADD_FAILURE() << "no error";
     } catch (const EnvironmentError& error) {
         EXPECT_THAT(error.what(), HasSubstr("x.xlsx, line 3, column time: wanted a number, given \"five\""));
+    }
+}
+
+// Oracle: the sentence that the process of its own wrote, with the arguments of this file.
+TEST_F(workbook, refusal_is_a_message_that_can_be_translated) {
+    write(parts_of(kRows));
+    try {
+        read_sheet(file_, "Run 3");
+        FAIL() << "there is no such sheet";
+    } catch (const EnvironmentError& error) {
+        EXPECT_EQ(error.message(),
+                  Message("{} has no sheet \"{}\"; it has {}", file_.string(), "Run 3", listed({"Run 1", "Run 2"})));
     }
 }
 

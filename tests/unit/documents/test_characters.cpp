@@ -1,7 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "documents/characters.h"
+#include "base/reader.h"
+#include "documents/words/characters.h"
 
 namespace dynlab {
 namespace test_characters {
@@ -16,20 +17,21 @@ TEST(characters, latex_prints_ascii_western_letters_and_declared_symbols) {
     EXPECT_FALSE(latex.complaint("plain text\twith\nlines"));
     EXPECT_FALSE(latex.complaint("déjà vu œuvre ß Š “quoted” – —"));
     EXPECT_FALSE(latex.complaint("ω"));
-    EXPECT_THAT(latex.complaint("θ").value(), HasSubstr("\"θ\" (U+03B8)"));
-    EXPECT_THAT(latex.complaint("a 你 b").value(), HasSubstr("U+4F60"));
-    EXPECT_THAT(latex.complaint("😀").value(), HasSubstr("\"😀\" (U+1F600)"));
+    EXPECT_THAT(message_text(latex.complaint("θ").value()), HasSubstr("\"θ\" (U+03B8)"));
+    EXPECT_THAT(message_text(latex.complaint("a 你 b").value()), HasSubstr("U+4F60"));
+    EXPECT_THAT(message_text(latex.complaint("😀").value()), HasSubstr("\"😀\" (U+1F600)"));
 }
 
 TEST(characters, broken_text_and_control_characters_are_named) {
     for (const auto& printable : {PrintableCharacters::of_latex(kDeclared), PrintableCharacters::of_html()}) {
-        EXPECT_THAT(printable.complaint("\xff").value(), HasSubstr("UTF-8"));
-        EXPECT_THAT(printable.complaint("\xc3").value(), HasSubstr("UTF-8"));
-        EXPECT_THAT(printable.complaint("\xc0\xaf").value(), HasSubstr("UTF-8")) << "overlong form";
-        EXPECT_THAT(printable.complaint("\xed\xa0\x80").value(), HasSubstr("UTF-8")) << "surrogate";
-        EXPECT_THAT(printable.complaint("\x1b[31m").value(), HasSubstr("control character U+001B"));
+        EXPECT_THAT(message_text(printable.complaint("\xff").value()), HasSubstr("UTF-8"));
+        EXPECT_THAT(message_text(printable.complaint("\xc3").value()), HasSubstr("UTF-8"));
+        EXPECT_THAT(message_text(printable.complaint("\xc0\xaf").value()), HasSubstr("UTF-8")) << "overlong form";
+        EXPECT_THAT(message_text(printable.complaint("\xed\xa0\x80").value()), HasSubstr("UTF-8")) << "surrogate";
+        EXPECT_THAT(message_text(printable.complaint("\x1b[31m").value()), HasSubstr("control character U+001B"));
     }
-    EXPECT_THAT(PrintableCharacters::of_latex(kDeclared).complaint("e\u0301").value(), HasSubstr("combining accent"));
+    EXPECT_THAT(message_text(PrintableCharacters::of_latex(kDeclared).complaint("e\u0301").value()),
+                HasSubstr("combining accent"));
     EXPECT_FALSE(PrintableCharacters::of_html().complaint("你好 😀"));
 }
 

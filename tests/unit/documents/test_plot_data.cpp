@@ -12,6 +12,9 @@
 #include <random>
 #include <regex>
 
+#include "base/languages.h"
+#include "data_io/values/cbor_values.h"
+#include "documents/figure_description.h"
 #include "figures/gnuplot_script.h"
 #include "numerics/error.h"
 
@@ -24,16 +27,16 @@ using testing::Not;
 
 Figure figure_of(const Vector& x, const Vector& y) {
     Panel panel;
-    panel.x_label = "time (s)";
-    panel.y_label = "output y";
+    panel.x_label = Message("time (s)");
+    panel.y_label = Message("output y");
     Curve curve;
-    curve.x = x, curve.y = y, curve.label = "measured";
+    curve.x = x, curve.y = y, curve.label = Message("measured");
     panel.curves.push_back(curve);
     return Figure(panel);
 }
 
-json written(const Figure& figure, bool comma = false) {
-    return json::parse(plot_data(figure, comma));
+json written(const Figure& figure, const Reader& reader = {}) {
+    return json::parse(plot_data(figure, reader));
 }
 
 json first_curve(const Figure& figure) {
@@ -75,7 +78,7 @@ TEST(plot_data, long_records_keep_the_extremes_of_every_column) {
     Vector y(count);
     for (double& value : y) value = normal(generator);
     const Vector x = Vector::LinSpaced(count, 0, 50);
-    const std::string text = plot_data(figure_of(x, y), false);
+    const std::string text = plot_data(figure_of(x, y));
     EXPECT_LT(text.size(), 100'000u);
     const json panel = json::parse(text)["panels"][0], curve = panel["curves"][0];
     ASSERT_LE(curve["y"].size(), 4004u);
@@ -112,7 +115,7 @@ TEST(plot_data, frames_and_numbers_stand_where_gnuplot_puts_them) {
     figure.panels.push_back(figure.panels[0]);
     figure.panels[1].log_x = figure.panels[1].log_y = true;
     figure.rows = 2;
-    const std::string script = gnuplot_script(figure, FigureFormat::kSvg, false);
+    const std::string script = gnuplot_script(figure, FigureFormat::kSvg);
     const json plot = written(figure);
     const std::regex margins(
         R"(set lmargin at screen ([\d.]+); set rmargin at screen ([\d.]+)\nset bmargin at screen ([\d.]+); set tmargin at screen ([\d.]+))");
@@ -134,22 +137,33 @@ TEST(plot_data, frames_and_numbers_stand_where_gnuplot_puts_them) {
 
 TEST(plot_data, texts_cannot_end_the_element_they_stand_in) {
     Figure figure = figure_of(Vector::LinSpaced(5, 0, 4), Vector::Random(5));
-    figure.panels[0].curves[0].label = "</script><script>alert(1)</script> \\\" ü";
-    const std::string text = plot_data(figure, false);
+    figure.panels[0].curves[0].label = Message("</script><script>alert(1)</script> \\\" ü");
+    const std::string text = plot_data(figure);
     EXPECT_THAT(text, Not(HasSubstr("<")));
     EXPECT_EQ(json::parse(text)["panels"][0]["curves"][0]["name"], "</script><script>alert(1)</script> \\\" ü");
 }
 
 TEST(plot_data, french_numbers_have_a_comma_and_powers_are_raised) {
     Figure figure = figure_of(Vector::LinSpaced(5, 0, 1), Vector::Random(5));
-    figure.panels[0].x_label = "x_{max} in m^{2}";
-    const json panel = written(figure, true)["panels"][0];
+    figure.panels[0].x_label = Message("x_{max} in m^{2}");
+    const json panel = written(figure, {catalog_of("fr")})["panels"][0];
     EXPECT_THAT(panel["x"]["ticks"].dump(), HasSubstr("\"0,"));
     EXPECT_EQ(panel["x"]["label"], json({"=x", "_max", "= in m", "^2"}));
 }
 
+TEST(plot_data, of_a_stored_figure_is_in_the_language_of_a_later_reader) {
+    Figure figure = figure_of(Vector::LinSpaced(5, 0, 1), Vector::LinSpaced(5, 0, 1));
+    figure.panels[0].x_label = axis_label(Message("time"), "s");
+    figure.panels[0].curves[0].label = Message("{}: {} %", Message::verbatim("G"), decimals(93.2, 1));
+    const Figure again = from_cbor<Figure>(cbor_of(figure));
+    EXPECT_EQ(again.panels[0].curves[0].label, figure.panels[0].curves[0].label);
+    const json panel = written(again, {catalog_of("fr")})["panels"][0];
+    EXPECT_EQ(panel["x"]["label"], "temps (s)");
+    EXPECT_EQ(panel["curves"][0]["name"], "G : 93,2 %");
+}
+
 TEST(plot_data, refuses_what_cannot_be_drawn) {
-    EXPECT_THROW(plot_data(figure_of(Vector::Zero(3), Vector::Zero(2)), false), InvalidArgument);
+    EXPECT_THROW(plot_data(figure_of(Vector::Zero(3), Vector::Zero(2))), InvalidArgument);
 }
 
 }  // namespace test_plot_data

@@ -20,7 +20,10 @@ RunRecord sample() {
     record.figures["raw"].file = "/tmp/somewhere/raw.pdf";
     record.texts["end"] = {"**done**"};
     record.outputs["cell-1"] = {{"x\n", "raw"}};
-    record.error = RecordedError{"lesson.lua:3: no", 3};
+    record.error = RecordedError{Message("{} needs {}", "srivc", plural(4, "{} sample", "{} samples")),
+                                 "lesson.lua",
+                                 3,
+                                 {{Message("ran lesson.lua"), "a.lua", 1}}};
     record.files_read = {"/home/someone/data.csv"};
     record.timings["cell-1"] = 0.25;
     return record;
@@ -39,6 +42,9 @@ TEST(run_record, json_holds_everything_that_was_recorded) {
     EXPECT_EQ(json["texts"]["end"], "**done**");
     EXPECT_EQ(json["outputs"]["cell-1"][0]["printed"], "x\n");
     EXPECT_EQ(json["outputs"]["cell-1"][1]["figure"], "raw");
+    EXPECT_EQ(json["error"]["message"]["id"], "{} needs {}");
+    EXPECT_EQ(json["error"]["message"]["arguments"][0]["text"], "srivc");
+    EXPECT_EQ(json["error"]["file"], "lesson.lua");
     EXPECT_EQ(json["error"]["line"], 3);
 }
 
@@ -83,9 +89,41 @@ TEST(run_record, comes_back_from_its_own_json) {
     EXPECT_EQ(to_json(back), to_json(record));
     EXPECT_EQ(back.answers.at("gain").kind, "number");
     EXPECT_EQ(back.answers.at("gain").json, record.answers.at("gain").json);
-    EXPECT_EQ(back.error->line, 3);
+    EXPECT_EQ(back.error->message, record.error->message);
+    EXPECT_EQ(back.error->text(), "lesson.lua:3: srivc needs 4 samples");
     EXPECT_EQ(back.files_read, std::vector<std::filesystem::path>{"data.csv"});
     for (const char* text : {"", "[]", "{}", R"({"script": 1})"}) EXPECT_THROW(record_from_json(text), ValueError);
+}
+
+// Oracle: what went in.
+TEST(run_record, error_comes_back_with_its_message_and_place) {
+    const RecordedError error = *sample().error, back = from_cbor<RecordedError>(cbor_of(error));
+    EXPECT_EQ(back.message, error.message);
+    EXPECT_EQ(back.message.many(), "");
+    EXPECT_EQ(back.file, "lesson.lua");
+    EXPECT_EQ(back.line, 3);
+    EXPECT_EQ(back.line_in("lesson.lua"), 3);
+    EXPECT_EQ(back.line_in("tools.lua"), 0);
+    ASSERT_EQ(back.calls.size(), 1u);
+    EXPECT_EQ(back.calls.front().what, error.calls.front().what);
+    EXPECT_EQ(RecordedError{Message("interrupted")}.text(), "interrupted");
+}
+
+// Another process may write anything: messages whose arguments do not fit are refused, not shown.
+TEST(run_record, error_with_a_message_that_does_not_fit_is_refused) {
+    const auto json = nlohmann::json::parse(to_json(sample()));
+    const auto with = [&](const char* message) {
+        auto changed = json;
+        changed["error"]["message"] = nlohmann::json::parse(message);
+        return changed.dump();
+    };
+    EXPECT_EQ(record_from_json(with(R"({"id": "no {}", "arguments": [{"text": "{}"}]})")).error->text(),
+              "lesson.lua:3: no {}");
+    for (const char* message :
+         {R"("no")", R"({"id": "no {}"})", R"({"id": "no", "arguments": [{"text": "x"}]})",
+          R"({"id": "no {}", "arguments": [{"text": "x", "count": 1}]})", R"({"id": "no {}", "arguments": [{}]})",
+          R"({"id": "{} x", "many": "{} xs", "arguments": [{"text": "x"}]})"})
+        EXPECT_THROW(record_from_json(with(message)), ValueError) << message;
 }
 
 }  // namespace test_run_record

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/reader.h"
+
 namespace test_unplaced_entries {
 
 using namespace dynlab;
@@ -23,7 +25,11 @@ RunRecord record() {
 }
 
 TEST(unplaced_entries, are_told_with_the_line_to_write) {
-    EXPECT_THAT(unplaced_entries(record(), "Only words, and `gain` without a slot; ![](figure:residuals_3){#fig:x}"),
+    std::vector<std::string> texts;
+    for (const UnplacedEntries& entries :
+         unplaced_entries(record(), "Only words, and `gain` without a slot; ![](figure:residuals_3){#fig:x}"))
+        texts.push_back(message_text(entries.message()));
+    EXPECT_THAT(texts,
                 ElementsAre("the figures 'residuals', 'residuals_2' are reported, but have no place in the text; write "
                             "![](figure:residuals){#fig:residuals}",
                             "the table 'models' is reported, but has no place in the text; write ::: {.table "

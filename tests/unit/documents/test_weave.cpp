@@ -25,7 +25,7 @@ TEST(weave, every_line_knows_its_line_of_the_script) {
     ASSERT_EQ(woven.size(), text.origin.size());
     for (std::size_t i = 0; i < woven.size(); ++i) {
         if (woven[i].empty() || woven[i].starts_with("```")) continue;
-        const SourceLine from = text.origin_of(static_cast<int>(i) + 1);
+        const Place from = text.origin_of(static_cast<int>(i) + 1);
         EXPECT_EQ(from.file, "lesson.lua");
         EXPECT_THAT(script.at(static_cast<std::size_t>(from.line) - 1), HasSubstr(woven[i]));
     }
@@ -52,13 +52,14 @@ TEST(weave, figures_without_a_caption_are_numbered_and_say_what_their_axes_do) {
     record.outputs["a"] = {{"", "a-figure-1"}, {"", "a-figure-2"}};
     const auto figure = std::make_shared<Figure>();
     figure->panels.resize(3);
-    figure->panels[0].y_label = "y_1 (m)", figure->panels[1].y_label = figure->panels[2].y_label = "voltage (V)";
-    figure->panels[2].x_label = "time (s)";
+    figure->panels[0].y_label = Message("y_1 (m)"),
+    figure->panels[1].y_label = figure->panels[2].y_label = Message("voltage (V)");
+    figure->panels[2].x_label = axis_label(Message("time"), "s");
     record.figures["a-figure-1"].figure = figure;
     record.figures["a-figure-2"].figure = std::make_shared<Figure>(Panel());
     const std::string text = weave("-- %% id=a\nplot(x)\n", record).text;
     EXPECT_THAT(text, HasSubstr("![y\\_1 (m), voltage (V) over time (s)](figure:a-figure-1){#fig:a-figure-1}"));
-    figure->panels[0].y_label = "thrust (N)";
+    figure->panels[0].y_label = Message("thrust (N)");
     EXPECT_THAT(weave("-- %% id=a\nplot(x)\n", record).text, HasSubstr("![Thrust (N), voltage (V) over"));
     EXPECT_THAT(text, HasSubstr("![From the cell `a`](figure:a-figure-2){#fig:a-figure-2}"));
     EXPECT_THAT(weave("-- ---\n-- title: Essai\n-- language: fr\n-- ---\n-- %% id=a\nplot(x)\n", record).text,
@@ -70,7 +71,7 @@ TEST(weave, units_in_brackets_at_the_axes_are_no_formula) {
     RunRecord record;
     record.outputs["a"] = {{"", "a-figure-1"}};
     Panel panel;
-    panel.y_label = "voltage [V]", panel.x_label = "R&D [s]";
+    panel.y_label = Message("voltage [V]"), panel.x_label = Message("R&D [s]");
     record.figures["a-figure-1"].figure = std::make_shared<Figure>(panel);
     const MarkdownText woven = weave("-- %% id=a\nplot(x)\n", record);
     EXPECT_THAT(woven.text, HasSubstr("![Voltage &#91;V&#93; over R\\&D &#91;s&#93;](figure:a-figure-1)"));
@@ -114,7 +115,7 @@ TEST(weave, empty_lines_at_the_end_of_an_output_are_not_shown) {
 
 TEST(weave, a_recorded_error_stands_at_its_cell) {
     RunRecord record;
-    record.error = RecordedError{"lesson.lua:2: x is nil", 2};
+    record.error = RecordedError{Message("x is nil"), "lesson.lua", 2};
     const std::string text = weave("-- %%\nx()\n-- %% [markdown]\n-- after\n", record).text;
     EXPECT_LT(text.find("```{.error}\nlesson.lua:2: x is nil\nThe script stopped here; nothing below was run.\n```"),
               text.find("after"));

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/reader.h"
 #include "numerics/estimators/armax.h"
 #include "numerics/estimators/arx.h"
 #include "numerics/fit/assessment.h"
@@ -51,7 +52,7 @@ double loss_of(const IdData& data, const Vector& theta) {
 
 TEST(armax, recovers_noise_free_systems) {  // oracle: the simulated system
     const auto result = armax(record(500, 0, 1), kOrders, tight());
-    EXPECT_LT((result.theta - kTheta).head(4).cwiseAbs().maxCoeff(), 1e-9) << result.message;
+    EXPECT_LT((result.theta - kTheta).head(4).cwiseAbs().maxCoeff(), 1e-9) << message_text(result.full_message());
     EXPECT_GT(result.fit_percent[0], 100 - 1e-6);
 }
 
@@ -76,7 +77,7 @@ TEST(armax, gradient_is_zero_at_the_optimum) {  // oracle: central differences o
         EXPECT_LT(std::abs(slope), 1e-5 * result.loss) << i;
         EXPECT_GT(loss_of(data, result.theta + step), result.loss);
     }
-    EXPECT_EQ(result.termination, Termination::kConverged) << result.message;
+    EXPECT_EQ(result.termination, Termination::kConverged) << message_text(result.full_message());
 }
 
 // Oracle: statistics with fixed seeds; the covariance of the maximum-likelihood estimate is the Cramer-Rao bound.
@@ -110,7 +111,7 @@ TEST(armax, two_inputs_and_a_delay) {  // oracle: the simulated system
 TEST(armax, prediction_errors_are_tested_for_whiteness) {  // oracle: statistics with a fixed seed
     const IdData data = record(2000, 0.5, 5);
     const auto right = assess(data, armax(data, kOrders));
-    EXPECT_TRUE(right.white) << right.verdict;
+    EXPECT_TRUE(right.white) << message_text(right.verdict);
     const auto right_fit = armax(data, kOrders);
     for (Index i = 0; i < 6; ++i) EXPECT_NEAR(right.std[i] / right_fit.std[i], 1, 0.3);
     const auto poor = assess(data, armax(data, orders_of(2, {2}, 0, {1})));

@@ -3,6 +3,7 @@
 
 #include <Eigen/Dense>
 
+#include "base/reader.h"
 #include "numerics/estimators/arx.h"
 #include "numerics/models/convert.h"
 #include "support/difference_equation.h"
@@ -121,18 +122,20 @@ TEST(arx,
     EXPECT_NEAR(result.noise_variance[0], (right - Phi * result.theta).squaredNorm() / (2997 - 4), 1e-9);
 }
 
-TEST(arx, too_high_orders_are_told) {  // oracle: the simulated system
+TEST(arx, too_high_orders_are_told) {  // oracle: the simulated system; the past takes five of 400 samples
     const auto result = arx(record(400, 0, 1), PolynomialOrders::arx(4, {4}, {2}));
-    EXPECT_THAT(result.message, HasSubstr("do not determine all parameters separately"));
+    EXPECT_THAT(message_text(result.message), HasSubstr("Least squares over 395 equations: fit "));
+    EXPECT_THAT(message_text(result.full_message()), HasSubstr("do not determine all parameters separately"));
     EXPECT_GT(result.fit_percent[0], 100 - 1e-5);
 }
 
 TEST(arx, doubtful_results_come_with_a_sentence) {  // oracle: the simulated system
     const Vector u = random_levels(300, 3, 1), e = RandomStream(4).normal(300);
-    EXPECT_THAT(arx(IdData(Matrix(e), Matrix(u), 1), kSecond).message, HasSubstr("hardly determine"));
+    EXPECT_THAT(message_text(arx(IdData(Matrix(e), Matrix(u), 1), kSecond).full_message()),
+                HasSubstr("hardly determine"));
     const PolynomialOrders first = PolynomialOrders::arx(1, {1}, {1});
     const Vector y = model_output(PolynomialModel(first, Vector{{-1.05, 1}}, 1), u, e);
-    EXPECT_THAT(arx(IdData(Matrix(y), Matrix(u), 1), first).message, HasSubstr("unstable"));
+    EXPECT_THAT(message_text(arx(IdData(Matrix(y), Matrix(u), 1), first).full_message()), HasSubstr("unstable"));
 }
 
 TEST(arx, refuses_poor_inputs_and_is_right) {

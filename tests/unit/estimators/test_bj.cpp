@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/reader.h"
 #include "numerics/estimators/bj.h"
 #include "numerics/estimators/oe.h"
 #include "numerics/fit/assessment.h"
@@ -52,7 +53,7 @@ double loss_of(const IdData& data, const Vector& theta) {
 
 TEST(bj, recovers_noise_free_systems) {  // oracle: the simulated system
     const auto result = bj(record(500, 0, 1), kOrders, tight());
-    EXPECT_LT((result.theta - kTheta).head(4).cwiseAbs().maxCoeff(), 1e-8) << result.message;
+    EXPECT_LT((result.theta - kTheta).head(4).cwiseAbs().maxCoeff(), 1e-8) << message_text(result.full_message());
 }
 
 TEST(bj, without_c_and_d_it_is_oe) {  // oracle: oe, whose search is another program path
@@ -79,7 +80,7 @@ TEST(bj, gradient_is_zero_at_the_optimum) {  // oracle: central differences of t
         EXPECT_LT(std::abs(slope), 1e-5 * result.loss) << i;
         EXPECT_GT(loss_of(data, result.theta + 10 * step), result.loss);
     }
-    EXPECT_EQ(result.termination, Termination::kConverged) << result.message;
+    EXPECT_EQ(result.termination, Termination::kConverged) << message_text(result.full_message());
 }
 
 // Oracle: statistics with fixed seeds; the covariance of the maximum-likelihood estimate is the Cramer-Rao bound.

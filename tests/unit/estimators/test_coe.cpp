@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/reader.h"
 #include "numerics/estimators/srivc.h"
 #include "support/thrown_message.h"
 #include "support/transfer_cases.h"
@@ -38,7 +39,7 @@ void expect_near_truth(const Fit& found, const Vector& truth, double errors) {
     for (Index i = 0; i < truth.size(); ++i)
         EXPECT_LT(std::abs(found.theta[i] - truth[i]), errors * found.std[i])
             << found.names[static_cast<std::size_t>(i)] << ": " << found.theta[i] << " for " << truth[i] << "; "
-            << found.message;
+            << message_text(found.full_message());
 }
 
 IdData record(const Vector& y, const Vector& u, double Ts) {
@@ -71,9 +72,9 @@ TEST(coe, delay_trap_is_avoided_from_default_settings) {
         const IdData data(Matrix(with_noise(x, 15, seed)), Matrix(u), 0.1);
         for (const auto method : {coe, srivc}) {
             const Fit found = method(data, with_free_delay(2, 1), {}, {});
-            EXPECT_NEAR(found.models[0].delay(), 8, 0.1) << found.message;
-            EXPECT_LT(std::abs(found.theta[0] - 1), 4 * found.std[0]) << found.message;
-            EXPECT_LT(std::abs(found.theta[1] - 4), 4 * found.std[1]) << found.message;
+            EXPECT_NEAR(found.models[0].delay(), 8, 0.1) << message_text(found.full_message());
+            EXPECT_LT(std::abs(found.theta[0] - 1), 4 * found.std[0]) << message_text(found.full_message());
+            EXPECT_LT(std::abs(found.theta[1] - 4), 4 * found.std[1]) << message_text(found.full_message());
             EXPECT_GE(found.delay_grid.size(), 20);
         }
     }
@@ -145,9 +146,9 @@ TEST(coe, initial_state_and_offset_are_recovered_and_chosen) {
     options.initial_state = InitialState::kAuto;
     options.offset = Offset::kAuto;
     const Fit chosen = srivc(cut, kCourse, options);
-    EXPECT_EQ(chosen.start.state, InitialState::kEstimate) << chosen.message;
+    EXPECT_EQ(chosen.start.state, InitialState::kEstimate) << message_text(chosen.full_message());
     EXPECT_TRUE(chosen.start.offset);
-    EXPECT_GT(chosen.fit_percent[0], srivc(cut, kCourse, {}).fit_percent[0] + 5);
+    EXPECT_GT(chosen.fit_percent[0], srivc(cut, kCourse, FitOptions{}.from_rest()).fit_percent[0] + 5);
 }
 
 TEST(coe, free_delay_without_noise_is_exact) {  // oracle: the simulated system
@@ -155,7 +156,8 @@ TEST(coe, free_delay_without_noise_is_exact) {  // oracle: the simulated system
     for (const double delay : {0.0, 0.5, 1.2345}) {
         const TransferFunction G(values({2}), values({1, 4, 3}), 0, delay);
         const auto found = coe(record(lsim(G, u, 0.05), u, 0.05), with_free_delay(2, 0), exact());
-        EXPECT_LT((found.theta - values({4, 3, 2, delay})).cwiseAbs().maxCoeff(), 1e-8) << found.message;
+        EXPECT_LT((found.theta - values({4, 3, 2, delay})).cwiseAbs().maxCoeff(), 1e-8)
+            << message_text(found.full_message());
     }
 }
 
@@ -181,16 +183,16 @@ TEST(coe, running_experiment) {  // oracle: the simulated system, cut from a run
     options.initial_state = InitialState::kEstimate;
     options.offset = Offset::kEstimate;
     const auto found = coe(whole.range(first, last), kCourse, options);
-    EXPECT_LT(relative_difference(found.theta, values({0.4, 3, 2})), 1e-9) << found.message;
+    EXPECT_LT(relative_difference(found.theta, values({0.4, 3, 2})), 1e-9) << message_text(found.full_message());
     EXPECT_NEAR(found.offsets(0, 0), 6, 1e-8);
     EXPECT_NEAR(found.initial_values[0][0], x[first - 1] - 6 - 2.0 / 3 * u[first - 1], 1e-8);
     options.initial_state = InitialState::kAuto;
     options.offset = Offset::kAuto;
     const auto chosen = coe(noisy_data.range(first, last), kCourse, options);
-    EXPECT_EQ(chosen.start.state, InitialState::kEstimate) << chosen.message;
+    EXPECT_EQ(chosen.start.state, InitialState::kEstimate) << message_text(chosen.full_message());
     EXPECT_TRUE(chosen.start.offset);
     expect_near_truth(chosen, values({0.4, 3, 2}), 4);
-    const auto wrong = coe(noisy_data.range(first, last), kCourse);
+    const auto wrong = coe(noisy_data.range(first, last), kCourse, FitOptions{}.from_rest());
     EXPECT_LT(wrong.fit_percent[0] + 20, chosen.fit_percent[0]);
 }
 
@@ -200,14 +202,14 @@ TEST(coe, rest_is_recognised) {  // oracle: the simulated system, from rest with
     options.initial_state = InitialState::kAuto;
     options.offset = Offset::kAuto;
     const auto found = coe(data, kCourse, options);
-    EXPECT_EQ(found.start.state, InitialState::kZero) << found.message;
+    EXPECT_EQ(found.start.state, InitialState::kZero) << message_text(found.full_message());
     EXPECT_FALSE(found.start.offset);
 }
 
 TEST(coe, operating_point_can_be_removed) {  // oracle: the simulated system, about an operating point
     const Vector u = prbs(8, 5);
     const Vector x = lsim(TransferFunction(values({2}), values({1, 4, 3})), u, 0.05);
-    FitOptions options = exact();
+    FitOptions options = exact().from_rest();
     const auto expected = coe(record(x.array() - x.mean(), u.array() - u.mean(), 0.05), kCourse, options);
     options.offset = Offset::kRemove;
     const auto found = coe(record(x.array() + 40, u.array() + 7, 0.05), kCourse, options);
@@ -249,7 +251,7 @@ TEST(coe, refuses_bad_input_in_words) {  // oracle: the sentence names what is w
     EXPECT_THAT(refusal(still, kCourse), HasSubstr("never changes"));
     EXPECT_THAT(refusal(data, TransferStructure::single(2, 0, 20)), HasSubstr("not shorter than the record"));
     EXPECT_THAT(refusal(data, TransferStructure::grid(1, 2, Denominators::kCommon, {2}, {0}, {0.0})),
-                HasSubstr("2 input(s)"));
+                HasSubstr("2 inputs"));
     FitOptions options;
     options.tolerance = 0;
     EXPECT_THAT(refusal(data, kCourse, options), HasSubstr("`tolerance`"));

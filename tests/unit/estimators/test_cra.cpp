@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "base/reader.h"
 #include "numerics/error.h"
 #include "numerics/signals/random.h"
 #include "support/difference_equation.h"
@@ -76,7 +77,7 @@ TEST(cra, reads_the_dead_time) {  // oracle: response_2 is the first, so one sam
     const ImpulseEstimate estimate = cra(record(random_levels(2000, 1, 2), 0.3, 8), with(10, 5)).impulse;
     ASSERT_TRUE(estimate.first);
     EXPECT_EQ(*estimate.first, 2);
-    EXPECT_THAT(estimate.message, HasSubstr("the dead time is about 0.2 s (1 sample)"));
+    EXPECT_THAT(message_text(estimate.message), HasSubstr("the dead time is about 0.2 s (1 sample)"));
 }
 
 TEST(cra, experiments_are_joined) {  // oracle: sums over both

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/reader.h"
 #include "numerics/error.h"
 #include "numerics/estimators/gradient_descent.h"
 #include "numerics/estimators/linear_regression.h"
@@ -53,7 +54,7 @@ TEST(gradient_descent, loss_never_grows_below_the_limit_and_runs_away_beyond_it)
     options.step_size = 1.05 * stable.largest_step;
     const auto wild = gradient_descent(p.Phi, p.y, options);
     EXPECT_EQ(wild.termination, Termination::kDiverged);
-    EXPECT_NE(wild.message.find("too large"), std::string::npos);
+    EXPECT_NE(message_text(wild.message).find("too large"), std::string::npos);
     EXPECT_TRUE(wild.theta.allFinite());
 }
 
@@ -68,7 +69,7 @@ TEST(gradient_descent, tells_when_it_was_too_slow) {  // justified: years uncent
     EXPECT_EQ(result.termination, Termination::kIterationLimit);
     EXPECT_EQ(result.iterations, 500);
     EXPECT_GT(result.condition_number, 1e8);
-    EXPECT_NE(result.message.find("centre and scale"), std::string::npos);
+    EXPECT_NE(message_text(result.message).find("centre and scale"), std::string::npos);
 }
 
 TEST(gradient_descent, can_be_cancelled) {  // oracle: definition

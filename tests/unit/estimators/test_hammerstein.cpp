@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/reader.h"
 #include "numerics/estimators/coe.h"
 #include "numerics/estimators/hammerstein.h"
 #include "numerics/signals/prbs.h"
@@ -76,7 +77,8 @@ TEST(hammerstein, hat_functions_share_out_every_value) {  // oracle: definition
 TEST(hammerstein, recovers_a_dead_band_without_noise) {  // oracle: the simulated system
     for (const System& system : {without_zero(), with_zero()}) {
         const auto result = hammerstein(record(system.G, 0, 1), system.structure, at_edges(kEdges));
-        EXPECT_LT((result.characteristic->levels - kLevels).cwiseAbs().maxCoeff(), 1e-6) << result.message;
+        EXPECT_LT((result.characteristic->levels - kLevels).cwiseAbs().maxCoeff(), 1e-6)
+            << message_text(result.full_message());
         EXPECT_LT((result.models[0].den() - system.G.den()).cwiseAbs().maxCoeff(), 1e-5);
         EXPECT_LT((result.models[0].num() - system.G.num()).cwiseAbs().maxCoeff(), 1e-5);
         EXPECT_NEAR(result.models[0].dc_gain(), 1, 1e-12);
@@ -90,7 +92,8 @@ TEST(hammerstein, finds_the_delay_together_with_the_rest) {  // oracle: the simu
     system.structure.free_delays = true;
     const auto result = hammerstein(record(system.G, 0.01, 2), system.structure, at_edges(kEdges));
     ASSERT_EQ(result.names.back(), "Td");
-    EXPECT_NEAR(result.models[0].delay(), 0.13, 4 * result.std[result.std.size() - 1]) << result.message;
+    EXPECT_NEAR(result.models[0].delay(), 0.13, 4 * result.std[result.std.size() - 1])
+        << message_text(result.full_message());
     EXPECT_LT(result.std[result.std.size() - 1], 0.01);
 }
 
@@ -140,10 +143,10 @@ TEST(hammerstein, bins_do_without_edges_that_the_input_does_not_visit) {  // ora
     options.bins = 8;
     const auto equal = hammerstein(data, system.structure, options);
     EXPECT_EQ(equal.characteristic->breakpoints.size(), 9);
-    EXPECT_GT(equal.fit_percent[0], equal.characteristic->linear_fit_percent + 5) << equal.message;
+    EXPECT_GT(equal.fit_percent[0], equal.characteristic->linear_fit_percent + 5) << message_text(equal.full_message());
     const auto wide = hammerstein(data, system.structure, at_edges(values({-9, -5, -1, -0.2, 0.2, 1, 4})));
     EXPECT_EQ(wide.characteristic->breakpoints.size(), 4) << wide.characteristic->breakpoints.transpose();
-    EXPECT_THAT(wide.message, HasSubstr("of bins that the input is hardly ever near"));
+    EXPECT_THAT(message_text(wide.full_message()), HasSubstr("of bins that the input is hardly ever near"));
 }
 
 // Oracle: a held input of three values, of which the two edges about zero know only the mean; at these values the
@@ -157,14 +160,14 @@ TEST(hammerstein, an_input_of_few_values_has_these_as_edges) {
     const IdData data{Matrix(y), Matrix(u), 0.05};
     for (const Vector& edges : {kEdges, values({-1, -0.5, 0.5, 1})}) {
         const auto result = hammerstein(data, without_zero().structure, at_edges(edges));
-        ASSERT_EQ(result.characteristic->breakpoints, values({-1, 0, 1})) << result.message;
+        ASSERT_EQ(result.characteristic->breakpoints, values({-1, 0, 1})) << message_text(result.full_message());
         EXPECT_LT(
             (result.characteristic->levels - characteristic(result.characteristic->breakpoints)).cwiseAbs().maxCoeff(),
             1e-6);
-        EXPECT_THAT(result.message, HasSubstr("The input takes only 3 values"));
+        EXPECT_THAT(message_text(result.full_message()), HasSubstr("The input takes only 3 values"));
     }
     const auto as_asked = hammerstein(data, without_zero().structure, at_edges(values({-1, 0, 1})));
-    EXPECT_THAT(as_asked.message, Not(HasSubstr("only 3 values")));
+    EXPECT_THAT(message_text(as_asked.full_message()), Not(HasSubstr("only 3 values")));
 }
 
 // oracle: second route, coe; two points lie on a line, so the model is linear with an offset
@@ -188,7 +191,7 @@ TEST(hammerstein, tells_when_a_line_would_do) {  // oracle: the simulated system
     const Vector y = lsim(without_zero().G, u.array() - u[0], 0.05).array() + u[0];
     const IdData data(Matrix(y + 0.05 * RandomStream(1).normal(1500)), Matrix(u), 0.05);
     const auto result = hammerstein(data, TransferStructure::single(2, 0), HammersteinOptions());
-    EXPECT_THAT(result.message, HasSubstr("A linear model fits as well"));
+    EXPECT_THAT(message_text(result.full_message()), HasSubstr("A linear model fits as well"));
     for (Index i = 0; i < result.characteristic->levels.size(); ++i)
         EXPECT_NEAR(result.characteristic->levels[i], result.characteristic->breakpoints[i],
                     4 * result.characteristic->levels_std[i])

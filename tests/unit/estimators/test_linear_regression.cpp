@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "base/reader.h"
 #include "numerics/error.h"
 #include "numerics/estimators/linear_regression.h"
 #include "numerics/signals/random.h"
@@ -117,7 +118,7 @@ TEST(linear_regression, dependent_columns_are_told) {  // oracle: analytic, solu
     EXPECT_EQ(fit.rank, 1);
     EXPECT_NEAR(fit.theta[0], 1, 1e-12);
     EXPECT_NEAR(fit.theta[1], 1, 1e-12);
-    EXPECT_NE(fit.message.find("depend"), std::string::npos);
+    EXPECT_NE(message_text(fit.message).find("depend"), std::string::npos);
     EXPECT_THROW(lsq(Phi, Vector::Constant(5, 2), RegressionMethod::kNormal), InvalidArgument);
 }
 
@@ -142,8 +143,6 @@ TEST(linear_regression, refuses_what_does_not_fit) {
     EXPECT_THROW(fit_polynomial(Vector::Ones(5), Vector::Ones(5), 1), InvalidArgument);
     EXPECT_THROW(fit_polynomial(Vector::LinSpaced(5, 0, 1), Vector::Ones(5), -1), InvalidArgument);
     EXPECT_THROW(fit_polynomial(Vector::LinSpaced(5, 0, 1), Vector::Ones(4), 1), InvalidArgument);
-    EXPECT_THROW(parse_regression_method("svd"), InvalidArgument);
-    EXPECT_EQ(parse_regression_method("normal"), RegressionMethod::kNormal);
 }
 
 }  // namespace test_linear_regression

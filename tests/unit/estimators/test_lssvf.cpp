@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/reader.h"
 #include "numerics/criteria/estimating_terms.h"
 #include "numerics/linalg/least_squares.h"
 #include "numerics/statistics/robust_covariance.h"
@@ -51,7 +52,8 @@ TEST(lssvf, long_records_keep_the_errors_of_a_white_equation_error_and_say_so) {
     const Matrix plain = found.covariance;
     colour_covariance(found, data, cutoff(3), false);
     EXPECT_EQ(found.covariance, plain);
-    EXPECT_NE(found.message.find("as white"), std::string::npos) << found.message;
+    EXPECT_NE(message_text(found.full_message()).find("as white"), std::string::npos)
+        << message_text(found.full_message());
 }
 
 TEST(lssvf, delay_of_whole_samples_equals_shifted_input) {  // oracle: shift invariance
@@ -102,8 +104,8 @@ TEST(lssvf, irregular_instants_that_are_regular_give_the_same) {  // oracle: sec
 
 TEST(lssvf, warns_of_a_cutoff_far_from_the_band) {  // oracle: the system's poles are -1 and -3
     const IdData data = course_record(0, 1);
-    EXPECT_NE(lssvf(data, kCourse, cutoff(100)).message.find("usual choice"), std::string::npos);
-    EXPECT_EQ(lssvf(data, kCourse, cutoff(3)).message.find("usual choice"), std::string::npos);
+    EXPECT_NE(message_text(lssvf(data, kCourse, cutoff(100)).full_message()).find("usual choice"), std::string::npos);
+    EXPECT_EQ(message_text(lssvf(data, kCourse, cutoff(3)).full_message()).find("usual choice"), std::string::npos);
 }
 
 TEST(lssvf, refuses_bad_input_in_words) {  // oracle: the sentence names what is wrong

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "base/reader.h"
 #include "numerics/error.h"
 #include "numerics/estimators/procsrivc.h"
 #include "numerics/estimators/srivc.h"
@@ -46,7 +47,7 @@ ProcsrivcOptions tight() {
 }
 
 bool warned(const Fit& result, const std::string& text) {
-    return result.message.find(text) != std::string::npos;
+    return message_text(result.full_message()).find(text) != std::string::npos;
 }
 
 std::string refusal(const std::function<void()>& action) {
@@ -86,8 +87,9 @@ TEST(procsrivc, recovers_exact_data_from_any_hold) {  // oracle: the simulated s
             data.hold = hold;
             const auto result = fit(data, c.structure, tight());
             for (Index i = 0; i < c.truth.size(); ++i)
-                EXPECT_NEAR(result.theta[i] / c.truth[i], 1, 1e-9) << c.structure << " " << result.message;
-            EXPECT_EQ(result.start.state, InitialState::kZero) << result.message;
+                EXPECT_NEAR(result.theta[i] / c.truth[i], 1, 1e-9)
+                    << c.structure << " " << message_text(result.full_message());
+            EXPECT_EQ(result.start.state, InitialState::kZero) << message_text(result.full_message());
         }
 }
 
@@ -102,7 +104,8 @@ TEST(procsrivc, every_structure_is_found_again_from_default_settings) {  // orac
         const auto result = procsrivc(data, model.structure, tight());
         for (Index i = 0; i < model.parameters.size(); ++i)
             EXPECT_NEAR(result.theta[i] / model.parameters[i], 1, 1e-7)
-                << model.structure.text() << " " << result.names[static_cast<std::size_t>(i)] << " " << result.message;
+                << model.structure.text() << " " << result.names[static_cast<std::size_t>(i)] << " "
+                << message_text(result.full_message());
     }
 }
 
@@ -124,7 +127,8 @@ TEST(procsrivc, thinned_irregular_step) {  // oracle: the simulated system of th
         options.largest_delay = 1.5;
         for (const IdData& data : {siso(y, u, 0.01), thinned}) {
             const auto result = fit(data, "P2DU", options);
-            for (Index i = 0; i < 4; ++i) EXPECT_NEAR(result.theta[i], truth[i], 4 * result.std[i]) << result.message;
+            for (Index i = 0; i < 4; ++i)
+                EXPECT_NEAR(result.theta[i], truth[i], 4 * result.std[i]) << message_text(result.full_message());
             EXPECT_LT(result.std[3], 0.02);
         }
     }
@@ -146,7 +150,8 @@ TEST(procsrivc, irregular_sampling_is_exact) {  // oracle: the simulated system
                 const IdData data(Matrix(lsim(model.transfer_function(), u, t)), Matrix(u), t);
                 const auto result = procsrivc(data, model.structure, tight());
                 for (Index i = 0; i < model.parameters.size(); ++i)
-                    EXPECT_NEAR(result.theta[i] / model.parameters[i], 1, 1e-7) << structure << result.message;
+                    EXPECT_NEAR(result.theta[i] / model.parameters[i], 1, 1e-7)
+                        << structure << message_text(result.full_message());
             }
 }
 
@@ -180,7 +185,8 @@ TEST(procsrivc, experiments_keep_their_own_states_and_offsets) {  // oracle: the
             if (!structure.integrator) options.offset = Offset::kEstimate;
             const auto result = procsrivc(data, structure, options);
             for (Index i = 0; i < model.parameters.size(); ++i)
-                EXPECT_NEAR(result.theta[i] / model.parameters[i], 1, 1e-7) << structure.text() << result.message;
+                EXPECT_NEAR(result.theta[i] / model.parameters[i], 1, 1e-7)
+                    << structure.text() << message_text(result.full_message());
             ASSERT_EQ(result.initial_values.size(), 2u);
             if (structure.integrator) continue;
             EXPECT_NEAR(result.offsets(0, 0), 5, 1e-6) << structure.text();
@@ -211,7 +217,7 @@ TEST(procsrivc, a_held_input_cannot_place_the_delay_of_a_jump) {  // oracle: two
     const Vector y = lsim(model_of("P1DZ", Vector{{1.3, 1.7, -0.45, 0.373}}), u, 0.05);
     const auto result = fit(siso(y, u, 0.05), "P1DZ", tight());
     EXPECT_GT(result.fit_percent[0], 100 - 1e-6);
-    EXPECT_TRUE(warned(result, "do not determine all parameters separately")) << result.message;
+    EXPECT_TRUE(warned(result, "do not determine all parameters separately")) << message_text(result.full_message());
 }
 
 TEST(procsrivc, integrating_process_cut_from_a_running_experiment) {  // oracle: the simulated system
@@ -219,7 +225,7 @@ TEST(procsrivc, integrating_process_cut_from_a_running_experiment) {  // oracle:
     const Vector y = lsim(model_of("P1I", truth), u, 0.05).array() + 12;
     const IdData data = siso(y.tail(950), u.tail(950), 0.05);
     const auto result = fit(data, "P1I", tight());
-    EXPECT_EQ(result.start.state, InitialState::kEstimate) << result.message;
+    EXPECT_EQ(result.start.state, InitialState::kEstimate) << message_text(result.full_message());
     EXPECT_FALSE(result.start.offset);
     for (Index i = 0; i < 2; ++i) EXPECT_NEAR(result.theta[i] / truth[i], 1, 1e-8);
     EXPECT_NEAR(result.initial_values[0][0], y[50], 1e-6);
@@ -251,7 +257,8 @@ TEST(procsrivc, initial_state_and_offset_are_found) {  // oracle: the simulated 
         options.offset = Offset::kEstimate;
         const auto result = fit(siso(y.tail(950), u.tail(950), 0.05), c.structure, options);
         for (Index i = 0; i < c.truth.size(); ++i)
-            EXPECT_NEAR(result.theta[i] / c.truth[i], 1, 1e-8) << c.structure << " " << result.message;
+            EXPECT_NEAR(result.theta[i] / c.truth[i], 1, 1e-8)
+                << c.structure << " " << message_text(result.full_message());
         EXPECT_NEAR(result.offsets(0, 0), 12, 1e-6) << c.structure;
         EXPECT_NEAR(result.initial_values[0][0], y[50] - 12 - c.truth[0] * u[50], 1e-6) << c.structure;
         const auto chosen = fit(siso(y.tail(950), u.tail(950), 0.05), c.structure);
@@ -266,13 +273,13 @@ TEST(procsrivc, heat_exchanger_just_works) {  // oracle: physical truth, standar
     for (std::uint32_t seed = 1; seed <= 10; ++seed) {
         const auto record = simulate_heat_exchanger(p, seed);
         const auto result = fit(siso(record.y, record.u, p.Ts), "P1");
-        EXPECT_EQ(result.start.state, InitialState::kSteady) << result.message;
+        EXPECT_EQ(result.start.state, InitialState::kSteady) << message_text(result.full_message());
         EXPECT_TRUE(result.start.offset);
         EXPECT_NEAR(result.theta[0], truth.gain, 4 * result.std[0]) << seed;
         EXPECT_NEAR(result.theta[1], truth.time_constant, 4 * result.std[1]) << seed;
         EXPECT_NEAR(result.offsets(0, 0), truth.output_at_zero_input, 0.2) << seed;
         EXPECT_LT(result.std[1], 0.02 * truth.time_constant);
-        EXPECT_TRUE(result.warnings.empty()) << result.message;
+        EXPECT_TRUE(result.warnings.empty()) << message_text(result.full_message());
     }
 }
 
@@ -311,11 +318,11 @@ TEST(procsrivc, suspension_just_works) {  // oracle: physical truth, standard er
     for (std::uint32_t seed = 1; seed <= 10; ++seed) {
         const auto record = simulate_suspension(p, seed);
         const auto result = fit(siso(record.y, record.u, p.Ts), "P2U");
-        EXPECT_NEAR(result.theta[0], truth.gain, 4 * result.std[0]) << seed << result.message;
+        EXPECT_NEAR(result.theta[0], truth.gain, 4 * result.std[0]) << seed << message_text(result.full_message());
         EXPECT_NEAR(result.theta[1], 1 / truth.natural_frequency, 4 * result.std[1]) << seed;
         EXPECT_NEAR(result.theta[2], truth.damping_ratio, 4 * result.std[2]) << seed;
         EXPECT_GT(result.fit_percent[0], 90);
-        EXPECT_TRUE(result.warnings.empty()) << result.message;
+        EXPECT_TRUE(result.warnings.empty()) << message_text(result.full_message());
     }
 }
 
@@ -326,7 +333,8 @@ TEST(procsrivc, unit_step_at_sample_one_with_an_offset) {  // oracle: the simula
         const Vector y = lsim(model_of(c.structure, c.truth), u, 0.05).array() - 3;
         const auto result = fit(siso(y, u, 0.05), c.structure, tight());
         for (Index i = 0; i < c.truth.size(); ++i)
-            EXPECT_NEAR(result.theta[i] / c.truth[i], 1, 1e-7) << c.structure << " " << result.message;
+            EXPECT_NEAR(result.theta[i] / c.truth[i], 1, 1e-7)
+                << c.structure << " " << message_text(result.full_message());
         EXPECT_NEAR(result.offsets(0, 0), -3, 1e-7) << c.structure;
     }
 }
@@ -338,7 +346,8 @@ TEST(procsrivc, delay_needs_the_grid) {  // oracle: the simulated system; a loca
     ProcsrivcOptions options;
     options.largest_delay = 1.5;
     const auto result = fit(siso(y, u, 0.01), "P2DU", options);
-    for (Index i = 0; i < 4; ++i) EXPECT_NEAR(result.theta[i], truth[i], 4 * result.std[i]) << result.message;
+    for (Index i = 0; i < 4; ++i)
+        EXPECT_NEAR(result.theta[i], truth[i], 4 * result.std[i]) << message_text(result.full_message());
     Index best = 0;
     result.delay_loss.minCoeff(&best);
     EXPECT_NEAR(result.delay_grid[best], 0.7, 0.05);
@@ -378,13 +387,13 @@ TEST(procsrivc, delay_options_bound_the_answer) {  // oracle: the simulated syst
     options.largest_delay = 0.5;
     const auto low = fit(data, "P1D", options);
     EXPECT_NEAR(low.theta[2], 0.5, 1e-9);
-    EXPECT_TRUE(warned(low, "raise `largest_delay`")) << low.message;
+    EXPECT_TRUE(warned(low, "raise `largest_delay`")) << message_text(low.full_message());
     EXPECT_EQ(low.std[2], 0);
     options.largest_delay = 2;
     options.least_delay = 0.8;
     const auto high = fit(data, "P1D", options);
     EXPECT_NEAR(high.theta[2], 0.8, 1e-9);
-    EXPECT_TRUE(warned(high, "lower `least_delay`")) << high.message;
+    EXPECT_TRUE(warned(high, "lower `least_delay`")) << message_text(high.full_message());
     options.least_delay = options.largest_delay.emplace(0.7);
     const auto known = fit(data, "P1D", options);
     EXPECT_NEAR(known.theta[1], 0.3, 1e-6);
@@ -405,7 +414,7 @@ TEST(procsrivc, doubtful_results_come_with_a_sentence) {  // oracle: the simulat
     hurried.max_iterations = 1;
     const auto result = fit(siso(y + e, u, 0.05), "P1", hurried);
     EXPECT_EQ(result.termination, Termination::kIterationLimit);
-    EXPECT_TRUE(warned(result, "`max_iterations` = 1")) << result.message;
+    EXPECT_TRUE(warned(result, "`max_iterations` = 1")) << message_text(result.full_message());
     EXPECT_GT(result.fit_percent[0], 0);
 }
 
@@ -452,10 +461,10 @@ TEST(procsrivc, a_long_record_ends_at_its_own_optimum) {  // oracle: second rout
     options.tolerance = 1e-11;
     const Fit free = srivc(data, TransferStructure::single(2, 0), options);
     const TransferFunction &G = result.models[0], &expected = free.models[0];
-    EXPECT_LT((G.den() - expected.den()).cwiseAbs().maxCoeff(), 1e-7) << result.message;
+    EXPECT_LT((G.den() - expected.den()).cwiseAbs().maxCoeff(), 1e-7) << message_text(result.full_message());
     EXPECT_LT((G.num() - expected.num()).cwiseAbs().maxCoeff(), 1e-7);
     EXPECT_NEAR(result.loss, free.loss, 1e-12);
-    EXPECT_EQ(result.start.state, InitialState::kZero) << result.message;
+    EXPECT_EQ(result.start.state, InitialState::kZero) << message_text(result.full_message());
 }
 
 TEST(procsrivc, a_long_record_chooses_its_start_as_a_whole) {  // oracle: the simulated system
@@ -464,8 +473,8 @@ TEST(procsrivc, a_long_record_chooses_its_start_as_a_whole) {  // oracle: the si
     const Vector u = rough_input(N, 12, 0.5), e = 0.1 * RandomStream(9).normal(N);
     const Vector y = lsim(model_of("P1", Vector{{gain, 0.8}}), Vector(u.array() - u[0]), 0.05).array() + gain * u[0];
     const auto result = fit(siso(Vector(y + e).array() + offset, u, 0.05), "P1");
-    EXPECT_EQ(result.start.state, InitialState::kSteady) << result.message;
-    EXPECT_TRUE(result.start.offset) << result.message;
+    EXPECT_EQ(result.start.state, InitialState::kSteady) << message_text(result.full_message());
+    EXPECT_TRUE(result.start.offset) << message_text(result.full_message());
     EXPECT_NEAR(result.offsets(0, 0), offset, 4 * 0.1 / std::sqrt(1e5));
     for (const auto& [i, truth] : {std::pair{0, gain}, std::pair{1, 0.8}})
         EXPECT_NEAR(result.theta[i], truth, 4 * result.std[i]);
@@ -479,7 +488,8 @@ TEST(procsrivc, a_beginning_that_tells_nothing_is_no_start) {  // oracle: the si
     for (const Vector& truth : {Vector{{1.2, 0.8}}, slow}) {
         if (truth == slow) u = rough_input(N, 3000);
         const auto result = fit(siso(lsim(model_of("P1", truth), u, 0.05) + e, u, 0.05), "P1");
-        for (Index i = 0; i < 2; ++i) EXPECT_NEAR(result.theta[i], truth[i], 4 * result.std[i]) << result.message;
+        for (Index i = 0; i < 2; ++i)
+            EXPECT_NEAR(result.theta[i], truth[i], 4 * result.std[i]) << message_text(result.full_message());
     }
 }
 

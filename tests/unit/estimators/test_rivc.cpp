@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/reader.h"
 #include "numerics/estimators/srivc.h"
 #include "support/coloured_noise.h"
 #include "support/thrown_message.h"
@@ -21,7 +22,7 @@ FitOptions exact() {
 
 TEST(rivc, noise_free_records_give_the_truth) {  // oracle: the simulated system
     const Fit found = rivc(course_record(0, 1), kCourse, {1, 2}, exact());
-    EXPECT_LT(relative_difference(found.theta, values({4, 3, 2})), 1e-9) << found.message;
+    EXPECT_LT(relative_difference(found.theta, values({4, 3, 2})), 1e-9) << message_text(found.full_message());
     EXPECT_TRUE(found.std.allFinite());
 }
 
@@ -42,7 +43,7 @@ TEST(rivc, without_a_noise_model_it_is_srivc) {  // oracle: srivc's fixed point
 TEST(rivc, finds_model_and_noise_within_their_errors) {
     for (const std::uint32_t seed : {1, 2, 3}) {
         const Fit found = rivc(ColouredProblem().record(seed), kCourse, {1, 2});
-        EXPECT_EQ(found.termination, Termination::kConverged) << found.message;
+        EXPECT_EQ(found.termination, Termination::kConverged) << message_text(found.full_message());
         const Vector truth = values({4, 3, 2});
         for (Index i = 0; i < 3; ++i) EXPECT_NEAR(found.theta[i], truth[i], 3 * found.std[i]) << seed;
         EXPECT_NEAR(found.noise->C[1], 0.9, 3 * found.noise->C_std[1]) << seed;
@@ -81,8 +82,8 @@ TEST(rivc, delays_offsets_inputs_and_experiments) {  // oracle: the simulated sy
     FitOptions options;
     options.offset = Offset::kEstimate;
     const Fit late = rivc(IdData(Matrix(x.array() + 5 + v.array()), Matrix(u), 0.05), free, {0, 1}, options);
-    EXPECT_NEAR(late.theta[3], 0.33, 4 * late.std[3]) << late.message;
-    EXPECT_NEAR(late.offsets(0, 0), 5, 0.2) << late.message;
+    EXPECT_NEAR(late.theta[3], 0.33, 4 * late.std[3]) << message_text(late.full_message());
+    EXPECT_NEAR(late.offsets(0, 0), 5, 0.2) << message_text(late.full_message());
     EXPECT_NEAR(late.noise->D[1], -0.8, 4 * late.noise->D_std[1]);
     EXPECT_GE(late.delay_grid.size(), 5);
 
@@ -94,7 +95,8 @@ TEST(rivc, delays_offsets_inputs_and_experiments) {  // oracle: the simulated sy
     const auto structure = TransferStructure::grid(1, 2, Denominators::kPerChannel, {2, 1}, {0, 0}, {0, 0});
     const Fit both = rivc(IdData::merge({one, one}), structure, {0, 1});
     const Vector truth = values({4, 3, 2, 0.8, 1});
-    for (Index i = 0; i < 5; ++i) EXPECT_NEAR(both.theta[i], truth[i], 6 * both.std[i]) << both.message;
+    for (Index i = 0; i < 5; ++i)
+        EXPECT_NEAR(both.theta[i], truth[i], 6 * both.std[i]) << message_text(both.full_message());
 }
 
 // oracle: the simulated system. Inputs from before the record reach its first 1.2 s, and nobody knows them
@@ -106,7 +108,7 @@ TEST(rivc, a_record_cut_from_a_running_experiment) {
     TransferStructure late = kCourse;
     late.channels[0].delay = 1.2;
     const Fit found = rivc(IdData(Matrix(x), Matrix(u), 0.05).range(301, 900), late, {0, 1}, options);
-    EXPECT_LT(relative_difference(found.theta, values({4, 3, 2})), 1e-7) << found.message;
+    EXPECT_LT(relative_difference(found.theta, values({4, 3, 2})), 1e-7) << message_text(found.full_message());
 
     // What does not count makes no noise either.
     const Vector v = 0.05 * arma_signal(values({1}), values({1, -0.8}), u.size(), 5);
@@ -144,7 +146,7 @@ TEST(rivc, always_answers) {
     const Fit stopped = rivc(ColouredProblem().record(1), kCourse, {1, 2}, options);
     EXPECT_EQ(stopped.termination, Termination::kIterationLimit);
     EXPECT_TRUE(stopped.theta.allFinite() && stopped.std.allFinite());
-    EXPECT_NE(stopped.message.find("`max_iterations` = 1"), std::string::npos);
+    EXPECT_NE(message_text(stopped.full_message()).find("`max_iterations` = 1"), std::string::npos);
     options.cancel = [] { return true; };
     EXPECT_TRUE(rivc(ColouredProblem().record(1), kCourse, {1, 2}, options).theta.allFinite());
 }

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/reader.h"
 #include "numerics/estimators/oe.h"
 #include "numerics/estimators/sriv.h"
 #include "numerics/models/convert.h"
@@ -51,8 +52,8 @@ TEST(sriv, fixed_point_is_the_output_error_optimum) {  // oracle: second route
         for (const auto& [orders, truth] : {std::pair{kOrders, kTruth}, std::pair{kTwoInputs, kTwoTruth}}) {
             const IdData data = simulated(orders, truth, 400, 1.0, seed);
             const auto iv = sriv(data, orders, tight()), output_error = oe(data, orders, tight());
-            ASSERT_EQ(iv.termination, Termination::kConverged) << iv.message;
-            EXPECT_LT(worst_relative(iv.theta, output_error.theta), 1e-8) << seed << iv.message;
+            ASSERT_EQ(iv.termination, Termination::kConverged) << message_text(iv.full_message());
+            EXPECT_LT(worst_relative(iv.theta, output_error.theta), 1e-8) << seed << message_text(iv.full_message());
             EXPECT_LT(worst_relative(iv.std, output_error.std), 1e-7) << seed;
         }
     }
@@ -66,8 +67,8 @@ TEST(sriv, agrees_with_oe_whatever_the_start) {  // oracle: second route, a cut 
         options.initial_state = state;
         options.offset = Offset::kEstimate;
         const auto iv = sriv(data, kOrders, options), output_error = oe(data, kOrders, options);
-        EXPECT_EQ(iv.termination, Termination::kConverged) << iv.message;
-        EXPECT_LT(worst_relative(iv.theta, output_error.theta), 1e-8) << iv.message;
+        EXPECT_EQ(iv.termination, Termination::kConverged) << message_text(iv.full_message());
+        EXPECT_LT(worst_relative(iv.theta, output_error.theta), 1e-8) << message_text(iv.full_message());
         EXPECT_NEAR(iv.offsets(0, 0), output_error.offsets(0, 0), 1e-7);
     }
 }
@@ -82,7 +83,7 @@ TEST(sriv, fast_sampling_needs_no_guess) {  // oracle: the continuous-time syste
         const IdData data(Matrix(x + 0.1 * RandomStream(seed).normal(3000)), Matrix(u), 0.01);
         const auto result = sriv(data, kOrders);
         const double noise = std::sqrt(result.noise_variance[0]);
-        EXPECT_NEAR(noise, 0.1, 0.01) << result.message;
+        EXPECT_NEAR(noise, 0.1, 0.01) << message_text(result.full_message());
         EXPECT_LT(std::sqrt(result.loss), 0.1 * 1.05);
     }
 }
@@ -94,7 +95,8 @@ TEST(sriv, short_noisy_records_get_a_good_model) {  // oracle: the simulation er
     for (std::uint32_t seed = 1; seed <= 50; ++seed) {
         const Vector e = 0.5 * RandomStream(seed).normal(u.size());
         const auto result = sriv(IdData(Matrix(x + e), Matrix(u), 0.2), kOrders);
-        EXPECT_LT(result.loss, 1.03 * e.squaredNorm() / static_cast<double>(u.size())) << seed << result.message;
+        EXPECT_LT(result.loss, 1.03 * e.squaredNorm() / static_cast<double>(u.size()))
+            << seed << message_text(result.full_message());
     }
 }
 
@@ -110,7 +112,7 @@ TEST(sriv, always_answers) {  // oracle: definition
     hurried.max_iterations = 0;
     const auto rough = sriv(simulated(kOrders, kTruth, 300, 0.5, 1), kOrders, hurried);
     EXPECT_EQ(rough.termination, Termination::kIterationLimit);
-    EXPECT_THAT(rough.message, HasSubstr("`max_iterations` = 0"));
+    EXPECT_THAT(message_text(rough.full_message()), HasSubstr("`max_iterations` = 0"));
     EXPECT_GT(rough.fit_percent[0], 50);
     int asked = 0;
     hurried.cancel = [&] { return ++asked > 2; };

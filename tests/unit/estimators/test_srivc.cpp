@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 
+#include "base/reader.h"
 #include "numerics/filters/transfer_sensitivity.h"
 #include "numerics/signals/prbs.h"
 #include "numerics/signals/random.h"
@@ -73,7 +74,7 @@ TEST(srivc, separate_denominators_are_found_by_back_fitting) {  // oracle: the s
     const TransferStructure structure =
         TransferStructure::grid(1, 2, Denominators::kPerChannel, {2}, {0}, {0.03, 0.05});
     const Fit found = srivc(IdData(Matrix(y), u, 0.01), structure, exact());
-    EXPECT_LT(relative_difference(found.theta, values({2, 4, 4, 1, 1, 1})), 1e-8) << found.message;
+    EXPECT_LT(relative_difference(found.theta, values({2, 4, 4, 1, 1, 1})), 1e-8) << message_text(found.full_message());
 }
 
 TEST(srivc, irregular_sampling_without_noise_gives_the_truth) {  // oracle: the simulated system
@@ -88,7 +89,7 @@ TEST(srivc, irregular_sampling_without_noise_gives_the_truth) {  // oracle: the 
     }
     IdData data(Matrix(lsim(TransferFunction(values({5}), values({1, 2.8, 4})), u, t)), Matrix(u), t);
     const Fit found = srivc(data, kCourse, exact());
-    EXPECT_LT(relative_difference(found.theta, values({2.8, 4, 5})), 1e-8) << found.message;
+    EXPECT_LT(relative_difference(found.theta, values({2.8, 4, 5})), 1e-8) << message_text(found.full_message());
 }
 
 TEST(srivc, long_records_start_on_their_beginning) {  // oracle: the same fixed point from a given cut-off
@@ -136,7 +137,7 @@ TEST(srivc, outputs_with_a_common_denominator_share_what_they_know) {
     EXPECT_LT(relative_difference(srivc(IdData(y, Matrix(u), 0.01), structure, exact()).theta, truth), 1e-8);
     y.col(0) += 0.3 * RandomStream(2).normal(u.size());
     const Fit found = srivc(IdData(y, Matrix(u), 0.01), structure, exact());
-    EXPECT_LT(relative_difference(found.theta.head(2), truth.head(2)), 1e-6) << found.message;
+    EXPECT_LT(relative_difference(found.theta.head(2), truth.head(2)), 1e-6) << message_text(found.full_message());
     EXPECT_LT(std::abs(found.theta[2] - 3), 4 * found.std[2]);
     EXPECT_GT(found.trace.front().change, 1e-6) << "the trace begins with the first of all passes";
 }
@@ -152,21 +153,24 @@ TEST(srivc, tells_of_delays_that_held_inputs_cannot_show) {
     EXPECT_LT(other.loss, 1e-12 * x.squaredNorm());
     fixed.free_delays = true;
     const char* doubt = "is only known to within one sampling time";
-    EXPECT_NE(srivc(data, fixed).message.find(doubt), std::string::npos);
+    EXPECT_NE(message_text(srivc(data, fixed).full_message()).find(doubt), std::string::npos);
     TransferStructure proper = TransferStructure::single(2, 1);
     proper.free_delays = true;
-    EXPECT_EQ(srivc(data, proper).message.find(doubt), std::string::npos);
+    EXPECT_EQ(message_text(srivc(data, proper).full_message()).find(doubt), std::string::npos);
 }
 
 TEST(srivc, passes_suffice_for_fixed_delays_from_rest_with_one_denominator) {  // oracle: the rule of srivc.h
     const TransferStructure plain = TransferStructure::single(2, 0);
-    EXPECT_TRUE(srivc_passes_suffice(plain, {}));
-    EXPECT_TRUE(srivc_passes_suffice(TransferStructure::grid(1, 2, Denominators::kPerOutput, {2}, {0}, {0, 0}), {}));
-    EXPECT_FALSE(srivc_passes_suffice(TransferStructure::grid(1, 2, Denominators::kPerChannel, {2}, {0}, {0, 0}), {}));
+    const FitOptions rest = FitOptions{}.from_rest();
+    EXPECT_TRUE(srivc_passes_suffice(plain, rest));
+    EXPECT_FALSE(srivc_passes_suffice(plain, {}));
+    EXPECT_TRUE(srivc_passes_suffice(TransferStructure::grid(1, 2, Denominators::kPerOutput, {2}, {0}, {0, 0}), rest));
+    EXPECT_FALSE(
+        srivc_passes_suffice(TransferStructure::grid(1, 2, Denominators::kPerChannel, {2}, {0}, {0, 0}), rest));
     TransferStructure delayed = plain;
     delayed.free_delays = true;
-    EXPECT_FALSE(srivc_passes_suffice(delayed, {}));
-    FitOptions moving, offset, held;
+    EXPECT_FALSE(srivc_passes_suffice(delayed, rest));
+    FitOptions moving = rest, offset = rest, held = rest;
     moving.initial_state = InitialState::kEstimate;
     offset.offset = Offset::kEstimate;
     held.fixed = {{"a1", 3}};
@@ -197,7 +201,8 @@ TEST(srivc, superfluous_poles_leave_the_fit_as_good) {
         const IdData data(x + 0.1 * RandomStream(seed).normal(x.size()), u, 0.05);
         for (const int poles : {3, 4}) {
             const Fit large = srivc(data, TransferStructure::single(poles, 0));
-            EXPECT_LT(large.loss, 1.01 * srivc(data, kCourse).loss) << poles << ": " << large.message;
+            EXPECT_LT(large.loss, 1.01 * srivc(data, kCourse).loss)
+                << poles << ": " << message_text(large.full_message());
         }
     }
 }

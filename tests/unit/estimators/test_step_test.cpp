@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "base/reader.h"
 #include "numerics/error.h"
 #include "numerics/estimators/step_test.h"
 #include "numerics/rigs/heat_exchanger.h"
@@ -135,7 +136,8 @@ TEST(step_test, delayed_without_delay_says_so) {  // oracle: analytic
         const auto result = step_delayed(record_of(e, 1, first_order(0.9)));
         EXPECT_GE(parameter(result, "D"), 0);
         EXPECT_LT(parameter(result, "D"), 0.02);
-        EXPECT_EQ(parameter(result, "D") == 0, result.message.find("no room for a delay") != std::string::npos);
+        EXPECT_EQ(parameter(result, "D") == 0,
+                  message_text(result.message).find("no room for a delay") != std::string::npos);
         least = std::min(least, parameter(result, "D"));
     }
     EXPECT_EQ(least, 0);
@@ -244,7 +246,7 @@ TEST(step_test, refuses_an_output_that_does_not_answer) {  // justified: it is n
 TEST(step_test, refuses_records_it_cannot_read) {
     Experimental e;
     e.N = 105;
-    EXPECT_THAT(refusal([&] { step_first_order(record_of(e, 1, first_order(0.8))); }), HasSubstr("5 sample(s)"));
+    EXPECT_THAT(refusal([&] { step_first_order(record_of(e, 1, first_order(0.8))); }), HasSubstr("5 samples"));
     e.N = 1000;
     EXPECT_THAT(refusal([&] { step_first_order(record_of(e, 1, first_order(1e-4))); }), HasSubstr("sample faster"));
     const IdData two_inputs(Matrix::Zero(50, 1), Matrix::Ones(50, 2), 1.0);

@@ -29,7 +29,7 @@ TEST(delay_plot, shows_the_curve_and_the_estimate) {  // oracle: the search itse
     EXPECT_EQ(panel.curves[0].y, (Vector{{0.6, 1, 0.5, 0.7}}));
     EXPECT_EQ(panel.curves[1].x[0], 0.23);
     EXPECT_EQ(panel.curves[1].y[0], 0.4);
-    EXPECT_THAT(panel.curves[1].label, HasSubstr("0.230 ± 0.011 s"));
+    EXPECT_THAT(message_text(panel.curves[1].label), HasSubstr("0.230 ± 0.011 s"));
     EXPECT_LT(panel.y_range->first, 0.4);
 }
 
@@ -38,7 +38,7 @@ TEST(delay_plot, writes_no_digits_below_the_error) {  // oracle: rounding by han
     const auto label = [&one](double delay, double error) {
         one.delay = delay;
         one.std = error;
-        return delay_plot(one).panels.front().curves[1].label;
+        return message_text(delay_plot(one).panels.front().curves[1].label);
     };
     EXPECT_EQ(label(0.0057775, 0.00969), "estimate, 0.0058 ± 0.0097 s");
     EXPECT_EQ(label(12.3456, 1.23), "estimate, 12.3 ± 1.2 s");

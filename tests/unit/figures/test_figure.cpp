@@ -18,9 +18,9 @@ Figure figure_with(Vector x, Vector y) {
     Curve curve;
     curve.x = std::move(x);
     curve.y = std::move(y);
-    curve.label = "measured";
+    curve.label = Message("measured");
     Panel panel;
-    panel.title = "Outputs";
+    panel.title = Message("Outputs");
     panel.curves = {curve};
     return Figure(panel);
 }

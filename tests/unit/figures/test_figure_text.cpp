@@ -18,6 +18,13 @@ TEST(figure_text, line_breaks_and_control_characters_become_spaces) {
     EXPECT_EQ(gnuplot_text(std::string("a\0b", 3)), "'a b'");
 }
 
+TEST(figure_text, lines_are_not_broken_at_no_break_spaces) {
+    EXPECT_EQ(gnuplot_text("5\u00A0%, 5\u202F%"), "'5 %, 5 %'");
+    EXPECT_EQ(text_width("5\u00A0%", 10), text_width("5 %", 10));
+    EXPECT_EQ(fit_text("aaa bbb\u00A0ccc", text_width("bbb ccc", 10), 10).lines,
+              (std::vector<std::string>{"aaa", "bbb\u00A0ccc"}));
+}
+
 TEST(figure_text, braces_raise_and_lower) {
     EXPECT_EQ(gnuplot_text("x_{max}"), "'x_{max}'");
     EXPECT_EQ(gnuplot_text("e^{-t}"), "'e^{-t}'");

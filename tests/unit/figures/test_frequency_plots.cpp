@@ -24,11 +24,11 @@ FrequencyData measured() {
 }
 
 TEST(frequency_plots, measured_responses_are_points_with_bands) {
-    const Figure figure = bode_plot({}, Vector(), {{"measured", measured(), 0.99}});
+    const Figure figure = bode_plot({}, Vector(), {{Message("measured"), measured(), 0.99}});
     figure.validate();
     const Curve &points = figure.panels[0].curves[0], &band = figure.panels[0].curves[1];
     EXPECT_EQ(points.style, CurveStyle::kPoints);
-    EXPECT_EQ(points.label, "measured");
+    EXPECT_EQ(message_text(points.label), "measured");
     EXPECT_NEAR(points.y[1], 20 * std::log10(2 / std::sqrt(5.0)), 1e-12);
     ASSERT_EQ(band.style, CurveStyle::kBand);
     EXPECT_NEAR(band.y_upper[1] - points.y[1], kQuantile * 20 / std::numbers::ln10 * 0.1 / (2 / std::sqrt(5.0)), 1e-9);
@@ -42,17 +42,18 @@ TEST(frequency_plots, models_beside_held_samples_are_held) {  // oracle: 1 - exp
     ComplexVector H(2);
     for (Index k = 0; k < 2; ++k) H[k] = (1 - a) / (std::polar(1.0, w[k] * Ts) - a);
     const FrequencyData held = frequency_data(H, w, Vector(), Ts, InterSample::kZoh);
-    const Figure figure = bode_plot({{"lag", lag}}, w, {{"measured", held, 0.99}});
-    EXPECT_EQ(figure.panels[0].curves[0].label, "lag, input held");
+    const Figure figure = bode_plot({{Message("lag"), lag}}, w, {{Message("measured"), held, 0.99}});
+    EXPECT_EQ(message_text(figure.panels[0].curves[0].label), "lag, input held");
     for (const Panel& panel : figure.panels)
         EXPECT_LT((panel.curves[0].y - panel.curves[1].y).cwiseAbs().maxCoeff(), 1e-9);
     const FrequencyData sines = frequency_data(H, w, Vector());
-    EXPECT_EQ(bode_plot({{"lag", lag}}, w, {{"a", held, 0.99}, {"b", sines, 0.99}}).panels[0].curves[0].label, "lag");
+    const std::vector<NamedResponse> both = {{Message("a"), held, 0.99}, {Message("b"), sines, 0.99}};
+    EXPECT_EQ(bode_plot({{Message("lag"), lag}}, w, both).panels[0].curves[0].label, Message("lag"));
 }
 
 TEST(frequency_plots, phases_lie_beside_the_models) {
     // 4 rad/s: -76 degrees of the lag and -687.5 of the delay; from 2 rad/s on alone they would not be unwrapped so far
-    const Figure figure = bode_plot({{"model", kLag}}, Vector(), {{"measured", measured(), 0.99}});
+    const Figure figure = bode_plot({{Message("model"), kLag}}, Vector(), {{Message("measured"), measured(), 0.99}});
     const Curve& points = figure.panels[1].curves[1];
     ASSERT_EQ(points.style, CurveStyle::kPoints);
     const Vector beside = phase_degrees(kLag, kFrequencies);
@@ -71,7 +72,7 @@ TEST(frequency_plots, levels_are_decibels_of_what_is_above_zero) {
     EXPECT_LT((curves[0].y - Vector{{0.0, -10.0, -20.0}}).norm(), 1e-12);
     EXPECT_NEAR(curves[1].y[0], -40, 1e-12);
     EXPECT_TRUE(std::isnan(curves[2].y[1]));
-    EXPECT_EQ(curves[3].label, "even lines without input");
+    EXPECT_EQ(message_text(curves[3].label), "even lines without input");
     EXPECT_THAT(thrown_message([] { levels_plot(measured()); }), HasSubstr("no levels"));
 }
 

@@ -30,10 +30,10 @@ Figure sine(const std::string& label = "a curve") {
     Curve curve;
     curve.x = Vector::LinSpaced(200, 0, 10);
     curve.y = curve.x.array().sin();
-    curve.label = label;
+    curve.label = Message::verbatim(label);
     Panel panel;
-    panel.x_label = "time (s)";
-    panel.y_label = "Height (mm)";
+    panel.x_label = Message("time (s)");
+    panel.y_label = Message("Height (mm)");
     panel.curves = {curve};
     return Figure(panel);
 }
@@ -137,12 +137,13 @@ TEST(gnuplot_renderer, texts_never_become_commands) {
     int number = 0;
     for (const std::string& attack : attacks) {
         Figure figure = sine(attack);
-        figure.title = attack;
+        const Message label = Message::verbatim(attack);
+        figure.title = label;
         Panel& panel = figure.panels[0];
-        panel.title = panel.x_label = panel.y_label = attack;
-        panel.references = {{true, 0.5, attack, 1}, {false, 5, attack, 1}};
-        panel.annotations = {{3, 0.2, attack, true}};
-        panel.arrows = {{1, 0, 2, 0.5, attack, true}};
+        panel.title = panel.x_label = panel.y_label = label;
+        panel.references = {{true, 0.5, label, 1}, {false, 5, label, 1}};
+        panel.annotations = {{3, 0.2, label, true}};
+        panel.arrows = {{1, 0, 2, 0.5, label, true}};
         for (const char* kind : {".pdf", ".svg", ".png"}) {
             const auto file = folder.path() / (std::to_string(number++) + kind);
             ASSERT_NO_THROW(draw_one(renderer, figure, file)) << attack.substr(0, 60);

@@ -14,7 +14,7 @@ const IdData kData(Matrix(Vector{{0.0, 1.0, 2.0}}), Matrix(Vector{{1.0, 1.0, 0.0
 
 std::vector<std::string> legend_of(const Figure& figure) {
     std::vector<std::string> labels;
-    for (const Curve& curve : figure.panels.front().curves) labels.push_back(curve.label);
+    for (const Curve& curve : figure.panels.front().curves) labels.push_back(message_text(curve.label));
     return labels;
 }
 

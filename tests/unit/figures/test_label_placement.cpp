@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "figures/label_placement.h"
 #include "figures/style.h"
@@ -14,7 +15,7 @@ Curve line(const std::string& name, double from, double to) {
     Curve curve;
     curve.x = Vector::LinSpaced(101, 0, 10);
     curve.y = Vector::LinSpaced(101, from, to);
-    curve.label = name;
+    curve.label = Message::verbatim(name);
     return curve;
 }
 
@@ -68,6 +69,22 @@ TEST(label_placement, curves_that_lie_together_have_a_legend) {
     const PanelLayout layout = lay_out(figure).panels.front();
     EXPECT_EQ(layout.legend.size(), 2u);
     EXPECT_TRUE(labels_of(figure, layout).empty());
+}
+
+// Oracle: a place on a page is a number within a page's size; the sanitizer sees one that is none.
+TEST(label_placement, texts_of_marks_at_the_ends_of_all_numbers_have_finite_places) {
+    const double huge = std::numeric_limits<double>::max();
+    for (const double x : {0.0, huge, -huge})
+        for (const double y : {0.0, huge, -huge}) {
+            Figure figure = with_names({line("measured", 1, 2)});
+            Panel& panel = figure.panels.front();
+            panel.annotations.push_back({x, y, Message::verbatim("far")});
+            panel.arrows.push_back({-huge, -y, x, y, Message::verbatim("between")});
+            panel.references.push_back({true, y, Message::verbatim("level"), 1});
+            for (const PlacedLabel& label : labels_of(figure, lay_out(figure).panels.front())) {
+                EXPECT_TRUE(std::isfinite(label.x) && std::isfinite(label.y)) << label.text << " " << x << " " << y;
+            }
+        }
 }
 
 TEST(label_placement, bands_are_named_in_a_legend) {

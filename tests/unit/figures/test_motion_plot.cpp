@@ -82,7 +82,7 @@ TEST(motion_plot, shows_pictures_where_their_instants_lie) {
     EXPECT_EQ(figure.panels[1].references.size(), 2u);
     EXPECT_EQ(figure.panels[1].curves[0].y, all.measured.col(0));
     EXPECT_EQ(figure.panels[2].curves[1].y, all.simulated.col(1));
-    EXPECT_EQ(figure.panels[2].y_label, "angle (rad)");
+    EXPECT_EQ(message_text(figure.panels[2].y_label), "angle (rad)");
     EXPECT_TRUE(lay_out(figure).panels[0].y.ticks.empty());
     const std::string script = gnuplot_script(figure, FigureFormat::kPdf);
     EXPECT_LT(script.find("unset ytics"), script.find("set ytics")) << "gnuplot chooses none of its own";

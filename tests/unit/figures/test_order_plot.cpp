@@ -24,8 +24,8 @@ TEST(order_plot, a_curve_for_each_number_of_zeros) {  // oracle: the candidates 
     OrderSelection selection;
     selection.candidates = {candidate(1, 0, 0, 3), candidate(2, 0, 0, 1), candidate(2, 0, 0.1, 0.5),
                             candidate(2, 1, 0, 1.5), candidate(3, 1, 0, 2)};
-    selection.candidates[4].failure = "no luck";
-    const Figure figure = order_plot(selection, OrderCriterion::kBic, {2, ""});
+    selection.candidates[4].failure = Message("no luck");
+    const Figure figure = order_plot(selection, OrderCriterion::kBic, {2, {}});
     figure.validate();
     const Panel& panel = figure.panels.front();
     ASSERT_EQ(panel.curves.size(), 3u);  // no zero, one zero, the chosen one
@@ -45,12 +45,12 @@ TEST(order_plot, a_curve_for_each_number_of_zeros) {  // oracle: the candidates 
 TEST(order_plot, over_the_delay_when_nothing_else_differs) {
     OrderSelection selection;
     selection.candidates = {candidate(2, 0, 0, 3), candidate(2, 0, 0.1, 1), candidate(2, 0, 0.2, 2)};
-    const Figure figure = order_plot(selection, OrderCriterion::kRecommended, {1, ""});
+    const Figure figure = order_plot(selection, OrderCriterion::kRecommended, {1, {}});
     EXPECT_EQ(figure.panels.front().curves[0].x, (Vector{{0, 0.1, 0.2}}));
-    EXPECT_EQ(figure.panels.front().x_label, "delay (s)");
-    EXPECT_THROW(order_plot(selection, OrderCriterion::kValidationFit, {1, ""}), InvalidArgument);
-    for (OrderCandidate& one : selection.candidates) one.failure = "no luck";
-    EXPECT_THROW(order_plot(selection, OrderCriterion::kBic, {1, ""}), InvalidArgument);
+    EXPECT_EQ(message_text(figure.panels.front().x_label), "delay (s)");
+    EXPECT_THROW(order_plot(selection, OrderCriterion::kValidationFit, {1, {}}), InvalidArgument);
+    for (OrderCandidate& one : selection.candidates) one.failure = Message("no luck");
+    EXPECT_THROW(order_plot(selection, OrderCriterion::kBic, {1, {}}), InvalidArgument);
 }
 
 }  // namespace test_order_plot

@@ -28,7 +28,7 @@ SpectralEstimate lag() {
 const TransferFunction kLag(Vector{{2.0}}, Vector{{1.0, 1.0}});
 
 TEST(spectral_plot, draws_decibels_over_degrees_from_the_lowest_frequency_above_zero) {
-    const Figure figure = spectral_plot(lag(), "etfe", {});
+    const Figure figure = spectral_plot(lag(), Message("etfe"), {});
     figure.validate();
     ASSERT_EQ(figure.panels.size(), 2u);
     EXPECT_EQ(figure.rows, 2);
@@ -38,13 +38,13 @@ TEST(spectral_plot, draws_decibels_over_degrees_from_the_lowest_frequency_above_
         EXPECT_NEAR(figure.panels[1].curves[0].y[i], -std::atan(w) * kDegrees, 1e-12);
     }
     for (const Panel& panel : figure.panels) EXPECT_EQ(panel.x_range, std::pair(0.5, 2.0));
-    EXPECT_EQ(figure.panels[0].curves[0].label, "etfe");
+    EXPECT_EQ(message_text(figure.panels[0].curves[0].label), "etfe");
 }
 
 TEST(spectral_plot, values_without_errors_are_grey_points_that_are_not_unwrapped) {
     SpectralEstimate estimate = lag();
     estimate.response = ComplexVector{{Complex(0, 1), Complex(-1, 1), Complex(-1, -1), Complex(1, 0)}};
-    const Figure figure = spectral_plot(estimate, "etfe", {});
+    const Figure figure = spectral_plot(estimate, Message("etfe"), {});
     for (const Panel& panel : figure.panels) {
         EXPECT_EQ(panel.curves[0].style, CurveStyle::kPoints);
         EXPECT_EQ(panel.curves[0].colour, style::kGreyColour);
@@ -56,13 +56,13 @@ TEST(spectral_plot, values_without_errors_are_grey_points_that_are_not_unwrapped
 TEST(spectral_plot, bands_hold_the_errors_of_first_order) {
     SpectralEstimate estimate = lag();
     estimate.std = Vector{{0.01, 0.02, 0.03, 0.04}};
-    const Figure figure = spectral_plot(estimate, "spa", {}, 0.99);
+    const Figure figure = spectral_plot(estimate, Message("spa"), {}, 0.99);
     for (std::size_t panel = 0; panel < 2; ++panel) {
         ASSERT_EQ(figure.panels[panel].curves.size(), 2u);
         const Curve &line = figure.panels[panel].curves[0], &band = figure.panels[panel].curves[1];
         EXPECT_EQ(line.style, CurveStyle::kLine);
         EXPECT_EQ(band.style, CurveStyle::kBand);
-        EXPECT_EQ(band.label, "99 % confidence");
+        EXPECT_EQ(message_text(band.label), "99 % confidence");
         const double unit = panel == 0 ? 20 / std::numbers::ln10 : kDegrees;
         for (Index i = 0; i < 4; ++i) {
             const double half = kQuantile * estimate.std[i] / std::abs(estimate.response[i]) * unit;
@@ -76,11 +76,11 @@ TEST(spectral_plot, the_phase_has_a_gap_where_nothing_is_known_of_it) {
     SpectralEstimate estimate = lag();
     estimate.std = Vector::Constant(4, 0.01);
     estimate.std[2] = std::abs(estimate.response[2]) / kQuantile * 1.01;
-    const Vector phase = spectral_plot(estimate, "spa", {}).panels[1].curves[0].y;
+    const Vector phase = spectral_plot(estimate, Message("spa"), {}).panels[1].curves[0].y;
     EXPECT_TRUE(std::isnan(phase[2]));
     EXPECT_NEAR(phase[3], -std::atan(2) * kDegrees, 1e-12);
     estimate.std[2] = std::abs(estimate.response[2]) / kQuantile * 0.99;
-    EXPECT_FALSE(std::isnan(spectral_plot(estimate, "spa", {}).panels[1].curves[0].y[2]));
+    EXPECT_FALSE(std::isnan(spectral_plot(estimate, Message("spa"), {}).panels[1].curves[0].y[2]));
 }
 
 TEST(spectral_plot, models_lie_over_the_estimate_in_colours_of_their_own) {
@@ -88,7 +88,7 @@ TEST(spectral_plot, models_lie_over_the_estimate_in_colours_of_their_own) {
     estimate.w = Vector{{0.25, 0.5, 1, 2}};
     for (Index i = 0; i < 4; ++i) estimate.response[i] = 2.0 / Complex(1, estimate.w[i]);
     estimate.std = Vector::Constant(4, 0.01);
-    const Figure figure = spectral_plot(estimate, "spa", {{"a", kLag}, {"b", kLag}});
+    const Figure figure = spectral_plot(estimate, Message("spa"), {{Message("a"), kLag}, {Message("b"), kLag}});
     figure.validate();
     for (const Panel& panel : figure.panels) {
         EXPECT_EQ(panel.curves[1].colour, 1);
@@ -103,16 +103,16 @@ TEST(spectral_plot, models_lie_over_the_estimate_in_colours_of_their_own) {
 TEST(spectral_plot, models_are_drawn_finely) {  // oracle: the height of a peak between two frequencies of the estimate
     SpectralEstimate estimate = lag();
     const TransferFunction peak(Vector{{1.0}}, Vector{{1.0, 0.05, 1.44}});
-    const Figure figure = spectral_plot(estimate, "etfe", {{"a", peak}});
+    const Figure figure = spectral_plot(estimate, Message("etfe"), {{Message("a"), peak}});
     EXPECT_NEAR(figure.panels[0].curves[1].y.maxCoeff(), 20 * std::log10(1 / (0.05 * 1.2)), 0.1);
 }
 
 TEST(spectral_plot, refuses_what_has_no_frequency_to_draw) {
     SpectralEstimate estimate;
-    EXPECT_THROW(spectral_plot(estimate, "etfe", {}), InvalidArgument);
+    EXPECT_THROW(spectral_plot(estimate, Message("etfe"), {}), InvalidArgument);
     estimate.w = Vector::Zero(1);
     estimate.response = ComplexVector::Ones(1);
-    EXPECT_THROW(spectral_plot(estimate, "etfe", {}), InvalidArgument);
+    EXPECT_THROW(spectral_plot(estimate, Message("etfe"), {}), InvalidArgument);
 }
 
 }  // namespace test_spectral_plot

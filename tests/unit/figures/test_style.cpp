@@ -35,7 +35,8 @@ TransferFunction second_order(double damping) {
 
 std::vector<NamedModel> models(int count) {
     std::vector<NamedModel> result;
-    for (int i = 0; i < count; ++i) result.push_back({"G_" + std::to_string(i), second_order(0.2 + 0.1 * i)});
+    for (int i = 0; i < count; ++i)
+        result.push_back({Message::verbatim("G_" + std::to_string(i)), second_order(0.2 + 0.1 * i)});
     return result;
 }
 
@@ -49,7 +50,7 @@ Figure compared(int count) {
     const IdData data = record(1);
     std::vector<ModelOutput> outputs;
     for (int i = 0; i < count; ++i)
-        outputs.push_back({"G", data.experiments[0].y * (1 - 0.1 * i), Vector::Constant(1, 80)});
+        outputs.push_back({Message("G"), data.experiments[0].y * (1 - 0.1 * i), Vector::Constant(1, 80)});
     return compare_plot(data, outputs);
 }
 
@@ -64,7 +65,7 @@ Figure plain(int count) {
         Curve curve;
         curve.x = Vector::LinSpaced(20, 0, 1);
         curve.y = curve.x * i;
-        curve.label = std::to_string(i);
+        curve.label = Message::verbatim(std::to_string(i));
         panel.curves.push_back(std::move(curve));
     }
     return Figure(std::move(panel));
@@ -121,7 +122,8 @@ OrderSelection orders(int zeros) {
 std::vector<NamedModel> models_with_zeros(int count) {
     std::vector<NamedModel> result;
     for (int i = 0; i < count; ++i)
-        result.push_back({"G_" + std::to_string(i), TransferFunction(Vector{{1.0, 1.0 + i}}, Vector{{1.0, 0.5, 1.0}})});
+        result.push_back({Message::verbatim("G_" + std::to_string(i)),
+                          TransferFunction(Vector{{1.0, 1.0 + i}}, Vector{{1.0, 0.5, 1.0}})});
     return result;
 }
 
@@ -144,8 +146,8 @@ CrossValidation folds(Index outputs) {
 std::vector<std::pair<std::string, Figure>> further_figures() {
     return {{"pzmap", pole_zero_map(models_with_zeros(3))},
             {"scatter", monte_carlo_scatter(study(3), "a1", "b0")},
-            {"order selection", order_plot(orders(5), OrderCriterion::kBic, {1, ""})},
-            {"spa", spectral_plot(spectrum(), "estimate", models(3))},
+            {"order selection", order_plot(orders(5), OrderCriterion::kBic, {1, {}})},
+            {"spa", spectral_plot(spectrum(), Message("estimate"), models(3))},
             {"crossvalidate", cross_validation_plot(folds(3), {"x", "y", "z"})}};
 }
 
@@ -204,7 +206,7 @@ TEST(style, stems_beyond_the_bound_have_a_marker_of_their_own) {
     for (const Panel& panel : residuals().panels)
         for (const Curve& curve : panel.curves)
             if (curve.style == CurveStyle::kStems)
-                markers[curve.label == "beyond the bound"].insert(style::look_of(curve, 0).point_type);
+                markers[message_text(curve.label) == "beyond the bound"].insert(style::look_of(curve, 0).point_type);
     ASSERT_EQ(markers.size(), 2u);
     EXPECT_NE(markers[false], markers[true]);
 }
@@ -217,9 +219,9 @@ TEST(style, the_measurement_is_wider_than_the_model_upon_it) {
 TEST(style, every_axis_of_the_standard_plots_has_four_numbers) {
     auto figures = standard_figures();
     figures.emplace_back("bode of an integrator",
-                         bode_plot({{"", TransferFunction(Vector{{1.0}}, Vector{{1.0, 0.0}})}}));
+                         bode_plot({{{}, TransferFunction(Vector{{1.0}}, Vector{{1.0, 0.0}})}}));
     figures.emplace_back("bode of a gain with a lag",
-                         bode_plot({{"", TransferFunction(Vector{{3.0}}, Vector{{1.0, 2.0}})}}));
+                         bode_plot({{{}, TransferFunction(Vector{{3.0}}, Vector{{1.0, 2.0}})}}));
     for (const auto& [name, figure] : figures)
         for (const PanelLayout& panel : lay_out(figure).panels) {
             EXPECT_GE(panel.x.ticks.size(), 4u) << name << ", x from " << panel.x.low << " to " << panel.x.high;

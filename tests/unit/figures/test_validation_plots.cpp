@@ -22,7 +22,7 @@ const TransferFunction kG(Vector{{2.0}}, Vector{{1.0, 1.0, 4.0}});
 
 NamedModel certain_to(double level) {
     const UncertainModel model(kG, 1e-3 * Matrix::Identity(3, 3));
-    return {"G", kG, ModelConfidence{model, level}};
+    return {Message("G"), kG, ModelConfidence{model, level}};
 }
 
 const Curve* band_of(const Panel& panel) {
@@ -44,17 +44,17 @@ TEST(validation_plots, step_band_is_the_response_and_its_standard_deviations) { 
     const Panel& panel = figure.panels[0];
     const Curve* band = band_of(panel);
     ASSERT_NE(band, nullptr);
-    EXPECT_EQ(band->label, "95 % confidence");
+    EXPECT_EQ(message_text(band->label), "95 % confidence");
     EXPECT_EQ(band->colour, panel.curves[0].colour);
     const Vector width =
         normal_half_width(0.95) * step_response_std(certain_to(0.95).confidence->model, panel.curves[0].x);
     EXPECT_LT((band->y_upper - panel.curves[0].y - width).norm(), 1e-12);
     EXPECT_LT((panel.curves[0].y - band->y - width).norm(), 1e-12);
-    EXPECT_EQ(band_of(step_plot({{"G", kG}}).panels[0]), nullptr);
+    EXPECT_EQ(band_of(step_plot({{Message("G"), kG}}).panels[0]), nullptr);
 }
 
 TEST(validation_plots, only_the_first_of_several_bands_is_named) {
-    const Figure figure = step_plot({{"exact", kG}, certain_to(0.99), certain_to(0.99)});
+    const Figure figure = step_plot({{Message("exact"), kG}, certain_to(0.99), certain_to(0.99)});
     figure.validate();
     int bands = 0, named = 0;
     for (const Curve& curve : figure.panels[0].curves)
@@ -69,7 +69,7 @@ TEST(validation_plots, bode_bands_stay_readable) {  // oracle: half the curve's 
     EXPECT_NE(band_of(figure.panels[0]), nullptr);
     EXPECT_NE(band_of(figure.panels[1]), nullptr);
     const UncertainModel vague(TransferFunction(Vector{{1.0, 0.0}}, Vector{{1.0, 1.0, 4.0}}), Matrix::Identity(4, 4));
-    const Figure wide = bode_plot({{"G", vague.G, ModelConfidence{vague, 0.99}}});
+    const Figure wide = bode_plot({{Message("G"), vague.G, ModelConfidence{vague, 0.99}}});
     wide.validate();
     ASSERT_TRUE(wide.panels[0].y_range.has_value());
     const Vector& y = wide.panels[0].curves[0].y;
@@ -84,7 +84,7 @@ TEST(validation_plots, pole_map_shows_a_region_for_every_root) {
     int regions = 0, named = 0;
     for (const Curve& curve : figure.panels[0].curves) {
         if (curve.x.size() == 73) ++regions;
-        named += curve.label == "99 % confidence";
+        named += message_text(curve.label) == "99 % confidence";
     }
     EXPECT_EQ(regions, 4);
     EXPECT_EQ(named, 1);
@@ -103,7 +103,7 @@ TEST(validation_plots, residual_plot_sets_what_lies_beyond_the_bound_apart) {  /
     for (const Curve& curve : figure.panels[0].curves) {
         if (curve.style != CurveStyle::kStems) continue;
         all += curve.x.size();
-        if (curve.label == "beyond the bound") beyond = curve.x.size();
+        if (message_text(curve.label) == "beyond the bound") beyond = curve.x.size();
     }
     EXPECT_EQ(all, 25);
     EXPECT_EQ(beyond, tests.outputs[0].whiteness.outside);
@@ -126,7 +126,7 @@ TEST(validation_plots, cross_validation_shows_parts_and_means) {  // oracle: the
     figure.validate();
     ASSERT_EQ(figure.panels[0].curves.size(), 4u);
     EXPECT_EQ(figure.panels[0].curves[1].y, (Vector{{50.0, 70.0}}));
-    EXPECT_EQ(figure.panels[0].curves[2].label, "mean 85.0 %");
+    EXPECT_EQ(message_text(figure.panels[0].curves[2].label), "mean 85.0 %");
 }
 
 }  // namespace test_validation_plots

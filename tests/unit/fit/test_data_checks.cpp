@@ -31,7 +31,7 @@ TEST(data_checks, of_transfer_functions) {  // oracle: the promises of the heade
     EXPECT_THAT(refusal(data, TransferStructure::single(2, 0, 20)), HasSubstr("the delay of 20 s is not shorter"));
     Matrix two(u.rows(), 2);
     two << u, u;
-    EXPECT_THAT(refusal(with_signals(data, y, two), kSecond), HasSubstr("the model has 1 input(s) and 1 output(s)"));
+    EXPECT_THAT(refusal(with_signals(data, y, two), kSecond), HasSubstr("the model has 1 input and 1 output"));
     const Matrix running = y.array() + 5;
     EXPECT_THAT(refusal(with_signals(data, running, Matrix::Ones(u.rows(), 1)), kSecond), HasSubstr("no excitation"));
     EXPECT_EQ(refusal(with_signals(data, y, Matrix::Ones(u.rows(), 1)), kSecond), "") << "a step at the first sample";

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "numerics/fit/diagnosis.h"
+#include "support/message_texts.h"
 #include "support/transfer_cases.h"
 
 namespace test_diagnosis {
@@ -34,11 +35,11 @@ TEST(diagnosis, of_models) {  // oracle: poles and zeros written down
     EXPECT_NEAR(plain.models.front().dc_gain(), 2.0 / 3, 1e-15);
     Fit cancelling = fit_of(2, 1, values({4, 3, 2, 2.001}));  // (s + 1)(s + 3) over 2 (s + 1.0005)
     describe_models(cancelling);
-    EXPECT_THAT(cancelling.warnings, ElementsAre(HasSubstr("A pole near -1 and a zero nearly cancel")));
+    EXPECT_THAT(texts_of(cancelling.warnings), ElementsAre(HasSubstr("A pole near -1 and a zero nearly cancel")));
     Fit unstable = fit_of(2, 0, values({-1, 3, 2}));
     describe_models(unstable);
     EXPECT_THAT(
-        unstable.warnings,
+        texts_of(unstable.warnings),
         ElementsAre(
             "The model is unstable: unless the system is unstable, too, srivc with `stable` = true finds the best "
             "stable one."));
@@ -49,25 +50,26 @@ TEST(diagnosis, of_parameters) {  // oracle: the definition
     fit.names = {"a1", "a2", "b0"};
     fit.std = values({5, 1, 3});
     warn_of_doubtful_parameters(fit);
-    EXPECT_THAT(fit.warnings, ElementsAre(HasSubstr("hardly determine a1, b0")));
+    EXPECT_THAT(texts_of(fit.warnings), ElementsAre(HasSubstr("hardly determine a1, b0")));
     fit.warnings.clear();
     fit.names[0] = "Td";  // zero is a delay's own bound
     warn_of_doubtful_parameters(fit);
-    EXPECT_THAT(fit.warnings, ElementsAre(HasSubstr("hardly determine b0")));
+    EXPECT_THAT(texts_of(fit.warnings), ElementsAre(HasSubstr("hardly determine b0")));
     fit.std[1] = std::nan("");  // unknown is not small
     EXPECT_THAT(undetermined_parameters(fit.names, fit.theta, fit.std), ElementsAre("a2", "b0"));
     fit.warnings.clear();
     fit.condition_number = 1e12;
-    warn_of_doubtful_parameters(fit, "fewer bins");
-    EXPECT_THAT(fit.warnings, ElementsAre(testing::AllOf(HasSubstr("do not determine all parameters separately"),
-                                                         HasSubstr("fewer bins or a richer input"))));
+    warn_of_doubtful_parameters(fit, SimplerModel::kFewerBins);
+    EXPECT_THAT(texts_of(fit.warnings),
+                ElementsAre(testing::AllOf(HasSubstr("do not determine all parameters separately"),
+                                           HasSubstr("fewer bins or a richer input"))));
 }
 
 TEST(diagnosis, of_delays) {  // oracle: the definition
     const auto said = [](double delay, const DelayRange& range) {
         Fit fit;
-        warn_of_delay(fit, delay, range, " from input 1 to output 2");
-        return fit.warnings;
+        warn_of_delay(fit, delay, range, ChannelPlace{1, 2});
+        return texts_of(fit.warnings);
     };
     EXPECT_THAT(said(0.5, {0, 1}), IsEmpty());
     EXPECT_THAT(said(1, {0, 1}), ElementsAre(HasSubstr("to output 2 lies at `largest_delay` = 1 s")));
@@ -84,10 +86,10 @@ TEST(diagnosis, of_poor_fits) {
     EXPECT_TRUE(explains_little(-kInfinity));
     Fit poor = fit_of(1, 0, values({1, 2}));
     poor.fit_percent = values({-4});
-    warn_of_delay(poor, 0, {0, 1}, "");
+    warn_of_delay(poor, 0, {0, 1});
     EXPECT_THAT(poor.warnings, IsEmpty());
-    warn_of_delay(poor, 1, {0, 1}, "");
-    EXPECT_THAT(poor.warnings, ElementsAre(HasSubstr("lies at `largest_delay`")));
+    warn_of_delay(poor, 1, {0, 1});
+    EXPECT_THAT(texts_of(poor.warnings), ElementsAre(HasSubstr("lies at `largest_delay`")));
 }
 
 TEST(diagnosis, of_unstable_poles) {  // oracle: poles written down
@@ -102,32 +104,40 @@ TEST(diagnosis, of_the_search) {  // oracle: the sentences that scripts promise
     FitOptions options;
     options.max_iterations = 7;
     fit.trace.resize(7);
-    EXPECT_EQ(ending_text(fit), "converged after 7 iterations");
+    EXPECT_TRUE(has_settled(fit));
+    EXPECT_EQ(message_text(iteration_count(fit)), "7 iterations");
+    EXPECT_EQ(message_text(simulation_text(fit)), "fit 93.21 % (simulation)");
     fit.termination = Termination::kIterationLimit;
-    describe_search(fit, course_record(0, 1), "Method", options, {});
-    EXPECT_THAT(fit.message, HasSubstr("Method stopped after 7 iterations, simulated from rest at zero input: fit "
-                                       "93.21 % (simulation). The search had not settled after `max_iterations` = 7"));
+    EXPECT_FALSE(has_settled(fit));
+    describe_search(fit, course_record(0, 1), options, {});
+    EXPECT_THAT(texts_of(fit.warnings),
+                ElementsAre("The search had not settled after `max_iterations` = 7 iterations; the best point so far "
+                            "is given."));
     fit.termination = Termination::kCancelled;
     fit.warnings.clear();
     warn_of_search(fit, options);
-    EXPECT_THAT(fit.warnings, ElementsAre(HasSubstr("was stopped before its end")));
+    EXPECT_THAT(texts_of(fit.warnings), ElementsAre(HasSubstr("was stopped before its end")));
     fit.fit_percent = values({50, 60});
-    EXPECT_EQ(simulation_text(fit), "fit 50 % and 60 % (simulation)");
+    EXPECT_EQ(message_text(simulation_text(fit)), "fit 50 % and 60 % (simulation)");
+    fit.fit_percent = values({50, 60, 70});
+    EXPECT_EQ(message_text(simulation_text(fit)), "fit 50 % and 60 % and 70 % (simulation)");
     const TransferStructure grid = TransferStructure::grid(2, 2, Denominators::kPerChannel, {1}, {0}, {0});
-    EXPECT_EQ(channel_text(grid, 2), " from input 1 to output 2");
-    EXPECT_EQ(channel_text(TransferStructure::single(1, 0), 0), "");
+    ASSERT_TRUE(channel_place(grid, 2));
+    EXPECT_EQ(channel_place(grid, 2)->input, 1u);
+    EXPECT_EQ(channel_place(grid, 2)->output, 2u);
+    EXPECT_FALSE(channel_place(TransferStructure::single(1, 0), 0));
 }
 
 TEST(diagnosis, a_delay_that_a_direct_term_hides) {  // oracle: the warning's own condition
     Fit fit = fit_of(1, 1, values({1, 2, 1, 0.3}));
     fit.structure.free_delays = true;
     IdData data = course_record(0, 1);
-    describe_search(fit, data, "Method", {}, {0, 1});
-    EXPECT_THAT(fit.message, HasSubstr("Fix the delay with `delay`"));
+    describe_search(fit, data, {}, {0, 1});
+    EXPECT_THAT(texts_of(fit.warnings), testing::Contains(HasSubstr("Fix the delay with `delay`")));
     fit.warnings.clear();
     data.hold = Hold::kFoh;
-    describe_search(fit, data, "Method", {}, {0, 1});
-    EXPECT_THAT(fit.message, testing::Not(HasSubstr("Fix the delay")));
+    describe_search(fit, data, {}, {0, 1});
+    EXPECT_THAT(texts_of(fit.warnings), testing::Not(testing::Contains(HasSubstr("Fix the delay"))));
 }
 
 }  // namespace test_diagnosis

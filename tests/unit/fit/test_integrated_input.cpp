@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/reader.h"
 #include "numerics/estimators/oe.h"
 #include "numerics/estimators/srivc.h"
 #include "numerics/fit/integrated_input.h"
@@ -22,7 +23,8 @@ TEST(integrated_input, models_get_the_integrator_of_the_system) {  // oracle: th
     options.tolerance = 1e-10;
     Fit estimate = srivc(integrated_inputs(data), TransferStructure::single(1, 0, 0.12), options);
     append_integrator(estimate);
-    EXPECT_LT((estimate.models[0].den() - kPosition.den()).cwiseAbs().maxCoeff(), 1e-6) << estimate.message;
+    EXPECT_LT((estimate.models[0].den() - kPosition.den()).cwiseAbs().maxCoeff(), 1e-6)
+        << message_text(estimate.full_message());
     EXPECT_LT((estimate.models[0].num() - kPosition.num()).cwiseAbs().maxCoeff(), 1e-6);
     EXPECT_EQ(estimate.models[0].delay(), 0.12);
     EXPECT_GT(estimate.fit_percent[0], 100 - 1e-5);
@@ -40,7 +42,8 @@ TEST(integrated_input, irregular_sampling_counts_every_step) {  // oracle: the s
     options.tolerance = 1e-10;
     Fit estimate = srivc(integrated_inputs(data), TransferStructure::single(1, 0), options);
     append_integrator(estimate);
-    EXPECT_LT((estimate.models[0].den() - G.den()).cwiseAbs().maxCoeff(), 1e-5) << estimate.message;
+    EXPECT_LT((estimate.models[0].den() - G.den()).cwiseAbs().maxCoeff(), 1e-5)
+        << message_text(estimate.full_message());
 }
 
 TEST(integrated_input, running_sums_do_the_same_in_discrete_time) {  // oracle: the simulated system
@@ -50,7 +53,8 @@ TEST(integrated_input, running_sums_do_the_same_in_discrete_time) {  // oracle: 
     const IdData data(Matrix(model_output(truth, u, Vector::Zero(500))), Matrix(u), 0.1);
     Fit estimate = oe(summed_inputs(data), PolynomialOrders::output_error({2}, {1}, {1}));
     append_integrator(estimate);
-    EXPECT_LT((estimate.polynomial->F[0] - truth.F[0]).cwiseAbs().maxCoeff(), 1e-8) << estimate.message;
+    EXPECT_LT((estimate.polynomial->F[0] - truth.F[0]).cwiseAbs().maxCoeff(), 1e-8)
+        << message_text(estimate.full_message());
     EXPECT_LT((estimate.polynomial->B[0] - truth.B[0]).cwiseAbs().maxCoeff(), 1e-8);
 }
 
@@ -68,17 +72,17 @@ TEST(integrated_input, what_the_integrator_held_before_the_record_is_estimated) 
         options.initial_state = state;
         options = options_with_integrator(options);
         const Fit estimate = srivc(integrated_inputs(data), TransferStructure::single(1, 0), options);
-        EXPECT_LT(std::abs(estimate.theta[0] - 2), 5 * estimate.std[0]) << estimate.message;
+        EXPECT_LT(std::abs(estimate.theta[0] - 2), 5 * estimate.std[0]) << message_text(estimate.full_message());
         EXPECT_LT(std::abs(estimate.theta[1] - 3), 5 * estimate.std[1]);
         EXPECT_GT(estimate.fit_percent[0], 95);
         const Fit sampled = oe(summed_inputs(data), PolynomialOrders::output_error({2}, {1}, {1}), options);
-        EXPECT_NEAR(sampled.theta[0], -std::exp(-0.2), 0.01) << sampled.message;
+        EXPECT_NEAR(sampled.theta[0], -std::exp(-0.2), 0.01) << message_text(sampled.full_message());
         EXPECT_GT(sampled.fit_percent[0], 95);
     }
 }
 
 TEST(integrated_input, has_no_operating_point) {  // oracle: definition
-    FitOptions options;
+    FitOptions options = FitOptions().from_rest();
     options.offset = Offset::kRemove;
     EXPECT_THAT(thrown_message([&] { options_with_integrator(options); }),
                 testing::HasSubstr("`offset` \"remove\" does not go with `integration`"));

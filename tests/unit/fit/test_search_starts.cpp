@@ -72,6 +72,7 @@ TEST(search_starts, richer_structures_never_fit_worse) {
     for (const InitialState state : {InitialState::kZero, InitialState::kEstimate}) {
         FitOptions options;
         options.initial_state = state;
+        options.offset = Offset::kNone;
         std::map<std::pair<int, int>, double> loss;
         for (int n = 1; n <= 4; ++n)
             for (int m = 0; m < n; ++m) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/reader.h"
 #include "numerics/error.h"
 #include "numerics/fit/diagnosis.h"
 #include "numerics/fit/transfer_refinement.h"
@@ -75,7 +76,7 @@ TEST(transfer_refinement, one_channel_is_found_again) {  // oracle: the simulate
                                             Vector{{1.5, 3.0, 0.0, 1.0}}, tight());
     expect_values(result.theta, truth, 1e-10);
     EXPECT_NEAR(result.fit_percent[0], 100, 1e-8);
-    EXPECT_TRUE(result.warnings.empty()) << result.message;
+    EXPECT_TRUE(result.warnings.empty()) << message_text(result.full_message());
     EXPECT_EQ(result.names, (std::vector<std::string>{"a1", "a2", "b0", "b1"}));
     EXPECT_EQ(result.trace.back().theta, result.theta);
     EXPECT_EQ(result.offsets, Matrix::Zero(1, 1));
@@ -124,7 +125,7 @@ TEST(transfer_refinement, biproper_models_are_found_again) {  // oracle: the sim
         const auto delayed = refine_output_error(data, structure, kRest, start, tight());
         // Sampled and held, such a model has 2n + 1 coefficients for the 2n + 2 that it would take to find the delay.
         if (hold == Hold::kZoh)
-            EXPECT_THAT(delayed.message, HasSubstr("badly conditioned"));
+            EXPECT_THAT(message_text(delayed.full_message()), HasSubstr("badly conditioned"));
         else
             expect_values(delayed.theta, truth, 1e-8);
     }
@@ -197,29 +198,32 @@ TEST(transfer_refinement, doubts_are_told) {  // oracle: the simulated system
     const IdData data = simulated(plain, Vector{{0.8, 2.0}}, 400, 0.01);
     const auto cancelling =
         refine_output_error(data, TransferStructure::single(2, 1), kRest, Vector{{3.0, 2.0, 2.0, 4.0}}, {});
-    EXPECT_THAT(cancelling.message, HasSubstr("nearly cancel")) << cancelling.theta;
+    EXPECT_THAT(message_text(cancelling.full_message()), HasSubstr("nearly cancel")) << cancelling.theta;
     FitOptions options;
     options.max_iterations = 1;
-    EXPECT_THAT(refine_output_error(data, plain, kRest, Vector{{3.0, 1.0}}, options).message,
+    EXPECT_THAT(message_text(refine_output_error(data, plain, kRest, Vector{{3.0, 1.0}}, options).full_message()),
                 HasSubstr("`max_iterations` = 1"));
     options = {};
     options.cancel = [] { return true; };
-    EXPECT_THAT(refine_output_error(data, plain, kRest, Vector{{3.0, 1.0}}, options).message,
+    EXPECT_THAT(message_text(refine_output_error(data, plain, kRest, Vector{{3.0, 1.0}}, options).full_message()),
                 HasSubstr("before its end"));
     TransferStructure delayed = plain;
     delayed.free_delays = true;
     const IdData late = simulated(delayed, Vector{{0.8, 2.0, 1.0}}, 400, 0.01);
     options = {};
     options.largest_delay = 0.6;
-    EXPECT_THAT(refine_output_error(late, delayed, kRest, Vector{{0.8, 2.0, 0.5}}, options).message,
-                HasSubstr("raise `largest_delay`"));
+    EXPECT_THAT(
+        message_text(refine_output_error(late, delayed, kRest, Vector{{0.8, 2.0, 0.5}}, options).full_message()),
+        HasSubstr("raise `largest_delay`"));
     options.least_delay = 1.3;
     options.largest_delay = 2;
-    EXPECT_THAT(refine_output_error(late, delayed, kRest, Vector{{0.8, 2.0, 1.5}}, options).message,
-                HasSubstr("lower `least_delay`"));
+    EXPECT_THAT(
+        message_text(refine_output_error(late, delayed, kRest, Vector{{0.8, 2.0, 1.5}}, options).full_message()),
+        HasSubstr("lower `least_delay`"));
     options.least_delay = 0;
-    EXPECT_THAT(refine_output_error(data, delayed, kRest, Vector{{0.8, 2.0, 0.05}}, options).message,
-                HasSubstr("without one suits"));
+    EXPECT_THAT(
+        message_text(refine_output_error(data, delayed, kRest, Vector{{0.8, 2.0, 0.05}}, options).full_message()),
+        HasSubstr("without one suits"));
 }
 
 TEST(transfer_refinement, refuses_what_cannot_be_estimated) {
@@ -236,7 +240,7 @@ TEST(transfer_refinement, refuses_what_cannot_be_estimated) {
                 HasSubstr("more samples than the 12 values"));
     EXPECT_THAT(
         refine(data, TransferStructure::grid(1, 2, Denominators::kCommon, {2}, {0}, {0.0}), kRest, Vector::Ones(4)),
-        HasSubstr("2 input(s)"));
+        HasSubstr("2 inputs"));
     EXPECT_THAT(refine(data, TransferStructure::single(2, 0, 100), kRest, theta),
                 HasSubstr("not shorter than the record"));
     EXPECT_THAT(refine(IdData(data.experiments[0].y, Matrix::Zero(100, 1), kTs), structure, kRest, theta),

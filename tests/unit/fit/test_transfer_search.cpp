@@ -220,8 +220,9 @@ TEST(transfer_search, the_solution_for_the_least_delay_is_never_lost) {
         structure.free_delays = true;
         SearchAids least;
         least.delays = {0};
-        const Fit begun = search_transfer("test", one.data, structure, {}, least);
-        EXPECT_LE(search_transfer("test", one.data, structure, {}).loss, begun.loss * (1 + 1e-4)) << seed;
+        const FitOptions rest = FitOptions{}.from_rest();
+        const Fit begun = search_transfer("test", one.data, structure, rest, least);
+        EXPECT_LE(search_transfer("test", one.data, structure, rest).loss, begun.loss * (1 + 1e-4)) << seed;
     }
 }
 

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/reader.h"
 #include "numerics/models/impulse_estimate.h"
 #include "support/thrown_message.h"
 
@@ -20,18 +21,18 @@ TEST(impulse_estimate, the_first_response_is_followed_by_another_of_its_sign) { 
     ImpulseEstimate late = estimate_of(Vector{{0.1, 9.0, -0.2, 5.0, 6.0, 2.0}});  // a lone peak at lag 1
     read_dead_time(late, 0.1, Hold::kZoh, 3);
     EXPECT_EQ(late.first, 3);
-    EXPECT_THAT(late.message, HasSubstr("the dead time is about 0.2 s (2 samples)"));
+    EXPECT_THAT(message_text(late.message), HasSubstr("the dead time is about 0.2 s (2 samples)"));
     ImpulseEstimate on_lines = estimate_of(late.response);  // half of a triangle has passed at its lag
     read_dead_time(on_lines, 0.1, Hold::kFoh, 3);
-    EXPECT_THAT(on_lines.message, HasSubstr("the dead time is about 0.3 s (3 samples)"));
+    EXPECT_THAT(message_text(on_lines.message), HasSubstr("the dead time is about 0.3 s (3 samples)"));
     ImpulseEstimate changing = estimate_of(Vector{{5.0, -5.0, -6.0, 0.0}});
     read_dead_time(changing, 0.1, Hold::kZoh, 3);
     EXPECT_EQ(changing.first, 1);
-    EXPECT_THAT(changing.message, HasSubstr("no dead time is visible"));
+    EXPECT_THAT(message_text(changing.message), HasSubstr("no dead time is visible"));
     ImpulseEstimate none = estimate_of(Vector{{1.0, -2.0, 2.0, 1.0}});
     read_dead_time(none, 0.1, Hold::kZoh, 3);
     EXPECT_FALSE(none.first);
-    EXPECT_THAT(none.message, HasSubstr("No part of it stands out"));
+    EXPECT_THAT(message_text(none.message), HasSubstr("No part of it stands out"));
 }
 
 TEST(impulse_estimate, as_many_lags_as_the_record_bears) {  // oracle: the rule of the header

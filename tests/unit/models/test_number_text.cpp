@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <limits>
 
-#include "numerics/number_text.h"
+#include "base/number_text.h"
 
 namespace test_number_text {
 
@@ -25,14 +25,6 @@ TEST(number_text, what_is_no_number_has_a_name) {  // oracle: the table in the h
     EXPECT_EQ(number_text(-kInfinity, 3), "-Inf");
     EXPECT_EQ(number_text(std::numeric_limits<double>::quiet_NaN()), "NaN");
     EXPECT_EQ(number_text(-0.0), "0");
-}
-
-TEST(number_text, counts_in_words) {  // oracle: English
-    EXPECT_EQ(counted(0, "pole"), "0 poles");
-    EXPECT_EQ(counted(1, "pole"), "1 pole");
-    EXPECT_EQ(counted(2, "pole"), "2 poles");
-    EXPECT_EQ(counted(1, "pass", "passes"), "1 pass");
-    EXPECT_EQ(counted(3, "pass", "passes"), "3 passes");
 }
 
 }  // namespace test_number_text

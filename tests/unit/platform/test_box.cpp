@@ -4,6 +4,7 @@
 
 #include <thread>
 
+#include "base/reader.h"
 #include "platform/atomic_file.h"
 #include "platform/program_lookup.h"
 #include "platform/temporary_folder.h"
@@ -20,7 +21,7 @@ ChildResult shell(Box& box, const std::string& command, Box::Limits limits = {})
 class full_box : public ::testing::Test {
   protected:
     void SetUp() override {
-        if (const auto obstacle = obstacle_to(Isolation::kFull)) GTEST_SKIP() << *obstacle;
+        if (const auto obstacle = obstacle_to(Isolation::kFull)) GTEST_SKIP() << message_text(*obstacle);
     }
     TemporaryFolder folder_;
     Box box_{Isolation::kFull};

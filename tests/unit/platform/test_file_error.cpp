@@ -2,6 +2,7 @@
 
 #include <fstream>
 
+#include "base/reader.h"
 #include "platform/files/file_error.h"
 #include "platform/temporary_folder.h"
 
@@ -15,7 +16,7 @@ std::string told(Call call) {
     try {
         call();
     } catch (const fs::filesystem_error& error) {
-        return file_error_sentence(error);
+        return message_text(file_error_sentence(error));
     }
     return "nothing was thrown";
 }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/reader.h"
 #include "numerics/linalg/decompositions.h"
 #include "numerics/rigs/crane_experiments.h"
 #include "numerics/rigs/heat_transfer.h"
@@ -42,14 +43,15 @@ Record record(std::uint32_t seed = 1, double noise = 0.03, double delay = 0) {
 
 std::string codes(const Advice& advice) {
     std::string all;
-    for (const RecordFinding& finding : advice.findings) all += finding.code + ": " + finding.message + "\n";
+    for (const RecordFinding& finding : advice.findings)
+        all += finding.code + ": " + message_text(finding.message) + "\n";
     return all;
 }
 
 /// The message of a finding, or all codes when it is not there.
 std::string said(const Advice& advice, const std::string& code) {
     const RecordFinding* finding = advice.find(code);
-    return finding != nullptr ? finding->message : "no " + code + " among:\n" + codes(advice);
+    return finding != nullptr ? message_text(finding->message) : "no " + code + " among:\n" + codes(advice);
 }
 
 TEST(advice, clean_records_raise_no_warning) {  // oracle: nothing was put in; false alarms over 30 seeds

@@ -7,7 +7,7 @@
 #include <Eigen/QR>
 #include <cmath>
 
-#include "numerics/error.h"
+#include "base/reader.h"
 #include "numerics/signals/random.h"
 #include "support/thrown_message.h"
 
@@ -104,15 +104,17 @@ TEST(arx_selection, own_loss_falls_with_every_parameter_and_the_choice_says_so) 
         EXPECT_LE(alone.candidates[i].loss, alone.candidates[i - 1].loss);
     const OrderChoice choice = choose_arx(alone, ArxCriterion::kLoss);
     EXPECT_EQ(choice.place, 3u);
-    EXPECT_THAT(choice.explanation, HasSubstr("{na, nb, nk} = {4, 2, 2} has the smallest loss. On the record of the "
-                                              "estimation itself the loss falls with every parameter"));
-    EXPECT_THAT(choice.explanation, HasSubstr("With 4 parameters instead of 6, {2, 2, 2} comes within 1 %"));
+    EXPECT_THAT(message_text(choice.explanation),
+                HasSubstr("{na, nb, nk} = {4, 2, 2} has the smallest loss. On the record of the "
+                          "estimation itself the loss falls with every parameter"));
+    EXPECT_THAT(message_text(choice.explanation),
+                HasSubstr("With 4 parameters instead of 6, {2, 2, 2} comes within 1 %"));
     EXPECT_EQ(usual_criterion(alone), ArxCriterion::kBic);
     const IdData unseen = record(2, 5000);
     const ArxSelection both = select_arx(record(1), {{1, 4}, {2, 2}, {2, 2}}, &unseen);
     EXPECT_EQ(usual_criterion(both), ArxCriterion::kLoss);
-    EXPECT_THAT(choose_arx(both, ArxCriterion::kLoss).explanation, HasSubstr("on the second record"));
-    EXPECT_THAT(choose_arx(both, ArxCriterion::kAic).explanation, Not(HasSubstr("record")));
+    EXPECT_THAT(message_text(choose_arx(both, ArxCriterion::kLoss).explanation), HasSubstr("on the second record"));
+    EXPECT_THAT(message_text(choose_arx(both, ArxCriterion::kAic).explanation), Not(HasSubstr("record")));
 }
 
 TEST(arx_selection, a_poor_input_chooses_what_it_determines) {  // oracle: a constant determines one coefficient

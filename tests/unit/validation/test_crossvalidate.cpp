@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/reader.h"
 #include "numerics/error.h"
 #include "numerics/signals/prbs.h"
 #include "numerics/signals/random.h"
@@ -55,7 +56,7 @@ TEST(crossvalidate, the_true_model_fits_every_noise_free_fold) {  // oracle: the
     EXPECT_EQ(result.fit_percent.rows(), 5);
     EXPECT_GT(result.fit_percent.minCoeff(), 100 - 1e-6);
     EXPECT_LT(result.spread[0], 1e-6);
-    EXPECT_THAT(result.message, HasSubstr("5 parts that the model had not seen: fit 100 % on average"));
+    EXPECT_THAT(message_text(result.message), HasSubstr("5 parts that the model had not seen: fit 100 % on average"));
 }
 
 TEST(crossvalidate, fit_of_a_fold_is_that_of_compare) {  // oracle: second route
@@ -100,7 +101,7 @@ TEST(crossvalidate, an_unstable_model_is_told_not_thrown) {
                        {.folds = 2, .simulation = {InitialState::kZero, Offset::kNone}});
     EXPECT_TRUE(std::isfinite(result.fit_percent(0, 0)));
     EXPECT_EQ(result.fit_percent(1, 0), -std::numeric_limits<double>::infinity());
-    EXPECT_THAT(result.message, HasSubstr("unstable"));
+    EXPECT_THAT(message_text(result.message), HasSubstr("unstable"));
 }
 
 TEST(crossvalidate, refuses_folds_that_cannot_be) {

@@ -57,7 +57,7 @@ Vector held_losses(const IdData& data, int poles, int zeros, const Vector& delay
 }
 
 void expect_profile(const IdData& data, int poles, int zeros, const Vector& delays) {
-    FitOptions options;
+    FitOptions options = FitOptions().from_rest();
     options.stable = true;
     const TransferStructure structure = TransferStructure::single(poles, zeros);
     const Vector profile = delay_profile(data, structure, {InitialState::kZero, false}, delays, options, 1);

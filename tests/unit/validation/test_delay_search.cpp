@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "base/reader.h"
 #include "numerics/error.h"
 #include "numerics/estimators/srivc.h"
 #include "numerics/signals/prbs.h"
@@ -29,10 +30,10 @@ IdData record(const TransferFunction& G, const Vector& u, double Ts, double snr,
 TEST(delay_search, delay_trap_is_avoided_from_default_settings) {  // oracle: the simulated system
     for (const std::uint32_t seed : {1u, 2u, 3u}) {
         const DelaySearch search = search_delay(record(kTrap, prbs(8, 5), 0.1, 15, seed));
-        EXPECT_LT(std::abs(search.delay - 8), 4 * search.std) << search.explanation;
+        EXPECT_LT(std::abs(search.delay - 8), 4 * search.std) << message_text(search.explanation);
         EXPECT_LT(search.std, 0.1);
-        EXPECT_EQ(search.candidate.poles, 2) << search.explanation;
-        EXPECT_EQ(search.candidate.zeros, 1) << search.explanation;
+        EXPECT_EQ(search.candidate.poles, 2) << message_text(search.explanation);
+        EXPECT_EQ(search.candidate.zeros, 1) << message_text(search.explanation);
         EXPECT_FALSE(search.rival);
     }
 }
@@ -42,13 +43,14 @@ TEST(delay_search, delays_between_samples_are_found) {  // oracle: the simulated
     const DelaySearch search = search_delay(record(G, prbs(7, 12), 0.05, 20, 1));
     EXPECT_NEAR(search.delay, 0.437, 4 * search.std);
     EXPECT_LT(search.std, 0.02);
-    EXPECT_THAT(search.explanation, HasSubstr("samples), standard error"));
+    EXPECT_THAT(message_text(search.explanation), HasSubstr("samples), standard error"));
     // told to the second digit of its error: no further from the value than half of that digit, and no digit more
-    const std::string told = search.explanation.substr(std::string("The delay is ").size());
+    const std::string told = message_text(search.explanation).substr(std::string("The delay is ").size());
     const std::string number = told.substr(0, told.find(' '));
     const double digit = std::pow(10, std::floor(std::log10(search.std)) - 1);
-    EXPECT_LE(std::abs(std::stod(number) - search.delay), 0.501 * digit) << search.explanation;
-    EXPECT_LE(number.size(), 2 + static_cast<std::size_t>(std::lround(-std::log10(digit)))) << search.explanation;
+    EXPECT_LE(std::abs(std::stod(number) - search.delay), 0.501 * digit) << message_text(search.explanation);
+    EXPECT_LE(number.size(), 2 + static_cast<std::size_t>(std::lround(-std::log10(digit))))
+        << message_text(search.explanation);
 }
 
 TEST(delay_search, curve_is_the_loss_of_the_best_model_at_each_delay) {  // oracle: srivc with that delay fixed
@@ -80,7 +82,7 @@ TEST(delay_search, no_delay_is_told) {  // oracle: the simulated system has none
     const TransferFunction G(Vector{{2}}, Vector{{1, 4, 3}});
     const DelaySearch search = search_delay(record(G, prbs(7, 8), 0.05, 10, 1));
     EXPECT_LT(search.delay, 0.1);
-    EXPECT_THAT(search.explanation, HasSubstr("does not differ significantly from no delay"));
+    EXPECT_THAT(message_text(search.explanation), HasSubstr("does not differ significantly from no delay"));
 }
 
 TEST(delay_search, rivals_of_periodic_inputs_are_told) {
@@ -94,7 +96,7 @@ TEST(delay_search, rivals_of_periodic_inputs_are_told) {
     options.estimation.largest_delay = 6;
     const DelaySearch search = search_delay(data, options);
     ASSERT_TRUE(search.rival);
-    EXPECT_THAT(search.explanation, HasSubstr("explains them nearly as well"));
+    EXPECT_THAT(message_text(search.explanation), HasSubstr("explains them nearly as well"));
 }
 
 TEST(delay_search, same_numbers_for_any_number_of_threads) {  // oracle: one thread, bit for bit

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/reader.h"
+
 namespace test_model_verdict {
 
 using namespace dynlab;
@@ -11,38 +13,43 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
+std::string verdict_text(const ModelStanding& model) {
+    return message_text(model_verdict(model));
+}
+
 TEST(model_verdict, good_models_only_are_called_good) {
-    EXPECT_EQ(model_verdict({}), "The model explains all that the data show, and its standard errors hold.");
+    EXPECT_EQ(verdict_text({}), "The model explains all that the data show, and its standard errors hold.");
     const auto not_good = Not(HasSubstr("explains all"));
-    EXPECT_THAT(model_verdict({.unstable = true}), not_good);
-    EXPECT_THAT(model_verdict({.fit_percent = 5}), not_good);
-    EXPECT_THAT(model_verdict({.fit_percent = -30}), not_good);
-    EXPECT_THAT(model_verdict({.white = false}), not_good);
-    EXPECT_THAT(model_verdict({.independent = false}), not_good);
-    EXPECT_THAT(model_verdict({.doubts = {.undetermined = "a2, b2"}}), not_good);
+    EXPECT_THAT(verdict_text({.unstable = true}), not_good);
+    EXPECT_THAT(verdict_text({.fit_percent = 5}), not_good);
+    EXPECT_THAT(verdict_text({.fit_percent = -30}), not_good);
+    EXPECT_THAT(verdict_text({.white = false}), not_good);
+    EXPECT_THAT(verdict_text({.independent = false}), not_good);
+    EXPECT_THAT(verdict_text({.doubts = {.undetermined = {"a2", "b2"}}}), not_good);
 }
 
 TEST(model_verdict, the_gravest_comes_first) {
-    EXPECT_THAT(model_verdict({.fit_percent = 5, .unstable = true}), StartsWith("The model is unstable"));
-    EXPECT_THAT(model_verdict({.fit_percent = 5, .white = false}), StartsWith("The model explains little"));
-    EXPECT_THAT(model_verdict({.fit_percent = 5, .independent = false}),
+    EXPECT_THAT(verdict_text({.fit_percent = 5, .unstable = true}), StartsWith("The model is unstable"));
+    EXPECT_THAT(verdict_text({.fit_percent = 5, .white = false}), StartsWith("The model explains little"));
+    EXPECT_THAT(verdict_text({.fit_percent = 5, .independent = false}),
                 testing::AllOf(StartsWith("The model explains little"), HasSubstr("Dynamics are missing")));
-    EXPECT_THAT(model_verdict({.white = false, .doubts = {.undetermined = "b0"}}), HasSubstr("hardly determine b0"));
-    EXPECT_THAT(model_verdict({.white = false}), HasSubstr("the disturbance is coloured"));
-    EXPECT_THAT(model_verdict({.white = false, .tested = false}), HasSubstr("cannot tell which"));
+    EXPECT_THAT(verdict_text({.white = false, .doubts = {.undetermined = {"b0"}}}), HasSubstr("hardly determine b0"));
+    EXPECT_THAT(verdict_text({.white = false}), HasSubstr("the disturbance is coloured"));
+    EXPECT_THAT(verdict_text({.white = false, .tested = false}), HasSubstr("cannot tell which"));
     EXPECT_THAT(
-        model_verdict({.fit_percent = 38, .white = false}),
+        verdict_text({.fit_percent = 38, .white = false}),
         testing::AllOf(Not(HasSubstr("dynamics are described")), HasSubstr("(fit 38 %)"), HasSubstr("nonlinearity")));
 }
 
 TEST(model_verdict, known_causes_come_before_missing_dynamics) {
-    const ModelStanding remedy{.independent = false, .acts_at_once = true, .start = "B.", .doubts = {.remedy = "A."}};
-    EXPECT_EQ(model_verdict(remedy), "A.");
-    const ModelStanding start{.independent = false, .acts_at_once = true, .start = "B."};
-    EXPECT_EQ(model_verdict(start), "B.");
-    EXPECT_THAT(model_verdict({.independent = false, .acts_at_once = true}), HasSubstr("direct feedthrough"));
-    EXPECT_THAT(model_verdict({.independent = false, .acts_earlier = true}), HasSubstr("shorter delay"));
-    EXPECT_THAT(model_verdict({.independent = false}), StartsWith("Dynamics are missing"));
+    const ModelStanding remedy{
+        .independent = false, .acts_at_once = true, .start = Message("B."), .doubts = {.remedy = Message("A.")}};
+    EXPECT_EQ(verdict_text(remedy), "A.");
+    const ModelStanding start{.independent = false, .acts_at_once = true, .start = Message("B.")};
+    EXPECT_EQ(verdict_text(start), "B.");
+    EXPECT_THAT(verdict_text({.independent = false, .acts_at_once = true}), HasSubstr("direct feedthrough"));
+    EXPECT_THAT(verdict_text({.independent = false, .acts_earlier = true}), HasSubstr("shorter delay"));
+    EXPECT_THAT(verdict_text({.independent = false}), StartsWith("Dynamics are missing"));
 }
 
 }  // namespace test_model_verdict

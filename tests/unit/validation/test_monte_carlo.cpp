@@ -5,6 +5,7 @@
 #include <cmath>
 #include <thread>
 
+#include "base/reader.h"
 #include "numerics/error.h"
 #include "numerics/signals/prbs.h"
 #include "numerics/signals/random.h"
@@ -118,7 +119,7 @@ TEST(monte_carlo, failures_of_single_runs_are_counted_and_told) {
     EXPECT_EQ(r.failed, negative);
     EXPECT_EQ(r.estimated, study.runs - negative);
     EXPECT_EQ(r.not_converged, unsettled);
-    EXPECT_EQ(r.first_failure, "the second sample is negative");
+    EXPECT_EQ(message_text(r.first_failure), "the second sample is negative");
     EXPECT_EQ((r.theta.col(0).array().isNaN()).count(), negative);
 }
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/reader.h"
 #include "numerics/estimators/armax.h"
 #include "numerics/estimators/arx.h"
 #include "numerics/estimators/bj.h"
@@ -204,15 +205,15 @@ TEST(prediction, its_errors_are_tested_for_whiteness) {  // oracle: the structur
     PolynomialOrders poorer = kArmax;
     poorer.nc = 0;
     const ResidualTests good = prediction_error_tests(data, predict(data, noisy(right)));
-    EXPECT_TRUE(good.outputs[0].whiteness.white) << good.verdict;
+    EXPECT_TRUE(good.outputs[0].whiteness.white) << message_text(good.verdict);
     EXPECT_TRUE(good.outputs[0].inputs[0].independent);
-    EXPECT_THAT(good.verdict, HasSubstr("The prediction error is white"));
+    EXPECT_THAT(message_text(good.verdict), HasSubstr("The prediction error is white"));
     EXPECT_EQ(good.residuals[0].col(0), predict(data, noisy(right)).results[0][0].errors);
     const ResidualTests poor = prediction_error_tests(data, predict(data, noisy(armax(data, poorer))));
-    EXPECT_THAT(poor.verdict, HasSubstr("The prediction error is not white"));
+    EXPECT_THAT(message_text(poor.verdict), HasSubstr("The prediction error is not white"));
     const ResidualTests of_simulation = residual_tests(data, {right.polynomial->transfer_function()});
-    EXPECT_THAT(of_simulation.verdict, HasSubstr("The output error is not white"));
-    EXPECT_THAT(of_simulation.verdict, HasSubstr("a method with a noise model"));
+    EXPECT_THAT(message_text(of_simulation.verdict), HasSubstr("The output error is not white"));
+    EXPECT_THAT(message_text(of_simulation.verdict), HasSubstr("a method with a noise model"));
 }
 
 TEST(prediction, without_a_noise_model_is_the_simulation) {  // oracle: second route, compare_all
@@ -224,7 +225,7 @@ TEST(prediction, without_a_noise_model_is_the_simulation) {  // oracle: second r
         EXPECT_EQ(only(all).output, comparison.results[0][0].output);
         EXPECT_NEAR(all.fit_percent[0], comparison.fit_percent[0], 1e-12);
         EXPECT_EQ(only(all).errors, data.experiments[0].y.col(0) - only(all).output);
-        EXPECT_THAT(all.message, HasSubstr("Simulated "));
+        EXPECT_THAT(message_text(all.message), HasSubstr("Simulated "));
     }
 }
 
@@ -234,8 +235,8 @@ TEST(prediction, finds_offset_and_operating_point) {  // oracle: the noise-free 
     for (const Offset offset : {Offset::kEstimate, Offset::kAuto}) {
         const Predictions all = predict(s.data(), noisy(s.model), ahead(3, InitialState::kAuto, offset));
         EXPECT_LT(only(all).errors.cwiseAbs().maxCoeff(), 1e-9);
-        EXPECT_THAT(all.message, HasSubstr("Predicted 3 steps ahead"));
-        EXPECT_THAT(all.message, HasSubstr("with an estimated offset"));
+        EXPECT_THAT(message_text(all.message), HasSubstr("Predicted 3 steps ahead"));
+        EXPECT_THAT(message_text(all.message), HasSubstr("with an estimated offset"));
     }
     const IdData late = s.data().range(150, 400);
     EXPECT_LT(only(predict(late, noisy(s.model))).errors.cwiseAbs().maxCoeff(), 1e-9);
@@ -275,7 +276,7 @@ TEST(prediction, refuses_what_it_cannot_predict) {  // oracle: definitions
     EXPECT_THAT(refusal(IdData(Matrix(s.y), Matrix(s.u), 0.25), noisy(s.model)),
                 HasSubstr("Ts = 0.5 s, and the data are sampled every 0.25 s"));
     EXPECT_THAT(refusal(IdData(Matrix(s.y), Matrix::Ones(60, 2), 0.5), noisy(s.model)),
-                HasSubstr("The model has 1 input(s), and the data have 2"));
+                HasSubstr("The model has 1 input, and the data have 2"));
     EXPECT_THAT(refusal(s.data().range(1, 2), noisy(s.model)), HasSubstr("too few samples to predict"));
     Vector theta = kArmaxTheta;
     theta.tail(2) << -2.5, 1;

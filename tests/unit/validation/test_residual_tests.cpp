@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/reader.h"
 #include "numerics/error.h"
 #include "numerics/signals/prbs.h"
 #include "numerics/signals/random.h"
@@ -53,9 +54,9 @@ TEST(residual_tests, white_noise_on_the_true_model_passes) {  // oracle: how the
     EXPECT_TRUE(tests.outputs[0].whiteness.white);
     EXPECT_TRUE(tests.outputs[0].inputs[0].independent);
     EXPECT_TRUE(tests.outputs[0].inputs[0].without_feedback);
-    EXPECT_THAT(tests.verdict, HasSubstr("y1: The output error is white"));
-    EXPECT_THAT(tests.verdict, HasSubstr("u1 explains nothing more of it"));
-    EXPECT_THAT(tests.verdict, HasSubstr("explains all that the data show"));
+    EXPECT_THAT(message_text(tests.verdict), HasSubstr("y1: The output error is white"));
+    EXPECT_THAT(message_text(tests.verdict), HasSubstr("u1 explains nothing more of it"));
+    EXPECT_THAT(message_text(tests.verdict), HasSubstr("explains all that the data show"));
 }
 
 TEST(residual_tests, coloured_noise_on_the_true_model_is_told_apart_from_missing_dynamics) {
@@ -63,12 +64,12 @@ TEST(residual_tests, coloured_noise_on_the_true_model_is_told_apart_from_missing
     const auto coloured = plain_tests(record(y, u), kG);
     EXPECT_FALSE(coloured.outputs[0].whiteness.white);
     EXPECT_TRUE(coloured.outputs[0].inputs[0].independent);
-    EXPECT_THAT(coloured.verdict, HasSubstr("the disturbance is coloured"));
+    EXPECT_THAT(message_text(coloured.verdict), HasSubstr("the disturbance is coloured"));
     const TransferFunction poor(Vector{{2.0 / 3}}, Vector{{1.0, 1.0}});
     const auto missing = plain_tests(record(y, u), poor);
     EXPECT_FALSE(missing.outputs[0].inputs[0].independent);
-    EXPECT_THAT(missing.verdict, HasSubstr("u1 still explains part of it"));
-    EXPECT_THAT(missing.verdict, HasSubstr("Dynamics are missing"));
+    EXPECT_THAT(message_text(missing.verdict), HasSubstr("u1 still explains part of it"));
+    EXPECT_THAT(message_text(missing.verdict), HasSubstr("Dynamics are missing"));
 }
 
 // Oracle: how the records were made; each has one cause, which the verdict names in the place of missing poles.
@@ -76,8 +77,8 @@ TEST(residual_tests, known_causes_are_named) {
     const Vector u = prbs(7, 8), e = 0.02 * RandomStream(1).normal(u.size());
     const auto verdict_on = [](const Vector& input, const Vector& y, const TransferFunction& G,
                                const ModelDoubts& doubts) {
-        const std::string text =
-            residual_tests(record(y, input), {G}, {InitialState::kZero, Offset::kNone}, {}, doubts).verdict;
+        const std::string text = message_text(
+            residual_tests(record(y, input), {G}, {InitialState::kZero, Offset::kNone}, {}, doubts).verdict);
         EXPECT_EQ(text.find("Dynamics are missing"), std::string::npos) << text;
         return text;
     };
@@ -92,21 +93,22 @@ TEST(residual_tests, known_causes_are_named) {
     const Vector long_u = (Vector(2 * u.size()) << Vector::Constant(u.size(), 3), u).finished();
     const Vector running = lsim(kG, long_u, kTs).tail(u.size());
     EXPECT_THAT(verdict(running + e, kG), HasSubstr("The record does not start as was assumed: simulated"));
-    EXPECT_THAT(verdict(answer + 0.2 * u + e, kG, {"", "With this the fit is 9 %."}), HasSubstr("With this the fit"));
-    EXPECT_THAT(verdict(answer + e, kG, {"b0", ""}), HasSubstr("the data hardly determine b0"));
+    EXPECT_THAT(verdict(answer + 0.2 * u + e, kG, {{}, Message("With this the fit is 9 %.")}),
+                HasSubstr("With this the fit"));
+    EXPECT_THAT(verdict(answer + e, kG, {{"b0"}, {}}), HasSubstr("the data hardly determine b0"));
 }
 
 TEST(residual_tests, tests_do_not_make_poor_models_good) {  // oracle: how the records were made
     const Vector u = prbs(7, 8), e = RandomStream(1).normal(u.size());
     const auto poor = plain_tests(record(0.1 * lsim(kG, u, kTs) + e, u), TransferFunction(0.1 * kG.num(), kG.den()));
     EXPECT_TRUE(poor.outputs[0].whiteness.white && poor.outputs[0].inputs[0].independent);
-    EXPECT_THAT(poor.verdict, HasSubstr("The model explains little of the output (fit "));
+    EXPECT_THAT(message_text(poor.verdict), HasSubstr("The model explains little of the output (fit "));
     const TransferFunction unstable(Vector{{2.0}}, Vector{{1.0, 4.0, -0.004}});  // a pole at 0.001
     const auto explodes = plain_tests(record(lsim(unstable, u, kTs) + 0.01 * e, u), unstable);
     EXPECT_TRUE(explodes.outputs[0].whiteness.white && explodes.outputs[0].inputs[0].independent);
-    EXPECT_THAT(explodes.verdict, HasSubstr("The model is unstable and not to be used"));
+    EXPECT_THAT(message_text(explodes.verdict), HasSubstr("The model is unstable and not to be used"));
     for (const ResidualTests* tests : {&poor, &explodes})
-        EXPECT_EQ(tests->verdict.find("standard errors hold"), std::string::npos);
+        EXPECT_EQ(message_text(tests->verdict).find("standard errors hold"), std::string::npos);
 }
 
 TEST(residual_tests, feedback_shows_at_negative_lags) {  // oracle: how the record was made
@@ -121,7 +123,7 @@ TEST(residual_tests, feedback_shows_at_negative_lags) {  // oracle: how the reco
     const auto tests = plain_tests(record(y, u), none);
     EXPECT_TRUE(tests.outputs[0].inputs[0].independent);
     EXPECT_FALSE(tests.outputs[0].inputs[0].without_feedback);
-    EXPECT_THAT(tests.verdict, HasSubstr("act back on the input"));
+    EXPECT_THAT(message_text(tests.verdict), HasSubstr("act back on the input"));
     Index most = 0;
     tests.outputs[0].inputs[0].correlation.cwiseAbs().maxCoeff(&most);
     EXPECT_EQ(most - 25, -1);
@@ -161,11 +163,11 @@ TEST(residual_tests, says_when_there_is_nothing_to_test) {
     const Vector u = prbs(6, 3);
     const auto exact = plain_tests(record(lsim(kG, u, kTs), u), kG);
     EXPECT_TRUE(exact.outputs[0].exact);
-    EXPECT_THAT(exact.verdict, HasSubstr("to rounding"));
+    EXPECT_THAT(message_text(exact.verdict), HasSubstr("to rounding"));
     const Vector flat = Vector::Ones(100), y = lsim(kG, flat, kTs) + 0.1 * RandomStream(1).normal(100);
-    EXPECT_THAT(plain_tests(record(y, flat), kG).verdict, HasSubstr("u1 never changes"));
+    EXPECT_THAT(message_text(plain_tests(record(y, flat), kG).verdict), HasSubstr("u1 never changes"));
     const Vector drift = lsim(kG, flat, kTs) + 0.1 * ar1(100, 0.9, 1);
-    EXPECT_THAT(plain_tests(record(drift, flat), kG).verdict, HasSubstr("the record cannot tell which"));
+    EXPECT_THAT(message_text(plain_tests(record(drift, flat), kG).verdict), HasSubstr("the record cannot tell which"));
 }
 
 TEST(residual_tests, refuses_short_records_and_wrong_sizes) {

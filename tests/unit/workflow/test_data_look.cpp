@@ -31,8 +31,8 @@ TEST(data_look, shows_columns_units_sampling_gaps_and_first_rows) {
                       ContainsRegex("first rows:\n +time +u +label +y\n +0 +0 +a +0.5\n")));
     ASSERT_TRUE(look.figure);
     ASSERT_EQ(look.figure->panels.size(), 2u) << "u and y";
-    EXPECT_EQ(look.figure->panels[0].y_label, "u (V)");
-    EXPECT_EQ(look.figure->panels[1].x_label, "time (s)");
+    EXPECT_EQ(message_text(look.figure->panels[0].y_label), "u (V)");
+    EXPECT_EQ(message_text(look.figure->panels[1].x_label), "time (s)");
 }
 
 TEST(data_look, shows_the_variables_of_a_matlab_file_and_of_a_data_set) {

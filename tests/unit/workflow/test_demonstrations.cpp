@@ -105,7 +105,7 @@ TEST_P(demonstration_pages, show_all_that_their_scripts_say_and_claim_nothing_fa
     const std::string source = read_file(demonstration.script);
     const RunRecord record =
         work.run(source + "\n-- %% id=claims\n" + claims().at(GetParam()), "demonstration.lua").record;
-    ASSERT_FALSE(record.error) << record.error->message;
+    ASSERT_FALSE(record.error) << record.error->text();
     std::string shown;
     for (const std::string& page : pages_of(read_percent_script(demonstration.script), record)) shown += page + '\n';
     for (const std::string& line : lines_of(source.substr(source.find("-- %%")))) {

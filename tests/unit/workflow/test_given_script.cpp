@@ -51,14 +51,14 @@ TEST(given_script, that_is_no_script_is_refused_with_the_command_to_type) {
     work.write("data.csv", "t,y\n0,1\n");
     for (const std::string command : {"report", "run", "lint", "pack", "check"})
         EXPECT_EQ(
-            why_no_script(work.path("mine/report.md"), command),
+            message_text(why_no_script(work.path("mine/report.md"), command)),
             "report.md is the report's text: give the folder, dynlab " + command + " " + work.path("mine").string());
-    EXPECT_THAT(why_no_script(work.path("mine/report.pdf"), "weave"),
+    EXPECT_THAT(message_text(why_no_script(work.path("mine/report.pdf"), "weave")),
                 HasSubstr("report.pdf is the report's PDF: give the folder, dynlab weave "));
-    EXPECT_EQ(why_no_script(work.path("data.csv"), "run"),
+    EXPECT_EQ(message_text(why_no_script(work.path("data.csv"), "run")),
               "data.csv is a table of data: give a script (.lua) or a notebook (.ipynb)");
-    EXPECT_EQ(why_no_script(work.path("mine"), "run"), "");
-    EXPECT_EQ(why_no_script(work.path("mine/analysis.lua"), "run"), "");
+    EXPECT_EQ(message_text(why_no_script(work.path("mine"), "run")), "");
+    EXPECT_EQ(message_text(why_no_script(work.path("mine/analysis.lua"), "run")), "");
 }
 
 }  // namespace test_given_script

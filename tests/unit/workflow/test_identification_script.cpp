@@ -50,7 +50,7 @@ class identification_script : public testing::Test {
     static void SetUpTestSuite() {
         files_ = new WorkFolder;
         const auto made = files_->run(kRecords).record;
-        ASSERT_FALSE(made.error) << made.error->message;
+        ASSERT_FALSE(made.error) << made.error->text();
         std::istringstream lines(files_->read("stated.csv"));
         std::string holes;
         int number = 0;
@@ -69,7 +69,7 @@ class identification_script : public testing::Test {
     }
     static ScriptRun run(const IdentifyRequest& request) {
         ScriptRun made = files_->run(dynlab::identification_script(request));
-        EXPECT_FALSE(made.record.error) << made.record.error->message;
+        EXPECT_FALSE(made.record.error) << made.record.error->text();
         return made;
     }
     static std::string printed(const IdentifyRequest& request) { return run(request).printed; }
@@ -206,7 +206,7 @@ TEST_F(identification_script, a_request_that_a_file_cannot_serve_names_the_colum
     request.delay = 1e6;
     const auto stopped = files_->run(dynlab::identification_script(request)).record.error;
     ASSERT_TRUE(stopped);
-    EXPECT_THAT(stopped->message, HasSubstr("delay"));
+    EXPECT_THAT(stopped->text(), HasSubstr("delay"));
 }
 
 TEST(identify_request, of_orders_delay_or_names_that_make_no_sense_is_refused) {

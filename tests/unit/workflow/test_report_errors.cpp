@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/message_texts.h"
 #include "workflow/lesson_catalogue.h"
 #include "workflow/make_report.h"
 #include "workflow_run.h"
@@ -29,15 +30,17 @@ TEST(report_errors, a_slot_without_an_entry_leaves_a_draft_and_names_slot_file_a
     for (int repeat = 0; repeat < 2; ++repeat) {
         const ReportResult draft = report_in(work);
         EXPECT_FALSE(draft.up_to_date) << "a draft is never up to date";
-        EXPECT_THAT(draft.gaps, ElementsAre(AllOf(HasSubstr("report.md:5"), HasSubstr("fti"), HasSubstr("fit")),
-                                            AllOf(HasSubstr("report.md:7"), HasSubstr("@fig:step points to nothing"))));
-        EXPECT_THAT(draft.unplaced, ElementsAre(HasSubstr("write `fit`{.value}")));
+        EXPECT_THAT(texts_of(draft.gaps),
+                    ElementsAre(AllOf(HasSubstr("report.md:5"), HasSubstr("fti"), HasSubstr("fit")),
+                                AllOf(HasSubstr("report.md:7"), HasSubstr("@fig:step points to nothing"))));
+        ASSERT_EQ(draft.unplaced.size(), 1u);
+        EXPECT_THAT(message_text(draft.unplaced.front().message()), HasSubstr("write `fit`{.value}"));
     }
     EXPECT_THAT(work.read("report.md"), HasSubstr("The fit is **??** %."));
     with_report(work, "report.value('fit', 93.2, '%.1f')\n", "The fit is `fit`{.value} %.\n");
     const ReportResult complete = report_in(work);
-    EXPECT_THAT(complete.gaps, ElementsAre());
-    EXPECT_THAT(complete.unplaced, ElementsAre());
+    EXPECT_TRUE(complete.gaps.empty());
+    EXPECT_TRUE(complete.unplaced.empty());
     EXPECT_TRUE(report_in(work).up_to_date);
 }
 
@@ -54,7 +57,9 @@ TEST(report_errors, the_error_of_a_script_stands_in_the_report_up_to_there) {
     with_report(work, "-- %%\nprint('before')\n-- %%\nerror('on purpose')\n-- %%\nprint('after')\n",
                 "::: {.cells}\n:::\n");
     for (int repeat = 0; repeat < 2; ++repeat)
-        EXPECT_THAT(report_in(work).error.value_or("(none)"), HasSubstr("analysis.lua:4: on purpose")) << repeat;
+        EXPECT_THAT(message_text(report_in(work).error.value_or(Message("(none)"))),
+                    HasSubstr("analysis.lua:4: on purpose"))
+            << repeat;
     EXPECT_THAT(work.read("report.md"),
                 testing::ContainsRegex("\nbefore\n(.|\n)*on purpose(.|\n)*nothing below was run(.|\n)*print"));
 }

@@ -25,7 +25,7 @@ TEST(script_answers, that_are_missing_unknown_repeated_or_of_the_wrong_kind_are_
     EXPECT_EQ(missing("answer('gain', 2) answer('G', tf({2}, {1, 1}))"), "");
     const auto refusal = [&](const std::string& code) {
         const auto error = work.run(promised + code, "a.lua").record.error;
-        return error ? error->message : "";
+        return error ? error->text() : "";
     };
     EXPECT_THAT(refusal("answer('gian', 2)\n"),
                 HasSubstr("a.lua:7: answer: the script's header declares no answer \"gian\"; did you mean \"gain\"?"));
@@ -40,7 +40,7 @@ TEST(script_answers, a_table_of_numbers_is_a_vector_where_one_is_wanted) {
     const WorkFolder work;
     const auto given = [&](const std::string& value) {
         const RunRecord record = work.run(header("--   v: vector\n") + "answer('v', " + value + ")\n").record;
-        return record.error ? record.error->message : record.answers.at("v").json;
+        return record.error ? record.error->text() : record.answers.at("v").json;
     };
     EXPECT_EQ(given("{9.7, 9.5, 9.9}"), given("vector{9.7, 9.5, 9.9}"));
     EXPECT_THAT(given("{9.7, 'x'}"), HasSubstr("must be a vector of numbers, but its element 2 is the text"));
@@ -53,7 +53,7 @@ TEST(script_answers, are_in_the_record_bit_by_bit) {
                                      "answer('n', 0.1 + 0.2) answer('none', 0/0) answer('t', {1, 'a', {x = true}}) "
                                      "answer('G', idproc('P1', {Kp = 2, Tp1 = 3})) answer('v', vector{1, 1/3})")
                                  .record;
-    ASSERT_FALSE(record.error) << record.error->message;
+    ASSERT_FALSE(record.error) << record.error->text();
     const auto answers = nlohmann::json::parse(to_json(record)).at("answers");
     EXPECT_EQ(answers.at("n").at("value").get<double>(), 0.1 + 0.2);
     EXPECT_EQ(answers.at("none").at("value"), "NaN");

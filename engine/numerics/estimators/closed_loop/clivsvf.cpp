@@ -33,13 +33,14 @@ Fit clivsvf(const IdData& data, const TransferStructure& structure, const SvfOpt
     }
     if (!estimate.theta.allFinite())
         throw InvalidArgument(
-            "clivsvf: the equations have no unique solution: the reference does not excite the loop enough for " +
-            std::to_string(structure.parameter_count()) + " parameters");
+            "clivsvf: the equations have no unique solution: the reference does not excite the loop enough for {} "
+            "parameters",
+            structure.parameter_count());
     estimate.covariance = equations.covariance(estimate.theta);
     estimate.termination = Termination::kConverged;
     describe_loop(estimate, data, signals, in_loop);
     warn_of_cutoff(estimate, options.lambda);
-    set_message(estimate, "Instrumental variables on filtered signals, " + instruments_text(signals, in_loop) + ".");
+    estimate.message = Message("Instrumental variables on filtered signals, {}.", instruments_text(signals, in_loop));
     return estimate;
 }
 

@@ -10,7 +10,6 @@
 #include "numerics/fit/diagnosis.h"
 #include "numerics/fit/first_estimate.h"
 #include "numerics/fit/simulation_error.h"
-#include "numerics/number_text.h"
 #include "numerics/statistics/robust_covariance.h"
 
 namespace dynlab::inline numerics {
@@ -51,8 +50,9 @@ Fit by_passes(const IdData& data, const TransferStructure& structure, const FitO
         const Vector next = equations.solution(&estimate.condition_number);
         if (!next.allFinite())
             throw InvalidArgument(
-                "clsrivc: the equations have no unique solution: the reference does not excite the loop enough for " +
-                std::to_string(structure.parameter_count()) + " parameters");
+                "clsrivc: the equations have no unique solution: the reference does not excite the loop enough for {} "
+                "parameters",
+                structure.parameter_count());
         const double change = largest_change(next, estimate.theta);
         estimate.theta = next;
         estimate.trace.push_back({next, 0, change});
@@ -63,10 +63,12 @@ Fit by_passes(const IdData& data, const TransferStructure& structure, const FitO
     estimate.covariance = equations.Z.size() > 0 ? equations.covariance(estimate.theta)
                                                  : Matrix::Zero(estimate.theta.size(), estimate.theta.size());
     describe_loop(estimate, data, signals, in_loop);
-    const std::string passes = counted(estimate.trace.size(), "pass", "passes");
+    const Message passes = plural(static_cast<std::int64_t>(estimate.trace.size()), "{} pass", "{} passes");
     const bool settled = estimate.termination == Termination::kConverged;
-    set_message(estimate, "CLSRIVC " + (settled ? "converged after " + passes : "had not settled after " + passes) +
-                              ", " + instruments_text(signals, in_loop) + ": " + simulation_text(estimate) + ".");
+    estimate.message = settled ? Message("CLSRIVC converged after {}, {}: {}.", passes,
+                                         instruments_text(signals, in_loop), simulation_text(estimate))
+                               : Message("CLSRIVC had not settled after {}, {}: {}.", passes,
+                                         instruments_text(signals, in_loop), simulation_text(estimate));
     return estimate;
 }
 
@@ -98,8 +100,12 @@ Fit two_stage(const IdData& data, const TransferStructure& structure, const FitO
     estimate.warnings.clear();
     measure_simulation(estimate, data);
     describe_models(estimate);
-    set_message(estimate, "SRIVC on the input's projection on the reference (two-stage route), " +
-                              ending_text(estimate) + ": " + simulation_text(estimate) + ".");
+    estimate.message =
+        has_settled(estimate)
+            ? Message("SRIVC on the input's projection on the reference (two-stage route), converged after {}: {}.",
+                      iteration_count(estimate), simulation_text(estimate))
+            : Message("SRIVC on the input's projection on the reference (two-stage route), stopped after {}: {}.",
+                      iteration_count(estimate), simulation_text(estimate));
     return estimate;
 }
 
@@ -108,9 +114,9 @@ Fit direct(const IdData& data, const TransferStructure& structure, const FitOpti
     estimate.covariance = output_covariance(data, structure, estimate.theta);
     estimate.warnings.clear();
     describe_models(estimate);
-    add_warning(estimate,
-                "This is the direct route: the input follows the noise through the controller, which biases the "
-                "estimate unless the noise is white.");
+    estimate.warnings.push_back(
+        Message("This is the direct route: the input follows the noise through the controller, which biases the "
+                "estimate unless the noise is white."));
     return estimate;
 }
 
@@ -119,8 +125,7 @@ Fit direct(const IdData& data, const TransferStructure& structure, const FitOpti
 Fit clsrivc(const IdData& data, const TransferStructure& structure, const FitOptions& options,
             const LoopKnowledge& known, LoopRoute route) {
     options.validate();
-    FitOptions own = options;
-    own.doubts = false;  // they would be of a fit in open loop
+    const FitOptions own = options.from_rest();
     check_loop_data("clsrivc", data, structure);
     if (route == LoopRoute::kDirect) return direct(data, structure, own);
     if (route == LoopRoute::kIndirect && !known.controller)

@@ -24,8 +24,8 @@ enum class LoopRoute {
 /// Hof and Schrama (1993). A stable plant; what the loop feeds back counts as noise. kDirect is consistent only where v
 /// is white and the loop has a delay; it is there for comparison. Standard errors hold for coloured errors, too; those
 /// of kTwoStage take the projection as known. Of the options lambda, hold_y, max_iterations, tolerance and cancel are
-/// used. Throws InvalidArgument as clivsvf, and for kIndirect without a controller. Reference: Gilson, Garnier, Young
-/// and Van den Hof in Garnier and Wang (2008), chapter 5.
+/// used; the record counts as beginning at rest. Throws InvalidArgument as clivsvf, and for kIndirect without a
+/// controller. Reference: Gilson, Garnier, Young and Van den Hof in Garnier and Wang (2008), chapter 5.
 Fit clsrivc(const IdData& data, const TransferStructure& structure, const FitOptions& options = {},
             const LoopKnowledge& known = {}, LoopRoute route = LoopRoute::kAuxiliary);
 

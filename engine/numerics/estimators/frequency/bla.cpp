@@ -7,7 +7,6 @@
 
 #include "numerics/error.h"
 #include "numerics/fit/spectral_estimate.h"
-#include "numerics/number_text.h"
 #include "numerics/signals/fourier.h"
 
 namespace dynlab::inline numerics {
@@ -43,15 +42,15 @@ std::vector<Cut> cuts_of(const IdData& data, const BlaOptions& options, Index& r
     for (std::size_t e = 0; e < data.experiments.size(); ++e) {
         const Index N = data.sample_count(e), length = N / options.realisations;
         if (length * options.realisations != N)
-            throw InvalidArgument("bla: " + std::to_string(options.realisations) + " realisations do not divide the " +
-                                  std::to_string(N) + " samples of the record");
+            throw InvalidArgument("bla: {} realisations do not divide the {} samples of the record",
+                                  options.realisations, N);
         const Index periods = length / options.period;
         if (periods < 1)
-            throw InvalidArgument("bla: a period of " + std::to_string(options.period) +
-                                  " samples is longer than a realisation of " + std::to_string(length));
+            throw InvalidArgument("bla: a period of {} samples is longer than a realisation of {}", options.period,
+                                  length);
         if (options.transient >= periods)
-            throw InvalidArgument("bla: leaving out " + std::to_string(options.transient) + " of " +
-                                  counted(periods, "period") + " leaves nothing");
+            throw InvalidArgument("bla: leaving out {} of {} leaves nothing", options.transient,
+                                  plural(periods, "{} period", "{} periods"));
         rest = length - periods * options.period;
         for (Index r = 0; r < options.realisations; ++r)
             cuts.push_back({e, r * length + rest + options.transient * options.period, periods - options.transient});
@@ -254,13 +253,15 @@ class Approximation {
         for (const Realisation& one : all_) changing += one.input_noise.sum(), all += one.U.squaredNorm();
         const double part = changing / (changing + all);
         if (part > kRepeatsNot)
-            throw InvalidArgument("bla: the input does not repeat after " + std::to_string(options_.period) +
-                                  " samples: " + number_text(100 * part, 3) +
-                                  " % of its power changes from period to period; give the period of the excitation");
+            throw InvalidArgument(
+                "bla: the input does not repeat after {} samples: {} % of its power changes from period to period; "
+                "give the period of the excitation",
+                options_.period, significant(100 * part, 3));
         if (part > kRepeatsRoughly)
-            result_.warnings.push_back("The input repeats only roughly (" + number_text(100 * part, 3) +
-                                       " % of its power changes from period to period): the period is not right or "
-                                       "the input is noisy, and leakage may bias the response.");
+            result_.warnings.push_back(
+                Message("The input repeats only roughly ({} % of its power changes from period to period): the period "
+                        "is not right or the input is noisy, and leakage may bias the response.",
+                        significant(100 * part, 3)));
     }
 
     /// Each input is held against the first one and the one before it.
@@ -269,9 +270,10 @@ class Approximation {
             for (const std::size_t other : {m - 1, std::size_t{0}})
                 if (shifted_correlation(all_[other].U, all_[m].U, options_.period) > kSameInput)
                     throw InvalidArgument(
-                        "bla: realisations " + std::to_string(other + 1) + " and " + std::to_string(m + 1) +
-                        " have the same input, and distortion shows only where inputs differ: draw other phases for "
-                        "each (multisine does), or take them as periods of one realisation");
+                        "bla: realisations {} and {} have the same input, and distortion shows only where inputs "
+                        "differ: draw other phases for each (multisine does), or take them as periods of one "
+                        "realisation",
+                        other + 1, m + 1);
     }
 
     void warn_of_transient() {
@@ -282,42 +284,46 @@ class Approximation {
         const double chance = kChance / std::sqrt(count_ * static_cast<double>(all_.front().Y.size()));
         if (unsettled > kSeen * power && unsettled > (kMore + chance) * spread)
             result_.warnings.push_back(
-                "The first period differs from the others by more than noise explains: the "
-                "system was not yet in steady state; leave it out with `transient` = " +
-                std::to_string(options_.transient + 1) + ".");
+                Message("The first period differs from the others by more than noise explains: the system was not yet "
+                        "in steady state; leave it out with {} = {}.",
+                        OptionName{"transient"}, options_.transient + 1));
     }
 
     void warn_of_record() {
         if (rest_ > 0)
-            result_.warnings.push_back("The period does not divide the record: its first " + counted(rest_, "sample") +
-                                       " are left out, so that whole periods remain.");
+            result_.warnings.push_back(Message(
+                "The period does not divide the record: its first {} are left out, so that whole periods remain.",
+                plural(rest_, "{} sample", "{} samples")));
         if (lines_.some_differ)
             result_.warnings.push_back(
-                "The realisations excite different lines: those that all of them excite are used.");
+                Message("The realisations excite different lines: those that all of them excite are used."));
         if (periods_ < 2)
             result_.warnings.push_back(
-                "One period does not tell noise from nonlinear distortion, nor whether the "
-                "system was in steady state.");
+                Message("One period does not tell noise from nonlinear distortion, nor whether the system was in "
+                        "steady state."));
         if (all_.size() < 2)
             result_.warnings.push_back(
-                "One realisation does not tell nonlinear distortion at the excited lines: the "
-                "variance is that of noise alone.");
+                Message("One realisation does not tell nonlinear distortion at the excited lines: the variance is that "
+                        "of noise alone."));
     }
 
     void describe() {
         warn_of_transient();
         warn_of_record();
-        result_.message = "Best linear approximation at " + counted(result_.w.size(), "frequency", "frequencies") +
-                          " from " + counted(all_.size(), "realisation") + " of " + counted(periods_, "period") + ".";
+        std::vector<Message> all = {Message("Best linear approximation at {} from {} of {}.",
+                                            plural(result_.w.size(), "{} frequency", "{} frequencies"),
+                                            plural(std::ssize(all_), "{} realisation", "{} realisations"),
+                                            plural(periods_, "{} period", "{} periods"))};
         const LevelSums sums = level_sums(result_);
         const auto decibels = [&](double part) {
-            return number_text(10 * std::log10(std::max(part, 0.0) / sums.power), 3);
+            return significant(10 * std::log10(std::max(part, 0.0) / sums.power), 3);
         };
         if (std::isfinite(sums.noise))
-            result_.message += " Noise lies at " + decibels(sums.noise) + " dB of the output in the mean over " +
-                               counted(periods_, "period") + ".";
+            all.push_back(Message("Noise lies at {} dB of the output in the mean over {}.", decibels(sums.noise),
+                                  plural(periods_, "{} period", "{} periods")));
         if (std::isfinite(sums.distortion))
-            result_.message += " Nonlinear distortion lies at " + decibels(sums.distortion) + " dB of the output.";
+            all.push_back(Message("Nonlinear distortion lies at {} dB of the output.", decibels(sums.distortion)));
+        result_.message = sentences(std::move(all));
     }
 
     const BlaOptions& options_;
@@ -332,20 +338,18 @@ class Approximation {
 
 void BlaOptions::validate() const {
     if (period < kFewestSamples)
-        throw InvalidArgument("bla: the period must be given in samples, at least " + std::to_string(kFewestSamples) +
-                              " of them, and is " + std::to_string(period));
+        throw InvalidArgument("bla: the period must be given in samples, at least {} of them, and is {}",
+                              kFewestSamples, period);
     if (realisations < 1)
-        throw InvalidArgument("bla: the number of realisations must be at least 1, and is " +
-                              std::to_string(realisations));
+        throw InvalidArgument("bla: the number of realisations must be at least 1, and is {}", realisations);
     if (transient < 0)
-        throw InvalidArgument("bla: the number of periods to leave out must not be negative, and is " +
-                              std::to_string(transient));
+        throw InvalidArgument("bla: the number of periods to leave out must not be negative, and is {}", transient);
     if (!(least_input > 0 && least_input < 1))
-        throw InvalidArgument("bla: the least part of the input's amplitude must lie between 0 and 1, but it is " +
-                              number_text(least_input));
+        throw InvalidArgument("bla: the least part of the input's amplitude must lie between 0 and 1, but it is {}",
+                              least_input);
     if (smooth && *smooth < 0)
-        throw InvalidArgument("bla: the number of frequencies to smooth over must not be negative, but it is " +
-                              std::to_string(*smooth));
+        throw InvalidArgument("bla: the number of frequencies to smooth over must not be negative, but it is {}",
+                              *smooth);
 }
 
 FrequencyData bla(const IdData& data, const BlaOptions& options) {

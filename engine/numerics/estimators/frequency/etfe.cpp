@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 #include "numerics/signals/fourier.h"
 
 namespace dynlab::inline numerics {
@@ -53,42 +52,49 @@ void set_size(SpectralEstimate& estimate, Index count, bool smoothed) {
 }
 
 void describe(SpectralEstimate& estimate, const EtfeOptions& options, Index lines) {
-    estimate.message = "Empirical transfer function estimate at " + std::to_string(estimate.w.size()) + " of " +
-                       std::to_string(lines) + " frequencies";
-    estimate.message +=
-        options.smooth > 0 ? ", smoothed over " + std::to_string(2 * options.smooth + 1) + " lines." : ".";
+    estimate.message =
+        options.smooth > 0
+            ? Message("Empirical transfer function estimate at {} of {} frequencies, smoothed over {} lines.",
+                      estimate.w.size(), lines, 2 * options.smooth + 1)
+            : Message("Empirical transfer function estimate at {} of {} frequencies.", estimate.w.size(), lines);
     if (estimate.w.size() < lines)
-        estimate.message += " At the others the input has less than " + number_text(100 * options.least_input, 3) +
-                            " % of its largest amplitude, and noise alone would be shown.";
+        estimate.message =
+            sentences({estimate.message, Message("At the others the input has less than {} % of its largest "
+                                                 "amplitude, and noise alone would be shown.",
+                                                 significant(100 * options.least_input, 3))});
     if (estimate.w.size() < 3)
-        estimate.warnings.push_back("The input excites " + counted(estimate.w.size(), "frequency", "frequencies") +
-                                    " only: the response is known there and nowhere else.");
+        estimate.warnings.push_back(plural(estimate.w.size(),
+                                           "The input excites {} frequency only: the response is known there and "
+                                           "nowhere else.",
+                                           "The input excites {} frequencies only: the response is known there and "
+                                           "nowhere else."));
 }
 
 }  // namespace
 
 void EtfeOptions::validate() const {
     if (smooth < 0)
-        throw InvalidArgument("etfe: the number of frequencies to smooth over must not be negative, but it is " +
-                              std::to_string(smooth));
+        throw InvalidArgument("etfe: the number of frequencies to smooth over must not be negative, but it is {}",
+                              smooth);
     if (!(least_input >= 0 && least_input < 1))
-        throw InvalidArgument("etfe: the least part of the input's amplitude must lie between 0 and 1, but it is " +
-                              number_text(least_input));
+        throw InvalidArgument("etfe: the least part of the input's amplitude must lie between 0 and 1, but it is {}",
+                              least_input);
 }
 
 SpectralEstimate etfe(const IdData& data, const EtfeOptions& options) {
     options.validate();
     if (data.experiments.size() != 1)
-        throw InvalidArgument("etfe: the data must hold one experiment, but they hold " +
-                              std::to_string(data.experiments.size()) +
-                              "; take one with data:experiment(k), or use spa, which joins them");
+        throw InvalidArgument(
+            "etfe: the data must hold one experiment, but they hold {}; take one with data:experiment(k), or use spa, "
+            "which joins them",
+            data.experiments.size());
     const Experiment record =
         nonparametric_data("etfe", data, kFewestSamplesOfEtfe, options.remove_mean).experiments.front();
     const ComplexVector U = fourier_transform(record.u.col(0)), Y = fourier_transform(record.y.col(0));
     const Index N = U.size(), lines = N / 2;
     if (2 * options.smooth + 1 > lines)
-        throw InvalidArgument("etfe: smoothing over " + std::to_string(2 * options.smooth + 1) +
-                              " frequencies leaves nothing of the " + std::to_string(lines) + " that the record has");
+        throw InvalidArgument("etfe: smoothing over {} frequencies leaves nothing of the {} that the record has",
+                              2 * options.smooth + 1, lines);
     const Vector amplitudes = U.segment(1, lines).cwiseAbs();
     const double least = options.least_input * amplitudes.maxCoeff();
     const Vector weights = hann_weights(options.smooth);

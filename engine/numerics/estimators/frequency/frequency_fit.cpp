@@ -13,7 +13,6 @@
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/least_squares.h"
 #include "numerics/linalg/polynomial.h"
-#include "numerics/number_text.h"
 #include "numerics/simulation/sampled_response.h"
 #include "numerics/statistics/distributions.h"
 
@@ -35,12 +34,11 @@ void check_fit(const std::string& method, const FrequencyData& data, const Trans
     structure.validate();
     check_frequency_data(method, data);
     if (!structure.single_channel())
-        throw InvalidArgument(method + ": a frequency response has one input and one output, and the model has " +
-                              std::to_string(structure.inputs) + " and " + std::to_string(structure.outputs));
+        throw InvalidArgument("{}: a frequency response has one input and one output, and the model has {} and {}",
+                              method, structure.inputs, structure.outputs);
     if (data.w.size() < structure.parameter_count())
-        throw InvalidArgument(method + ": " + std::to_string(structure.parameter_count()) +
-                              " parameters need as many frequencies, and the response has " +
-                              std::to_string(data.w.size()));
+        throw InvalidArgument("{}: {} parameters need as many frequencies, and the response has {}", method,
+                              structure.parameter_count(), data.w.size());
 }
 
 Index pole_count(const TransferStructure& structure) {
@@ -101,8 +99,8 @@ std::vector<Start> starts_of(const FrequencyData& data, const TransferStructure&
         if (stable || !stable_alone) starts.push_back({found, delay});
     }
     if (starts.empty())
-        throw InvalidArgument("the response does not determine a model of " + counted(pole_count(structure), "pole") +
-                              ": its equations have no solution");
+        throw InvalidArgument("the response does not determine a model of {}: its equations have no solution",
+                              plural(pole_count(structure), "{} pole", "{} poles"));
     return starts;
 }
 
@@ -209,10 +207,10 @@ void warn_of_misfit(Fit& fit, const FrequencyData& data, Index values) {
     if (data.variance.size() == 0 || data.neighbours_share_errors || degrees < 1) return;
     if (fit.noise_variance[0] < kWorthTelling) return;
     if (chi_squared_upper_tail(fit.noise_variance[0] * degrees, degrees) < kChance)
-        fit.warnings.push_back("The model misses the response by more than its variance explains (mean square " +
-                               number_text(fit.noise_variance[0], 3) +
-                               ", where 1 is expected): it wants more poles or zeros, or the variance is too small, "
-                               "and the standard errors are too.");
+        fit.warnings.push_back(Message(
+            "The model misses the response by more than its variance explains (mean square {}, where 1 is expected): "
+            "it wants more poles or zeros, or the variance is too small, and the standard errors are too.",
+            significant(fit.noise_variance[0], 3)));
 }
 
 void describe(Fit& fit, const FrequencyData& data) {
@@ -221,13 +219,8 @@ void describe(Fit& fit, const FrequencyData& data) {
     fit.offsets = Matrix::Zero(1, 1);
     if (data.neighbours_share_errors)
         fit.warnings.push_back(
-            "Neighbouring values of a smoothed response share their errors: the standard errors are "
-            "too small, and narrow peaks are lowered, which looks like damping.");
-}
-
-std::string fit_text(const Fit& fit, const FrequencyData& data) {
-    return "fit " + number_text(fit.fit_percent[0], 4) + " % (response at " + std::to_string(data.w.size()) +
-           " frequencies)";
+            Message("Neighbouring values of a smoothed response share their errors: the standard errors are too small, "
+                    "and narrow peaks are lowered, which looks like damping."));
 }
 
 }  // namespace
@@ -259,8 +252,14 @@ Fit frequency_fit(const std::string& method, const FrequencyData& data, const Tr
     describe(fit, data);
     warn_of_misfit(fit, data, fit.theta.size());
     if (data.variance.size() == 0) fit.loss *= 2, fit.noise_variance *= 2;  // of both parts
-    if (structure.free_delays) warn_of_delay(fit, fit.models.front().delay(), range, "");
-    set_message(fit, "The search over the frequency response " + ending_text(fit) + ": " + fit_text(fit, data) + ".");
+    if (structure.free_delays) warn_of_delay(fit, fit.models.front().delay(), range);
+    fit.message =
+        has_settled(fit)
+            ? Message(
+                  "The search over the frequency response converged after {}: fit {} % (response at {} frequencies).",
+                  iteration_count(fit), significant(fit.fit_percent[0], 4), data.w.size())
+            : Message("The search over the frequency response stopped after {}: fit {} % (response at {} frequencies).",
+                      iteration_count(fit), significant(fit.fit_percent[0], 4), data.w.size());
     return fit;
 }
 
@@ -320,7 +319,8 @@ Fit frequency_lssvf(const FrequencyData& data, const TransferStructure& structur
     if (data.variance.size() == 0) fit.covariance *= fit.noise_variance[0], fit.loss *= 2, fit.noise_variance *= 2;
     describe(fit, data);
     warn_of_cutoff(fit, options.lambda);
-    set_message(fit, "Least squares on the filtered frequency response: " + fit_text(fit, data) + ".");
+    fit.message = Message("Least squares on the filtered frequency response: fit {} % (response at {} frequencies).",
+                          significant(fit.fit_percent[0], 4), data.w.size());
     return fit;
 }
 

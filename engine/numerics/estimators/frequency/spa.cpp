@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 #include "numerics/signals/correlation.h"
 
 namespace dynlab::inline numerics {
@@ -19,8 +18,9 @@ constexpr double kLeastInput = 1e-10;  // what the response is divided by at lea
 Index window_of(const SpaOptions& options, Index shortest) {
     if (options.window == 0) return std::max<Index>(2, std::min(shortest / 10, kDefaultWindow));
     if (options.window < 2 || options.window >= shortest)
-        throw InvalidArgument("spa: the lag window must reach from 2 samples to less than the shortest experiment's " +
-                              std::to_string(shortest) + ", but it is " + std::to_string(options.window));
+        throw InvalidArgument(
+            "spa: the lag window must reach from 2 samples to less than the shortest experiment's {}, but it is {}",
+            shortest, options.window);
     return options.window;
 }
 
@@ -34,8 +34,8 @@ Vector frequencies_of(const SpaOptions& options, Index window, double Ts) {
     }
     for (const double value : options.w)
         if (!(value >= 0 && value <= end * (1 + 1e-12)))
-            throw InvalidArgument("spa: frequencies must lie between 0 and pi/Ts = " + number_text(end) +
-                                  " rad per time unit, but one is " + number_text(value));
+            throw InvalidArgument("spa: frequencies must lie between 0 and pi/Ts = {} rad per time unit, but one is {}",
+                                  end, value);
     return options.w;
 }
 
@@ -87,21 +87,20 @@ double real_share(double angle, Index M) {
 }
 
 void describe(SpectralEstimate& estimate, Index M, double averages, double Ts) {
-    estimate.message = "Spectral analysis with a lag window of " + std::to_string(M) +
-                       " samples: details narrower than " +
-                       number_text(std::numbers::pi / (static_cast<double>(M) * Ts), 3) +
-                       " rad per time unit are smoothed away, and every value averages about " +
-                       number_text(averages, 2) + " independent ones.";
+    estimate.message = Message(
+        "Spectral analysis with a lag window of {} samples: details narrower than {} rad per time unit are smoothed "
+        "away, and every value averages about {} independent ones.",
+        M, significant(std::numbers::pi / (static_cast<double>(M) * Ts), 3), significant(averages, 2));
     if (averages < 4)
-        estimate.warnings.push_back("The window is long for so short a record: the errors are large and uncertain.");
+        estimate.warnings.push_back(
+            Message("The window is long for so short a record: the errors are large and uncertain."));
 }
 
 }  // namespace
 
 void SpaOptions::validate() const {
     if (window < 0)
-        throw InvalidArgument("spa: the lag window must be a positive number of samples, but it is " +
-                              std::to_string(window));
+        throw InvalidArgument("spa: the lag window must be a positive number of samples, but it is {}", window);
     if (!w.allFinite()) throw InvalidArgument("spa: a frequency is not a finite number");
 }
 
@@ -135,7 +134,7 @@ SpectralEstimate spa(const IdData& data, const SpaOptions& options) {
     describe(estimate, M, averages, data.Ts);
     if (poor)
         estimate.warnings.push_back(
-            "At some frequencies the input has practically no power; the response there means nothing.");
+            Message("At some frequencies the input has practically no power; the response there means nothing."));
     return estimate;
 }
 

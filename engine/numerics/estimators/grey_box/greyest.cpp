@@ -12,7 +12,6 @@
 #include "numerics/fit/diagnosis.h"
 #include "numerics/fit/output_error.h"
 #include "numerics/linalg/decompositions.h"
-#include "numerics/number_text.h"
 #include "numerics/simulation/sensitivity_solver.h"
 #include "numerics/statistics/distributions.h"
 #include "numerics/statistics/identifiability.h"
@@ -57,11 +56,11 @@ Vector named_start(const GreyModel& model, const std::map<std::string, double>& 
     for (const auto& [name, value] : values) {
         const auto found = std::ranges::find(model.parameters, name, &GreyParameter::name);
         if (found == model.parameters.end())
-            throw InvalidArgument("greyest: `starts` name a parameter " + name + ", which the model has not");
+            throw InvalidArgument("greyest: {} name a parameter {}, which the model has not", OptionName{"starts"},
+                                  name);
         if (!(value >= found->lower && value <= found->upper))
-            throw InvalidArgument("greyest: `starts` give " + name + " = " + number_text(value) +
-                                  ", outside its bounds " + number_text(found->lower) + " and " +
-                                  number_text(found->upper));
+            throw InvalidArgument("greyest: {} give {} = {}, outside its bounds {} and {}", OptionName{"starts"}, name,
+                                  value, found->lower, found->upper);
         start[found - model.parameters.begin()] = value;
     }
     return start;
@@ -229,7 +228,7 @@ void look_at_sensitivities(GreyFit& result, const GreyOutput& criterion, const F
         if (!(length > 0)) length = 1;
     result.singular_values = singular_values(triangular_part(own * lengths.cwiseInverse().asDiagonal()));
     const Ambiguity found = find_ambiguity(own, names, end.theta(active), (y.array() - y.mean()).matrix().norm());
-    for (const std::string& sentence : found.sentences) result.fit.warnings.push_back(sentence);
+    for (const Message& sentence : found.sentences) result.fit.warnings.push_back(sentence);
     for (std::size_t k = 0; k < active.size(); ++k)
         if (found.parameters[k]) result.fit.covariance(active[k], active[k]) = kInfinity;
 }
@@ -255,10 +254,10 @@ void warn_of_bounds(Fit& fit, const GreyModel& model, const std::vector<Index>& 
     for (std::size_t q = 0; q < free.size(); ++q) {
         if (!end.at_bound[q]) continue;
         const GreyParameter& p = model.parameters[static_cast<std::size_t>(free[q])];
-        fit.warnings.push_back("The parameter " + p.name + " lies at its bound " +
-                               number_text(end.theta[static_cast<Index>(q)]) +
-                               " and would leave through it: its standard error is not known, and the others take it "
-                               "as given.");
+        fit.warnings.push_back(
+            Message("The parameter {} lies at its bound {} and would leave through it: its standard error is not "
+                    "known, and the others take it as given.",
+                    p.name, end.theta[static_cast<Index>(q)]));
     }
 }
 
@@ -313,17 +312,18 @@ void set_measures(GreyFit& result, const GreyOutput& criterion, const Fit& end, 
     result.intervals.resize(fit.theta.size(), 2);
     result.intervals << fit.theta - reach * fit.std, fit.theta + reach * fit.std;
     if (!rough.empty())
-        fit.warnings.push_back("At t = " + number_text(rough.front()) +
-                               " no integration step was short enough: the equations jump there; tanh(v/small) in "
-                               "the place of sign(v) makes them smooth.");
+        fit.warnings.push_back(
+            Message("At t = {} no integration step was short enough: the equations jump there; tanh(v/small) in the "
+                    "place of sign(v) makes them smooth.",
+                    rough.front()));
 }
 
 void check_outputs(const IdData& data) {
     const Vector variations = output_variations(data);
     for (Index i = 0; i < variations.size(); ++i)
         if (variations[i] == 0)
-            throw InvalidArgument("greyest: the output never changes (" +
-                                  data.output_names[static_cast<std::size_t>(i)] + ")");
+            throw InvalidArgument("greyest: the output never changes ({})",
+                                  data.output_names[static_cast<std::size_t>(i)]);
 }
 
 GreyModel with_start(GreyModel model, GreyStart start) {
@@ -339,18 +339,18 @@ GreyStart parse_grey_start(const std::string& text) {
     if (text == "model") return GreyStart::kModel;
     if (text == "zero") return GreyStart::kZero;
     if (text == "estimate") return GreyStart::kEstimate;
-    throw InvalidArgument("`initial_state` of a grey-box model must be \"model\", \"zero\" or \"estimate\", but \"" +
-                          text + "\" was given");
+    throw InvalidArgument("{} of a grey-box model must be \"model\", \"zero\" or \"estimate\", but \"{}\" was given",
+                          OptionName{"initial_state"}, text);
 }
 
 void GreyOptions::validate() const {
     if (max_iterations < 0)
-        throw InvalidArgument("`max_iterations` must not be negative, and is " + std::to_string(max_iterations));
-    if (!(tolerance > 0)) throw InvalidArgument("`tolerance` must be positive, and is " + number_text(tolerance));
+        throw InvalidArgument("{} must not be negative, and is {}", OptionName{"max_iterations"}, max_iterations);
+    if (!(tolerance > 0)) throw InvalidArgument("{} must be positive, and is {}", OptionName{"tolerance"}, tolerance);
     if (!(relative_tolerance >= 1e-13 && relative_tolerance <= 1e-2))
-        throw InvalidArgument("`relative_tolerance` must lie between 1e-13 and 0.01, and is " +
-                              number_text(relative_tolerance));
-    if (starts < 1) throw InvalidArgument("`starts` must be at least 1, and is " + std::to_string(starts));
+        throw InvalidArgument("{} must lie between 1e-13 and 0.01, and is {}", OptionName{"relative_tolerance"},
+                              relative_tolerance);
+    if (starts < 1) throw InvalidArgument("{} must be at least 1, and is {}", OptionName{"starts"}, starts);
 }
 
 GreyFit greyest(const IdData& data, const GreyModel& model, const GreyOptions& options) {
@@ -379,8 +379,11 @@ GreyFit greyest(const IdData& data, const GreyModel& model, const GreyOptions& o
     set_measures(result, criterion, end.fit, data);
     warn_of_bounds(result.fit, result.model, result.model.free_parameters(), end.fit);
     if (const auto missed = missed_initial_state(data, result, end.weights)) result.fit.warnings.push_back(*missed);
-    if (!ambiguous) warn_of_doubtful_parameters(result.fit, "fewer free parameters");
-    set_message(result.fit, "Grey box " + ending_text(result.fit) + ": " + simulation_text(result.fit) + ".");
+    if (!ambiguous) warn_of_doubtful_parameters(result.fit, SimplerModel::kFewerFreeParameters);
+    result.fit.message =
+        has_settled(result.fit)
+            ? Message("Grey box converged after {}: {}.", iteration_count(result.fit), simulation_text(result.fit))
+            : Message("Grey box stopped after {}: {}.", iteration_count(result.fit), simulation_text(result.fit));
     return result;
 }
 
@@ -396,14 +399,15 @@ GreyFit unfitted_grey_box(const GreyModel& model) {
 
 Matrix grey_response(const GreyFit& grey, const GreyInputs& inputs, const Vector& x0) {
     if (inputs.u.cols() != grey.model.inputs && !(grey.model.inputs == 0))
-        throw InvalidArgument("The model has " + counted(grey.model.inputs, "input") + ", and " +
-                              std::to_string(inputs.u.cols()) + " were given");
+        throw InvalidArgument("The model has {}, and {} were given", plural(grey.model.inputs, "{} input", "{} inputs"),
+                              inputs.u.cols());
     if (inputs.u.rows() != inputs.t.size())
-        throw InvalidArgument("The inputs have " + counted(inputs.u.rows(), "sample") + ", and the time has " +
-                              counted(inputs.t.size(), "instant"));
+        throw InvalidArgument("The inputs have {}, and the time has {}",
+                              plural(inputs.u.rows(), "{} sample", "{} samples"),
+                              plural(inputs.t.size(), "{} instant", "{} instants"));
     if (x0.size() != 0 && x0.size() != grey.model.order())
-        throw InvalidArgument("The initial state must hold " + counted(grey.model.order(), "value") + ", and holds " +
-                              std::to_string(x0.size()));
+        throw InvalidArgument("The initial state must hold {}, and holds {}",
+                              plural(grey.model.order(), "{} value", "{} values"), x0.size());
     const Vector from = x0.size() > 0 ? x0 : Vector(grey.initial_states.col(0));
     GreySimulator simulator(grey.model, grey.fit.fit_percent.size(), {}, grey.relative_tolerance);
     return simulator.run(grey.fit.theta, inputs, {&from, {}}, false).y;

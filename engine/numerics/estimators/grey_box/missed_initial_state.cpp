@@ -5,7 +5,6 @@
 
 #include "numerics/criteria/grey_output.h"
 #include "numerics/linalg/least_squares.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
@@ -28,7 +27,7 @@ double effective_samples(const Vector& errors) {
 
 }  // namespace
 
-std::optional<std::string> missed_initial_state(const IdData& data, const GreyFit& fit, const Vector& weights) {
+std::optional<Message> missed_initial_state(const IdData& data, const GreyFit& fit, const Vector& weights) {
     const auto estimated = std::count(fit.model.estimated_initial.begin(), fit.model.estimated_initial.end(), true);
     if (estimated > 0 || fit.fit.termination == Termination::kCancelled) return std::nullopt;
     GreyModel freed = fit.model;
@@ -47,9 +46,10 @@ std::optional<std::string> missed_initial_state(const IdData& data, const GreyFi
         return std::nullopt;
     const double fitted = fit_percent_of_sums(now, variation), better = fit_percent_of_sums(then, variation);
     if (better - fitted < kWorthPoints) return std::nullopt;
-    return "The record does not begin where the model's initial state says: with `initial_state` = \"estimate\" "
-           "the fit is about " +
-           number_text(better, 3) + " % instead of " + number_text(fitted, 3) + " %.";
+    return Message(
+        "The record does not begin where the model's initial state says: with {} = \"estimate\" the fit is about {} % "
+        "instead of {} %.",
+        OptionName{"initial_state"}, significant(better, 3), significant(fitted, 3));
 }
 
 }  // namespace dynlab::inline numerics

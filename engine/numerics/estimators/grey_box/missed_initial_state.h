@@ -1,6 +1,5 @@
 #pragma once
 #include <optional>
-#include <string>
 
 #include "numerics/estimators/grey_box/greyest.h"
 
@@ -11,6 +10,6 @@ namespace dynlab::inline numerics {
 /// parameters and initial states together leaves of the errors. It is told when BIC falls by more than 10, with as many
 /// samples as white errors of the same power at low frequencies would have, and the fit rises by half a point.
 /// `weights`: of the outputs' errors.
-std::optional<std::string> missed_initial_state(const IdData& data, const GreyFit& fit, const Vector& weights);
+std::optional<Message> missed_initial_state(const IdData& data, const GreyFit& fit, const Vector& weights);
 
 }  // namespace dynlab::inline numerics

@@ -6,7 +6,6 @@
 #include "numerics/estimators/learning/cancelled.h"
 #include "numerics/fit/diagnosis.h"
 #include "numerics/linalg/decompositions.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
@@ -48,9 +47,10 @@ Snapshots neighbouring_snapshots(const IdData& data, const Scale& scale, Index d
     Index columns = 0, at = 0;
     for (const Experiment& record : data.experiments) columns += std::max<Index>(0, record.y.rows() - d);
     if (columns <= rows + nu)
-        throw InvalidArgument("dmdc: too few samples: " + std::to_string(rows + nu) +
-                              " unknowns in a row need more snapshots than that, and there are " +
-                              std::to_string(columns) + ": take fewer delays");
+        throw InvalidArgument(
+            "dmdc: too few samples: {} unknowns in a row need more snapshots than that, and there are {}: take fewer "
+            "delays",
+            rows + nu, columns);
     Snapshots pairs{Matrix(rows + nu, columns), Matrix(rows, columns)};
     for (const Experiment& record : data.experiments) {
         const Index count = record.y.rows() - d;
@@ -87,8 +87,8 @@ Reduced reduce(const Snapshots& pairs, const DmdcOptions& options) {
     const SingularValues of_next = jacobi_svd(next), of_now = jacobi_svd(now);
     const Index seen = told_apart(of_next.s), r = rank > 0 ? rank : seen;
     if (r > seen)
-        throw InvalidArgument("dmdc: `rank` is " + std::to_string(rank) + ", and the data show only " +
-                              counted(seen, "direction"));
+        throw InvalidArgument("dmdc: {} is {}, and the data show only {}", OptionName{"rank"}, rank,
+                              plural(seen, "{} direction", "{} directions"));
     const Index p = std::min(r + nu, told_apart(of_now.s));
     const Matrix U = of_next.U.leftCols(r);
     const Matrix G = U.transpose() * next * of_now.V.leftCols(p) * of_now.s.head(p).cwiseInverse().asDiagonal() *
@@ -116,16 +116,16 @@ void measure_fit(DmdcFit& found, const IdData& data, const Scale& scale, const M
 void describe(DmdcFit& found) {
     Fit& fit = found.fit;
     if (found.eigenvalues.cwiseAbs().maxCoeff() > 1)
-        fit.warnings.push_back("The model is unstable: an eigenvalue lies outside the unit circle.");
-    set_message(fit, "Dynamic mode decomposition of snapshots of " + counted(found.delays, "sample") + ", rank " +
-                         std::to_string(found.rank) + ": " + simulation_text(fit) + ".");
+        fit.warnings.push_back(Message("The model is unstable: an eigenvalue lies outside the unit circle."));
+    fit.message = Message("Dynamic mode decomposition of snapshots of {}, rank {}: {}.",
+                          plural(found.delays, "{} sample", "{} samples"), found.rank, simulation_text(fit));
 }
 
 }  // namespace
 
 void DmdcOptions::validate() const {
-    if (rank < 0) throw InvalidArgument("dmdc: `rank` must not be negative, and is " + std::to_string(rank));
-    if (delays < 1) throw InvalidArgument("dmdc: `delays` must be at least 1, and is " + std::to_string(delays));
+    if (rank < 0) throw InvalidArgument("dmdc: {} must not be negative, and is {}", OptionName{"rank"}, rank);
+    if (delays < 1) throw InvalidArgument("dmdc: {} must be at least 1, and is {}", OptionName{"delays"}, delays);
 }
 
 DmdcFit dmdc(const IdData& data, const DmdcOptions& options) {
@@ -135,8 +135,8 @@ DmdcFit dmdc(const IdData& data, const DmdcOptions& options) {
     const Index ny = data.output_count();
     const Snapshots pairs = neighbouring_snapshots(data, scale, options.delays);
     if (options.rank > pairs.next.rows())
-        throw InvalidArgument("dmdc: `rank` is " + std::to_string(options.rank) + ", and a snapshot holds only " +
-                              counted(pairs.next.rows(), "value"));
+        throw InvalidArgument("dmdc: {} is {}, and a snapshot holds only {}", OptionName{"rank"}, options.rank,
+                              plural(pairs.next.rows(), "{} value", "{} values"));
     const Reduced reduced = reduce(pairs, options);
     DmdcFit found;
     found.rank = static_cast<int>(reduced.A.rows());

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/number_text.h"
+#include "base/reader.h"
 #include "numerics/error.h"
 #include "numerics/estimators/learning/cancelled.h"
 #include "numerics/fit/diagnosis.h"
 #include "numerics/linalg/least_squares.h"
 #include "numerics/linalg/triangular_factor.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
@@ -86,8 +87,8 @@ Choice choose_forwards(const Matrix& R, Index rows, Index most, const std::funct
 std::size_t number_of_terms(const Choice& choice, Index wanted) {
     if (wanted == 0) return static_cast<std::size_t>(std::ranges::min_element(choice.bic) - choice.bic.begin()) + 1;
     if (static_cast<Index>(choice.terms.size()) < wanted)
-        throw InvalidArgument("narx: " + std::to_string(wanted) + " terms are wanted, and in this record only " +
-                              counted(choice.terms.size(), "independent candidate") + " can be found");
+        throw InvalidArgument("narx: {} terms are wanted, and in this record only {} can be found", wanted,
+                              plural(choice.terms.size(), "{} independent candidate", "{} independent candidates"));
     return static_cast<std::size_t>(wanted);
 }
 
@@ -135,30 +136,27 @@ std::string equation_text(const IdData& data, const NarxFit& found) {
 void check(const IdData& data, const NarxLags& lags, const NarxOptions& options, Index candidates) {
     check_sampled_data("narx", data);
     if (data.output_count() != 1)
-        throw InvalidArgument("narx needs one output, and the data hold " + std::to_string(data.output_count()) +
-                              ": select one");
+        throw InvalidArgument("narx needs one output, and the data hold {}: select one", data.output_count());
     const Index rows = equation_count(data, lags), least = std::max<Index>(options.terms, 1) + 1;
     if (options.terms > candidates)
-        throw InvalidArgument("narx: " + std::to_string(options.terms) +
-                              " terms are wanted, and the lags and degree give only " +
-                              counted(candidates, "candidate"));
+        throw InvalidArgument("narx: {} terms are wanted, and the lags and degree give only {}", options.terms,
+                              plural(candidates, "{} candidate", "{} candidates"));
     if (rows > least && rows <= candidates)
-        throw InvalidArgument("narx: " + std::to_string(rows) + " samples have their whole past recorded, and there " +
-                              "are " + std::to_string(candidates) +
-                              " candidate terms, among which as many would explain any record: take a longer record, "
-                              "fewer lags or a lower degree");
+        throw InvalidArgument(
+            "narx: {} samples have their whole past recorded, and there are {} candidate terms, among which as many "
+            "would explain any record: take a longer record, fewer lags or a lower degree",
+            rows, candidates);
     if (rows <= least)
-        throw InvalidArgument("narx: too few samples: " + std::to_string(std::max<Index>(rows, 0)) +
-                              " have their whole past recorded, and more than " + std::to_string(least) +
-                              " are needed");
+        throw InvalidArgument("narx: too few samples: {} have their whole past recorded, and more than {} are needed",
+                              std::max<Index>(rows, 0), least);
 }
 
 }  // namespace
 
 void NarxLags::check(Index inputs) const {
     if (static_cast<Index>(nb.size()) != inputs || nb.size() != nk.size())
-        throw InvalidArgument("narx: the lags are of " + counted(static_cast<Index>(nb.size()), "input") +
-                              ", and the data hold " + std::to_string(inputs));
+        throw InvalidArgument("narx: the lags are of {}, and the data hold {}",
+                              plural(static_cast<Index>(nb.size()), "{} input", "{} inputs"), inputs);
     bool negative = na < 0;
     for (std::size_t j = 0; j < nb.size(); ++j) negative = negative || nb[j] < 0 || nk[j] < 0;
     if (negative) throw InvalidArgument("narx: numbers of lags must not be negative");
@@ -213,17 +211,20 @@ NarxModel::NarxModel(NarxLags lags, Monomials monomials, std::vector<Index> term
 FreeRun NarxModel::free_run(const IdData& data, std::size_t experiment, const VectorView& x0) const {
     check_channels("narx", *this, data);
     if (!data.regular() || std::abs(data.Ts - Ts_) > 1e-6 * Ts_)
-        throw InvalidArgument("narx: the model is sampled every " + number_text(Ts_) + " s, and the data " +
-                              (data.regular() ? "every " + number_text(data.Ts) + " s" : "irregularly"));
+        throw InvalidArgument(
+            data.regular() ? Message("narx: the model is sampled every {} s, and the data every {} s", Ts_, data.Ts)
+                           : Message("narx: the model is sampled every {} s, and the data irregularly", Ts_));
     const Experiment& record = data.experiments[experiment];
     const Index N = record.u.rows() > 0 ? record.u.rows() : record.y.rows(), first = lags_.first();
     if (N <= first)
-        throw InvalidArgument("narx: the run begins after " + counted(first, "sample") +
-                              ", and the record holds only " + std::to_string(N));
+        throw InvalidArgument("narx: the run begins after {}, and the record holds only {}",
+                              plural(first, "{} sample", "{} samples"), N);
     if (x0.size() != 0 && x0.size() != first)
-        throw InvalidArgument("narx: x0 holds the first " + counted(first, "output") + " of the run, and has " +
-                              counted(x0.size(), "value"));
-    FreeRun run{Matrix::Constant(N, 1, kNaN), {}, "from the recorded first " + counted(first, "sample")};
+        throw InvalidArgument("narx: x0 holds the first {} of the run, and has {}",
+                              plural(first, "{} output", "{} outputs"), plural(x0.size(), "{} value", "{} values"));
+    FreeRun run{Matrix::Constant(N, 1, kNaN),
+                {},
+                Message("from the recorded first {}", plural(first, "{} sample", "{} samples"))};
     auto y = run.output.col(0);
     if (x0.size() > 0) {
         y.head(first) = x0;
@@ -251,7 +252,7 @@ FreeRun NarxModel::free_run(const IdData& data, std::size_t experiment, const Ve
 }
 
 void NarxOptions::validate() const {
-    if (terms < 0) throw InvalidArgument("narx: `terms` must not be negative, and is " + std::to_string(terms));
+    if (terms < 0) throw InvalidArgument("narx: {} must not be negative, and is {}", OptionName{"terms"}, terms);
 }
 
 NarxFit narx(const IdData& data, const NarxLags& lags, const NarxOptions& options) {
@@ -277,11 +278,12 @@ NarxFit narx(const IdData& data, const NarxLags& lags, const NarxOptions& option
     found.model = std::make_shared<NarxModel>(lags, monomials, terms, found.fit.theta, data.Ts, largest);
     found.equation = equation_text(data, found);
     judge(found, data, rows);
-    if (found.fit.condition_number > kAmbiguousCondition) warn_of_doubtful_parameters(found.fit, "fewer terms");
-    set_message(found.fit, "Polynomial model with " + std::to_string(terms.size()) + " of " +
-                               counted(monomials.count(), "candidate term") +
-                               " chosen by forward selection: " + simulation_text(found.fit) + ", " +
-                               number_text(found.fit.prediction_fit_percent, 4) + " % (one step ahead).");
+    if (found.fit.condition_number > kAmbiguousCondition)
+        warn_of_doubtful_parameters(found.fit, SimplerModel::kFewerTerms);
+    found.fit.message =
+        Message("Polynomial model with {} of {} chosen by forward selection: {}, {} % (one step ahead).", terms.size(),
+                plural(monomials.count(), "{} candidate term", "{} candidate terms"), simulation_text(found.fit),
+                significant(found.fit.prediction_fit_percent, 4));
     return found;
 }
 

@@ -4,13 +4,14 @@
 #include <cmath>
 #include <limits>
 
+#include "base/number_text.h"
+#include "base/reader.h"
 #include "numerics/criteria/rate_equations.h"
 #include "numerics/error.h"
 #include "numerics/estimators/learning/cancelled.h"
 #include "numerics/fit/diagnosis.h"
 #include "numerics/linalg/least_squares.h"
 #include "numerics/linalg/triangular_factor.h"
-#include "numerics/number_text.h"
 #include "numerics/simulation/ode_solver.h"
 
 namespace dynlab::inline numerics {
@@ -42,10 +43,13 @@ Rotated rotated_equations(const IdData& data, const FunctionLibrary& library, co
     }
     rotated.R = factor.R();
     if (rotated.rows > functions) return rotated;
-    throw InvalidArgument("sindy: too few samples: " + std::to_string(functions) +
-                          " functions need more equations than that, and there are " + std::to_string(rotated.rows) +
-                          (width ? ": take a shorter `width` or fewer functions"
-                                 : ": take fewer functions, or `weak` where the input jumps often"));
+    throw InvalidArgument(
+        width ? Message("sindy: too few samples: {} functions need more equations than that, and there are {}: take a "
+                        "shorter {} or fewer functions",
+                        functions, rotated.rows, OptionName{"width"})
+              : Message("sindy: too few samples: {} functions need more equations than that, and there are {}: take "
+                        "fewer functions, or {} where the input jumps often",
+                        functions, rotated.rows, OptionName{"weak"}));
 }
 
 /// The coefficients of one state, with those of small contributions at zero.
@@ -112,13 +116,13 @@ void check(const IdData& data, const FunctionLibrary& library, const SindyOption
     options.validate();
     if (library.count() == 0) throw InvalidArgument("sindy: the library holds no function");
     if (data.output_count() < 1 || data.output_count() > kMostIntegratedStates)
-        throw InvalidArgument("sindy takes the outputs as states, 1 to " + std::to_string(kMostIntegratedStates) +
-                              " of them, and the data hold " + std::to_string(data.output_count()));
+        throw InvalidArgument("sindy takes the outputs as states, 1 to {} of them, and the data hold {}",
+                              kMostIntegratedStates, data.output_count());
     const Vector variations = output_variations(data);
     for (Index i = 0; i < variations.size(); ++i)
         if (!(variations[i] > 0))
-            throw InvalidArgument("sindy: the state " + data.output_names[static_cast<std::size_t>(i)] +
-                                  " never changes, so nothing is to be found of it");
+            throw InvalidArgument("sindy: the state {} never changes, so nothing is to be found of it",
+                                  data.output_names[static_cast<std::size_t>(i)]);
 }
 
 Vector largest_states(const IdData& data) {
@@ -143,17 +147,20 @@ void describe(SindyFit& found, const IdData& data, const SindyOptions& options) 
         }
         found.equations.push_back(equation_text(state, library, Xi.col(i)));
         if ((Xi.col(i).array() == 0).all())
-            fit.warnings.push_back("No function of the library contributes to the rate of " + state +
-                                   ": lower the threshold, or offer other functions.");
+            fit.warnings.push_back(
+                Message("No function of the library contributes to the rate of {}: lower the threshold, or offer other "
+                        "functions.",
+                        state));
     }
     fit.theta = Vector::Map(theta.data(), static_cast<Index>(theta.size()));
     if (fit.condition_number > kAmbiguousCondition)
-        fit.warnings.push_back("The functions of the library are hardly told apart by this record (condition number " +
-                               number_text(fit.condition_number, 2) + "): offer fewer.");
+        fit.warnings.push_back(Message(
+            "The functions of the library are hardly told apart by this record (condition number {}): offer fewer.",
+            significant(fit.condition_number, 2)));
     judge(found, data);
-    const std::string equations = options.weak ? "in weak form" : "from derivatives";
-    set_message(fit, "Sparse equations " + equations + ", " + std::to_string(theta.size()) + " of " +
-                         counted(Xi.size(), "coefficient") + " kept: " + simulation_text(fit) + ".");
+    const Message equations = options.weak ? Message("in weak form") : Message("from derivatives");
+    fit.message = Message("Sparse equations {}, {} of {} kept: {}.", equations, theta.size(),
+                          plural(Xi.size(), "{} coefficient", "{} coefficients"), simulation_text(fit));
 }
 
 }  // namespace
@@ -174,9 +181,9 @@ FreeRun SindyModel::free_run(const IdData& data, std::size_t experiment, const V
     const Vector t = data.time(experiment);
     const Index N = t.size(), n = output_count();
     if (x0.size() != 0 && x0.size() != n)
-        throw InvalidArgument("sindy: x0 holds " + counted(n, "state") + " at the first sample, and has " +
-                              counted(x0.size(), "value"));
-    FreeRun run{Matrix::Constant(N, n, kNaN), {}, "from the recorded first sample"};
+        throw InvalidArgument("sindy: x0 holds {} at the first sample, and has {}", plural(n, "{} state", "{} states"),
+                              plural(x0.size(), "{} value", "{} values"));
+    FreeRun run{Matrix::Constant(N, n, kNaN), {}, Message("from the recorded first sample")};
     OdeState x = OdeState::Zero(n);
     if (x0.size() > 0)
         x = x0;
@@ -220,12 +227,13 @@ FreeRun SindyModel::free_run(const IdData& data, std::size_t experiment, const V
 
 void SindyOptions::validate() const {
     if (!(threshold >= 0 && threshold < 1))
-        throw InvalidArgument("sindy: `threshold` is a share of the rate, from 0 to less than 1, and is " +
-                              number_text(threshold));
+        throw InvalidArgument("sindy: {} is a share of the rate, from 0 to less than 1, and is {}",
+                              OptionName{"threshold"}, threshold);
     if (window < 3 || window % 2 == 0)
-        throw InvalidArgument("sindy: `window` must be an odd number of samples from 3 on, and is " +
-                              std::to_string(window));
-    if (width && !(*width > 0)) throw InvalidArgument("sindy: `width` must be positive, and is " + number_text(*width));
+        throw InvalidArgument("sindy: {} must be an odd number of samples from 3 on, and is {}", OptionName{"window"},
+                              window);
+    if (width && !(*width > 0))
+        throw InvalidArgument("sindy: {} must be positive, and is {}", OptionName{"width"}, *width);
 }
 
 SindyFit sindy(const IdData& data, const FunctionLibrary& library, const SindyOptions& options) {

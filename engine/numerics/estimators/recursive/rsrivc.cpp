@@ -3,8 +3,8 @@
 namespace dynlab::inline numerics {
 
 Fit rsrivc(const IdData& data, const TransferStructure& structure, const RecursiveOptions& options) {
-    return recursive_pass({"rsrivc", "Refined instrumental variables"}, RecursiveMethod::kRefined, data, structure,
-                          options);
+    return recursive_pass({"rsrivc", Message("Refined instrumental variables")}, RecursiveMethod::kRefined, data,
+                          structure, options);
 }
 
 }  // namespace dynlab::inline numerics

@@ -7,7 +7,6 @@
 #include "numerics/fit/diagnosis.h"
 #include "numerics/fit/simulation_error.h"
 #include "numerics/linalg/decompositions.h"
-#include "numerics/number_text.h"
 #include "numerics/statistics/robust_covariance.h"
 
 namespace dynlab::inline numerics {
@@ -69,30 +68,32 @@ bool measure_in_loop(Fit& fit, const IdData& data, const LoopSignals& signals) {
     fit.fit_percent = Vector::Constant(1, fit_percent_of_sums(errors.squaredNorm(), output_variations(data)[0]));
     fit.noise_variance = Vector::Constant(1, errors.squaredNorm() / (N - d));
     fit.loss = errors.squaredNorm() / N;
-    fit.warnings.push_back("Fit and noise variance are those of the model in its loop, simulated from the reference.");
+    fit.warnings.push_back(
+        Message("Fit and noise variance are those of the model in its loop, simulated from the reference."));
     return true;
 }
 
 }  // namespace
 
 void describe_loop(Fit& fit, const IdData& data, const LoopSignals& signals, bool in_loop) {
-    describe_models(fit, "look at the controller, the orders and the cut-off frequency");
+    describe_models(fit, UnstableAdvice::kController);
     if (!in_loop || !has_unstable_pole(fit.models.front()) || !measure_in_loop(fit, data, signals))
         measure_simulation(fit, data);
-    if (!signals.warning().empty()) fit.warnings.push_back(signals.warning());
+    if (signals.warning()) fit.warnings.push_back(*signals.warning());
     if (signals.controller() && !in_loop)
         fit.warnings.push_back(
-            "The loop of this model and the controller given is unstable, though the record's was not: one of the two "
-            "is wrong.");
+            Message("The loop of this model and the controller given is unstable, though the record's was not: one of "
+                    "the two is wrong."));
 }
 
-std::string instruments_text(const LoopSignals& signals, bool in_loop) {
-    if (!in_loop) return "with instruments from the input's projection on the reference";
+Message instruments_text(const LoopSignals& signals, bool in_loop) {
+    if (!in_loop) return Message("with instruments from the input's projection on the reference");
     const auto& controller = *signals.controller();
-    const std::string loop = "with instruments from the reference through the loop";
-    if (!controller.sampled()) return loop;
-    if (controller.computing_delay == 0) return loop + ", whose controller answers at once";
-    return loop + ", whose controller answers " + counted(controller.computing_delay, "sample") + " late";
+    if (!controller.sampled()) return Message("with instruments from the reference through the loop");
+    if (controller.computing_delay == 0)
+        return Message("with instruments from the reference through the loop, whose controller answers at once");
+    return Message("with instruments from the reference through the loop, whose controller answers {} late",
+                   plural(controller.computing_delay, "{} sample", "{} samples"));
 }
 
 Fit search_loop(Fit start, const IdData& data, const FitOptions& options, const LoopSignals& signals) {
@@ -141,8 +142,11 @@ Fit search_loop(Fit start, const IdData& data, const FitOptions& options, const 
     fit.warnings.clear();
     describe_loop(fit, data, signals, true);
     fit.loss = errors.squaredNorm() / count;
-    set_message(fit, "Output error of the loop from the reference (indirect route) " + ending_text(fit) + ": " +
-                         simulation_text(fit) + ".");
+    fit.message = has_settled(fit)
+                      ? Message("Output error of the loop from the reference (indirect route) converged after {}: {}.",
+                                iteration_count(fit), simulation_text(fit))
+                      : Message("Output error of the loop from the reference (indirect route) stopped after {}: {}.",
+                                iteration_count(fit), simulation_text(fit));
     return fit;
 }
 

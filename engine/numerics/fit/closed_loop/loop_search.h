@@ -10,7 +10,7 @@ namespace dynlab::inline numerics {
 void describe_loop(Fit& fit, const IdData& data, const LoopSignals& signals, bool in_loop);
 
 /// "with instruments from the reference through the loop", and what is known of the loop: half a sentence.
-std::string instruments_text(const LoopSignals& signals, bool in_loop);
+Message instruments_text(const LoopSignals& signals, bool in_loop);
 
 /// The indirect route: least squares of y - x(r; theta), x simulated through the loop of model and known controller,
 /// by Gauss-Newton steps, halved until they lower the loss, from the theta of `start`. d x/d theta is that of the loop

@@ -7,7 +7,6 @@
 #include "numerics/error.h"
 #include "numerics/fit/diagnosis.h"
 #include "numerics/linalg/decompositions.h"
-#include "numerics/number_text.h"
 #include "numerics/simulation/lsim.h"
 
 namespace dynlab::inline numerics {
@@ -107,25 +106,28 @@ double explained_by(const LoopController& controller, const IdData& data, Hold h
 
 void check_loop_data(const std::string& method, const IdData& data, const TransferStructure& structure) {
     if (data.reference_count() == 0)
-        throw InvalidArgument(method +
-                              " needs the reference of the loop, and the data have none: iddata(y, u, Ts, {Reference = "
-                              "r}) takes it along");
+        throw InvalidArgument(
+            "{} needs the reference of the loop, and the data have none: iddata(y, u, Ts, {Reference = r}) takes it "
+            "along",
+            method);
     if (data.reference_count() > 1 || data.input_count() != 1 || data.output_count() != 1)
-        throw InvalidArgument(method + " is for loops of one input, one output and one reference, and the data have " +
-                              std::to_string(data.input_count()) + ", " + std::to_string(data.output_count()) +
-                              " and " + std::to_string(data.reference_count()));
+        throw InvalidArgument(
+            "{} is for loops of one input, one output and one reference, and the data have {}, {} and {}", method,
+            data.input_count(), data.output_count(), data.reference_count());
     if (!data.regular())
-        throw InvalidArgument(method + " needs regularly sampled data, and these are not: resample them first");
+        throw InvalidArgument("{} needs regularly sampled data, and these are not: resample them first", method);
     if (structure.free_delays)
-        throw InvalidArgument(method +
-                              ": delays are fixed here, in samples; search them in an experiment without "
-                              "feedback, or by trying several");
+        throw InvalidArgument(
+            "{}: delays are fixed here, in samples; search them in an experiment without feedback, or by trying "
+            "several",
+            method);
     const bool constant = std::all_of(data.experiments.begin(), data.experiments.end(),
                                       [](const Experiment& one) { return (one.r.array() == one.r(0, 0)).all(); });
     if (constant)
-        throw InvalidArgument(method +
-                              ": the reference never changes, so that nothing tells the plant's answer from the "
-                              "controller's: let it move, for instance as a prbs");
+        throw InvalidArgument(
+            "{}: the reference never changes, so that nothing tells the plant's answer from the controller's: let it "
+            "move, for instance as a prbs",
+            method);
     check_transfer_data(method, data, structure);
 }
 
@@ -147,9 +149,10 @@ void LoopSignals::judge_controller(bool find_delay) {
         }
     }
     if (!(explained > kBelievedController))
-        warning_ = "The recorded input is not what this controller makes of reference minus output (it explains " +
-                   number_text(std::max(explained, 0.0), 2) +
-                   " %): look at its sign, its gain, its sampling and what was removed from the signals.";
+        warning_ = Message(
+            "The recorded input is not what this controller makes of reference minus output (it explains {} %): look "
+            "at its sign, its gain, its sampling and what was removed from the signals.",
+            significant(std::max(explained, 0.0), 2));
 }
 
 LoopSignals::All LoopSignals::of_model(const TransferFunction& model) const {
@@ -175,9 +178,10 @@ const std::vector<Vector>& LoopSignals::projected_inputs() const {
     const double chance =
         kTimesChance * static_cast<double>(projection.weights.size()) / static_cast<double>(data_.sample_count());
     if (!(projection.explained > std::max(kLeastExplained, chance)))
-        throw InvalidArgument(method_ + ": the reference explains no more than " +
-                              number_text(100 * std::max(projection.explained, 0.0), 2) +
-                              " % of the input, so that nothing can be learnt from it: is it this loop's reference?");
+        throw InvalidArgument(
+            "{}: the reference explains no more than {} % of the input, so that nothing can be learnt from it: is it "
+            "this loop's reference?",
+            method_, significant(100 * std::max(projection.explained, 0.0), 2));
     for (const Experiment& experiment : data_.experiments)
         projected_.push_back(projected(experiment.r.col(0), projection.weights));
     return projected_;

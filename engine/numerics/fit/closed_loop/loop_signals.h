@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "numerics/models/transfer_structure.h"
 #include "numerics/signals/iddata.h"
 #include "numerics/simulation/closed_loop.h"
@@ -45,8 +46,8 @@ class LoopSignals {
     const std::vector<Vector>& projected_inputs() const;
     const std::optional<LoopController>& controller() const { return controller_; }
     Hold hold_r() const { return hold_r_; }
-    /// A sentence where C (r - y) is not u; empty otherwise.
-    const std::string& warning() const { return warning_; }
+    /// Where C (r - y) is not u.
+    const std::optional<Message>& warning() const { return warning_; }
 
   private:
     void judge_controller(bool find_delay);
@@ -56,7 +57,7 @@ class LoopSignals {
     std::optional<LoopController> controller_;
     Hold hold_r_;
     mutable std::vector<Vector> projected_;
-    std::string warning_;
+    std::optional<Message> warning_;
 };
 
 /// The data with u replaced by its projection on the reference.

@@ -119,9 +119,9 @@ Vector regress(const std::vector<Vector>& v, const std::vector<Vector>& e, Index
     Index rows = 0;
     for (const Vector& record : v) rows += std::max<Index>(0, record.size() - first);
     if (rows <= nc + nd)
-        throw InvalidArgument("the noise model needs longer records: " + std::to_string(nc + nd + 1) +
-                              " samples are wanted after the first " + std::to_string(first) + " of each, and " +
-                              std::to_string(rows) + " are left");
+        throw InvalidArgument(
+            "the noise model needs longer records: {} samples are wanted after the first {} of each, and {} are left",
+            nc + nd + 1, first, rows);
     Matrix gram = Matrix::Zero(nc + nd + 1, nc + nd + 1);
     for (std::size_t r = 0; r < v.size(); ++r)
         gram += lagged_gram({{e[r], 1, nc, 1}, {v[r], 1, nd, -1}, {v[r], 0, 1, 1}}, first, v[r].size() - first);

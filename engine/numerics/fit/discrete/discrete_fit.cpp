@@ -6,7 +6,7 @@
 #include "numerics/error.h"
 #include "numerics/fit/operating_points.h"
 #include "numerics/fit/output_error.h"
-#include "numerics/number_text.h"
+#include "numerics/fit/start_choice.h"
 
 namespace dynlab::inline numerics {
 
@@ -36,6 +36,10 @@ void add_uncertainty(Fit& estimate, const DiscreteOutput& model, const Vector& t
     estimate.std = estimate.covariance.diagonal().cwiseMax(0).cwiseSqrt();
 }
 
+bool begins_at_rest(const StartCondition& condition) {
+    return condition.state == InitialState::kZero && !condition.offset;
+}
+
 /// Under one start condition.
 Fit fit_condition(const DiscreteOutput& model, const IdData& data, const FitOptions& options,
                   const DiscreteSearch& search) {
@@ -57,11 +61,14 @@ Fit fit_condition(const DiscreteOutput& model, const IdData& data, const FitOpti
     add_uncertainty(fit, model, solution.theta);
     warn_of_search(fit, options);
     if (solution.reflected)
-        fit.warnings.push_back("Unstable poles turned up on the way and were mirrored into the unit circle.");
+        fit.warnings.push_back(Message("Unstable poles turned up on the way and were mirrored into the unit circle."));
     warn_of_doubtful_parameters(fit);
     warn_of_unstable_polynomials(fit);
-    set_message(fit, "The search " + ending_text(fit) + ", simulating " + description(fit.start) + ": fit " +
-                         number_text(fit.fit_percent[0], 4) + " %.");
+    const Number percent = significant(fit.fit_percent[0], 4);
+    fit.message = has_settled(fit) ? Message("The search converged after {}, simulating {}: fit {} %.",
+                                             iteration_count(fit), description(fit.start), percent)
+                                   : Message("The search stopped after {}, simulating {}: fit {} %.",
+                                             iteration_count(fit), description(fit.start), percent);
     return fit;
 }
 
@@ -88,7 +95,7 @@ Fit fit_discrete_output(const std::string& method, const IdData& data, const Pol
     orders.validate();
     options.validate();
     if (orders.na + orders.nc + orders.nd > 0)
-        throw InvalidArgument(method + " has the orders nb, nf and nk only: na, nc and nd must be zero");
+        throw InvalidArgument("{} has the orders nb, nf and nk only: na, nc and nd must be zero", method);
     check_polynomial_data(method, data, orders);
     const CentredData record = centred_for(data, options.offset);
     const std::vector<SampledExperiment> experiments = sampled_experiments(record.data);
@@ -97,12 +104,21 @@ Fit fit_discrete_output(const std::string& method, const IdData& data, const Pol
     };
     const auto conditions = start_conditions(record.data, options.initial_state, options.offset);
     check_sample_count(method, data.sample_count(), values(conditions.front()));
-    Fit best = fit_output_error({method, record.data, conditions, values, [&](const StartCondition& condition) {
-                                     return fit_condition(DiscreteOutput(orders, condition, experiments), record.data,
-                                                          options, search);
-                                 }});
-    add_operating_points(best, record.removed);
-    return best;
+    const auto fit_one = [&](const StartCondition& condition) {
+        return fit_condition(DiscreteOutput(orders, condition, experiments), record.data, options, search);
+    };
+    if (!start_is_open(options)) {
+        Fit best = fit_output_error({method, record.data, conditions, values, fit_one});
+        add_operating_points(best, record.removed);
+        return best;
+    }
+    const std::vector<StartCondition> rest{conditions.front()};
+    const Fit plain = fit_output_error({method, record.data, rest, values, fit_one});
+    if (plain.termination == Termination::kCancelled || !other_discrete_start_promises(data, plain, options))
+        return plain;
+    return fit_output_error({method, record.data, conditions, values, [&](const StartCondition& condition) {
+                                 return begins_at_rest(condition) ? plain : fit_one(condition);
+                             }});
 }
 
 }  // namespace dynlab::inline numerics

@@ -19,8 +19,9 @@ DiscreteSearch output_error_search(const FitOptions& options);
 std::vector<SampledExperiment> sampled_experiments(const IdData& data);
 
 /// What oe and sriv have in common: checks data and orders (nb, nf and nk), takes the operating point off when
-/// `offset` is "remove", fits every start condition the options and the inputs allow and
-/// keeps the one of smallest BIC, and describes the result. `method` begins messages. Throws InvalidArgument as
+/// `offset` is "remove", fits the start conditions that the options and the inputs allow (those that the options leave
+/// open only where a fit from rest gives reason to, see fit/start_choice.h), keeps the one of smallest BIC, and
+/// describes the result. `method` begins messages. Throws InvalidArgument as
 /// estimators/oe.h says; warnings and references: see estimators/oe.h and sriv.h.
 Fit fit_discrete_output(const std::string& method, const IdData& data, const PolynomialOrders& orders,
                         const FitOptions& options, const DiscreteSearch& search);

@@ -3,24 +3,22 @@
 #include <algorithm>
 
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
 void check_polynomial_data(const std::string& method, const IdData& data, const PolynomialOrders& orders) {
     if (data.output_count() != 1)
-        throw InvalidArgument(method + " needs one output, and the data hold " + std::to_string(data.output_count()) +
-                              ": select one");
+        throw InvalidArgument("{} needs one output, and the data hold {}: select one", method, data.output_count());
     if (data.input_count() > 0 && static_cast<std::size_t>(data.input_count()) != orders.inputs())
-        throw InvalidArgument(method + ": the data have " + counted(data.input_count(), "input") +
-                              ", so each of nb, nf and nk needs as many values, and " +
-                              std::to_string(orders.inputs()) + " were given");
+        throw InvalidArgument("{}: the data have {}, so each of nb, nf and nk needs as many values, and {} were given",
+                              method, plural(data.input_count(), "{} input", "{} inputs"), orders.inputs());
     check_sampled_data(method, data);
     const int longest_delay = *std::max_element(orders.nk.begin(), orders.nk.end());
     for (std::size_t e = 0; e < data.experiments.size(); ++e)
         if (longest_delay >= data.sample_count(e))
-            throw InvalidArgument(method + ": the delay nk = " + counted(longest_delay, "sample") +
-                                  " is not shorter than the record of " + counted(data.sample_count(e), "sample"));
+            throw InvalidArgument("{}: the delay nk = {} is not shorter than the record of {}", method,
+                                  plural(longest_delay, "{} sample", "{} samples"),
+                                  plural(data.sample_count(e), "{} sample", "{} samples"));
 }
 
 Fit polynomial_fit(const PolynomialOrders& orders, const VectorView& theta, double Ts) {
@@ -47,9 +45,9 @@ void warn_of_unstable_polynomials(Fit& fit) {
     for (std::size_t input = 0; input < fit.orders->inputs(); ++input)
         if (!fit.polynomial->transfer_function(input).stable()) {
             fit.warnings.push_back(
-                "The model is unstable (a pole lies outside or on the unit circle), so its simulation grows without "
-                "bound: unless the system is unstable, too, take fewer poles, or sriv, which keeps them inside the "
-                "circle.");
+                Message("The model is unstable (a pole lies outside or on the unit circle), so its simulation grows "
+                        "without bound: unless the system is unstable, too, take fewer poles, or sriv, which keeps "
+                        "them inside the circle."));
             return;
         }
 }

@@ -2,7 +2,6 @@
 
 #include "numerics/error.h"
 #include "numerics/fit/output_error.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
@@ -79,9 +78,10 @@ Fit fit_prediction(const std::string& method, const PredictionModel& model, cons
                    const std::vector<Vector>& starts, const FitOptions& options) {
     const Vector y = model.target();
     if (y.size() <= model.parameter_count())
-        throw InvalidArgument(method + " needs more samples than the " + counted(model.parameter_count(), "value") +
-                              " it estimates, and the record leaves " + std::to_string(y.size()) +
-                              " after those without a recorded past");
+        throw InvalidArgument(
+            "{} needs more samples than the {} it estimates, and the record leaves {} after those without a recorded "
+            "past",
+            method, plural(model.parameter_count(), "{} value", "{} values"), y.size());
     std::vector<Vector> complete;
     for (const Vector& values : starts) complete.push_back(model.completed(values));
     complete = promising_starts(model, start, std::move(complete), options);
@@ -99,8 +99,13 @@ Fit fit_prediction(const std::string& method, const PredictionModel& model, cons
     warn_of_search(fit, options);
     warn_of_doubtful_parameters(fit);
     warn_of_unstable_polynomials(fit);
-    set_message(fit, "The search " + ending_text(fit) + ": fit " + number_text(fit.prediction_fit_percent, 4) +
-                         " % predicting one step, " + number_text(fit.fit_percent[0], 4) + " % simulating.");
+    const Number predicting = significant(fit.prediction_fit_percent, 4),
+                 simulating = significant(fit.fit_percent[0], 4);
+    fit.message = has_settled(fit)
+                      ? Message("The search converged after {}: fit {} % predicting one step, {} % simulating.",
+                                iteration_count(fit), predicting, simulating)
+                      : Message("The search stopped after {}: fit {} % predicting one step, {} % simulating.",
+                                iteration_count(fit), predicting, simulating);
     return fit;
 }
 

@@ -13,7 +13,6 @@
 #include "numerics/linalg/matrix_exponential.h"
 #include "numerics/linalg/polynomial.h"
 #include "numerics/models/sampled_system.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
@@ -46,8 +45,8 @@ Samples samples_of(const RecursiveName& method, const IdData& data, double delay
     if (delay > 0) {
         const SplitDelay split = data.regular() ? split_delay(delay, data.Ts) : SplitDelay{0, delay};
         if (split.rest > 0)
-            throw InvalidArgument(method.name + ": the delay must be a whole number of sampling times, but it is " +
-                                  number_text(delay) + " s");
+            throw InvalidArgument("{}: the delay must be a whole number of sampling times, but it is {} s", method.name,
+                                  delay);
         late = split.samples;
     }
     return {record.y.col(0), record.u.col(0), record.t, data.Ts, late, data.hold == Hold::kZoh, hold_y == Hold::kZoh};
@@ -288,10 +287,10 @@ class Pass final : public AnyPass {
 };
 
 /// How the method meets change: half a sentence.
-std::string memory_text(const RecursiveOptions& options) {
-    if (options.drift.size() > 0) return "with parameters that walk at random";
-    if (options.forgetting == 1) return "which forgets nothing";
-    return "which weighs the last " + number_text(std::round(1 / (1 - options.forgetting))) + " samples most";
+Message memory_text(const RecursiveOptions& options) {
+    if (options.drift.size() > 0) return Message("with parameters that walk at random");
+    if (options.forgetting == 1) return Message("which forgets nothing");
+    return Message("which weighs the last {} samples most", std::round(1 / (1 - options.forgetting)));
 }
 
 /// Which samples the history keeps.
@@ -329,20 +328,20 @@ Fit run_pass(AnyPass& pass, const RecursiveName& method, const IdData& data, con
             history->std.row(point) = pass.covariance().diagonal().cwiseMax(0).cwiseSqrt().transpose();
     }
     if (!pass.known())
-        throw InvalidArgument(method.name +
-                              ": the samples do not determine the parameters: the input does not excite the system "
-                              "enough for " +
-                              std::to_string(d) + " of them");
+        throw InvalidArgument(
+            "{}: the samples do not determine the parameters: the input does not excite the system enough for {} of "
+            "them",
+            method.name, d);
     fit.theta = pass.theta();
     fit.covariance = pass.covariance();
     fit.noise_variance = Vector::Constant(1, pass.variance());
     fit.history = std::move(history);
     if (pass.samples_not_followed() > N / 2)
         fit.warnings.push_back(
-            "The estimate was unstable, or too quick for the sampling, at most samples, where filters and instruments "
-            "kept the last model that was neither.");
+            Message("The estimate was unstable, or too quick for the sampling, at most samples, where filters and "
+                    "instruments kept the last model that was neither."));
     describe_models(fit);
-    set_message(fit, method.title + ", sample by sample, " + memory_text(options) + ".");
+    fit.message = Message("{}, sample by sample, {}.", method.title, memory_text(options));
     return fit;
 }
 
@@ -371,27 +370,27 @@ std::unique_ptr<AnyPass> pass_of(RecursiveMethod kind, const Samples& samples, c
 
 void check_recursive_data(const RecursiveName& method, const IdData& data, const TransferStructure& structure) {
     if (structure.free_delays)
-        throw InvalidArgument(method.name + ": delays are fixed here; srivc and coe estimate them");
+        throw InvalidArgument("{}: delays are fixed here; srivc and coe estimate them", method.name);
     if (data.experiments.size() != 1)
-        throw InvalidArgument(method.name + ": time passes in one experiment, and the data hold " +
-                              std::to_string(data.experiments.size()));
+        throw InvalidArgument("{}: time passes in one experiment, and the data hold {}", method.name,
+                              data.experiments.size());
     if (data.input_count() != 1 || data.output_count() != 1)
-        throw InvalidArgument(method.name + " is for one input and one output, and the data have " +
-                              std::to_string(data.input_count()) + " and " + std::to_string(data.output_count()));
+        throw InvalidArgument("{} is for one input and one output, and the data have {} and {}", method.name,
+                              data.input_count(), data.output_count());
     check_transfer_data(method.name, data, structure);
     if (structure.poles.front() > kMostEvolvingPoles)
-        throw InvalidArgument(method.name + " is for up to " + std::to_string(kMostEvolvingPoles) + " poles, and " +
-                              std::to_string(structure.poles.front()) + " were asked for");
+        throw InvalidArgument("{} is for up to {} poles, and {} were asked for", method.name, kMostEvolvingPoles,
+                              structure.poles.front());
 }
 
 void check_fixed_model(const RecursiveName& method, const TransferFunction& model, const TransferStructure& structure) {
     if (!model.continuous() || model.pole_count() != structure.poles.front() ||
         model.zero_count() > structure.channels.front().zeros)
-        throw InvalidArgument(method.name + ": model must be in continuous time with " +
-                              counted(structure.poles.front(), "pole") + " and no more than " +
-                              counted(structure.channels.front().zeros, "zero") + ", as the orders say");
+        throw InvalidArgument("{}: model must be in continuous time with {} and no more than {}, as the orders say",
+                              method.name, plural(structure.poles.front(), "{} pole", "{} poles"),
+                              plural(structure.channels.front().zeros, "{} zero", "{} zeros"));
     if (!model.stable())
-        throw InvalidArgument(method.name + ": model must be stable, for its output makes the instruments");
+        throw InvalidArgument("{}: model must be stable, for its output makes the instruments", method.name);
 }
 
 }  // namespace
@@ -400,23 +399,25 @@ void RecursiveOptions::validate(const std::string& method, Index parameters) con
     if (!(lambda > 0) || !std::isfinite(lambda))
         throw InvalidArgument(
             "lambda, the cut-off frequency of the filter, must be a positive number of rad/s, a bit above the "
-            "bandwidth of the system, and is " +
-            number_text(lambda));
+            "bandwidth of the system, and is {}",
+            lambda);
     if (!(forgetting > 0 && forgetting <= 1))
-        throw InvalidArgument(method +
-                              ": forgetting must lie above 0 and not above 1 (1 forgets nothing, 0.99 keeps "
-                              "some 100 samples), and is " +
-                              number_text(forgetting));
+        throw InvalidArgument(
+            "{}: forgetting must lie above 0 and not above 1 (1 forgets nothing, 0.99 keeps some 100 samples), and is "
+            "{}",
+            method, forgetting);
     if (drift.size() > 0 && drift.size() != parameters)
-        throw InvalidArgument(method + ": drift must have a variance for each of the " + std::to_string(parameters) +
-                              " parameters, or one for all, and has " + std::to_string(drift.size()));
+        throw InvalidArgument(
+            "{}: drift must have a variance for each of the {} parameters, or one for all, and has {}", method,
+            parameters, drift.size());
     if (!drift.allFinite() || (drift.array() < 0).any())
-        throw InvalidArgument(method + ": drift holds variances, which must not be negative");
+        throw InvalidArgument("{}: drift holds variances, which must not be negative", method);
     if (noise_variance && !(*noise_variance > 0 && std::isfinite(*noise_variance)))
-        throw InvalidArgument(method + ": `noise_variance` must be positive, and is " + number_text(*noise_variance));
+        throw InvalidArgument("{}: {} must be positive, and is {}", method, OptionName{"noise_variance"},
+                              *noise_variance);
     if (history_points < 1)
-        throw InvalidArgument(method + ": `history_points` must be at least 1, and is " +
-                              std::to_string(history_points));
+        throw InvalidArgument("{}: {} must be at least 1, and is {}", method, OptionName{"history_points"},
+                              history_points);
 }
 
 Fit recursive_pass(const RecursiveName& method, RecursiveMethod kind, const IdData& data,

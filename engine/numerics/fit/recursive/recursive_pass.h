@@ -21,7 +21,8 @@ struct RecursiveOptions {
 
 /// How messages call a method, and what it does: the beginning of a sentence.
 struct RecursiveName {
-    std::string name, title;
+    std::string name;
+    Message title;
 };
 
 enum class RecursiveMethod { kLeastSquares, kInstruments, kRefined };

@@ -1,6 +1,5 @@
 #include "numerics/validation/grey_box/grey_comparison.h"
 
-#include "numerics/number_text.h"
 #include "numerics/validation/fit_measures.h"
 
 namespace dynlab::inline numerics {
@@ -29,7 +28,7 @@ Comparison compare_grey(const IdData& data, const GreyFit& grey, GreyStart initi
             result.fit_percent =
                 fit_percent_of_sums((y.col(i) - result.output).squaredNorm(), variation_about_mean(y.col(i)));
             result.start = {initial_state == GreyStart::kZero ? InitialState::kZero : InitialState::kEstimate, false};
-            result.message = "Simulated by its own equations: fit " + number_text(result.fit_percent, 4) + " %.";
+            result.message = Message("Simulated by its own equations: fit {} %.", significant(result.fit_percent, 4));
             row.push_back(std::move(result));
         }
     }

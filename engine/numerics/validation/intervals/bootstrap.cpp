@@ -9,7 +9,6 @@
 #include <mutex>
 
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 #include "numerics/signals/random.h"
 #include "numerics/signals/robust_statistics.h"
 #include "numerics/simulation/noise.h"
@@ -144,6 +143,16 @@ void repeat(Bootstrap& study, const RefittedOutput& model, const Fit& base, cons
     study.cancelled = cancelled;
 }
 
+/// What was done, without its doubts.
+Message summary_of(const BootstrapOptions& options, bool white) {
+    const Message runs = plural(options.runs, "{} run", "{} runs");
+    const Number percent = significant(100 * options.confidence, 4);
+    if (options.kind == BootstrapKind::kResidual)
+        return Message("Residual bootstrap of {}, intervals of {} %.", runs, percent);
+    return white ? Message("Parametric bootstrap of {}, intervals of {} %.", runs, percent)
+                 : Message("Parametric bootstrap of {} with coloured errors, intervals of {} %.", runs, percent);
+}
+
 bool are_white(const RefittedOutput& model, const Vector& errors) {
     std::vector<Vector> records;
     Index row = 0;
@@ -156,17 +165,11 @@ bool are_white(const RefittedOutput& model, const Vector& errors) {
 
 }  // namespace
 
-BootstrapKind parse_bootstrap_kind(const std::string& text) {
-    if (text == "residual") return BootstrapKind::kResidual;
-    if (text == "parametric") return BootstrapKind::kParametric;
-    throw InvalidArgument("`kind` must be \"residual\" or \"parametric\", and is \"" + text + "\"");
-}
-
 void BootstrapOptions::validate() const {
-    if (runs < 20) throw InvalidArgument("bootstrap: `runs` must be at least 20, and is " + std::to_string(runs));
+    if (runs < 20) throw InvalidArgument("bootstrap: {} must be at least 20, and is {}", OptionName{"runs"}, runs);
     if (!(confidence > 0 && confidence < 1))
-        throw InvalidArgument("bootstrap: `confidence` must lie between 0 and 1, such as 0.95, and is " +
-                              number_text(confidence));
+        throw InvalidArgument("bootstrap: {} must lie between 0 and 1, such as 0.95, and is {}",
+                              OptionName{"confidence"}, confidence);
 }
 
 Bootstrap bootstrap(const RefittedOutput& model, const BootstrapOptions& options) {
@@ -190,15 +193,14 @@ Bootstrap bootstrap(const RefittedOutput& model, const BootstrapOptions& options
     if (const auto moved = model.moved(base)) study.warnings.push_back(*moved);
     if (!white && options.kind == BootstrapKind::kResidual)
         study.warnings.push_back(
-            "The errors that the model leaves are not white, and drawing them one by one takes no account of it: the "
-            "parametric bootstrap does.");
+            Message("The errors that the model leaves are not white, and drawing them one by one takes no account of "
+                    "it: the parametric bootstrap does."));
     if (study.failed > 0)
-        study.warnings.push_back(counted(study.failed, "run") + " could not be fitted and is left out of all figures.");
-    const bool coloured = !white && options.kind == BootstrapKind::kParametric;
-    study.message = std::string(options.kind == BootstrapKind::kResidual ? "Residual" : "Parametric") +
-                    " bootstrap of " + counted(options.runs, "run") + (coloured ? " with coloured errors" : "") +
-                    ", intervals of " + number_text(100 * options.confidence, 4) + " %.";
-    for (const std::string& warning : study.warnings) study.message += " " + warning;
+        study.warnings.push_back(plural(study.failed, "{} run could not be fitted and is left out of all figures.",
+                                        "{} runs could not be fitted and are left out of all figures."));
+    std::vector<Message> all = study.warnings;
+    all.insert(all.begin(), summary_of(options, white));
+    study.message = sentences(std::move(all));
     return study;
 }
 

@@ -11,9 +11,6 @@ enum class BootstrapKind {
     kParametric,  ///< "parametric": normal errors of the estimated variance, coloured where those left are
 };
 
-/// Throws InvalidArgument that lists the words.
-BootstrapKind parse_bootstrap_kind(const std::string& text);
-
 struct BootstrapOptions {
     int runs = 500;
     BootstrapKind kind = BootstrapKind::kResidual;
@@ -39,8 +36,8 @@ struct Bootstrap {
     Index parameters = 0;  ///< of the names, the first ones
     int failed = 0;        ///< runs without a fit
     bool cancelled = false;
-    std::vector<std::string> warnings;  ///< whole sentences
-    std::string message;
+    std::vector<Message> warnings;  ///< whole sentences
+    Message message;
 };
 
 /// Where estimates would lie if the experiment were repeated: its simulated output gets new errors `runs` times, and

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "numerics/error.h"
-#include "numerics/number_text.h"
 #include "numerics/statistics/distributions.h"
 #include "numerics/validation/residual_tests.h"
 
@@ -104,9 +103,10 @@ Ends first_ends(const RefittedOutput& model, Index place, const Fit& base, const
     if (options.range) {
         const auto [low, high] = *options.range;
         if (!(lower <= low && low < value && value < high && high <= upper))
-            throw InvalidArgument("profile: option `range` must hold the estimate, " + number_text(value, 5) +
-                                  ", and lie between " + number_text(lower, 5) + " and " + number_text(upper, 5) +
-                                  ", but it goes from " + number_text(low, 5) + " to " + number_text(high, 5));
+            throw InvalidArgument(
+                "profile: option {} must hold the estimate, {}, and lie between {} and {}, but it goes "
+                "from {} to {}",
+                OptionName{"range"}, value, lower, upper, low, high);
         return {low, high};
     }
     const bool known = std::isfinite(std) && std > 0;
@@ -129,16 +129,16 @@ void read_interval(Profile& profile, ProfileSearch& search, const std::vector<He
     if (last != fits.rbegin()) profile.high = search.crossing(*last, (last - 1)->value, least, profile.level);
     if (std::any_of(first, last.base(), [&](const HeldFit& one) { return !inside(one); }))
         profile.warnings.push_back(
-            "The values that the record allows fall apart into several intervals, and the outermost ends are given.");
+            Message("The values that the record allows fall apart into several intervals, and the outermost ends are "
+                    "given."));
 }
 
-std::string interval_text(const Profile& profile) {
-    const std::string low = profile.low ? number_text(*profile.low, 5) : "",
-                      high = profile.high ? number_text(*profile.high, 5) : "";
-    if (profile.low && profile.high) return "between " + low + " and " + high;
-    if (profile.low) return "from " + low + " on, without an upper end on the grid";
-    if (profile.high) return "up to " + high + ", without a lower end on the grid";
-    return "without an end on the grid";
+Message interval_text(const Profile& profile) {
+    const std::optional<double>&low = profile.low, &high = profile.high;
+    if (low && high) return Message("between {} and {}", *low, *high);
+    if (low) return Message("from {} on, without an upper end on the grid", *low);
+    if (high) return Message("up to {}, without a lower end on the grid", *high);
+    return Message("without an end on the grid");
 }
 
 void warn_of_colour(Profile& profile, const RefittedOutput& model, const Fit& base) {
@@ -151,19 +151,19 @@ void warn_of_colour(Profile& profile, const RefittedOutput& model, const Fit& ba
     }
     if (!whiteness_test(records).white)
         profile.warnings.push_back(
-            "The errors that the model leaves are not white, so the interval is not as wide as it should be.");
+            Message("The errors that the model leaves are not white, so the interval is not as wide as it should be."));
 }
 
 }  // namespace
 
 void ProfileOptions::validate() const {
     if (!(confidence > 0 && confidence < 1))
-        throw InvalidArgument("profile: `confidence` must lie between 0 and 1, such as 0.95, and is " +
-                              number_text(confidence));
-    if (points < 5) throw InvalidArgument("profile: `points` must be at least 5, and is " + std::to_string(points));
+        throw InvalidArgument("profile: {} must lie between 0 and 1, such as 0.95, and is {}", OptionName{"confidence"},
+                              confidence);
+    if (points < 5) throw InvalidArgument("profile: {} must be at least 5, and is {}", OptionName{"points"}, points);
     if (range && !(range->first < range->second))
-        throw InvalidArgument("profile: `range` must be two rising numbers, and is " + number_text(range->first) +
-                              " to " + number_text(range->second));
+        throw InvalidArgument("profile: {} must be two rising numbers, and is {} to {}", OptionName{"range"},
+                              range->first, range->second);
 }
 
 Profile profile_likelihood(const RefittedOutput& model, const std::string& name, const ProfileOptions& options) {
@@ -201,13 +201,15 @@ Profile profile_likelihood(const RefittedOutput& model, const std::string& name,
     }
     if (const auto moved = model.moved(base)) profile.warnings.push_back(*moved);
     if (search.rise(base.loss, least) > 0.01)
-        profile.warnings.push_back("A better fit than the model's was found at another value of the parameter.");
+        profile.warnings.push_back(
+            Message("A better fit than the model's was found at another value of the parameter."));
     read_interval(profile, search, fits, least);
     profile.cancelled = search.cancelled();
     warn_of_colour(profile, model, base);
-    profile.message = "Profile of " + name + ": " + number_text(profile.estimate, 5) + ", " +
-                      number_text(100 * options.confidence, 4) + " % interval " + interval_text(profile) + ".";
-    for (const std::string& warning : profile.warnings) profile.message += " " + warning;
+    std::vector<Message> all = profile.warnings;
+    all.insert(all.begin(), Message("Profile of {}: {}, {} % interval {}.", name, profile.estimate,
+                                    significant(100 * options.confidence, 4), interval_text(profile)));
+    profile.message = sentences(std::move(all));
     return profile;
 }
 

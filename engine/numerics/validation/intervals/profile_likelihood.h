@@ -24,8 +24,8 @@ struct Profile {
     double level = 0;                 ///< the chi-squared quantile that bounds the interval
     std::optional<double> low, high;  ///< the interval; nothing where the grid ends inside it
     bool cancelled = false;
-    std::vector<std::string> warnings;  ///< whole sentences
-    std::string message;
+    std::vector<Message> warnings;  ///< whole sentences
+    Message message;
 };
 
 /// Profile likelihood of a parameter: all others, initial values and offsets are fitted anew for each value on a grid,

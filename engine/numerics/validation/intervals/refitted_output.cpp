@@ -7,7 +7,6 @@
 #include "numerics/fit/diagnosis.h"
 #include "numerics/fit/output_error.h"
 #include "numerics/fit/transfer_refinement.h"
-#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
@@ -76,7 +75,7 @@ Index FittedOutput::place_of(const std::string& name) const {
     const std::vector<std::string> all = names();
     const auto found = std::find(all.begin(), all.end(), name);
     if (found != all.end()) return found - all.begin();
-    throw InvalidArgument("The model has no estimated parameter '" + name + "'; its parameters are " + enumerated(all));
+    throw InvalidArgument("The model has no estimated parameter '{}'; its parameters are {}", name, listed(all));
 }
 
 FittedOutput FittedOutput::at(const Vector& values) const {
@@ -104,9 +103,9 @@ std::vector<Vector> RefittedOutput::starts_around(const OutputErrorModel& model,
 
 RefittedOutput::RefittedOutput(IdData data, FittedOutput fitted) : data_(std::move(data)), fitted_(std::move(fitted)) {
     if (data_.experiments.empty() || data_.input_count() != 1 || data_.output_count() != 1)
-        throw InvalidArgument("Fits are repeated for one input and one output, and the data hold " +
-                              std::to_string(data_.input_count()) + " and " + std::to_string(data_.output_count()) +
-                              ": select one of each");
+        throw InvalidArgument(
+            "Fits are repeated for one input and one output, and the data hold {} and {}: select one of each",
+            data_.input_count(), data_.output_count());
     if (!fitted_.theta.allFinite()) throw InvalidArgument("The parameters of the model are not all finite numbers");
     check_sample_count("A repeated fit", data_.sample_count(), value_count());
 }
@@ -136,13 +135,15 @@ Fit RefittedOutput::fit(const std::map<Index, double>& held, const Fit* from, co
     return fit;
 }
 
-std::optional<std::string> RefittedOutput::moved(const Fit& fit) const {
+std::optional<Message> RefittedOutput::moved(const Fit& fit) const {
     const Vector errors = (fit.theta - fitted_.theta).cwiseAbs().cwiseQuotient(fit.std);
     Index place = 0;
     if (!(errors.maxCoeff(&place) > kMostErrorsOff)) return std::nullopt;
-    return "The model is not the one that simulates these data best: " + fit.names[static_cast<std::size_t>(place)] +
-           " = " + number_text(fitted_.theta[place], 4) + " becomes " + number_text(fit.theta[place], 4) +
-           ", and the intervals are about that.";
+    return Message(
+        "The model is not the one that simulates these data best: {} = {} becomes {}, and the intervals are "
+        "about that.",
+        fit.names[static_cast<std::size_t>(place)], significant(fitted_.theta[place], 4),
+        significant(fit.theta[place], 4));
 }
 
 Vector RefittedOutput::simulated(const Fit& fit) const {

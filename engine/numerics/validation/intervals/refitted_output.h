@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "numerics/fit/fit.h"
 #include "numerics/models/process_model.h"
 
@@ -42,7 +43,7 @@ class RefittedOutput {
 
     /// A sentence where `fit`, of nothing held, lies more than three standard errors from the model: that was fitted to
     /// other data, or by a method of another criterion.
-    std::optional<std::string> moved(const Fit& fit) const;
+    std::optional<Message> moved(const Fit& fit) const;
 
     /// The simulated outputs of such a fit, experiment after experiment.
     Vector simulated(const Fit& fit) const;

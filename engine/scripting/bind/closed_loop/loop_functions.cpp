@@ -1,15 +1,15 @@
 #include <array>
 
+#include "base/catalog.h"
 #include "numerics/error.h"
 #include "numerics/estimators/closed_loop/clivsvf.h"
 #include "numerics/estimators/closed_loop/clsrivc.h"
-#include "numerics/number_text.h"
 #include "scripting/arguments/estimator_arguments.h"
 #include "scripting/arguments/loop_arguments.h"
 #include "scripting/arguments/simulation_options.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/bind/estimation_readers.h"
-#include "scripting/conversions/told_sentences.h"
+#include "scripting/conversions/localized.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/fit_model.h"
@@ -20,25 +20,69 @@ namespace {
 constexpr std::array kLoopEquationOrders = {kNa, kNb, kNk};
 constexpr std::array kLoopOutputOrders = {kNb, kNf, kNk};
 
-/// simloop(G, C, r, Ts, {noise =, ComputingDelay =, hold =}) -> data, x
+constexpr std::array kSimloopOptions = {
+    OptionEntry{"noise", ValueKind::kVector, about("N samples added to the output that the controller reads")},
+    option<&LoopController::computing_delay>(
+        "ComputingDelay", about("samples from reading y to the u that answers it, for sampled controllers")),
+    OptionEntry{"hold",
+                ValueKind::kChoice,
+                about("how r behaves between its samples, with a controller in continuous time"),
+                {.initial = "\"zoh\"", .choices = kHolds}}};
+constexpr std::array kRouteNames = {"auxiliary", "direct", "indirect", "two-stage"};  // in the order of LoopRoute
+constexpr OptionEntry kRoute = {"route",
+                                ValueKind::kChoice,
+                                about("the way in which the plant is found"),
+                                {.initial = "\"auxiliary\"", .choices = kRouteNames}};
+constexpr std::array kRouteOptions = {
+    kRoute,
+    option<&FitOptions::lambda>("lambda",
+                                about("cut-off frequency of the filter of a first estimate by clivsvf; otherwise "
+                                      "the two-stage route gives one"),
+                                {.unit = "rad/s"})};
+constexpr std::array kLoopEquationFilter = {kHoldOfOutput<SvfOptions>}, kLoopOutputFilter = {kHoldOfOutput<FitOptions>};
+constexpr OptionTable kSimloop[] = {kSimloopOptions};
+constexpr OptionTable kLoopEquation[] = {kLoopOptions, kLoopEquationFilter};
+constexpr OptionTable kLoopOutput[] = {kLoopOptions, kRouteOptions, kLoopOutputFilter, kLimitOptions};
+
+constexpr std::array kSimloopArguments = {
+    ArgumentEntry{"G", ValueKind::kModel, about("the plant in continuous time")},
+    ArgumentEntry{
+        "C", ValueKind::kModel,
+        about("the controller, in discrete time with the sampling time Ts or in continuous time; a number is a "
+              "gain")},
+    ArgumentEntry{"r", ValueKind::kVector, about("N samples of the reference")},
+    ArgumentEntry{"Ts", ValueKind::kNumber, about("seconds between samples")}};
+constexpr ArgumentEntry kLoopData = {
+    "data", ValueKind::kData,
+    about("data object with one input, one output and a reference, iddata(y, u, Ts, {Reference = r}); one or several "
+          "experiments, regularly sampled, from rest")};
+constexpr std::array kLoopEquationArguments = {
+    kLoopData,
+    ArgumentEntry{"orders", ValueKind::kOrders,
+                  about("na poles, nb coefficients of B (at most na + 1), nk samples of delay")},
+    kFilterFrequency};
+constexpr std::array kLoopOutputArguments = {
+    kLoopData, ArgumentEntry{"orders", ValueKind::kOrders,
+                             about("nb coefficients of B (at most nf + 1), nf poles, nk samples of delay")}};
+
 int simulate_loop(Call& call) {
     call.at_most(5);
-    const Options options(call, 5, {"noise", "ComputingDelay", "hold"});
+    const Options options(call, 5, kSimloop);
     const TransferFunction plant = model_argument(call, 1, "G").G;
     LoopController controller = controller_at(call, 2);
-    controller.computing_delay = computing_delay_of(options);
+    options.read(controller);
     const VectorMap r = call.vector(3, "r");
     if (r.size() < 2)
-        throw InvalidArgument("simloop: r is the reference at every sample, such as prbs(7, 5) or ones(500), and has " +
-                              counted(r.size(), "value"));
+        throw InvalidArgument("r is the reference at every sample, such as prbs(7, 5) or ones(500), and has {}",
+                              plural(r.size(), "{} value", "{} values"));
     const Hold hold = hold_option(options, Hold::kZoh);
     const Vector noise = options.has("noise") ? Vector(options.vector("noise")) : Vector::Zero(r.size());
     if (!controller.sampled())
         call.print(
-            told(call,
-                 "simloop: with a controller in continuous time u moves between the samples, and the record knows "
-                 "it at the samples only: models found from it are off by what that costs. A controller with the "
-                 "sampling time Ts holds u, which is exact.") +
+            localized(call,
+                      Message("simloop: with a controller in continuous time u moves between the samples, and the "
+                              "record knows it at the samples only: models found from it are off by what that "
+                              "costs. A controller with the sampling time Ts holds u, which is exact.")) +
             "\n");
     IdData data = ClosedLoop(plant, controller, call.number(4, "Ts"), hold).record(r, noise);
     const Vector x = data.experiments.front().y.col(0) - noise;
@@ -48,10 +92,10 @@ int simulate_loop(Call& call) {
 Estimation read_clivsvf(const Call& call) {
     call.at_most(4);
     const auto orders = order_lists(call, 2, kLoopEquationOrders);
-    const Options options(call, 4, {"controller", "ComputingDelay", "hold_r", "hold_y"});
+    const Options options(call, 4, kLoopEquation);
     SvfOptions wanted;
     wanted.lambda = call.number(3, "lambda");
-    wanted.hold_y = hold_y_of(options);
+    options.read(wanted);
     return
         [structure = structure_of_orders(kLoopEquationOrders, orders, Denominators::kPerOutput), wanted,
          known = loop_knowledge(options)](const IdData& data) { return clivsvf(data, structure(data), wanted, known); };
@@ -60,13 +104,10 @@ Estimation read_clivsvf(const Call& call) {
 Estimation read_clsrivc(const Call& call) {
     call.at_most(3);
     const auto orders = order_lists(call, 2, kLoopOutputOrders);
-    const Options options(call, 3,
-                          {"controller", "ComputingDelay", "hold_r", "route", "lambda", "hold_y", "MaxIter", "Tol"});
+    const Options options(call, 3, kLoopOutput);
     FitOptions wanted;
     read_fit_options(options, wanted);
-    constexpr std::array kRoutes = {LoopRoute::kAuxiliary, LoopRoute::kDirect, LoopRoute::kIndirect,
-                                    LoopRoute::kTwoStage};
-    const LoopRoute route = kRoutes[options.choice("route", {"auxiliary", "direct", "indirect", "two-stage"}, 0)];
+    const auto route = options.has("route") ? static_cast<LoopRoute>(options.choice(kRoute)) : LoopRoute::kAuxiliary;
     return [structure = structure_of_orders(kLoopOutputOrders, orders, Denominators::kPerChannel), wanted,
             known = loop_knowledge(options),
             route](const IdData& data) { return clsrivc(data, structure(data), wanted, known, route); };
@@ -85,12 +126,15 @@ int estimate_clsrivc(Call& call) {
 constexpr NamedReader kLoopReaders[] = {{"clivsvf", read_clivsvf}, {"clsrivc", read_clsrivc}};
 
 constexpr FunctionEntry kLoopFunctions[] = {
-    {"simloop", "simulation", "simloop(G, C, r, Ts, {noise =, ComputingDelay =, hold =}) -> data, x",
-     "record of a closed loop u = C (r - y), with noise on the output", guarded<simulate_loop>},
-    {"clivsvf", "continuous time", "clivsvf(data, {na, nb, nk}, lambda, {controller =, ComputingDelay =, ...}) -> G",
-     "ivsvf for a record in closed loop, with the reference as instrument", guarded<estimate_clivsvf>},
-    {"clsrivc", "continuous time", "clsrivc(data, {nb, nf, nk}, {controller =, route =, lambda =, ...}) -> G",
-     "srivc for a record in closed loop, by four routes", guarded<memoized_call<estimate_clsrivc>>},
+    {"simloop", "simulation", "simloop(G, C, r, Ts, {options}) -> data, x",
+     "record of a closed loop u = C (r - y), with noise on the output", guarded<simulate_loop>, kSimloop,
+     kSimloopArguments},
+    {"clivsvf", "continuous time", "clivsvf(data, {na, nb, nk}, lambda, {options}) -> G",
+     marked("estimator", "ivsvf for a record in closed loop, with the reference as instrument"),
+     guarded<estimate_clivsvf>, kLoopEquation, kLoopEquationArguments},
+    {"clsrivc", "continuous time", "clsrivc(data, {nb, nf, nk}, {options}) -> G",
+     marked("estimator", "srivc for a record in closed loop, by four routes"), guarded<memoized_call<estimate_clsrivc>>,
+     kLoopOutput, kLoopOutputArguments},
 };
 
 }  // namespace

@@ -1,13 +1,14 @@
+#include <array>
 #include <cmath>
 #include <optional>
 
 #include "figures/plots/levels_plot.h"
 #include "numerics/estimators/frequency/bla.h"
-#include "numerics/number_text.h"
 #include "numerics/simulation/sampled_response.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/conversions/localized.h"
+#include "scripting/conversions/option_member.h"
 #include "scripting/conversions/table_fields.h"
-#include "scripting/conversions/told_sentences.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/figure_object.h"
@@ -17,31 +18,70 @@
 namespace dynlab::inline scripting {
 namespace {
 
-InterSample inter_sample_option(const Options& options, InterSample fallback) {
-    return static_cast<InterSample>(
-        options.choice("InterSample", {"bl", "zoh", "foh"}, static_cast<std::size_t>(fallback)));
+constexpr std::array kInterSamples = {"bl", "zoh", "foh"};  // in the order of InterSample
+constexpr OptionEntry kInterSample = {"InterSample",
+                                      ValueKind::kChoice,
+                                      about("how the input went on between the samples: band-limited, a sum of sines "
+                                            "(\"bl\"), held (\"zoh\") or on straight "
+                                            "lines (\"foh\")"),
+                                      {.choices = kInterSamples}};
+constexpr std::array kResponseOptions = {
+    OptionEntry{
+        "variance", ValueKind::kVector,
+        about("mean of |error|^2 of each value, half of it in the real and half in the imaginary part, one for all "
+              "or one each")},
+    OptionEntry{"Ts",
+                ValueKind::kNumber,
+                about("sampling time, where the response was found from samples; frequencies end at pi/Ts"),
+                {.unit = "s"}},
+    kInterSample,
+    option<&FrequencyData::input_name>("InputName", about("name of the input"), {.initial = "\"u1\""}),
+    option<&FrequencyData::output_name>("OutputName", about("name of the output"), {.initial = "\"y1\""}),
+    option<&FrequencyData::input_unit>("InputUnit", about("unit of the input")),
+    option<&FrequencyData::output_unit>("OutputUnit", about("unit of the output"))};
+constexpr std::array kBlaOptions = {
+    OptionEntry{"period", ValueKind::kCount, about("period of the input in samples, which must be given")},
+    option<&BlaOptions::realisations>("realisations", about("number of realisations in each experiment"), {.least = 1}),
+    option<&BlaOptions::transient>("transient", about("periods left out at the beginning of every realisation"),
+                                   {.member = "transient"}),
+    option<&BlaOptions::smooth>(
+        "smooth",
+        about(
+            "number of frequencies on either side over which variances are averaged, chosen from the data if absent")),
+    option<&BlaOptions::least_input>(
+        "least_input", about("part of the largest amplitude of the input below which a line counts as without input")),
+    kInterSample};
+constexpr OptionTable kResponse[] = {kResponseOptions}, kBla[] = {kBlaOptions};
+
+constexpr std::array kResponseArguments = {
+    ArgumentEntry{
+        "H", ValueKind::kAny,
+        about("the response: a complex vector, {re, im} of two vectors, or a list of pairs {{re, im}, ...}; a "
+              "model stands for its own response")},
+    ArgumentEntry{"w", ValueKind::kVector, about("frequencies in rad/s, all different and above zero")}};
+constexpr std::array kBlaArguments = {
+    ArgumentEntry{"data", ValueKind::kData,
+                  about("data object with one input and one output, regularly sampled; each experiment holds one "
+                        "realisation or several of equal length")}};
+
+std::optional<InterSample> inter_sample_option(const Options& options) {
+    if (!options.has(kInterSample.name)) return std::nullopt;
+    return static_cast<InterSample>(options.choice(kInterSample));
 }
 
 /// A complex vector; {re, im} of two vectors, {{re, im}, ...} of pairs, or a matrix of two columns.
-ComplexVector complex_argument(const Call& call, int index, const char* what) {
+ComplexVector complex_argument(const Call& call, int index, ArgumentName what) {
     if (const ComplexVector* values = to_object<ComplexVector>(call.state(), index)) return *values;
     if (call.type(index) != LUA_TTABLE && to_matrix(call.state(), index) == nullptr)
-        wrong_argument(call.state(), index, what, "complex vector, as freqresp gives it, or {re, im} of two vectors");
+        wrong_argument(call.state(), index, what,
+                       Message("a complex vector, as freqresp gives it, or {re, im} of two vectors"));
     const MatrixMap parts = call.matrix(index, what);
     if (parts.cols() != 2)
-        throw InvalidArgument(
-            fmt::format("argument {} ({}) needs a real and an imaginary part: {{re, im}} of two vectors, not {}", index,
-                        what, counted(parts.cols(), "column")));
+        throw InvalidArgument("{} needs a real and an imaginary part: {re, im} of two vectors, not {}",
+                              argument_label(index, what), plural(parts.cols(), "{} column", "{} columns"));
     ComplexVector values(parts.rows());
     values.real() = parts.col(0), values.imag() = parts.col(1);
     return values;
-}
-
-void read_names(const Options& options, FrequencyData& data) {
-    data.input_name = options.text("InputName", data.input_name);
-    data.output_name = options.text("OutputName", data.output_name);
-    data.input_unit = options.text("InputUnit", data.input_unit);
-    data.output_unit = options.text("OutputUnit", data.output_unit);
 }
 
 /// Where a response comes from: an analyser, unless the options say samples; the samples of a discrete-time model.
@@ -52,20 +92,18 @@ struct Sampling {
 Sampling sampling_options(const Options& options, const std::optional<TransferFunction>& G) {
     const bool discrete = G && !G->continuous();
     const Sampling own{discrete ? G->Ts() : 0, discrete ? InterSample::kZoh : InterSample::kBandLimited};
-    const Sampling wanted{options.number("Ts", own.Ts), inter_sample_option(options, own.inter_sample)};
+    const Sampling wanted{options.number("Ts", own.Ts), inter_sample_option(options).value_or(own.inter_sample)};
     if (discrete && std::abs(wanted.Ts - own.Ts) > 1e-9 * own.Ts)
-        throw InvalidArgument(fmt::format(
-            "option 'Ts' is {} s, but the model is sampled every {} s: leave the option out, or convert the model "
-            "with d2c and c2d",
-            number_text(wanted.Ts), number_text(own.Ts)));
+        throw InvalidArgument(
+            "option 'Ts' is {} s, but the model is sampled every {} s: leave the option out, or convert the model with "
+            "d2c and c2d",
+            wanted.Ts, own.Ts);
     return wanted;
 }
 
-/// idfrd(H, w, {options}), or of a model idfrd(G, w, {options})
 int make_response(Call& call) {
     call.at_most(3);
-    const Options options(call, 3,
-                          {"variance", "Ts", "InterSample", "InputName", "OutputName", "InputUnit", "OutputUnit"});
+    const Options options(call, 3, kResponse);
     std::optional<TransferFunction> G;
     if (holds_model(call, 1)) G = model_argument(call, 1, "G").G;
     const auto [Ts, inter_sample] = sampling_options(options, G);
@@ -78,7 +116,7 @@ int make_response(Call& call) {
             one ? Vector(Vector::Constant(1, options.number("variance", 0))) : Vector(options.vector("variance"));
     }
     FrequencyData data = frequency_data(H, w, variance, Ts, inter_sample);
-    read_names(options, data);
+    options.read(data);
     push_object(call.state(), std::move(data));
     return 1;
 }
@@ -86,28 +124,27 @@ int make_response(Call& call) {
 int approximate(Call& call) {
     call.at_most(2);
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    const Options options(call, 2, {"period", "realisations", "transient", "smooth", "least_input", "InterSample"});
+    const Options options(call, 2, kBla);
     BlaOptions wanted;
     wanted.period = options.size("period", 0);
-    wanted.realisations = options.size("realisations", 1);
-    wanted.transient = options.size("transient", 0);
-    wanted.least_input = options.number("least_input", wanted.least_input);
-    if (options.has("smooth")) wanted.smooth = options.size("smooth", 0);
-    if (options.has("InterSample")) wanted.inter_sample = inter_sample_option(options, InterSample::kZoh);
+    wanted.inter_sample = inter_sample_option(options);
+    options.read(wanted);
     wanted.cancel = call.cancel();
     const FrequencyData response = bla(data, wanted);
-    const std::string warnings = fmt::format("{}", fmt::join(response.warnings, " "));
-    call.print(told(call, response.message + (warnings.empty() ? "" : " ") + warnings + "\n"));
+    std::vector<Message> all = {response.message};
+    all.insert(all.end(), response.warnings.begin(), response.warnings.end());
+    call.print(localized(call, sentences(std::move(all))) + "\n");
     push_object(call.state(), response);
     return 1 + give_figure(call, levels_plot(response));
 }
 
 constexpr FunctionEntry kFrequencyFunctions[] = {
-    {"idfrd", "nonparametric", "idfrd(H, w, {variance =, Ts =, InterSample =, ...}) -> F",
-     "a measured frequency response as data, with the variances of its errors", guarded<make_response>},
-    {"bla", "nonparametric", "bla(data, {period =, realisations =, transient =, ...}) -> F, fig",
+    {"idfrd", "nonparametric", "idfrd(H, w, {options}) -> F",
+     "a measured frequency response as data, with the variances of its errors", guarded<make_response>, kResponse,
+     kResponseArguments},
+    {"bla", "nonparametric", "bla(data, {options}) -> F, fig",
      "best linear approximation from periodic records, with the levels of noise and distortion",
-     guarded<memoized_call<approximate>>},
+     guarded<memoized_call<approximate>>, kBla, kBlaArguments},
 };
 
 }  // namespace

@@ -1,13 +1,13 @@
 #include <array>
 #include <cmath>
 
+#include "base/number_text.h"
 #include "data_io/values/model_descriptions.h"
 #include "numerics/estimators/frequency/bla.h"
-#include "numerics/number_text.h"
 #include "numerics/simulation/frequency_response.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/conversions/localized.h"
 #include "scripting/conversions/table_fields.h"
-#include "scripting/conversions/told_sentences.h"
 #include "scripting/objects/frequency_object.h"
 #include "scripting/objects/model.h"
 
@@ -45,7 +45,7 @@ int give_sum(Call& call) {
 }
 
 int give_warnings(Call& call) {
-    return give_value(call, told(call, response_self(call).warnings));
+    return give_value(call, localized(call, response_self(call).warnings));
 }
 
 Vector standard_errors(const FrequencyData& data) {
@@ -56,13 +56,15 @@ const char* inter_sample_text(const FrequencyData& data) {
     return names_of(data.inter_sample)[static_cast<std::size_t>(data.inter_sample)];
 }
 
-std::string response_text(const FrequencyData& data) {
-    if (data.w.size() == 0) return "idfrd: no frequency";
-    const std::string sampling = data.Ts > 0 ? fmt::format(", Ts = {} s", number_text(data.Ts)) : "";
-    return fmt::format("idfrd: {} from {} to {} rad/s{}{}{}", counted(data.w.size(), "frequency", "frequencies"),
-                       number_text(data.w[0]), number_text(data.w[data.w.size() - 1]), sampling,
-                       data.method.empty() ? "" : ", by " + data.method,
-                       data.variance.size() > 0 ? ", with variances" : ", variances unknown");
+Message response_text(const FrequencyData& data) {
+    if (data.w.size() == 0) return Message("idfrd: no frequency");
+    MessageList properties;
+    properties.items.push_back(plural(data.w.size(), "{} frequency from {} to {} rad/s",
+                                      "{} frequencies from {} to {} rad/s", data.w[0], data.w[data.w.size() - 1]));
+    if (data.Ts > 0) properties.items.push_back(Message("Ts = {} s", data.Ts));
+    if (!data.method.empty()) properties.items.push_back(Message("by {}", data.method));
+    properties.items.push_back(data.variance.size() > 0 ? Message("with variances") : Message("variances unknown"));
+    return Message("idfrd: {}", properties);
 }
 
 constexpr std::array kResponseFields = {
@@ -90,11 +92,11 @@ constexpr std::array kResponseFields = {
     Member{"noise_power", guarded<give_sum<&LevelSums::noise>>},
     Member{"distortion_power", guarded<give_sum<&LevelSums::distortion>>},
     Member{"method", field<FrequencyData, &FrequencyData::method>},
-    Member{"message", told_field<FrequencyData, &FrequencyData::message>},
+    Member{"message", localized_field<FrequencyData, &FrequencyData::message>},
     Member{"warnings", guarded<give_warnings>},
 };
 constexpr std::array kResponseOperators = {
-    Member{"__tostring", field<FrequencyData, response_text>},
+    Member{"__tostring", localized_field<FrequencyData, response_text>},
     Member{"__len", field<FrequencyData, [](const FrequencyData& d) { return d.w.size(); }>}};
 
 constexpr std::array kResponseTypes = {TypeEntry{&Boxed<FrequencyData>::type, kResponseFields, {}, kResponseOperators}};

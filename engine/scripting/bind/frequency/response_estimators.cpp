@@ -3,6 +3,7 @@
 
 #include "numerics/estimators/frequency/frequency_fit.h"
 #include "scripting/arguments/estimator_arguments.h"
+#include "scripting/arguments/estimator_options.h"
 #include "scripting/bind/frequency/frequency_bindings.h"
 #include "scripting/objects/fit_model.h"
 #include "scripting/objects/frequency_object.h"
@@ -12,6 +13,10 @@ namespace {
 
 constexpr std::array kCarxOrders = {kNa, kNb, kNk};
 constexpr std::array kOutputErrorOrders = {kNb, kNf, kNk};
+
+constexpr std::array kStableOptions = {kStableOption};
+constexpr OptionTable kResponseFit[] = {kIterationOptions, kStableOptions};
+constexpr OptionTable kDelayedResponseFit[] = {kIterationOptions, kStableOptions, kDelayOptions, kFixedDelayOptions};
 
 /// Data of the same channels and sampling time, without samples: what structures are made for.
 IdData channels_of(const FrequencyData& response) {
@@ -42,11 +47,11 @@ int give_response_fit(const Call& call, const FrequencyData& response, const Fit
 TransferStructure structure_for_response(const Call& call, const FrequencyData& response, FitOptions& wanted) {
     if (!std::string_view(call.function_name()).starts_with("tf")) {
         call.at_most(3);
-        read_fit_options(Options(call, 3, {"MaxIter", "Tol", "Stable"}), wanted);
+        read_fit_options(Options(call, 3, kResponseFit), wanted);
         return ordered_structure(call, response, kOutputErrorOrders);
     }
     call.at_most(4);
-    const Options options(call, 4, {"MaxIter", "Tol", "Stable", "TdMin", "TdMax", "NumTd", "IODelay"});
+    const Options options(call, 4, kDelayedResponseFit);
     read_fit_options(options, wanted);
     return structure_of_counts(call, options, wanted)(channels_of(response));
 }

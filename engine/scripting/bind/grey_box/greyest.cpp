@@ -2,16 +2,48 @@
 
 #include <array>
 
+#include "base/catalog.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/conversions/localized.h"
 #include "scripting/conversions/numeric.h"
+#include "scripting/conversions/option_member.h"
 #include "scripting/conversions/table_fields.h"
-#include "scripting/conversions/told_sentences.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/fit_model.h"
 #include "scripting/objects/grey_object.h"
 
 namespace dynlab::inline scripting {
 namespace {
+
+constexpr std::array kGreyStarts = {"model", "zero", "estimate"};  // in the order of GreyStart
+constexpr std::array kGreyOptions = {
+    option<&GreyOptions::initial_state>("InitialState",
+                                        about("the initial state: x0 of the model (\"model\"), zero (\"zero\"), or all "
+                                              "states estimated for each experiment "
+                                              "(\"estimate\")"),
+                                        {.initial = "\"model\"", .choices = kGreyStarts, .member = "initial_state"}),
+    option<&GreyOptions::max_iterations>("MaxIter", about("maximum number of iterations"),
+                                         {.least = 0, .member = "max_iterations"}),
+    option<&GreyOptions::tolerance>("Tol", about("relative change of the parameters at which the search stops"),
+                                    {.initial = "1e-6", .member = "tolerance"}),
+    option<&GreyOptions::relative_tolerance>(
+        "RelTol",
+        about("relative error of an integration step; a parameter that hardly moves the outputs needs a smaller one"),
+        {.initial = "1e-7", .least = 1e-13, .most = 1e-2, .member = "relative_tolerance"}),
+    option<&GreyOptions::output_weights>(
+        "OutputWeights", about("a weight for the errors of each output; one over their standard deviation if absent"),
+        {.member = "output_weights"})};
+constexpr std::array kStartsOption = {OptionEntry{
+    "starts",
+    ValueKind::kAny,
+    about("number of starts that are tried, the model's own first; or a list of further starts, {{k1 = 0.2}, "
+          "{k1 = 2, k2 = 1}}"),
+    {.initial = "1", .member = "starts"}}};
+constexpr OptionTable kGreyest[] = {kGreyOptions, kStartsOption}, kStartsAlone[] = {kStartsOption};
+constexpr std::array kGreyestArguments = {
+    ArgumentEntry{"data", ValueKind::kData,
+                  about("data object with any number of outputs and experiments, regularly or irregularly sampled")},
+    ArgumentEntry{"m", ValueKind::kAny, about("the model that idgrey made, with a start for each parameter")}};
 
 /// Option starts: how many, or a list of tables {k1 = 0.5, ...}.
 void read_starts(const Options& options, GreyOptions& wanted) {
@@ -23,7 +55,7 @@ void read_starts(const Options& options, GreyOptions& wanted) {
             lua_pushvalue(L, -2);
             lua_setfield(L, -2, "starts");
             wanted.further_starts.push_back(
-                Options(options.call(), lua_gettop(L), {"starts"}).numbers_by_name("starts"));
+                Options(options.call(), lua_gettop(L), kStartsAlone).numbers_by_name("starts"));
             lua_pop(L, 1);
         }
     } else if (!lua_isnil(L, place)) {
@@ -33,13 +65,9 @@ void read_starts(const Options& options, GreyOptions& wanted) {
 }
 
 GreyOptions read_grey_options(const Call& call, int index) {
-    const Options options(call, index, {"InitialState", "MaxIter", "Tol", "RelTol", "starts", "OutputWeights"});
+    const Options options(call, index, kGreyest);
     GreyOptions wanted;
-    wanted.initial_state = parse_grey_start(options.text("InitialState", "model"));
-    wanted.max_iterations = static_cast<int>(options.size("MaxIter", wanted.max_iterations));
-    wanted.tolerance = options.number("Tol", wanted.tolerance);
-    wanted.relative_tolerance = options.number("RelTol", wanted.relative_tolerance);
-    if (options.has("OutputWeights")) wanted.output_weights = options.vector("OutputWeights");
+    options.read(wanted);
     read_starts(options, wanted);
     wanted.cancel = call.cancel();
     return wanted;
@@ -67,9 +95,9 @@ int parameter_named(Call& call) {
     for (std::size_t i = 0; i < fit.names.size(); ++i)
         if (fit.names[i] == name) return call.give(fit.theta[static_cast<Index>(i)]);
     throw InvalidArgument(
-        fmt::format("this model has no parameter or field '{}'; its parameters are {}, its fields "
-                    "param, std, covariance, intervals, names, x0, noise_variance and report",
-                    name, fmt::join(fit.names, ", ")));
+        "this model has no parameter or field '{}'; its parameters are {}, its fields param, std, covariance, "
+        "intervals, names, x0, noise_variance and report",
+        name, listed(fit.names));
 }
 
 std::vector<std::string> bounded_names(const Fit& fit) {
@@ -120,13 +148,15 @@ constexpr std::array kEstimateFields = {
     Member{"noise_variance", guarded<give_noise_variance>},
     Member{"report", guarded<give_report>}};
 constexpr std::array kEstimateOperators = {
-    Member{"__tostring", told_field<GreyEstimate, [](const GreyEstimate& e) { return grey_presentation(*e); }>},
+    Member{"__tostring",
+           localized_field<GreyEstimate,
+                           [](const GreyEstimate& e, const Reader& reader) { return grey_presentation(*e, reader); }>},
     Member{"__named", guarded<parameter_named>}};
 
 constexpr FunctionEntry kGreyestFunctions[] = {
-    {"greyest", "grey box",
-     "greyest(data, m, {InitialState =, starts =, MaxIter =, Tol =, RelTol =, OutputWeights =}) -> G",
-     "parameters of differential equations that physics gives", guarded<estimate_grey_box>},
+    {"greyest", "grey box", "greyest(data, m, {options}) -> G",
+     marked("estimator", "parameters of differential equations that physics gives"), guarded<estimate_grey_box>,
+     kGreyest, kGreyestArguments},
 };
 
 constexpr std::array kGreyestTypes = {TypeEntry{&Boxed<GreyEstimate>::type, kEstimateFields, {}, kEstimateOperators}};

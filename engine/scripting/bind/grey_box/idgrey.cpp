@@ -2,15 +2,39 @@
 #include <array>
 #include <cmath>
 
-#include "numerics/number_text.h"
+#include "base/number_text.h"
+#include "base/reader.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/bind/grey_box/script_equations.h"
+#include "scripting/conversions/localized.h"
 #include "scripting/conversions/table_fields.h"
-#include "scripting/conversions/told_sentences.h"
 #include "scripting/objects/grey_object.h"
 
 namespace dynlab::inline scripting {
 namespace {
+
+constexpr std::array kIdgreyOptions = {
+    OptionEntry{"states", ValueKind::kAny,
+                about("names of the states, or how many there are; if absent, as many as x0 has values")},
+    OptionEntry{
+        "outputs", ValueKind::kAny,
+        about("function(t, x, u, p) that returns a table of outputs; if absent, the outputs are the first states")},
+    OptionEntry{
+        "x0",
+        ValueKind::kAny,
+        about("the initial state: for each state a number, the name of a parameter or \"estimate\"; one of them for "
+              "all; or function(p) that returns a table"),
+        {.initial = "0"}},
+    OptionEntry{"inputs", ValueKind::kCount,
+                about("number of inputs, needed where the function cannot be followed and there is not exactly one")}};
+constexpr OptionTable kIdgrey[] = {kIdgreyOptions};
+constexpr std::array kIdgreyArguments = {
+    ArgumentEntry{
+        "f", ValueKind::kAny,
+        about("function(t, x, u, p) that returns a table with one derivative for each state, or function(p) that "
+              "returns the matrices A, B, C, D of a linear model")},
+    ArgumentEntry{"parameters", ValueKind::kTable,
+                  about("the parameters by name, each a start or {start, min =, max =, fixed = true}")}};
 
 /// k2 before k10.
 bool comes_before(const std::string& a, const std::string& b) {
@@ -28,8 +52,8 @@ bool comes_before(const std::string& a, const std::string& b) {
 double number_field(lua_State* L, const std::string& name, const char* field, double fallback) {
     const int type = lua_getfield(L, -1, field);
     if (type != LUA_TNIL && type != LUA_TNUMBER)
-        throw InvalidArgument(
-            fmt::format("'{}' of the parameter {} must be a number, but {} was given", field, name, given_text(L, -1)));
+        throw InvalidArgument("'{}' of the parameter {} must be {}, but {} was given", field, name, Message("a number"),
+                              given_value(L, -1));
     const double value = type == LUA_TNIL ? fallback : lua_tonumber(L, -1);
     lua_pop(L, 1);
     return value;
@@ -38,8 +62,8 @@ double number_field(lua_State* L, const std::string& name, const char* field, do
 bool fixed_field(lua_State* L, const std::string& name) {
     const int type = lua_getfield(L, -1, "fixed");
     if (type != LUA_TNIL && type != LUA_TBOOLEAN)
-        throw InvalidArgument(fmt::format("'fixed' of the parameter {} must be true or false, but {} was given", name,
-                                          given_text(L, -1)));
+        throw InvalidArgument("'{}' of the parameter {} must be {}, but {} was given", "fixed", name,
+                              Message("true or false"), given_value(L, -1));
     const bool value = lua_toboolean(L, -1) != 0;
     lua_pop(L, 1);
     return value;
@@ -47,10 +71,10 @@ bool fixed_field(lua_State* L, const std::string& name) {
 
 void check_fields(lua_State* L, const std::string& name) {
     for (lua_pushnil(L); lua_next(L, -2) != 0; lua_pop(L, 1)) {
-        const std::string key = lua_type(L, -2) == LUA_TSTRING ? lua_tostring(L, -2) : given_text(L, -2);
+        const std::string key = lua_type(L, -2) == LUA_TSTRING ? lua_tostring(L, -2) : message_text(given_value(L, -2));
         if (key != "1" && key != "min" && key != "max" && key != "fixed")
-            throw InvalidArgument(fmt::format(
-                "the parameter {} is written {{start, min =, max =, fixed =}}, and '{}' is none of these", name, key));
+            throw InvalidArgument(
+                "the parameter {} is written {start, min =, max =, fixed =}, and '{}' is none of these", name, key);
     }
 }
 
@@ -63,12 +87,11 @@ GreyParameter parameter_on_top(lua_State* L, const std::string& name) {
     }
     if (!lua_istable(L, -1))
         throw InvalidArgument(
-            fmt::format("the parameter {} is written {{start, min =, max =, fixed =}} or as its start, "
-                        "but {} was given",
-                        name, given_text(L, -1)));
+            "the parameter {} is written {start, min =, max =, fixed =} or as its start, but {} was given", name,
+            given_value(L, -1));
     check_fields(L, name);
     if (lua_rawgeti(L, -1, 1) != LUA_TNUMBER)
-        throw InvalidArgument(fmt::format("the parameter {} needs a start, a number: {{1.5, min = 0}}", name));
+        throw InvalidArgument("the parameter {} needs a start, a number: {1.5, min = 0}", name);
     parameter.start = lua_tonumber(L, -1);
     lua_pop(L, 1);
     parameter.lower = number_field(L, name, "min", parameter.lower);
@@ -80,11 +103,11 @@ GreyParameter parameter_on_top(lua_State* L, const std::string& name) {
 std::vector<GreyParameter> parameters_argument(const Call& call, int index) {
     lua_State* L = call.state();
     if (call.type(index) != LUA_TTABLE)
-        wrong_argument(L, index, "parameters", "table such as {k1 = {0.5, min = 0}, k2 = 1}");
+        wrong_argument(L, index, "parameters", Message("a table such as {k1 = {0.5, min = 0}, k2 = 1}"));
     std::vector<GreyParameter> parameters;
     for (lua_pushnil(L); lua_next(L, index) != 0; lua_pop(L, 1)) {
         if (lua_type(L, -2) != LUA_TSTRING)
-            throw InvalidArgument("argument 2 (parameters) must name them: {k1 = {0.5, min = 0}, k2 = 1}");
+            throw InvalidArgument("{} must name them: {k1 = {0.5, min = 0}, k2 = 1}", argument_label(2, "parameters"));
         parameters.push_back(parameter_on_top(L, lua_tostring(L, -2)));
     }
     std::sort(parameters.begin(), parameters.end(),
@@ -129,9 +152,9 @@ void read_entry(const Call& call, ScriptEquations& equations, GreyModel& model, 
     const auto found = std::find(names.begin(), names.end(), word);
     if (word.empty() || found == names.end())
         throw InvalidArgument(
-            fmt::format("option 'x0' must hold a number, the name of a parameter or \"estimate\" for "
-                        "each state, but {} was given; the parameters are {}",
-                        given_text(L, -1), fmt::join(names, ", ")));
+            "option 'x0' must hold a number, the name of a parameter or \"estimate\" for each state, but {} was given; "
+            "the parameters are {}",
+            given_value(L, -1), listed(names));
     entry.parameter = found - names.begin();
 }
 
@@ -147,10 +170,10 @@ void read_initial_state(const Options& options, ScriptEquations& equations, Grey
         for (Index i = 0; i < n; ++i) read_entry(options.call(), equations, model, i);
     } else if (!lua_isnil(L, place)) {
         if (lua_istable(L, place) == 0 || static_cast<Index>(lua_rawlen(L, place)) != n)
-            throw InvalidArgument(
-                fmt::format("option 'x0' must be a table of {}, one for each state, \"estimate\", "
-                            "or a function of p, but {} was given",
-                            counted(n, "value"), given_text(L, place)));
+            refuse_option("x0",
+                          Message("a table of {}, one for each state, \"estimate\", or a function of p",
+                                  plural(n, "{} value", "{} values")),
+                          given_value(L, place));
         for (Index i = 0; i < n; ++i) {
             lua_rawgeti(L, place, i + 1);
             read_entry(options.call(), equations, model, i);
@@ -164,8 +187,7 @@ std::shared_ptr<ScriptFunction> function_option(const Options& options, const ch
     lua_State* L = options.call().state();
     const int place = options.push(name);
     if (!lua_isnil(L, place) && !lua_isfunction(L, place))
-        throw InvalidArgument(
-            fmt::format("option '{}' must be a function(t, x, u, p), but {} was given", name, given_text(L, place)));
+        refuse_option(name, Message("a function(t, x, u, p)"), given_value(L, place));
     auto function = lua_isnil(L, place) ? nullptr : std::make_shared<ScriptFunction>(L, place);
     lua_settop(L, place - 1);
     return function;
@@ -181,8 +203,9 @@ bool takes_one_argument(lua_State* L, int index) {
 int make_grey_model(Call& call) {
     call.at_most(3);
     if (call.type(1) != LUA_TFUNCTION)
-        wrong_argument(call.state(), 1, "f", "function(t, x, u, p) that returns the derivatives of the states");
-    const Options options(call, 3, {"states", "outputs", "x0", "inputs"});
+        wrong_argument(call.state(), 1, "f",
+                       Message("a function(t, x, u, p) that returns the derivatives of the states"));
+    const Options options(call, 3, kIdgrey);
     GreyModel model;
     ScriptEquations equations;
     model.parameters = parameters_argument(call, 2);
@@ -196,37 +219,42 @@ int make_grey_model(Call& call) {
     model.outputs_are_states = !equations.outputs && !equations.of_matrices;
     read_initial_state(options, equations, model);
 
-    std::string reason;
+    Message reason;
     std::optional<TracedFunctions> traced = trace_functions(equations, reason);
     if (traced && equations.inputs < 0) equations.inputs = traced->inputs;
     CalledFunctions called = call_functions(equations, model.start());
     if (traced && !agree(*traced, called, model.start())) {
-        reason =
-            "it does not give the same when it is called again, or decides by its arguments (==, or values of its own)";
+        reason = Message(
+            "it does not give the same when it is called again, or decides by its arguments (==, or values of its "
+            "own)");
         traced.reset();
     }
     model.inputs = traced ? traced->inputs : called.inputs;
     if (!traced)
-        call.print_lines(told(call,
-                              "idgrey calls the function for each evaluation, which takes some hundred times as long "
-                              "as one that can be followed once.") +
-                         "\n(" + reason + ")\n");
+        call.print_lines(
+            localized(call, Message("idgrey calls the function for each evaluation, which takes some hundred "
+                                    "times as long as one that can be followed once.")) +
+            "\n(" + localized(call, reason) + ")\n");
     model.equations = traced ? traced_equations(std::move(*traced)) : called_equations(std::move(called));
     push_object(call.state(), std::move(model));
     return 1;
 }
 
-std::string model_text(const GreyModel& model) {
-    std::string text = fmt::format("grey-box model with {} ({}), {}, {}{}\n", counted(model.order(), "state"),
-                                   fmt::join(model.state_names, ", "), counted(model.inputs, "input"),
-                                   model.outputs_are_states ? std::string("the first states as outputs")
-                                                            : counted(model.equations->output_count(), "output"),
-                                   model.equations->is_linear() ? ", linear" : "");
+std::string model_text(const GreyModel& model, const Reader& reader) {
+    MessageList properties;
+    properties.items.push_back(plural(model.order(), "grey-box model with {} state ({})",
+                                      "grey-box model with {} states ({})", listed(model.state_names)));
+    properties.items.push_back(plural(model.inputs, "{} input", "{} inputs"));
+    properties.items.push_back(model.outputs_are_states
+                                   ? Message("the first states as outputs")
+                                   : plural(model.equations->output_count(), "{} output", "{} outputs"));
+    if (model.equations->is_linear()) properties.items.push_back(Message("linear"));
+    std::string text = message_text(Message("{}", properties), reader) + "\n";
     for (const GreyParameter& p : model.parameters) {
-        text += fmt::format("  {:<8} {:>12}", p.name, number_text(p.start, 6));
-        if (p.fixed) text += "  fixed";
-        if (std::isfinite(p.lower)) text += "  from " + number_text(p.lower);
-        if (std::isfinite(p.upper)) text += "  to " + number_text(p.upper);
+        text += fmt::format("  {:<8} {:>12}", p.name, number_text(significant(p.start, 6), reader));
+        if (p.fixed) text += "  " + message_text(Message("fixed"), reader);
+        if (std::isfinite(p.lower)) text += "  " + message_text(Message("from {}", p.lower), reader);
+        if (std::isfinite(p.upper)) text += "  " + message_text(Message("to {}", p.upper), reader);
         text += "\n";
     }
     return text;
@@ -241,12 +269,12 @@ std::vector<std::string> parameter_names(const GreyModel& model) {
 constexpr std::array kGreyModelFields = {Member{"names", field<GreyModel, parameter_names>},
                                          Member{"states", field<GreyModel, &GreyModel::state_names>},
                                          Member{"start", field<GreyModel, &GreyModel::start>}};
-constexpr std::array kGreyModelOperators = {Member{"__tostring", field<GreyModel, model_text>}};
+constexpr std::array kGreyModelOperators = {Member{"__tostring", localized_field<GreyModel, model_text>}};
 
 constexpr FunctionEntry kIdgreyFunctions[] = {
-    {"idgrey", "grey box",
-     "idgrey(f, {p1 = {start, min =, max =, fixed =}, ...}, {states =, outputs = h, x0 =, inputs =}) -> m",
-     "a model of differential equations, with parameters to be estimated", guarded<make_grey_model>},
+    {"idgrey", "grey box", "idgrey(f, {p1 = {start, min =, max =, fixed =}, ...}, {options}) -> m",
+     "a model of differential equations, with parameters to be estimated", guarded<make_grey_model>, kIdgrey,
+     kIdgreyArguments},
 };
 
 constexpr std::array kIdgreyTypes = {TypeEntry{&Boxed<GreyModel>::type, kGreyModelFields, {}, kGreyModelOperators}};

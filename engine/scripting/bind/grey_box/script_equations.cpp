@@ -7,23 +7,23 @@
 #include <set>
 #include <utility>
 
+#include "base/reader.h"
 #include "scripting/bind/grey_box/script_values.h"
 #include "scripting/objects/traced_value.h"
+#include "scripting/runtime/errors.h"
 
 namespace dynlab::inline scripting {
 namespace {
 
 using Node = ExpressionTape::Node;
 
-std::string rates_text(const ScriptEquations& equations) {
-    return fmt::format("one derivative for each of the {} ({})",
-                       counted(static_cast<Index>(equations.states.size()), "state"),
-                       fmt::join(equations.states, ", "));
+Message rates_wanted(const ScriptEquations& equations) {
+    return Message("one derivative for each of the {} ({})", plural(equations.states.size(), "{} state", "{} states"),
+                   listed(equations.states));
 }
-std::string initial_text(const ScriptEquations& equations) {
-    return fmt::format("one value for each of the {} ({})",
-                       counted(static_cast<Index>(equations.states.size()), "state"),
-                       fmt::join(equations.states, ", "));
+Message start_wanted(const ScriptEquations& equations) {
+    return Message("one value for each of the {} ({})", plural(equations.states.size(), "{} state", "{} states"),
+                   listed(equations.states));
 }
 
 template <class Value>
@@ -43,8 +43,8 @@ Matrices<Value> read_matrices(lua_State* L, Index n, const Read& read) {
     lua_settop(L, first - 1);
     const auto check = [](const char* name, const Entries<Value>& entries, Index rows, Index columns) {
         if (entries.rows != rows || entries.columns != columns)
-            throw InvalidArgument(fmt::format("the matrix {} must be {} x {}, but it is {} x {}", name, rows, columns,
-                                              entries.rows, entries.columns));
+            throw InvalidArgument("the matrix {} must be {} x {}, but it is {} x {}", name, rows, columns, entries.rows,
+                                  entries.columns);
     };
     check("A", all.A, n, n);
     check("B", all.B, n, all.B.columns);
@@ -56,15 +56,16 @@ Matrices<Value> read_matrices(lua_State* L, Index n, const Read& read) {
 // ---- tracing
 
 /// Lua's own mathematics takes numbers alone: the message says what to write in its place.
-std::string with_remedy(const std::string& message) {
+Message with_remedy(const Message& message) {
     static const RE2 kOfMath(R"(bad argument #\d+ to '(\w+)' \(number expected, got)", RE2::Latin1);
     static const std::set<std::string> kFollowed = {"sin", "cos",  "tan", "atan", "exp",
                                                     "log", "sqrt", "abs", "max",  "min"};
     std::string name;
-    if (!RE2::PartialMatch(message, kOfMath, &name)) return message;
-    return fmt::format("{}; math.{} takes numbers alone: {}", message, name,
-                       kFollowed.contains(name) ? fmt::format("write {}(...) without math, which can be followed", name)
-                                                : "it has no derivatives and cannot be followed");
+    if (!RE2::PartialMatch(message_text(message), kOfMath, &name)) return message;
+    if (kFollowed.contains(name))
+        return Message("{}; math.{} takes numbers alone: write {}(...) without math, which can be followed", message,
+                       name, name);
+    return Message("{}; math.{} takes numbers alone: it has no derivatives and cannot be followed", message, name);
 }
 
 class Tracer {
@@ -72,7 +73,7 @@ class Tracer {
     explicit Tracer(ScriptEquations& equations)
         : equations_(equations), L_(equations.rates->state()), trace_(std::make_shared<Trace>()) {}
 
-    std::optional<TracedFunctions> run(std::string& reason) {
+    std::optional<TracedFunctions> run(Message& reason) {
         const int top = lua_gettop(L_);
         TracedFunctions functions;
         try {
@@ -84,7 +85,7 @@ class Tracer {
             }
         } catch (const InvalidArgument& error) {
             lua_settop(L_, top);
-            reason = error.what();
+            reason = error.message();
             return std::nullopt;
         }
         functions.inputs = equations_.inputs < 0 ? trace_->inputs : equations_.inputs;
@@ -112,7 +113,7 @@ class Tracer {
     bool called(int arguments, int results) {
         if (lua_pcall(L_, arguments, results, 0) == LUA_OK) return true;
         pass_stop_on(L_);
-        reason_ = with_remedy(luaL_tolstring(L_, -1, nullptr));
+        reason_ = with_remedy(error_at(L_, -1).with_place());
         return false;
     }
     std::optional<Node> node_on_top() const { return traced_node(L_, -1, trace_); }
@@ -125,8 +126,8 @@ class Tracer {
         push_signals();
         push_parameters();
         if (!called(4, 1)) return false;
-        const std::string what = rates_text(equations_);
-        functions.rates = nodes_on_top({"f", what.c_str(), static_cast<Index>(equations_.states.size())});
+        const Message what = rates_wanted(equations_);
+        functions.rates = nodes_on_top({"f", &what, static_cast<Index>(equations_.states.size())});
         return follow_outputs(functions) && follow_initial(functions);
     }
 
@@ -140,7 +141,7 @@ class Tracer {
         push_signals();
         push_parameters();
         if (!called(4, 1)) return false;
-        functions.outputs = nodes_on_top({"h", "", -1});
+        functions.outputs = nodes_on_top({"h", nullptr, -1});
         return true;
     }
 
@@ -155,8 +156,8 @@ class Tracer {
         equations_.initial->push();
         push_parameters();
         if (!called(1, 1)) return false;
-        const std::string what = initial_text(equations_);
-        functions.initial = nodes_on_top({"x0", what.c_str(), static_cast<Index>(equations_.states.size())});
+        const Message what = start_wanted(equations_);
+        functions.initial = nodes_on_top({"x0", &what, static_cast<Index>(equations_.states.size())});
         return true;
     }
 
@@ -192,19 +193,25 @@ class Tracer {
     ScriptEquations& equations_;
     lua_State* L_;
     std::shared_ptr<Trace> trace_;
-    std::string reason_;
+    Message reason_;
 };
 
 // ---- calling
 
-constexpr const char* kMoreThanRates =
-    "f returned several values, and must return the derivatives alone, in one table: return {dx1, dx2}; outputs have "
-    "a function of their own, the option outputs = function(t, x, u, p) return {y1} end";
-constexpr const char* kMoreThanOutputs =
-    "h returned several values, and must return the outputs in one table: return {y1, y2}";
-constexpr const char* kMoreThanStart =
-    "x0 returned several values, and must return the initial states in one table: return {x1, x2}";
-constexpr const char* kMoreThanMatrices = "f returned more than the matrices A, B, C, D";
+Message more_than_rates() {
+    return Message(
+        "f returned several values, and must return the derivatives alone, in one table: return {dx1, dx2}; outputs "
+        "have a function of their own, the option outputs = function(t, x, u, p) return {y1} end");
+}
+Message more_than_outputs() {
+    return Message("h returned several values, and must return the outputs in one table: return {y1, y2}");
+}
+Message more_than_start() {
+    return Message("x0 returned several values, and must return the initial states in one table: return {x1, x2}");
+}
+Message more_than_matrices() {
+    return Message("f returned more than the matrices A, B, C, D");
+}
 
 /// A function of (t, x, u, p), called with numbers.
 Vector called_with(const ScriptEquations& equations, const ScriptFunction& function, const Wanted& wanted, double t,
@@ -216,7 +223,7 @@ Vector called_with(const ScriptEquations& equations, const ScriptFunction& funct
     push_numbers(L, "state", "x", equations.states, x);
     push_inputs(L, u, equations.inputs_indexed);
     push_numbers(L, "parameter", "p", equations.parameters, p);
-    call_or_throw(L, 4, 1, &function == equations.rates.get() ? kMoreThanRates : kMoreThanOutputs);
+    call_or_throw(L, 4, 1, &function == equations.rates.get() ? more_than_rates : more_than_outputs);
     return numbers_on_top(L, wanted);
 }
 
@@ -225,9 +232,9 @@ Vector initial_values(const ScriptEquations& equations, const Vector& p) {
         lua_State* L = equations.initial->state();
         equations.initial->push();
         push_numbers(L, "parameter", "p", equations.parameters, p);
-        call_or_throw(L, 1, 1, kMoreThanStart);
-        const std::string what = initial_text(equations);
-        return numbers_on_top(L, {"x0", what.c_str(), static_cast<Index>(equations.states.size())});
+        call_or_throw(L, 1, 1, more_than_start);
+        const Message what = start_wanted(equations);
+        return numbers_on_top(L, {"x0", &what, static_cast<Index>(equations.states.size())});
     }
     Vector values(static_cast<Index>(equations.initial_entries.size()));
     for (Index i = 0; i < values.size(); ++i) {
@@ -252,7 +259,7 @@ class CalledMatrices {
         luaL_checkstack(L, 16, "grey-box model");
         equations_.rates->push();
         push_numbers(L, "parameter", "p", equations_.parameters, p);
-        call_or_throw(L, 1, 4, kMoreThanMatrices);
+        call_or_throw(L, 1, 4, more_than_matrices);
         const auto all =
             read_matrices<double>(L, static_cast<Index>(equations_.states.size()), [L] { return number_at_top(L); });
         matrices_ = {matrix_of(all.A), matrix_of(all.B), matrix_of(all.C),
@@ -287,8 +294,9 @@ CalledFunctions call_signals(const std::shared_ptr<ScriptEquations>& own, const 
     CalledFunctions functions;
     const auto n = static_cast<Index>(own->states.size());
     functions.inputs = own->inputs < 0 ? 1 : own->inputs;
-    functions.rates = [own, n, what = rates_text(*own)](double t, const Vector& x, const Vector& u, const Vector& at) {
-        return called_with(*own, *own->rates, {"f", what.c_str(), n}, t, x, u, at);
+    functions.rates = [own, n, what = rates_wanted(*own)](double t, const Vector& x, const Vector& u,
+                                                          const Vector& at) {
+        return called_with(*own, *own->rates, {"f", &what, n}, t, x, u, at);
     };
     if (!own->outputs) {
         functions.outputs_count = n;
@@ -296,18 +304,19 @@ CalledFunctions call_signals(const std::shared_ptr<ScriptEquations>& own, const 
         return functions;
     }
     const Vector x = initial_values(*own, p), u = Vector::Zero(functions.inputs);
-    functions.outputs_count = called_with(*own, *own->outputs, {"h", "", -1}, 0, x, u, p).size();
-    functions.outputs = [own, count = functions.outputs_count](double t, const Vector& at_x, const Vector& at_u,
-                                                               const Vector& at_p) {
-        const std::string what = counted(count, "output") + ", as it did at first";
-        return called_with(*own, *own->outputs, {"h", what.c_str(), count}, t, at_x, at_u, at_p);
+    functions.outputs_count = called_with(*own, *own->outputs, {"h", nullptr, -1}, 0, x, u, p).size();
+    const Message as_at_first =
+        Message("{}, as it did at first", plural(functions.outputs_count, "{} output", "{} outputs"));
+    functions.outputs = [own, what = as_at_first, count = functions.outputs_count](
+                            double t, const Vector& at_x, const Vector& at_u, const Vector& at_p) {
+        return called_with(*own, *own->outputs, {"h", &what, count}, t, at_x, at_u, at_p);
     };
     return functions;
 }
 
 }  // namespace
 
-std::optional<TracedFunctions> trace_functions(ScriptEquations& equations, std::string& reason) {
+std::optional<TracedFunctions> trace_functions(ScriptEquations& equations, Message& reason) {
     Tracer tracer(equations);
     auto functions = tracer.run(reason);
     equations.inputs_indexed = tracer.inputs_indexed();

@@ -28,7 +28,7 @@ struct ScriptEquations {
 };
 
 /// The functions as expressions; nothing, and the reason, where they cannot be followed.
-std::optional<TracedFunctions> trace_functions(ScriptEquations& equations, std::string& reason);
+std::optional<TracedFunctions> trace_functions(ScriptEquations& equations, Message& reason);
 /// As functions that are called, and throw the script's own errors as InvalidArgument: here where they do not work with
 /// the numbers `p`.
 CalledFunctions call_functions(ScriptEquations& equations, const Vector& p);

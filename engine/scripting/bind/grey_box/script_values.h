@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "numerics/number_text.h"
 #include "scripting/arguments/script_function.h"
 
 namespace dynlab::inline scripting {
@@ -21,8 +20,8 @@ void push_inputs(lua_State* L, const Vector& u, bool indexed);
 /// The function's name in messages, and what it gives.
 struct Wanted {
     const char* function;
-    const char* what;
-    Index count;  ///< -1 for any
+    const Message* what;  ///< read where there is a count
+    Index count;          ///< -1 for any
 };
 
 /// One number, or a vector of one value, on top of the stack.
@@ -34,9 +33,11 @@ std::vector<Value> read_list(lua_State* L, const Wanted& wanted, const Read& rea
     std::vector<Value> values;
     const int top = lua_gettop(L);
     const auto refuse = [&](Index place) {
-        throw InvalidArgument(fmt::format(
-            "{} must return a table of numbers, but {} is {}", wanted.function,
-            place == 0 ? std::string("what it returned") : fmt::format("its element {}", place), given_text(L, -1)));
+        if (place == 0)
+            throw InvalidArgument("{} must return a table of numbers, but what it returned is {}", wanted.function,
+                                  given_value(L, -1));
+        throw InvalidArgument("{} must return a table of numbers, but its element {} is {}", wanted.function, place,
+                              given_value(L, -1));
     };
     if (NumericBlock* block = to_vector(L, top); block != nullptr && block->rows != 1) {
         for (Index i = 0; i < block->rows; ++i) {
@@ -58,8 +59,8 @@ std::vector<Value> read_list(lua_State* L, const Wanted& wanted, const Read& rea
         refuse(0);
     }
     if (wanted.count >= 0 && static_cast<Index>(values.size()) != wanted.count)
-        throw InvalidArgument(fmt::format("{} must return {}, but it returned {}", wanted.function, wanted.what,
-                                          counted(static_cast<Index>(values.size()), "value")));
+        throw InvalidArgument("{} must return {}, but it returned {}", wanted.function, *wanted.what,
+                              plural(values.size(), "{} value", "{} values"));
     lua_settop(L, top - 1);
     return values;
 }
@@ -79,9 +80,8 @@ template <class Value, class Read>
 Entries<Value> read_matrix(lua_State* L, int index, const char* name, const Read& read) {
     Entries<Value> entries;
     const auto refuse = [&] {
-        throw InvalidArgument(
-            fmt::format("the matrix {} must be a table of rows such as {{{{a, b}}, {{c, d}}}}, but {} was given", name,
-                        given_text(L, -1)));
+        throw InvalidArgument("the matrix {} must be {}, but {} was given", name,
+                              Message("a table of rows such as {{a, b}, {c, d}}"), given_value(L, -1));
     };
     const auto add = [&] {
         const auto value = read();
@@ -113,8 +113,7 @@ Entries<Value> read_matrix(lua_State* L, int index, const char* name, const Read
         Index columns = 0;
         for (lua_Integer j = 1; lua_rawgeti(L, row, j) != LUA_TNIL; ++j, ++columns) add();
         if (i > 1 && columns != entries.columns)
-            throw InvalidArgument(
-                fmt::format("the rows of the matrix {} have {} and {} elements", name, entries.columns, columns));
+            throw InvalidArgument("the rows of the matrix {} have {} and {} elements", name, entries.columns, columns);
         entries.columns = columns;
         lua_settop(L, row - 1);
     }

@@ -7,8 +7,8 @@
 #include "platform/terminal/progress.h"
 #include "scripting/arguments/simulation_options.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/conversions/localized.h"
 #include "scripting/conversions/table_fields.h"
-#include "scripting/conversions/told_sentences.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/figure_object.h"
@@ -17,22 +17,54 @@
 namespace dynlab::inline scripting {
 namespace {
 
+constexpr std::array kBootstrapKinds = {"residual", "parametric"};
+constexpr std::array kBootstrapOptions = {
+    option<&BootstrapOptions::runs>("runs", about("number of repeated experiments"), {.least = 20, .member = "runs"}),
+    option<&BootstrapOptions::kind>("kind",
+                                    about("new errors: those that the model left, drawn with replacement "
+                                          "(\"residual\"), or normal ones (\"parametric\")"),
+                                    {.initial = "\"residual\"", .choices = kBootstrapKinds}),
+    option<&BootstrapOptions::seed>("seed", about("seed of the new errors"), {.most = kLargestSeed}),
+    option<&BootstrapOptions::confidence>("confidence", about("probability of the intervals"),
+                                          {.member = "confidence"})};
+constexpr OptionEntry kProfileOptions[] = {
+    option<&ProfileOptions::confidence>("confidence", about("probability of the interval"), {.member = "confidence"}),
+    option<&ProfileOptions::points>("points", about("number of points of the grid"), {.least = 5, .member = "points"}),
+    {"range",
+     ValueKind::kVector,
+     about("ends {low, high} of the grid; by default four standard errors on both sides, or more where the "
+           "interval ends farther out"),
+     {.member = "range"}}};
+constexpr OptionTable kBootstrapTables[] = {kBootstrapOptions, kSimulationStart},
+                      kProfileTables[] = {kProfileOptions, kSimulationStart};
+
+constexpr ArgumentEntry
+    kEstimateArgument = {"G", ValueKind::kModel,
+                         about("estimate by `procsrivc`, `tfsrivc`, `srivc`, `coe` or `tfcoe` with one input and one "
+                               "output")},
+    kItsDataArgument = {"data", ValueKind::kData, about("data object from which the model was estimated")};
+constexpr std::array kBootstrapArguments = {kEstimateArgument, kItsDataArgument};
+constexpr ArgumentEntry kProfileArguments[] = {
+    kEstimateArgument,
+    kItsDataArgument,
+    {"name", ValueKind::kText, about("name of one of its parameters, such as \"Td\"; `G.names` lists them")}};
+
 /// A model that an output-error method left, or a sentence why it is none.
 const Model& output_error_argument(const Call& call, int index) {
     const Model* model = index <= call.count() ? to_object<Model>(call.state(), index) : nullptr;
     const char* const function = call.function_name();
-    if (model == nullptr) wrong_argument(call.state(), index, "G", "model");
-    const std::string instead = fmt::format(
+    if (model == nullptr) wrong_argument(call.state(), index, "G", with_article("model"));
+    const Message instead = Message(
         "{} repeats fits of the smallest simulation error: estimate with procsrivc, tfsrivc, srivc or coe", function);
-    if (!model->estimate) throw InvalidArgument("this model was written down, not estimated; " + instead);
+    if (!model->estimate) throw InvalidArgument("this model was written down, not estimated; {}", instead);
     const Estimate& estimate = *model->estimate;
     if (!model->single_channel())
-        throw InvalidArgument(
-            fmt::format("{} takes a model with one input and one output, but {}", function, channels_hint(*model)));
+        throw InvalidArgument("{} takes a model with one input and one output, but {}", function,
+                              channels_hint(*model));
     const bool process = model->process.has_value();
     if (estimate.carx || model->polynomial || model->system || !model->G.continuous() ||
         (!process && !estimate.of_coefficients))
-        throw InvalidArgument(fmt::format("{} is no such method; {}", estimate.method, instead));
+        throw InvalidArgument("{} is no such method; {}", estimate.method, instead);
     return *model;
 }
 
@@ -81,22 +113,19 @@ MonteCarlo as_study(const Bootstrap& found, int runs) {
 int repeat_experiment(Call& call) {
     call.at_most(3);
     const IdData& data = object_argument<IdData>(call, 2, "data");
-    const Options options(call, 3, {"runs", "kind", "seed", "confidence", "InitialState", "Offset"});
+    const Options options(call, 3, kBootstrapTables);
     BootstrapOptions wanted;
-    wanted.runs = static_cast<int>(options.size("runs", wanted.runs));
-    wanted.kind = parse_bootstrap_kind(options.text("kind", "residual"));
-    wanted.seed = static_cast<std::uint32_t>(options.size("seed", wanted.seed));
-    wanted.confidence = options.number("confidence", wanted.confidence);
+    options.read(wanted);
     wanted.cancel = call.cancel();
     ProgressBar bar("bootstrap", static_cast<std::size_t>(wanted.runs));
     wanted.progress = [&bar](std::size_t done) { bar.advance(done); };
     const RefittedOutput model(data, fitted_argument(call, 1, data, compare_options(options)));
     const Bootstrap found = bootstrap(model, wanted);
-    call.print(told(call, found.message) + "\n");
+    call.print(localized(call, found.message) + "\n");
     give_figure(call, monte_carlo_histograms(as_study(found, wanted.runs)));
     give_table(call, "names", found.names, "estimate", found.estimate, "values", found.values, "mean", found.mean,
                "std", found.std, "low", found.low, "high", found.high, "failed", found.failed, "message",
-               told(call, found.message), "warnings", told(call, found.warnings));
+               localized(call, found.message), "warnings", localized(call, found.warnings));
     return 2;
 }
 
@@ -109,30 +138,28 @@ int follow_parameter(Call& call) {
     call.at_most(4);
     const IdData& data = object_argument<IdData>(call, 2, "data");
     const std::string name = call.text(3, "parameter");
-    const Options options(call, 4, {"confidence", "points", "range", "InitialState", "Offset"});
+    const Options options(call, 4, kProfileTables);
     ProfileOptions wanted;
-    wanted.confidence = options.number("confidence", wanted.confidence);
-    wanted.points = static_cast<int>(options.size("points", wanted.points));
+    options.read(wanted);
     wanted.range = options.range("range");
     wanted.cancel = call.cancel();
     const RefittedOutput model(data, fitted_argument(call, 1, data, compare_options(options)));
     const Profile found = profile_likelihood(model, name, wanted);
-    call.print(told(call, found.message) + "\n");
+    call.print(localized(call, found.message) + "\n");
     give_figure(call, profile_plot(found, unit_of(data, name)));
     give_table(call, "estimate", found.estimate, "std", found.std, "low", found.low, "high", found.high, "level",
-               found.level, "grid", found.grid, "rise", found.rise, "message", told(call, found.message), "warnings",
-               told(call, found.warnings));
+               found.level, "grid", found.grid, "rise", found.rise, "message", localized(call, found.message),
+               "warnings", localized(call, found.warnings));
     return 2;
 }
 
 constexpr FunctionEntry kIntervalFunctions[] = {
-    {"bootstrap", "validation",
-     "bootstrap(G, data, {runs =, kind =, seed =, confidence =, InitialState =, Offset =}) -> fig, table",
+    {"bootstrap", "validation", "bootstrap(G, data, {options}) -> fig, table",
      "intervals of parameters, gain and time constants from experiments repeated on the computer",
-     guarded<memoized_call<repeat_experiment>>},
-    {"profile", "validation",
-     "profile(G, data, name, {confidence =, points =, range =, InitialState =, Offset =}) -> fig, table",
-     "interval of one parameter from how the fit gets worse beside it", guarded<memoized_call<follow_parameter>>},
+     guarded<memoized_call<repeat_experiment>>, kBootstrapTables, kBootstrapArguments},
+    {"profile", "validation", "profile(G, data, name, {options}) -> fig, table",
+     "interval of one parameter from how the fit gets worse beside it", guarded<memoized_call<follow_parameter>>,
+     kProfileTables, kProfileArguments},
 };
 
 }  // namespace

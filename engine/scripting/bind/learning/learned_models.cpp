@@ -1,9 +1,11 @@
 #include <array>
 
+#include "base/catalog.h"
 #include "numerics/estimators/learning/dmdc.h"
 #include "numerics/estimators/learning/narx.h"
 #include "numerics/estimators/learning/sindy.h"
 #include "scripting/arguments/estimator_arguments.h"
+#include "scripting/arguments/estimator_options.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/bind/learning/lua_library.h"
 #include "scripting/memoized_calls/memoized_call.h"
@@ -14,12 +16,62 @@
 namespace dynlab::inline scripting {
 namespace {
 
-constexpr std::array kNarxLags = {OrderEntry{"na", "past outputs"}, OrderEntry{"nb", "values of the input"},
-                                  OrderEntry{"nk", "samples of delay, 1 for no direct term"}};
+constexpr std::array kNarxLags = {OrderEntry{"na", [] { return Message("past outputs"); }},
+                                  OrderEntry{"nb", [] { return Message("values of the input"); }},
+                                  OrderEntry{"nk", [] { return Message("samples of delay, 1 for no direct term"); }}};
+
+constexpr std::array kNarxOptions = {
+    option<&NarxOptions::degree>("degree", about("maximum number of factors in a product"), {.member = "degree"}),
+    option<&NarxOptions::terms>("terms", about("number of terms; 0 for the number with the smallest BIC, at most 50"),
+                                {.member = "terms"})};
+constexpr std::array kSindyOptions = {
+    OptionEntry{
+        "library", ValueKind::kAny,
+        about("function(x, u) that returns a list of vectors, the candidates, in place of products of states and "
+              "inputs")},
+    OptionEntry{"names", ValueKind::kAny,
+                about("names of the functions of the library in the equations; f1, f2, ... if absent")},
+    OptionEntry{"degree",
+                ValueKind::kCount,
+                about("without a library, maximum number of factors in a product of states and inputs"),
+                {.initial = "2", .member = "degree"}},
+    option<&SindyOptions::threshold>(
+        "threshold",
+        about("share of the rate, from 0 to less than 1, below which the contribution of a function (root mean square) "
+              "is dropped"),
+        {.member = "threshold"}),
+    option<&SindyOptions::weak>(
+        "weak", about("integrals of both sides against smooth bumps, which average noise, in place of derivatives"),
+        {.member = "weak"}),
+    option<&SindyOptions::window>(
+        "window", about("without weak, odd number of samples over which a polynomial gives state and derivative"),
+        {.member = "window"}),
+    option<&SindyOptions::width>("width", about("half the length of a bump, chosen from the data if absent"),
+                                 {.unit = "s", .member = "width"})};
+constexpr std::array kDmdcOptions = {
+    option<&DmdcOptions::rank>(
+        "rank", about("number of states; 0 for as many as the singular values tell from rounding"), {.member = "rank"}),
+    option<&DmdcOptions::delays>("delays", about("number of samples in a snapshot; 1 for the outputs of one instant"),
+                                 {.least = 1, .member = "delays"})};
+constexpr OptionTable kNarx[] = {kNarxOptions}, kSindy[] = {kSindyOptions}, kDmdc[] = {kDmdcOptions};
+
+constexpr std::array kNarxArguments = {
+    kOneOutputData,
+    ArgumentEntry{
+        "orders", ValueKind::kOrders,
+        about("na past outputs, nb values of the input, the first one nk samples late; with several inputs nb and "
+              "nk may be tables, {2, {1, 2}, {1, 3}}")}};
+constexpr std::array kSindyArguments = {ArgumentEntry{
+    "data", ValueKind::kData,
+    about("data object whose outputs are all states, 1 to 8; any number of inputs and experiments, regularly "
+          "or irregularly sampled")}};
+constexpr std::array kDmdcArguments = {ArgumentEntry{
+    "data", ValueKind::kData, about("data object, regularly sampled, any number of inputs, outputs and experiments")}};
 
 NarxLags lags_argument(const Call& call, Index inputs) {
     const auto orders = order_lists(call, 2, kNarxLags);
-    if (orders[0].size() != 1) refuse_orders(2, kNarxLags, "na is one number");
+    if (orders[0].size() != 1)
+        throw InvalidArgument("argument {} (orders) must be {}, but na is one number", 2, meaning_of(kNarxLags));
     NarxLags lags{orders[0].front(), orders[1], orders[2]};
     for (std::vector<int>* of_inputs : {&lags.nb, &lags.nk})
         if (of_inputs->size() == 1) of_inputs->assign(static_cast<std::size_t>(inputs), of_inputs->front());
@@ -30,10 +82,9 @@ int estimate_narx(Call& call) {
     call.at_most(3);
     const IdData& data = object_argument<IdData>(call, 1, "data");
     const NarxLags lags = lags_argument(call, data.input_count());
-    const Options options(call, 3, {"degree", "terms"});
+    const Options options(call, 3, kNarx);
     NarxOptions wanted;
-    wanted.degree = static_cast<int>(options.size("degree", wanted.degree));
-    wanted.terms = options.size("terms", wanted.terms);
+    options.read(wanted);
     wanted.cancel = call.cancel();
     const NarxFit found = narx(data, lags, wanted);
     Estimate estimate = basic_estimate("narx", found.fit);
@@ -59,9 +110,8 @@ FunctionLibrary library_option(const Call& call, const Options& options, const I
         return polynomial_library(data.output_names, data.input_names, static_cast<int>(options.size("degree", 2)));
     const int index = options.push("library");
     if (lua_type(call.state(), index) != LUA_TFUNCTION)
-        throw InvalidArgument(
-            fmt::format("option 'library' must be a function(x, u) that returns a list of vectors, but {} was given",
-                        given_text(call.state(), index)));
+        refuse_option("library", Message("a function(x, u) that returns a list of vectors"),
+                      given_value(call.state(), index));
     FunctionLibrary library = lua_library(call, index, data, options.texts("names"));
     lua_pop(call.state(), 1);
     return library;
@@ -70,12 +120,9 @@ FunctionLibrary library_option(const Call& call, const Options& options, const I
 int estimate_sindy(Call& call) {
     call.at_most(2);
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    const Options options(call, 2, {"library", "names", "degree", "threshold", "weak", "window", "width"});
+    const Options options(call, 2, kSindy);
     SindyOptions wanted;
-    wanted.threshold = options.number("threshold", wanted.threshold);
-    wanted.weak = options.flag("weak", wanted.weak);
-    wanted.window = static_cast<int>(options.size("window", wanted.window));
-    wanted.width = options.optional_number("width");
+    options.read(wanted);
     wanted.cancel = call.cancel();
     const SindyFit found = sindy(data, library_option(call, options, data), wanted);
     Estimate estimate = basic_estimate("sindy", found.fit);
@@ -89,10 +136,9 @@ int estimate_sindy(Call& call) {
 int estimate_dmdc(Call& call) {
     call.at_most(2);
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    const Options options(call, 2, {"rank", "delays"});
+    const Options options(call, 2, kDmdc);
     DmdcOptions wanted;
-    wanted.rank = static_cast<int>(options.size("rank", wanted.rank));
-    wanted.delays = static_cast<int>(options.size("delays", wanted.delays));
+    options.read(wanted);
     wanted.cancel = call.cancel();
     const DmdcFit found = dmdc(data, wanted);
     Estimate estimate = basic_estimate("dmdc", found.fit);
@@ -102,14 +148,15 @@ int estimate_dmdc(Call& call) {
 }
 
 constexpr FunctionEntry kLearningFunctions[] = {
-    {"sindy", "learning from data",
-     "sindy(data, {library =, names =, degree =, threshold =, weak =, window =, width =}) -> G",
-     "sparse differential equations from a library of functions, the outputs being the states",
-     guarded<estimate_sindy>},
-    {"dmdc", "learning from data", "dmdc(data, {rank =, delays =}) -> G",
-     "a state-space model from snapshots, cut to few modes", guarded<memoized_call<estimate_dmdc>>},
-    {"narx", "learning from data", "narx(data, {na, nb, nk}, {degree =, terms =}) -> G",
-     "a polynomial difference equation whose terms are chosen one by one", guarded<estimate_narx>},
+    {"sindy", "learning from data", "sindy(data, {options}) -> G",
+     marked("estimator", "sparse differential equations from a library of functions, the outputs being the states"),
+     guarded<estimate_sindy>, kSindy, kSindyArguments},
+    {"dmdc", "learning from data", "dmdc(data, {options}) -> G",
+     marked("estimator", "a state-space model from snapshots, cut to few modes"), guarded<memoized_call<estimate_dmdc>>,
+     kDmdc, kDmdcArguments},
+    {"narx", "learning from data", "narx(data, {na, nb, nk}, {options}) -> G",
+     marked("estimator", "a polynomial difference equation whose terms are chosen one by one"), guarded<estimate_narx>,
+     kNarx, kNarxArguments},
 };
 
 }  // namespace

@@ -2,7 +2,6 @@
 
 #include <memory>
 
-#include "numerics/number_text.h"
 #include "scripting/arguments/script_function.h"
 
 namespace dynlab::inline scripting {
@@ -11,6 +10,10 @@ namespace {
 struct ChannelNames {
     std::vector<std::string> states, inputs;
 };
+
+Message more_than_a_list() {
+    return Message("the library returned several values, and must return one list: return {x[1], x[1]*x[2]}");
+}
 
 /// A table of the columns as vectors, by place and by name.
 void push_channels(lua_State* L, const char* kind, const char* table, const std::vector<std::string>& names,
@@ -26,11 +29,12 @@ void read_function(lua_State* L, lua_Integer place, Eigen::Ref<Vector> column) {
     }
     NumericBlock* block = to_vector(L, -1);
     if (block == nullptr)
-        throw InvalidArgument(fmt::format("function {} of the library must give a vector or a number, but gave {}",
-                                          place, given_text(L, -1)));
+        throw InvalidArgument("function {} of the library must give a vector or a number, but gave {}", place,
+                              given_value(L, -1));
     if (block->vector().size() != column.size())
-        throw InvalidArgument(fmt::format("function {} of the library gave {} for {}", place,
-                                          counted(block->vector().size(), "value"), counted(column.size(), "sample")));
+        throw InvalidArgument("function {} of the library gave {} for {}", place,
+                              plural(block->vector().size(), "{} value", "{} values"),
+                              plural(column.size(), "{} sample", "{} samples"));
     column = block->vector();
 }
 
@@ -41,12 +45,12 @@ Matrix call_library(const ScriptFunction& function, const ChannelNames& names, c
     function.push();
     push_channels(L, "state", "x", names.states, X);
     push_channels(L, "input", "u", names.inputs, U);
-    call_or_throw(L, 2, 1, "the library returned several values, and must return one list: return {x[1], x[1]*x[2]}");
+    call_or_throw(L, 2, 1, more_than_a_list);
     if (lua_type(L, -1) != LUA_TTABLE || lua_rawlen(L, -1) == 0)
-        throw InvalidArgument(fmt::format(
-            "the library must return a list of vectors, as in function(x, u) return {{x[1], x[1]*x[2]}} end, but it "
+        throw InvalidArgument(
+            "the library must return a list of vectors, as in function(x, u) return {x[1], x[1]*x[2]} end, but it "
             "returned {}",
-            given_text(L, -1)));
+            given_value(L, -1));
     const auto count = static_cast<lua_Integer>(lua_rawlen(L, -1));
     Matrix values(X.rows(), count);
     for (lua_Integer j = 1; j <= count; ++j) {
@@ -70,9 +74,9 @@ FunctionLibrary lua_library(const Call& call, int index, const IdData& data, std
     const Experiment& first = data.experiments.front();
     const Index count = library.values(first.y, first.u).cols();
     if (!names.empty() && static_cast<Index>(names.size()) != count)
-        throw InvalidArgument(fmt::format("option 'names' has {}, and the library gives {}",
-                                          counted(static_cast<Index>(names.size()), "text"),
-                                          counted(count, "function")));
+        throw InvalidArgument("option 'names' has {}, and the library gives {}",
+                              plural(names.size(), "{} text", "{} texts"),
+                              plural(count, "{} function", "{} functions"));
     for (Index j = static_cast<Index>(names.size()); j < count; ++j) names.push_back(fmt::format("f{}", j + 1));
     library.names = std::move(names);
     return library;

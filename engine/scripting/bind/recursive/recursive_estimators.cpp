@@ -1,11 +1,13 @@
 #include <array>
 
+#include "base/catalog.h"
 #include "figures/plots/history_plot.h"
 #include "numerics/estimators/recursive/rivsvf.h"
 #include "numerics/estimators/recursive/rlssvf.h"
 #include "numerics/estimators/recursive/rsrivc.h"
 #include "numerics/fit/simulation_error.h"
 #include "scripting/arguments/estimator_arguments.h"
+#include "scripting/arguments/estimator_options.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/bind/estimation_readers.h"
 #include "scripting/memoized_calls/memoized_call.h"
@@ -18,6 +20,49 @@ namespace {
 
 constexpr std::array kRecursiveEquationOrders = {kNa, kNb, kNk};
 constexpr std::array kRecursiveOutputOrders = {kNb, kNf, kNk};
+
+constexpr std::array kRecursiveOptions = {
+    option<&RecursiveOptions::forgetting>(
+        "forgetting",
+        about("weight of a sample for each one that came later, above 0 and up to 1, which forgets nothing")),
+    OptionEntry{"drift", ValueKind::kVector,
+                about("variances of the parameters' random steps from one sample to the next, a number for all or one "
+                      "for each")},
+    option<&RecursiveOptions::noise_variance>(
+        "NoiseVariance",
+        about("variance of the noise against which drift is weighed, taken from the errors so far if absent"),
+        {.member = "noise_variance"}),
+    option<&RecursiveOptions::history_points>(
+        "HistoryPoints",
+        about("maximum number of instants that the history keeps, evenly spread, the last sample among them"),
+        {.least = 1, .member = "history_points"}),
+    OptionEntry{
+        "model", ValueKind::kModel,
+        about("fixed model for filters and instruments (rivsvf and rsrivc), in the place of the estimate so far")},
+    kHoldOfOutput<RecursiveOptions>};
+constexpr std::array kHistoryOptions = {
+    OptionEntry{
+        "truth", ValueKind::kTable,
+        about("true parameters by name, numbers or vectors spread evenly from the first sample to the last, {a1 = "
+              "4, b0 = linspace(2, 3, 100)}")},
+    OptionEntry{"confidence", ValueKind::kNumber, about("probability of the confidence bands"), {.initial = "0.95"}}};
+constexpr OptionTable kRecursive[] = {kRecursiveOptions}, kHistory[] = {kHistoryOptions};
+
+constexpr ArgumentEntry kRecursiveData = {
+    "data", ValueKind::kData,
+    about("data object with one experiment, one input and one output, regularly or irregularly sampled")};
+constexpr std::array kRecursiveEquationArguments = {
+    kRecursiveData,
+    ArgumentEntry{"orders", ValueKind::kOrders,
+                  about("na poles (at most 8), nb coefficients of B (at most na + 1), nk samples of delay")},
+    kFilterFrequency};
+constexpr std::array kRecursiveOutputArguments = {
+    kRecursiveData,
+    ArgumentEntry{"orders", ValueKind::kOrders,
+                  about("nb coefficients of B (at most nf + 1), nf poles (at most 8), nk samples of delay")},
+    kFilterFrequency};
+constexpr std::array kHistoryArguments = {
+    ArgumentEntry{"G", ValueKind::kModel, about("model of rlssvf, rivsvf or rsrivc")}};
 
 /// One number for all parameters or one for each, taken as variances of steps from sample to sample.
 Vector drift_of(const Options& options) {
@@ -38,11 +83,8 @@ TransferFunction fixed_model(const Options& options) {
 RecursiveOptions recursive_options(const Call& call, const Options& options) {
     RecursiveOptions wanted;
     wanted.lambda = call.number(3, "lambda");
-    wanted.hold_y = hold_y_of(options);
-    wanted.forgetting = options.number("forgetting", 1);
+    options.read(wanted);
     wanted.drift = drift_of(options);
-    wanted.noise_variance = options.optional_number("NoiseVariance");
-    wanted.history_points = options.size("HistoryPoints", wanted.history_points);
     if (options.has("model")) wanted.model = fixed_model(options);
     wanted.cancel = call.cancel();
     return wanted;
@@ -53,7 +95,7 @@ Estimation read_recursive(const Call& call) {
     call.at_most(4);
     const auto& entries = kCarx ? kRecursiveEquationOrders : kRecursiveOutputOrders;
     const auto orders = order_lists(call, 2, entries);
-    const Options options(call, 4, {"forgetting", "drift", "NoiseVariance", "HistoryPoints", "model", "hold_y"});
+    const Options options(call, 4, kRecursive);
     return [structure = structure_of_orders(entries, orders, Denominators::kPerOutput),
             wanted = recursive_options(call, options)](const IdData& data) {
         const TransferStructure of_data = structure(data);
@@ -88,23 +130,21 @@ std::map<std::string, Vector> truth_of(const Options& options) {
         else if (NumericBlock* values = to_vector(L, -1))
             truth[name] = values->vector();
         else
-            throw InvalidArgument(
-                fmt::format("option 'truth' must hold numbers or vectors, but {} is {}", name, given_text(L, -1)));
+            throw InvalidArgument("option 'truth' must hold numbers or vectors, but {} is {}", name,
+                                  given_value(L, -1));
     }
     return truth;
 }
 
-/// plot_history(G, {truth =, confidence =})
 int plot_parameters(Call& call) {
     call.at_most(2);
     const Model& model = object_argument<Model>(call, 1, "G");
-    const Options options(call, 2, {"truth", "confidence"});
+    const Options options(call, 2, kHistory);
     if (!model.estimate || !model.estimate->history)
         throw InvalidArgument("this model has no history: rlssvf, rivsvf and rsrivc give one");
     const double level = options.number("confidence", 0.95);
     if (!(level > 0 && level < 1))
-        throw InvalidArgument(
-            fmt::format("option 'confidence' must be a probability between 0 and 1, but {} was given", level));
+        refuse_option("confidence", Message("a probability between 0 and 1"), Message("{}", significant(level, 10)));
     return give_figure(call, history_plot(*model.estimate->history, model.estimate->names, truth_of(options), level));
 }
 
@@ -113,14 +153,17 @@ constexpr NamedReader kRecursiveReaders[] = {{"rlssvf", read_recursive<rlssvf, t
                                              {"rsrivc", read_recursive<rsrivc, false>}};
 
 constexpr FunctionEntry kRecursiveFunctions[] = {
-    {"rlssvf", "continuous time", "rlssvf(data, {na, nb, nk}, lambda, {forgetting =, drift =, ...}) -> G",
-     "lssvf sample by sample, for parameters that change", guarded<memoized_call<estimate_recursively<rlssvf, true>>>},
-    {"rivsvf", "continuous time", "rivsvf(data, {na, nb, nk}, lambda, {forgetting =, drift =, ...}) -> G",
-     "ivsvf sample by sample, for parameters that change", guarded<memoized_call<estimate_recursively<rivsvf, true>>>},
-    {"rsrivc", "continuous time", "rsrivc(data, {nb, nf, nk}, lambda, {forgetting =, drift =, ...}) -> G",
-     "srivc sample by sample, for parameters that change", guarded<memoized_call<estimate_recursively<rsrivc, false>>>},
-    {"plot_history", "figures", "plot_history(G, {truth =, confidence =}) -> fig",
-     "parameters over time with their confidence bands", guarded<plot_parameters>},
+    {"rlssvf", "continuous time", "rlssvf(data, {na, nb, nk}, lambda, {options}) -> G",
+     marked("estimator", "lssvf sample by sample, for parameters that change"),
+     guarded<memoized_call<estimate_recursively<rlssvf, true>>>, kRecursive, kRecursiveEquationArguments},
+    {"rivsvf", "continuous time", "rivsvf(data, {na, nb, nk}, lambda, {options}) -> G",
+     marked("estimator", "ivsvf sample by sample, for parameters that change"),
+     guarded<memoized_call<estimate_recursively<rivsvf, true>>>, kRecursive, kRecursiveEquationArguments},
+    {"rsrivc", "continuous time", "rsrivc(data, {nb, nf, nk}, lambda, {options}) -> G",
+     marked("estimator", "srivc sample by sample, for parameters that change"),
+     guarded<memoized_call<estimate_recursively<rsrivc, false>>>, kRecursive, kRecursiveOutputArguments},
+    {"plot_history", "figures", "plot_history(G, {options}) -> fig", "parameters over time with their confidence bands",
+     guarded<plot_parameters>, kHistory, kHistoryArguments},
 };
 
 }  // namespace

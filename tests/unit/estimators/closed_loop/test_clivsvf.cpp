@@ -5,6 +5,7 @@
 
 #include <Eigen/Dense>
 
+#include "base/reader.h"
 #include "support/loop_cases.h"
 #include "support/thrown_message.h"
 
@@ -57,7 +58,7 @@ TEST(clivsvf, finds_the_computing_delay) {  // oracle: how the record was made
     known.find_computing_delay = true;
     const Fit found = clivsvf(data, kPlant, cutoff(3), known);
     EXPECT_EQ(found.theta, clivsvf(data, kPlant, cutoff(3), known_controller()).theta);
-    EXPECT_THAT(found.message, HasSubstr("whose controller answers 1 sample late"));
+    EXPECT_THAT(message_text(found.full_message()), HasSubstr("whose controller answers 1 sample late"));
 }
 
 // oracle: definition: a record twice says the same; standard errors to what the window of their covariance changes with
@@ -72,7 +73,7 @@ TEST(clivsvf, experiments_are_joined) {
 
 TEST(clivsvf, doubts_a_wrong_controller) {  // oracle: the warning
     LoopKnowledge wrong{LoopController{TransferFunction(values({-0.5}), values({1}), kLoopTs), 1}};
-    EXPECT_THAT(clivsvf(loop_record(0.05, 3), kPlant, cutoff(3), wrong).message,
+    EXPECT_THAT(message_text(clivsvf(loop_record(0.05, 3), kPlant, cutoff(3), wrong).full_message()),
                 HasSubstr("is not what this controller makes of reference minus output"));
 }
 

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/reader.h"
 #include "numerics/estimators/srivc.h"
 #include "support/loop_cases.h"
 #include "support/thrown_message.h"
@@ -40,7 +41,7 @@ TEST(clsrivc, the_direct_route_is_srivc) {  // oracle: srivc
     const IdData data = loop_record(0.05, 2);
     const Fit direct = clsrivc(data, kPlant, {}, {}, LoopRoute::kDirect);
     EXPECT_EQ(direct.theta, srivc(data, kPlant).theta);
-    EXPECT_THAT(direct.message, HasSubstr("This is the direct route"));
+    EXPECT_THAT(message_text(direct.full_message()), HasSubstr("This is the direct route"));
 }
 
 TEST(clsrivc, errors_do_not_go_with_the_instruments) {  // oracle: residual of the definition, by lsim
@@ -112,7 +113,8 @@ TEST(clsrivc, refuses_what_it_cannot_use) {  // oracle: the sentence names metho
     const LoopController unstable{TransferFunction(values({-400}), values({1}), kLoopTs), 1};
     EXPECT_THAT(thrown_message([&] { clsrivc(data, kPlant, {}, {unstable}, LoopRoute::kIndirect); }),
                 HasSubstr("is unstable, so that the indirect route cannot begin"));
-    EXPECT_THAT(clsrivc(data, kPlant, {}, {unstable}).message, HasSubstr("one of the two is wrong"));
+    EXPECT_THAT(message_text(clsrivc(data, kPlant, {}, {unstable}).full_message()),
+                HasSubstr("one of the two is wrong"));
 }
 
 }  // namespace test_clsrivc

@@ -9,11 +9,13 @@
 #include "numerics/signals/random_phase_multisine.h"
 #include "numerics/simulation/lsim.h"
 #include "numerics/simulation/sampled_response.h"
+#include "support/message_texts.h"
 #include "support/thrown_message.h"
 
 namespace test_bla {
 
 using namespace dynlab;
+using dynlab::test::texts_of;
 using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -137,34 +139,34 @@ TEST(bla, levels_sum_up_to_the_output) {  // oracle: Parseval; no line at zero o
     const double power = mean_periods.squaredNorm() / (4 * kPeriod);
     EXPECT_NEAR(sums.power, power, 1e-3 * power);
     EXPECT_NEAR(sums.noise, 0.05 * 0.05 / 3, 0.1 * 0.05 * 0.05 / 3);
-    EXPECT_THAT(found.message, HasSubstr("dB of the output in the mean over 3 periods."));
+    EXPECT_THAT(message_text(found.message), HasSubstr("dB of the output in the mean over 3 periods."));
 }
 
 TEST(bla, tells_what_is_wrong_with_a_record) {
     Recording how;
     how.settling = 0, how.noise = 0.001;
-    EXPECT_THAT(bla(recorded(how), options_of(how)).warnings, Contains(HasSubstr("`transient` = 1")));
+    EXPECT_THAT(texts_of(bla(recorded(how), options_of(how)).warnings), Contains(HasSubstr("`transient` = 1")));
     BlaOptions dropped = options_of(how);
     dropped.transient = 1;
-    EXPECT_THAT(bla(recorded(how), dropped).warnings, testing::Not(Contains(HasSubstr("`transient`"))));
+    EXPECT_THAT(texts_of(bla(recorded(how), dropped).warnings), testing::Not(Contains(HasSubstr("`transient`"))));
 
     how = {};
     const IdData whole = recorded(how);
     BlaOptions one = options_of(how);
     one.realisations = 1;
     const FrequencyData cut = bla(whole.range(101, 3 * kPeriod), one);
-    EXPECT_THAT(cut.warnings, Contains(HasSubstr("its first 412 samples are left out")));
-    EXPECT_THAT(cut.warnings, Contains(HasSubstr("One realisation does not tell")));
+    EXPECT_THAT(texts_of(cut.warnings), Contains(HasSubstr("its first 412 samples are left out")));
+    EXPECT_THAT(texts_of(cut.warnings), Contains(HasSubstr("One realisation does not tell")));
     EXPECT_LT(largest_error(cut), 1e-2);
     EXPECT_EQ(cut.distortion.size(), 0);
     const FrequencyData single = bla(whole.range(1, kPeriod), one);
-    EXPECT_THAT(single.warnings, Contains(HasSubstr("One period does not tell noise")));
+    EXPECT_THAT(texts_of(single.warnings), Contains(HasSubstr("One period does not tell noise")));
     EXPECT_EQ(single.variance.size(), 0);
 
     Matrix u = whole.experiments[0].u;
     RandomStream random(2);
     u.col(0) += 0.25 * random.normal(u.rows());
-    EXPECT_THAT(bla(IdData(whole.experiments[0].y, u, kTs), options_of(how)).warnings,
+    EXPECT_THAT(texts_of(bla(IdData(whole.experiments[0].y, u, kTs), options_of(how)).warnings),
                 Contains(HasSubstr("repeats only roughly")));
 }
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "numerics/error.h"
+#include "base/reader.h"
 #include "numerics/signals/random.h"
 #include "support/difference_equation.h"
 #include "support/thrown_message.h"
@@ -139,7 +139,7 @@ TEST(spa, poor_excitation_is_told) {
     options.window = 200;
     const SpectralEstimate estimate = spa(IdData(Matrix(2 * u), Matrix(u), 1), options);
     ASSERT_EQ(estimate.warnings.size(), 2u);  // few independent values; no power beside the sine
-    EXPECT_THAT(estimate.warnings[1], HasSubstr("practically no power"));
+    EXPECT_THAT(message_text(estimate.warnings[1]), HasSubstr("practically no power"));
     EXPECT_TRUE(estimate.response.allFinite());
 }
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/reader.h"
 #include "numerics/estimators/coe.h"
 #include "numerics/estimators/grey_box/greyest.h"
 #include "numerics/rigs/crane_experiments.h"
@@ -44,7 +45,7 @@ TEST(greyest, of_a_linear_model_is_coe) {  // oracle: second route, coe, with it
         data.hold = hold;
         const Fit wanted = output_error_fit(data);
         const GreyFit found = greyest(data, second_order(), tight());
-        EXPECT_LT(relative_difference(found.fit.theta, wanted.theta), 1e-7) << found.fit.message;
+        EXPECT_LT(relative_difference(found.fit.theta, wanted.theta), 1e-7) << message_text(found.fit.full_message());
         EXPECT_LT(relative_difference(found.fit.std, wanted.std), 1e-7);
         EXPECT_NEAR(found.fit.noise_variance[0], wanted.noise_variance[0], 1e-9);
         EXPECT_NEAR(found.fit.fit_percent[0], wanted.fit_percent[0], 1e-7);
@@ -59,7 +60,7 @@ TEST(greyest, by_steps_is_coe_too) {  // oracle: second route; a sine too small 
         });
     const Fit wanted = output_error_fit(data);
     const GreyFit found = greyest(data, model, tight());
-    EXPECT_LT(relative_difference(found.fit.theta, wanted.theta), 1e-7) << found.fit.message;
+    EXPECT_LT(relative_difference(found.fit.theta, wanted.theta), 1e-7) << message_text(found.fit.full_message());
     EXPECT_LT(relative_difference(found.fit.std, wanted.std), 1e-7);
 }
 
@@ -69,7 +70,7 @@ TEST(greyest, with_an_estimated_initial_state_is_coe) {  // oracle: second route
     GreyOptions options = tight();
     options.initial_state = GreyStart::kEstimate;
     const GreyFit found = greyest(data, second_order(), options);
-    EXPECT_LT(relative_difference(found.fit.theta, wanted.theta), 1e-6) << found.fit.message;
+    EXPECT_LT(relative_difference(found.fit.theta, wanted.theta), 1e-6) << message_text(found.fit.full_message());
     EXPECT_LT(relative_difference(found.fit.std, wanted.std), 1e-6);
     EXPECT_GT(found.initial_std.minCoeff(), 0);
 }
@@ -111,7 +112,8 @@ IdData swinging(double noise, std::uint32_t seed, const Vector& p = Vector{{9, 3
 
 TEST(greyest, recovers_a_pendulum_without_noise) {  // oracle: the simulated system
     const GreyFit found = greyest(swinging(0, 1), pendulum(8, 2.5, 0.5), tight());
-    EXPECT_LT((found.fit.theta - Vector{{9, 3, 0.4}}).cwiseAbs().maxCoeff(), 1e-7) << found.fit.message;
+    EXPECT_LT((found.fit.theta - Vector{{9, 3, 0.4}}).cwiseAbs().maxCoeff(), 1e-7)
+        << message_text(found.fit.full_message());
 }
 
 TEST(greyest, weighs_outputs_by_their_noise) {  // oracle: the noise of each output
@@ -139,7 +141,7 @@ TEST(greyest, keeps_to_bounds_and_fixed_values) {  // oracle: definition, and th
     EXPECT_EQ(bounded.fit.theta[2], 0.45);
     EXPECT_TRUE(bounded.fit.at_bound[2]);
     EXPECT_EQ(bounded.fit.std[2], 0);
-    EXPECT_THAT(bounded.fit.message, HasSubstr("The parameter c lies at its bound 0.45"));
+    EXPECT_THAT(message_text(bounded.fit.full_message()), HasSubstr("The parameter c lies at its bound 0.45"));
     model.parameters[2] = {"c", 0.45, -kInfinity, kInfinity, true};
     const GreyFit fixed = greyest(data, model, tight());
     EXPECT_LT((fixed.fit.theta - bounded.fit.theta).cwiseAbs().maxCoeff(), 1e-6);
@@ -155,8 +157,8 @@ TEST(greyest, tells_what_the_record_does_not_tell) {  // oracle: only the quotie
         lsim(TransferFunction(values({3}), values({1, 3})), u, 0.1) + 0.01 * RandomStream(1).normal(u.size());
     const GreyFit found = greyest(IdData(Matrix(y), Matrix(u), 0.1), model);
     EXPECT_NEAR(found.fit.theta[0] / found.fit.theta[1], 3, 0.1);
-    EXPECT_THAT(found.fit.message, HasSubstr("does not tell k, m apart"));
-    EXPECT_THAT(found.fit.message, HasSubstr("k +1 %, m +1 %"));
+    EXPECT_THAT(message_text(found.fit.full_message()), HasSubstr("does not tell k, m apart"));
+    EXPECT_THAT(message_text(found.fit.full_message()), HasSubstr("k +1 %, m +1 %"));
     EXPECT_TRUE(std::isinf(found.fit.std[0]) && std::isinf(found.fit.std[1]));
 }
 
@@ -208,7 +210,7 @@ TEST(greyest, explains_the_crane_better_than_any_linear_model) {
     const std::vector<CraneRecord> records = simulate_crane({}, {}, 1);
     const GreyFit found = greyest(crane_data(records[0]), crane_model());
     const Vector validation = compare_grey(crane_data(records[1]), found, GreyStart::kModel).fit_percent;
-    EXPECT_GE(validation[0], 99.7) << found.fit.message;
+    EXPECT_GE(validation[0], 99.7) << message_text(found.fit.full_message());
     EXPECT_GE(validation[1], 98.0);
     EXPECT_NEAR(found.fit.theta[4], (1e-3 + 0.23 * 0.36 * 0.36) / (0.23 * 0.36), 1e-3);  // the equivalent length, m
     EXPECT_NEAR(found.fit.theta[6], 0.012, 5e-4);                                        // what the sensor adds, rad

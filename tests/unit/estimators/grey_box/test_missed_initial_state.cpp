@@ -4,7 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "numerics/number_text.h"
+#include "base/number_text.h"
+#include "base/reader.h"
 #include "support/grey_cases.h"
 #include "support/transfer_cases.h"
 
@@ -29,9 +30,9 @@ TEST(missed_initial_state, is_told_of_a_record_that_begins_in_a_movement) {
     const auto told = missed_initial_state(cut, from_rest, Vector::Ones(1));
     ASSERT_GT(free.fit.fit_percent[0], from_rest.fit.fit_percent[0] + 1);
     ASSERT_TRUE(told.has_value());
-    EXPECT_THAT(from_rest.fit.message, HasSubstr(*told));
-    EXPECT_THAT(*told, HasSubstr("about " + number_text(free.fit.fit_percent[0], 3) + " % instead of " +
-                                 number_text(from_rest.fit.fit_percent[0], 3) + " %"));
+    EXPECT_THAT(message_text(from_rest.fit.full_message()), HasSubstr(message_text(*told)));
+    EXPECT_THAT(message_text(*told), HasSubstr("about " + number_text(free.fit.fit_percent[0], 3) + " % instead of " +
+                                               number_text(from_rest.fit.fit_percent[0], 3) + " %"));
     EXPECT_FALSE(missed_initial_state(cut, free, Vector::Ones(1)).has_value());
 }
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "base/reader.h"
 #include "numerics/estimators/arx.h"
 #include "numerics/models/polynomial_model.h"
 #include "numerics/signals/random.h"
@@ -47,7 +48,7 @@ TEST(narx, finds_the_equation_of_a_clean_record) {  // oracle: the equation put 
     EXPECT_NEAR(value_of(found, "y1(k-2)^2"), -0.05, 1e-10);
     EXPECT_NEAR(value_of(found, "1"), -0.5, 1e-10);
     EXPECT_GT(found.fit.fit_percent[0], 99.9999);
-    EXPECT_TRUE(found.fit.warnings.empty()) << found.fit.message;
+    EXPECT_TRUE(found.fit.warnings.empty()) << message_text(found.fit.full_message());
 }
 
 TEST(narx, of_degree_one_is_arx) {  // oracle: arx, without a constant in the data
@@ -116,7 +117,8 @@ TEST(narx, tells_when_a_run_is_lost) {  // oracle: y(k) = 1.5 y(k-1) + u grows b
     while (std::abs(x) <= bound) x = 1.5 * x + 1, ++k;
     EXPECT_EQ(*run.lost_at, k);
     EXPECT_TRUE(run.output.bottomRows(100 - k).array().isNaN().all());
-    EXPECT_THAT(divergence_text(inputs_alone(Matrix::Ones(100, 1), 0.1, Hold::kZoh), 0, 32), HasSubstr("t = 3.2 s"));
+    EXPECT_THAT(message_text(divergence_text(inputs_alone(Matrix::Ones(100, 1), 0.1, Hold::kZoh), 0, 32)),
+                HasSubstr("t = 3.2 s"));
 }
 
 TEST(narx, joins_experiments_and_inputs) {  // oracle: the equation put in

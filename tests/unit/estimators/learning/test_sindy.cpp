@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/reader.h"
 #include "support/nonlinear_records.h"
 #include "support/thrown_message.h"
 
@@ -180,7 +181,7 @@ TEST(sindy, warns_of_a_state_without_terms) {
     FunctionLibrary far{{"sin"}, [](const Matrix& X, const Matrix&) { return Matrix((300 * X.array()).sin()); }};
     SindyOptions strict;
     strict.threshold = 0.9;
-    EXPECT_THAT(sindy(data, far, strict).fit.message,
+    EXPECT_THAT(message_text(sindy(data, far, strict).fit.full_message()),
                 HasSubstr("No function of the library contributes to the rate of h"));
 }
 

@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "base/reader.h"
 #include "numerics/estimators/lssvf.h"
 #include "support/recursive_cases.h"
 #include "support/thrown_message.h"
@@ -22,7 +23,7 @@ TEST(rlssvf, forgetting_nothing_gives_lssvf) {  // oracle: lssvf, on records of 
         const Fit pass = rlssvf(one.data, one.structure, recursive(one.lambda));
         EXPECT_LT(relative_difference(pass.theta, batch.theta), 1e-8) << one.name;
         EXPECT_LT(relative_difference(pass.std, batch.std), 1e-6) << one.name;
-        EXPECT_THAT(pass.message, HasSubstr("which forgets nothing"));
+        EXPECT_THAT(message_text(pass.full_message()), HasSubstr("which forgets nothing"));
     }
 }
 
@@ -70,7 +71,7 @@ TEST(rlssvf, drift_is_a_kalman_filter) {
     }
     EXPECT_LT(relative_difference(pass.theta, theta), 1e-5);
     EXPECT_LT((pass.covariance * (0.02 / pass.noise_variance[0]) - P).norm(), 1e-5 * P.norm());
-    EXPECT_THAT(pass.message, HasSubstr("walk at random"));
+    EXPECT_THAT(message_text(pass.full_message()), HasSubstr("walk at random"));
 }
 
 TEST(rlssvf, follows_a_parameter_that_jumps) {  // oracle: the truth on either side

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/reader.h"
 #include "support/loop_cases.h"
 
 namespace test_loop_search {
@@ -23,7 +24,7 @@ TEST(loop_search, comes_back_to_the_optimum_from_either_side) {  // oracle: one 
         start.theta = scale * values({4, 3, 2});
         const Fit fit = search_loop(start, data, options, signals);
         EXPECT_EQ(fit.termination, Termination::kConverged);
-        EXPECT_THAT(fit.message, HasSubstr("indirect route"));
+        EXPECT_THAT(message_text(fit.full_message()), HasSubstr("indirect route"));
         for (Index i = 0; i < 3; ++i) EXPECT_LT(std::abs(fit.theta[i] - values({4, 3, 2})[i]), 4 * fit.std[i]);
         ends.push_back(fit.theta);
     }

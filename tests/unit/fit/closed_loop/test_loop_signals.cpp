@@ -26,7 +26,7 @@ TEST(loop_signals, a_known_controller_is_simulated) {  // oracle: the loop witho
     EXPECT_TRUE(all.in_loop);
     EXPECT_EQ(all.experiments.front().u, clean.u);
     EXPECT_EQ(all.experiments.front().x, clean.x);
-    EXPECT_EQ(signals.warning(), "");
+    EXPECT_FALSE(signals.warning());
 }
 
 TEST(loop_signals, the_record_tells_how_late_the_controller_answers) {  // oracle: how the record was made

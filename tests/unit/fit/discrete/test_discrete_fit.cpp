@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/reader.h"
 #include "numerics/fit/discrete/discrete_fit.h"
 #include "numerics/fit/operating_points.h"
 #include "support/difference_equation.h"
@@ -31,16 +32,17 @@ Fit fitted(const IdData& data, InitialState state, Offset offset) {
 
 TEST(discrete_fit, chooses_the_start_that_made_the_record) {  // oracle: the simulated system
     const Fit rest = fitted(record(500, 0), InitialState::kAuto, Offset::kAuto);
-    EXPECT_EQ(rest.start.state, InitialState::kZero) << rest.message;
+    EXPECT_EQ(rest.start.state, InitialState::kZero) << message_text(rest.full_message());
     EXPECT_FALSE(rest.start.offset);
     const Fit lifted = fitted(record(500, 3), InitialState::kAuto, Offset::kAuto);
-    EXPECT_EQ(lifted.start.state, InitialState::kZero) << lifted.message;
+    EXPECT_EQ(lifted.start.state, InitialState::kZero) << message_text(lifted.full_message());
     EXPECT_TRUE(lifted.start.offset);
     EXPECT_NEAR(lifted.offsets(0, 0), 3, 0.05);
     const Fit running = fitted(record(600, 0).range(101, 600), InitialState::kAuto, Offset::kNone);
-    EXPECT_NE(running.start.state, InitialState::kZero) << running.message;
+    EXPECT_NE(running.start.state, InitialState::kZero) << message_text(running.full_message());
     for (const Fit* fit : {&rest, &lifted, &running})
-        for (Index i = 0; i < 2; ++i) EXPECT_NEAR(fit->theta[i], kTruth[i], 4 * fit->std[i]) << fit->message;
+        for (Index i = 0; i < 2; ++i)
+            EXPECT_NEAR(fit->theta[i], kTruth[i], 4 * fit->std[i]) << message_text(fit->full_message());
 }
 
 TEST(discrete_fit, measures) {  // oracle: the simulation, sample by sample

@@ -4,6 +4,7 @@
 #include "numerics/estimators/oe.h"
 #include "numerics/estimators/sriv.h"
 #include "numerics/fit/discrete/polynomial_fit.h"
+#include "support/message_texts.h"
 #include "support/thrown_message.h"
 #include "support/transfer_cases.h"
 
@@ -45,7 +46,8 @@ TEST(polynomial_fit, tells_of_models_that_are_not_stable) {  // oracle: poles wr
     EXPECT_THAT(stable.warnings, IsEmpty());
     Fit unstable = polynomial_fit(PolynomialOrders::arx(1, {1}, {1}), values({-1.5, 1}), 1);
     warn_of_unstable_polynomials(unstable);
-    EXPECT_THAT(unstable.warnings, ElementsAre(AllOf(HasSubstr("outside or on the unit circle"), HasSubstr("sriv"))));
+    EXPECT_THAT(texts_of(unstable.warnings),
+                ElementsAre(AllOf(HasSubstr("outside or on the unit circle"), HasSubstr("sriv"))));
 }
 
 // Oracle: the remedy itself, on little data of a slow stable system whose best difference equation is unstable.
@@ -61,7 +63,7 @@ TEST(polynomial_fit, what_is_told_against_unstable_models_helps) {
         const Fit fit = oe(data, orders);
         if (fit.polynomial->transfer_function(0).stable()) continue;
         ++unstable;
-        EXPECT_THAT(fit.warnings, Contains(HasSubstr("or sriv, which keeps them inside the circle"))) << seed;
+        EXPECT_THAT(texts_of(fit.warnings), Contains(HasSubstr("or sriv, which keeps them inside the circle"))) << seed;
         EXPECT_TRUE(sriv(data, orders).polynomial->transfer_function(0).stable()) << seed;
     }
     EXPECT_GE(unstable, 3);

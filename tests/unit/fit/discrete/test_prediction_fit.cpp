@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/reader.h"
 #include "numerics/fit/discrete/discrete_fit.h"
 #include "numerics/fit/discrete/prediction_fit.h"
 #include "support/difference_equation.h"
@@ -46,7 +47,7 @@ TEST(prediction_fit,
         EXPECT_NEAR(fit.theta[i], kTruth[i], 4 * fit.std[i]) << i;
     }
     EXPECT_NEAR(fit.noise_variance[0], 0.01, 0.001);
-    EXPECT_THAT(fit.message, HasSubstr("The search converged after"));
+    EXPECT_THAT(message_text(fit.full_message()), HasSubstr("The search converged after"));
     EXPECT_THAT(thrown_message([&] {
                     const IdData few = data.range(1, 4);
                     const std::vector<SampledExperiment> short_ones = sampled_experiments(few);

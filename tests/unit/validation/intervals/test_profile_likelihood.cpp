@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "base/reader.h"
 #include "numerics/signals/prbs.h"
 #include "numerics/signals/random.h"
 #include "numerics/simulation/lsim.h"
@@ -64,7 +65,7 @@ TEST(profile_likelihood,
     const RefittedOutput model(IdData(Matrix(y), Matrix(u), 0.1), {{}, ProcessStructure::parse("P1"), Vector{{1, 50}}});
     const Profile found = profile_likelihood(model, "Tp1");
     EXPECT_FALSE(found.high.has_value());
-    EXPECT_THAT(found.message, HasSubstr("without an upper end"));
+    EXPECT_THAT(message_text(found.message), HasSubstr("without an upper end"));
 }
 
 TEST(profile_likelihood, can_be_stopped) {

@@ -1,0 +1,88 @@
+// The worked solution, which tries the checks of GradingRules before they grade.
+#include <algorithm>
+
+#include "course/boxes/told_reason.h"
+#include "course/grading/grading_memory.h"
+#include "course/grading/grading_rules.h"
+#include "platform/hash.h"
+#include "platform/temporary_folder.h"
+
+namespace dynlab::inline course {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kMuchOfTheTime = 0.5;  // that a worked solution uses
+
+/// That the worked solution fails a check; with what stopped a run that the check rests on, as the answers are missing
+/// for that reason.
+Message complaint_about(const CheckDescription& check, const std::map<std::string, GradedRun>& runs,
+                        const Message& said) {
+    for (const std::string& name : {std::string(kMainRun), check.rerun}) {
+        const auto run = runs.find(name);
+        if (run == runs.end() || !run->second.error) continue;
+        const Message trouble = shortened_trouble(*run->second.error);
+        if (name == kMainRun)
+            return Message(
+                "the worked solution does not pass the check \"{}\", which is left ungraded: its run stopped: "
+                "{}; {}",
+                check.id, trouble, said);
+        return Message(
+            "the worked solution does not pass the check \"{}\", which is left ungraded: its run on {} "
+            "stopped: {}; {}",
+            check.id, name, trouble, said);
+    }
+    return Message("the worked solution does not pass the check \"{}\", which is left ungraded: {}", check.id, said);
+}
+
+/// Whether nothing stood in the way that may be gone another time, such as a busy machine.
+bool went_well(const CheckedSubmission& work) {
+    const auto failed = [](const auto& run) { return run.second.error.has_value(); };
+    const auto fails = [](const Finding& finding) { return finding.id == kDocumentFails; };
+    return std::ranges::none_of(work.runs, failed) && std::ranges::none_of(work.findings, fails);
+}
+
+}  // namespace
+
+std::vector<Message> GradingRules::try_solution(const fs::path& memory, bool anew) {
+    const TemporaryFolder work;
+    fs::copy_file(setup_.lesson.script(), work.path() / "analysis.lua");
+    if (const fs::path report = setup_.lesson.report("en"); fs::exists(report))
+        fs::copy_file(report, work.path() / "report.md");
+    std::string log, content = sha256_of_file(work.path() / "analysis.lua");
+    if (fs::exists(work.path() / "report.md")) content += sha256_of_file(work.path() / "report.md");
+    const std::string fingerprint = run_fingerprint(content, {});
+    std::optional<KeptRuns> kept = anew || memory.empty() ? std::nullopt : read_kept_runs(memory, fingerprint);
+    if (!kept) {
+        kept = KeptRuns{fingerprint, work_in(work.path(), {}, log), {}, ""};
+        if (!memory.empty() && went_well(kept->work)) write_kept_runs(memory, *kept, KeptTimes::kYes);
+    }
+    for (const auto& [name, run] : kept->work.runs) solution_seconds_[name] = run.seconds;
+    std::vector<Message> complaints;
+    const std::map<std::string, GradedRun> runs = kept->work.runs;
+    const Grade solution = judged({{"solution", std::move(kept->work), {}, log}}).front();
+    if (!solution.trouble.empty())
+        complaints.push_back(Message("the worked solution did not run to its end: {}", solution.trouble));
+    for (std::size_t k = 0; k < solution.checks.size(); ++k) {
+        const CheckGrade& check = solution.checks[k];
+        if (check.by_hand || (check.graded && check.earned == check.points)) continue;
+        broken_.insert(check.id);
+        const Message& told = check.for_instructor.empty() ? check.message : check.for_instructor;
+        complaints.push_back(complaint_about(checks_.at(k), runs, told.empty() ? Message("it returned false") : told));
+    }
+    return complaints;
+}
+
+std::optional<Message> GradingRules::note_on_time() const {
+    const double most = std::chrono::duration<double>(setup_.time.processor).count();
+    double longest = 0;
+    for (const auto& [name, seconds] : solution_seconds_) longest = std::max(longest, seconds);
+    if (longest <= kMuchOfTheTime * most) return {};
+    return Message(
+        "a run of the worked solution uses {} s of processor time, and submissions may use {} s ({} times as much); "
+        "give "
+        "more with --timeout, or students with slower scripts lose marks",
+        decimals(longest, 1), significant(most, 6), decimals(most / longest, 1));
+}
+
+}  // namespace dynlab::inline course

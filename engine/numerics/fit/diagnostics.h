@@ -1,0 +1,44 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "numerics/fit/assessment.h"
+#include "numerics/fit/fit.h"
+#include "numerics/fit/missed_structure.h"
+
+namespace dynlab::inline numerics {
+
+/// What speaks against a fit, as data. Estimators do not compute it: diagnose() does, when it is read.
+struct Diagnostics {
+    std::optional<MissedStructure> missed = {};
+    /// Whether its errors are white, and robust standard errors; none for long records (fit/assessment.h), and for fits
+    /// with a model of their noise (rivc).
+    std::shared_ptr<const Assessment> assessment = {};
+
+    /// A sentence for each thing that is missed.
+    std::vector<Message> warnings() const;
+};
+
+/// The diagnostics of a fit by srivc, coe, rivc, procsrivc, oe, sriv, bj or armax to these data by these options. A
+/// missed structure is looked for in fits of transfer functions in continuous time.
+Diagnostics diagnose(const Fit& fit, const IdData& data, const FitOptions& options);
+
+/// The diagnostics of one fit, each computed when it is first read, by any thread. Copies share them.
+class DeferredDiagnostics {
+  public:
+    DeferredDiagnostics() = default;  ///< of a fit without any
+    explicit DeferredDiagnostics(Diagnostics known);
+    /// As diagnose() takes them; `data` must not change any more. They are kept until all is computed.
+    DeferredDiagnostics(Fit fit, std::shared_ptr<const IdData> data, FitOptions options);
+
+    std::optional<MissedStructure> missed() const;
+    std::shared_ptr<const Assessment> assessment() const;
+    Diagnostics all() const { return {missed(), assessment()}; }
+
+  private:
+    struct State;
+    std::shared_ptr<State> state_;
+};
+
+}  // namespace dynlab::inline numerics

@@ -1,0 +1,347 @@
+#include "numerics/fit/missed_structure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "numerics/criteria/transfer_output.h"
+#include "numerics/error.h"
+#include "numerics/fit/diagnosis.h"
+#include "numerics/fit/first_estimate.h"
+#include "numerics/fit/simulation_error.h"
+#include "numerics/fit/transfer_refinement.h"
+#include "numerics/fit/transfer_search.h"
+#include "numerics/linalg/decompositions.h"
+
+namespace dynlab::inline numerics {
+
+namespace {
+
+constexpr Index kLookedAt = 3000, kFitted = 100'000;  // samples
+constexpr double kStrongEvidence = 10;                // BIC
+constexpr double kHalfPoint = 0.5, kFairShare = 0.2, kLeastPoints = 0.05;
+constexpr double kRidge = 1e-9;     // of a sum of squares of sensitivities
+constexpr double kFastestPole = 2;  // per sample: faster ones are as good as none
+constexpr double kLargestCorrelation = 0.999;
+constexpr double kLeastSquares = 1e-300;  // keeps logarithms finite without errors
+
+/// How well a model explains one output.
+struct Explanation {
+    double squares = 0, variation = 0;  ///< of the errors; of the output about its means
+    double samples = 0;                 ///< that count
+    Index values = 0;                   ///< estimated
+
+    double fit() const { return fit_percent_of_sums(squares, variation); }
+};
+
+bool is_worth_telling(double fit, double better) {
+    const double gain = better - fit;
+    return gain >= kHalfPoint || gain >= std::max(kLeastPoints, kFairShare * (100 - fit));
+}
+
+/// By how much the second lowers BIC.
+double evidence_for(const Explanation& one, const Explanation& other) {
+    const double N = std::max(other.samples, 2.0);
+    return N * std::log(one.squares / other.squares) - static_cast<double>(other.values - one.values) * std::log(N);
+}
+
+/// Whether the second is better by more than chance, and by enough.
+bool gains(const Explanation& one, const Explanation& other) {
+    return evidence_for(one, other) > kStrongEvidence && is_worth_telling(one.fit(), other.fit());
+}
+
+/// The structure with so many more poles, and the zeros that `zeros_of` gives for the poles and zeros it has.
+template <class Zeros>
+TransferStructure changed(TransferStructure structure, int more_poles, const Zeros& zeros_of) {
+    for (TransferChannel& channel : structure.channels)
+        channel.zeros = zeros_of(structure.poles[static_cast<std::size_t>(channel.denominator)], channel.zeros);
+    for (int& poles : structure.poles) poles += more_poles;
+    return structure;
+}
+
+TransferStructure with_direct_terms(const TransferStructure& structure) {
+    return changed(structure, 0, [](int poles, int) { return poles; });
+}
+
+/// theta of the structure with as many zeros as poles: the further coefficients are zero.
+Vector with_direct_terms(const TransferStructure& structure, const TransferStructure& direct, const Vector& theta) {
+    Vector all = Vector::Zero(direct.parameter_count());
+    for (Index input = 0; input < structure.inputs; ++input) {
+        const TransferChannel& channel = structure.channel(0, input);
+        const Index n = structure.poles[static_cast<std::size_t>(channel.denominator)], own = channel.zeros + 1;
+        all.segment(direct.denominator_start(channel.denominator), n) =
+            theta.segment(structure.denominator_start(channel.denominator), n);
+        all.segment(direct.numerator_start(0, input) + n + 1 - own, own) =
+            theta.segment(structure.numerator_start(0, input), own);
+        if (structure.free_delays) all[direct.delay_index(0, input)] = theta[structure.delay_index(0, input)];
+    }
+    return all;
+}
+
+/// What one Gauss-Newton step from a fit of one output gains with direct terms.
+class LookAhead {
+  public:
+    LookAhead(const IdData& data, const Fit& fit) {
+        const IdData part = data.sample_count() > kLookedAt ? beginning_of(data, kLookedAt) : IdData();
+        const IdData& record = data.sample_count() > kLookedAt ? part : data;
+        whole_ = static_cast<double>(data.sample_count()) / static_cast<double>(record.sample_count());
+        samples_ = static_cast<double>(data.sample_count());
+        variation_ = output_variations(record)[0];
+        const TransferStructure direct = with_direct_terms(fit.structure);
+        const TransferOutput model(direct, fit.start, record, 0, shortest_record(record));
+        const Index own = direct.parameter_count();
+        Fit extended = fit;
+        extended.structure = direct;
+        extended.theta = with_direct_terms(fit.structure, direct, fit.theta);
+        const Vector point = search_point(extended, model, model.seconds());
+        sums_ = model.products(point, model.target());
+        set_places(fit.structure, direct, point);
+        for (Index i = own; i < model.parameter_count(); ++i) own_.push_back(i);
+    }
+
+    bool promises() const {
+        if (!sums_.gram.allFinite() || !std::isfinite(sums_.squares) || direct_.empty()) return false;
+        return gains(left(zeros_, {}), left(zeros_, direct_));
+    }
+
+  private:
+    using Places = std::vector<Index>;
+
+    void set_places(const TransferStructure& structure, const TransferStructure& direct, const Vector& point) {
+        const auto add = [](Places& places, Index first, Index count) {
+            for (Index i = first; i < first + count; ++i) places.push_back(i);
+        };
+        for (std::size_t d = 0; d < direct.poles.size(); ++d)
+            add(own_, direct.denominator_start(static_cast<Index>(d)), direct.poles[d]);
+        for (Index input = 0; input < direct.inputs; ++input) {
+            const Index place = direct.numerator_start(0, input), n = direct.channel(0, input).zeros;
+            const Index m = structure.channel(0, input).zeros;
+            if (m < n) direct_.push_back(place);
+            add(zeros_, place + 1, std::max<Index>(0, n - m - 1));
+            add(own_, place + n - m, m + 1);
+            const Index delay = direct.delay_index(0, input);
+            if (direct.free_delays && point[delay] > 0) own_.push_back(delay);
+        }
+    }
+
+    /// Of the whole record, when the parameters and these values make their step.
+    Explanation left(const Places& some, const Places& more) const {
+        Places all = own_;
+        all.insert(all.end(), some.begin(), some.end());
+        all.insert(all.end(), more.begin(), more.end());
+        const double squares = whole_ * (sums_.squares - gained(all));
+        return {std::max(squares, kLeastSquares), whole_ * variation_, samples_, static_cast<Index>(all.size())};
+    }
+
+    /// g' (J'J)^-1 g of these columns.
+    double gained(const Places& places) const {
+        Vector scale = sums_.gram.diagonal()(places).cwiseSqrt();
+        for (double& value : scale)
+            if (!(value > 0)) value = 1;
+        const auto scaling = scale.cwiseInverse().asDiagonal();
+        Matrix gram = scaling * sums_.gram(places, places) * scaling;
+        gram.diagonal().array() += kRidge;
+        const Vector descent = scaling * sums_.descent(places);
+        return std::max(0.0, descent.dot(solve_semidefinite(gram, descent)));
+    }
+
+    OutputErrorProducts sums_;
+    double samples_ = 0, whole_ = 1, variation_ = 0;
+    Places own_, zeros_, direct_;
+};
+
+double correlation_of_neighbours(const Vector& errors, const TransferOutput& model) {
+    double products = 0, squares = 0;
+    for (std::size_t e = 0; e < model.experiment_count(); ++e) {
+        const auto own = errors.segment(model.row(e, 0), model.rows(e));
+        products += own.head(own.size() - 1).dot(own.tail(own.size() - 1));
+        squares += own.squaredNorm();
+    }
+    return squares > 0 ? std::clamp(products / squares, 0.0, kLargestCorrelation) : 0;
+}
+
+/// Without the first seconds, which do not count.
+Explanation explanation_of(const IdData& record, const Fit& fit, double unheard) {
+    TransferOutput model(fit.structure, fit.start, record, 0, shortest_record(record));
+    model.leave_out(unheard);
+    const Vector errors = model.target() - model.output_at(search_point(fit, model, model.seconds()));
+    const bool finite = errors.allFinite();
+    const double r = finite ? correlation_of_neighbours(errors, model) : 0;
+    return {finite ? std::max(errors.squaredNorm(), kLeastSquares) : kInfinity, counted_variations(model)[0],
+            static_cast<double>(model.sample_count()) * (1 - r) / (1 + r), model.parameter_count()};
+}
+
+/// One output, its fit, and how others are found.
+struct Question {
+    const IdData& record;
+    const Fit& given;
+    const FitOptions& options;
+
+    Explanation explanation(const Fit& fit) const {
+        return explanation_of(record, fit, unheard_beginning(given, record));
+    }
+
+    /// The search that a user's structure leads to; nothing where the data do not allow it.
+    std::optional<Fit> fit_of(const TransferStructure& structure) const {
+        FitOptions how = options;
+        how.goes_on = false;  // what settles that late is told apart from the present fit by chance alone
+        how.integration = false;
+        how.fixed.clear();
+        how.output_weights.resize(0);
+        try {
+            Fit fit = search_with_chosen_start("missed_structure", record, structure, how);
+            if (fit.termination != Termination::kCancelled) return fit;
+        } catch (const InvalidArgument&) {
+            return std::nullopt;
+        }
+        return std::nullopt;
+    }
+};
+
+/// Whether a direct term does what neither more zeros nor one more pole does. A pole that is too fast to be seen is
+/// one.
+bool is_direct(const Question& asked, const Explanation& direct) {
+    const TransferStructure& structure = asked.given.structure;
+    const auto zeros = asked.fit_of(changed(structure, 0, [](int n, int m) { return std::max(m, n - 1); }));
+    if (zeros && !gains(asked.explanation(*zeros), direct)) return false;
+    const auto pole = asked.fit_of(changed(structure, 1, [](int, int m) { return m + 1; }));
+    if (!pole || is_worth_telling(asked.explanation(*pole).fit(), direct.fit())) return true;
+    double fastest = 0;
+    for (const TransferFunction& G : pole->models) fastest = std::max(fastest, G.poles().cwiseAbs().maxCoeff());
+    return fastest * asked.record.mean_step() > kFastestPole;
+}
+
+/// A structure to try.
+struct Candidate {
+    MissedCode code;
+    TransferStructure structure;
+};
+
+std::vector<Candidate> candidates(const IdData& data, const Question& asked) {
+    const TransferStructure& structure = asked.given.structure;
+    std::vector<Candidate> all;
+    if (structure.single_channel() && errors_follow_input(asked.record, asked.given)) {
+        if (!structure.free_delays) {
+            all.push_back({MissedCode::kDelay, structure});
+            all.back().structure.free_delays = true;
+        }
+        all.push_back({MissedCode::kPole, changed(structure, 1, [](int, int m) { return m; })});
+    }
+    if (!asked.options.integration && LookAhead(data, asked.given).promises())
+        all.push_back({MissedCode::kFeedthrough, with_direct_terms(structure)});
+    return all;
+}
+
+double value_of(MissedCode code, const Fit& fit) {
+    if (code == MissedCode::kDelay) return fit.models.front().delay();
+    return code == MissedCode::kPole ? fit.structure.poles.front() : fit.structure.channels.front().zeros;
+}
+
+const char* option_of(MissedCode code) {
+    return code == MissedCode::kDelay ? "delay" : code == MissedCode::kPole ? "poles" : "zeros";
+}
+
+/// For one output.
+std::optional<MissedStructure> missed_by_output(const IdData& data, const Fit& given, const FitOptions& options) {
+    const bool shorter = data.sample_count() > kFitted;
+    const IdData beginning = shorter ? beginning_of(data, kFitted) : IdData();
+    const IdData& record = shorter ? beginning : data;
+    const Question asked{record, given, options};
+    const Explanation present = asked.explanation(given);
+    std::optional<MissedStructure> best;
+    double most = 0;
+    for (const auto& [code, structure] : candidates(data, asked)) {
+        const std::optional<Fit> fit = asked.fit_of(structure);
+        if (!fit) continue;
+        const Explanation found = asked.explanation(*fit);
+        const double evidence = evidence_for(present, found);
+        if (!gains(present, found) || !(evidence > most)) continue;
+        if (code == MissedCode::kFeedthrough && !is_direct(asked, found)) continue;
+        most = evidence;
+        best = MissedStructure{.code = code,
+                               .option = option_of(code),
+                               .value = value_of(code, *fit),
+                               .samples = shorter ? record.sample_count() : 0,
+                               .fit_percent = present.fit(),
+                               .better_fit_percent = found.fit()};
+    }
+    return best;
+}
+
+/// The fit of one output by itself.
+Fit fit_of_output(const Fit& fit, const OutputProblem& problem, Index output) {
+    Fit own;
+    own.structure = problem.structure;
+    own.theta = fit.theta(problem.places);
+    own.models = problem.structure.models(own.theta);
+    own.fit_percent = Vector::Constant(1, fit.fit_percent[output]);
+    own.start = {InitialState::kZero, false};
+    return own;
+}
+
+Message option_text(const MissedStructure& missed) {
+    switch (missed.code) {
+        case MissedCode::kDelay:
+            return Message("a delay of {} s", significant(missed.value, 3));
+        case MissedCode::kPole:
+            return Message("one more pole");
+        default:
+            return Message("as many zeros as poles");
+    }
+}
+
+Message reason_text(const MissedStructure& missed) {
+    switch (missed.code) {
+        case MissedCode::kDelay:
+            return Message("the output follows the input later than the model does");
+        case MissedCode::kPole:
+            return Message("the errors still follow the input");
+        default:
+            return Message("the output follows the input at once (a direct feedthrough)");
+    }
+}
+
+}  // namespace
+
+std::optional<MissedStructure> missed_structure(const IdData& data, const Fit& fit, const FitOptions& options) {
+    if (fit.termination == Termination::kCancelled || !fit.removed.empty()) return std::nullopt;
+    if (fit.structure.outputs == 1) return missed_by_output(data, fit, options);
+    std::optional<MissedStructure> most;
+    const bool rests = fit.start.state == InitialState::kZero && !fit.start.offset;
+    if (!rests || !outputs_are_separate(fit.structure)) return most;
+    const auto gain = [](const MissedStructure& one) { return one.better_fit_percent - one.fit_percent; };
+    for (Index output = 0; output < fit.structure.outputs; ++output) {
+        const OutputProblem problem = output_problem(data, fit.structure, output);
+        std::optional<MissedStructure> missed =
+            missed_by_output(problem.data, fit_of_output(fit, problem, output), options);
+        if (!missed || !(gain(*missed) > (most ? gain(*most) : 0))) continue;
+        missed->output = data.output_names[static_cast<std::size_t>(output)];
+        most = std::move(missed);
+    }
+    return most;
+}
+
+Message sentence_of(const MissedStructure& missed) {
+    const Message option = option_text(missed), reason = reason_text(missed);
+    const Number better = significant(missed.better_fit_percent, 4), fit = significant(missed.fit_percent, 4);
+    const bool finite = std::isfinite(missed.fit_percent);
+    if (missed.output.empty() && missed.samples == 0)
+        return finite ? Message("With {} the fit is {} % instead of {} %: {}.", option, better, fit, reason)
+                      : Message("With {} the fit is {} %: {}.", option, better, reason);
+    if (missed.samples == 0)
+        return finite ? Message("With {} the fit of {} is {} % instead of {} %: {}.", option, missed.output, better,
+                                fit, reason)
+                      : Message("With {} the fit of {} is {} %: {}.", option, missed.output, better, reason);
+    if (missed.output.empty())
+        return finite ? Message("With {} the fit of the first {} samples is {} % instead of {} %: {}.", option,
+                                missed.samples, better, fit, reason)
+                      : Message("With {} the fit of the first {} samples is {} %: {}.", option, missed.samples, better,
+                                reason);
+    return finite ? Message("With {} the fit of {} of the first {} samples is {} % instead of {} %: {}.", option,
+                            missed.output, missed.samples, better, fit, reason)
+                  : Message("With {} the fit of {} of the first {} samples is {} %: {}.", option, missed.output,
+                            missed.samples, better, reason);
+}
+
+}  // namespace dynlab::inline numerics

@@ -1,0 +1,40 @@
+#pragma once
+#include <functional>
+
+#include "numerics/fit/fit.h"
+
+namespace dynlab::inline numerics {
+
+// The start condition of a fit whose options leave it open (initial_state or offset kAuto).
+//
+// A start from rest without offset is tried first: its fit is quick and mostly right. The LOOK AHEAD from it evaluates
+// the sensitivities J of the output once, on the first 3000 samples at most, extended by a constant and by the free
+// motions of 1/A, and asks what one Gauss-Newton step gains with each of them (d'g with (J'J) d = g = J'e). Where one
+// of them lowers BIC by more than 2 (positive evidence, Kass and Raftery 1995), or where the fit explains nothing from
+// which to look ahead, all start conditions are fitted and the smallest BIC wins. BIC counts as many samples as white
+// errors of the same power at low frequencies would have, N (1 - r)/(1 + r), r the correlation of the errors after the
+// step from one sample to the next: errors that follow each other imitate a constant.
+
+/// Whether the options allow a start from rest without offset, and others.
+bool start_is_open(const FitOptions& options);
+
+/// Whether the look ahead from a fit from rest promises more of another start that the options allow. Outputs that
+/// share a denominator are looked at one after the other.
+bool other_start_promises(const IdData& data, const Fit& from_rest, const FitOptions& options);
+
+/// How one method fits.
+struct StartTrials {
+    std::function<Fit(const FitOptions& from_rest)> first;
+    /// What `first` left out, where no other start is promised; it may return the fit as it is.
+    std::function<Fit(Fit, const FitOptions& from_rest)> finish;
+    std::function<Fit(const FitOptions& options)> among_all;
+};
+
+/// The fit under the start condition that is chosen as told above; that of `among_all` where the options are not open,
+/// or where a fit from rest is refused (InvalidArgument).
+Fit with_chosen_start(const IdData& data, const FitOptions& options, const StartTrials& trials);
+
+/// The look ahead from a fit of a difference equation to its simulation, from rest.
+bool other_discrete_start_promises(const IdData& data, const Fit& from_rest, const FitOptions& options);
+
+}  // namespace dynlab::inline numerics

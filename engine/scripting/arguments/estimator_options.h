@@ -1,0 +1,116 @@
+#pragma once
+#include <array>
+
+#include "numerics/fit/fit.h"
+#include "scripting/conversions/option_member.h"
+
+namespace dynlab::inline scripting {
+
+/// The options and arguments that families of estimators share. What is a member of FitOptions is read by
+/// read_fit_options() (estimator_arguments.h).
+
+inline constexpr std::array kHolds = {"zoh", "foh"};  // in the order of Hold
+inline constexpr std::array kInitialStates = {"none", "steady", "estimate", "auto"};
+inline constexpr std::array kOffsets = {"none", "remove", "estimate", "auto"};
+
+/// Of an options struct that has the member.
+template <class T>
+inline constexpr OptionEntry kHoldOfOutput = option<&T::hold_y>(
+    "hold_y",
+    about("how the output behaves between its samples inside the filters, straight lines (\"foh\") or steps (\"zoh\")"),
+    {.initial = "\"foh\"", .choices = kHolds});
+
+inline constexpr std::array kFirstFilterOptions = {
+    option<&FitOptions::lambda>("lambda",
+                                about("cut-off frequency of the filter of the first estimate; several are tried "
+                                      "unless given"),
+                                {.unit = "rad/s"}),
+    option<&FitOptions::hold_y>(
+        "hold_y", about("how the output behaves between its samples inside the filters; it does not change the result"),
+        {.initial = "\"foh\"", .choices = kHolds})};
+
+inline constexpr std::array kStartOptions = {
+    option<&FitOptions::initial_state>(
+        "InitialState",
+        about("the state before the data begin: at rest with zero input (\"none\"), at rest with the first input value "
+              "(\"steady\"), unknown (\"estimate\"), or whichever of them has the smallest BIC (\"auto\")"),
+        {.initial = "\"auto\"", .choices = kInitialStates, .former = "zero", .member = "initial_state"}),
+    option<&FitOptions::offset>(
+        "Offset",
+        about("a constant in the output: none, the operating point is removed first (\"remove\"), a "
+              "constant is estimated (\"estimate\"), or the smaller BIC of none and estimate (\"auto\")"),
+        {.initial = "\"auto\"", .choices = kOffsets, .member = "offset"})};
+
+inline constexpr OptionEntry kTolerance =
+    option<&FitOptions::tolerance>("Tol", about("relative change of the parameters at which the search stops"),
+                                   {.initial = "1e-6", .member = "tolerance"});
+inline constexpr std::array kIterationOptions = {
+    option<&FitOptions::max_iterations>(
+        "MaxIter", about("maximum number of iterations; unless given, a search that has not settled goes on up to 500"),
+        {.least = 0, .member = "max_iterations"}),
+    kTolerance};
+/// Of methods that end there in any case.
+inline constexpr std::array kLimitOptions = {
+    option<&FitOptions::max_iterations>("MaxIter", about("maximum number of iterations"),
+                                        {.least = 0, .member = "max_iterations"}),
+    kTolerance};
+
+inline constexpr std::array kIntegrationOptions = {option<&FitOptions::integration>(
+    "Integration", about("an integrator besides the poles, G = B/(s F); for held inputs only"),
+    {.member = "integration"})};
+
+inline constexpr OptionEntry kCommonDenominator = {
+    "CommonDenominator", ValueKind::kFlag, about("one denominator F for all channels"), {.initial = "false"}};
+inline constexpr std::array kSharingOptions = {kCommonDenominator};
+
+inline constexpr OptionEntry kStableOption = option<&FitOptions::stable>(
+    "Stable",
+    about("true keeps to models with all poles in the left half plane, false takes the best fit whatever its "
+          "poles; unless given, an unstable model is chosen only where it lowers the loss by 2 % or more"),
+    {.member = "stable"});
+inline constexpr OptionEntry kFixedOption = option<&FitOptions::fixed>(
+    "Fixed", about("known parameters, {a2 = 4}, which are not estimated"), {.member = "fixed"});
+inline constexpr std::array kSearchOptions = {
+    kStableOption, kFixedOption,
+    option<&FitOptions::output_weights>(
+        "OutputWeights",
+        about("with several outputs a weight for each, by which its errors are multiplied; one over their "
+              "standard deviation unless given"),
+        {.member = "output_weights"})};
+
+inline constexpr std::array kDelayOptions = {
+    option<&FitOptions::least_delay>("TdMin", about("least delay of the search"),
+                                     {.unit = "s", .member = "least_delay"}),
+    option<&FitOptions::largest_delay>(
+        "TdMax", about("largest delay of the search; a bound from the data unless given, and 0 for no delay"),
+        {.unit = "s", .member = "largest_delay"}),
+    option<&FitOptions::delay_count>("NumTd", about("maximum number of delays on the grid of the search"),
+                                     {.member = "delay_count"})};
+/// Read by structure_of_counts().
+inline constexpr OptionEntry kKnownDelayOption = {
+    "IODelay",
+    ValueKind::kVector,
+    about("a known delay, which is then not estimated; with several inputs one for each"),
+    {.unit = "s", .member = "delay"}};
+inline constexpr std::array kFixedDelayOptions = {kKnownDelayOption};
+/// Read by started_structure().
+inline constexpr std::array kKnownDelayOptions = {
+    kKnownDelayOption,
+    OptionEntry{
+        "Td0", ValueKind::kVector, about("the delay where its search begins, instead of on a grid"), {.unit = "s"}}};
+
+inline constexpr ArgumentEntry kDataArgument = {
+    "data", ValueKind::kData,
+    about("data object, or a measured frequency response (idfrd) where the method takes one")};
+inline constexpr ArgumentEntry kOneOutputData = {
+    "data", ValueKind::kData,
+    about("data object with one output, one or several inputs and experiments, regularly sampled")};
+inline constexpr ArgumentEntry kFilterFrequency = {
+    "lambda", ValueKind::kNumber,
+    about("cut-off frequency of the filter in rad/s, usually a bit above the bandwidth of the system")};
+inline constexpr ArgumentEntry kPoleCount = {
+    "np", ValueKind::kCount,
+    about("number of poles; with several inputs or outputs a number for all or a table with one for each")};
+inline constexpr ArgumentEntry kZeroCount = {"nz", ValueKind::kCount, about("number of zeros, in the same way")};
+
+}  // namespace dynlab::inline scripting

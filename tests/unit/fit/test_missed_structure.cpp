@@ -1,0 +1,187 @@
+// Oracles: records made with a known cause, of random systems; the fit by the structure that is named; statistics with
+// fixed seeds.
+#include "numerics/fit/missed_structure.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/number_text.h"
+#include "base/reader.h"
+#include "numerics/estimators/coe.h"
+#include "numerics/estimators/srivc.h"
+#include "numerics/linalg/polynomial.h"
+#include "support/transfer_cases.h"
+
+namespace test_missed_structure {
+
+using namespace dynlab;
+using namespace dynlab::test;
+using testing::HasSubstr;
+
+/// What is planted in a record of a random system.
+struct Planted {
+    bool offset = false, running = false, direct = false, late = false;
+    int more_poles = 0;  ///< that the fitted structure lacks
+};
+
+struct Case {
+    IdData data;
+    TransferStructure structure;
+};
+
+double uniform(RandomStream& random, double low, double high) {
+    return low + (high - low) * random.uniform();
+}
+
+/// One to three poles between 0.05 and 0.4 per sample, real and in pairs, driven by a random telegraph signal; noise of
+/// 5 to 35 dB.
+Case random_case(std::uint32_t seed, const Planted& planted) {
+    RandomStream random(seed);
+    const int n = 1 + static_cast<int>(seed % 3);
+    const int m = static_cast<int>(uniform(random, 0, n - 1e-9));
+    const double Ts = 0.1;
+    Vector den = Vector::Ones(1), num = Vector::Ones(1);
+    for (int left = n + planted.more_poles; left > 0;) {
+        const double w = uniform(random, 0.5, 4), zeta = uniform(random, 0.1, 0.9);
+        const bool pair = left > 1 && random.uniform() < 0.5;
+        den = multiply(den, pair ? values({1, 2 * zeta * w, w * w}) : values({1, w}));
+        left -= pair ? 2 : 1;
+    }
+    for (int zero = 0; zero < m; ++zero) num = multiply(num, values({1, uniform(random, 1, 6)}));
+    num *= den[den.size() - 1] / num[num.size() - 1];
+    if (planted.direct) {
+        Vector direct = uniform(random, 0.4, 1) * den;
+        direct.tail(num.size()) += num;
+        num = direct;
+    }
+    const Index N = 200 + static_cast<Index>(uniform(random, 0, 1800)), before = planted.running ? 60 : 0;
+    Vector u(N + before);
+    double level = 1;
+    for (double& value : u) {
+        if (uniform(random, 0, 1) < 0.12) level = -level;
+        value = level;
+    }
+    Vector y = lsim(TransferFunction(num, den), u, Ts).tail(N);
+    const double spread = std::sqrt((y.array() - y.mean()).square().mean());
+    const double noise = spread * std::pow(10, -uniform(random, 5, 35) / 20);
+    y += noise * random.normal(N);
+    if (planted.late) {
+        constexpr Index kLate = 7;
+        const Vector early = y;
+        y.tail(N - kLate) = early.head(N - kLate);
+        y.head(kLate) = noise * random.normal(kLate);
+    }
+    if (planted.offset) y.array() += uniform(random, 0.6, 3) * spread;
+    if (planted.running) {  // the input before the record was four higher
+        Vector more = Vector::Zero(N + before);
+        more.head(before).setConstant(4);
+        y += lsim(TransferFunction(num, den), more, Ts).tail(N);
+    }
+    return {IdData(Matrix(y), Matrix(u.tail(N)), Ts), TransferStructure::single(n, m)};
+}
+
+std::optional<MissedStructure> missed_of(const Case& made) {
+    return missed_structure(made.data, srivc(made.data, made.structure), {});
+}
+
+/// Of ten cases, of how many this is missed.
+int missed_in(const Planted& planted, MissedCode code) {
+    int count = 0;
+    for (std::uint32_t seed = 1000; seed < 1010; ++seed) {
+        const auto missed = missed_of(random_case(seed, planted));
+        count += missed && missed->code == code ? 1 : 0;
+    }
+    return count;
+}
+
+int alarms(const Planted& planted, std::uint32_t records, std::string& sentences) {
+    int count = 0;
+    for (std::uint32_t seed = 0; seed < records; ++seed) {
+        const auto missed = missed_of(random_case(seed, planted));
+        if (!missed) continue;
+        ++count;
+        sentences += message_text(sentence_of(*missed)) + "\n";
+    }
+    return count;
+}
+
+TEST(missed_structure, nothing_is_missed_by_true_structures_from_rest) {
+    std::string sentences;
+    EXPECT_LE(alarms({}, 200, sentences), 1) << sentences;
+}
+
+TEST(missed_structure, nothing_is_missed_by_true_structures_with_other_starts) {
+    std::string sentences;
+    EXPECT_LE(alarms({.offset = true, .running = true}, 60, sentences), 1) << sentences;
+}
+
+TEST(missed_structure, direct_feedthroughs_are_found) {
+    EXPECT_GE(missed_in({.direct = true}, MissedCode::kFeedthrough), 9);
+}
+
+TEST(missed_structure, missing_poles_are_no_feedthrough) {
+    EXPECT_EQ(missed_in({.more_poles = 1}, MissedCode::kFeedthrough), 0);
+}
+
+TEST(missed_structure, delays_are_found) {
+    EXPECT_GE(missed_in({.late = true}, MissedCode::kDelay), 8);
+}
+
+// Oracle: the fit that the structure leads to, made as a user would make it.
+TEST(missed_structure, missing_pole_is_named_with_the_fit_that_is_reached) {
+    const Vector u = prbs(8, 8);
+    const Vector y =
+        lsim(TransferFunction(values({4}), values({1, 0.6, 4})), u, 0.1) + 0.02 * RandomStream(6).normal(u.size());
+    const IdData data(Matrix(y), Matrix(u), 0.1);
+    const Fit given = coe(data, TransferStructure::single(1, 0)), better = coe(data, TransferStructure::single(2, 0));
+    const auto missed = missed_structure(data, given, {});
+    ASSERT_TRUE(missed);
+    EXPECT_EQ(missed->code, MissedCode::kPole);
+    EXPECT_EQ(missed->option, "poles");
+    EXPECT_EQ(missed->value, 2);
+    EXPECT_NEAR(missed->better_fit_percent, better.fit_percent[0], 1e-3);
+    EXPECT_NEAR(missed->fit_percent, given.fit_percent[0], 1e-9);
+    EXPECT_EQ(message_text(sentence_of(*missed)),
+              "With one more pole the fit is " + number_text(better.fit_percent[0], 4) + " % instead of " +
+                  number_text(given.fit_percent[0], 4) + " %: the errors still follow the input.");
+    EXPECT_FALSE(missed_structure(data, better, {}));
+}
+
+// Oracle: the same record with one output more, which misses nothing.
+TEST(missed_structure, of_several_outputs_the_one_is_named) {
+    const Case made = random_case(1003, {.direct = true});
+    const Vector& u = made.data.experiments[0].u.col(0);
+    Matrix y(u.size(), 2);
+    y.col(0) =
+        lsim(TransferFunction(values({2}), values({1, 2})), u, made.data.Ts) + 0.05 * RandomStream(3).normal(u.size());
+    y.col(1) = made.data.experiments[0].y.col(0);
+    const IdData both(y, Matrix(u), made.data.Ts);
+    const int n = made.structure.poles[0], m = made.structure.channels[0].zeros;
+    const auto structure = TransferStructure::grid(2, 1, Denominators::kPerChannel, {1, n}, {0, m}, {0});
+    const auto missed = missed_structure(both, srivc(both, structure), {});
+    ASSERT_TRUE(missed);
+    EXPECT_EQ(missed->output, both.output_names[1]);
+    EXPECT_THAT(message_text(sentence_of(*missed)), HasSubstr("the fit of " + both.output_names[1] + " is"));
+}
+
+// Oracle: a feedthrough in a long record, of which only the beginning is fitted again.
+TEST(missed_structure, of_a_long_record_its_beginning) {
+    const Index N = 120'000;
+    RandomStream random(5);
+    Vector u(N);
+    for (Index k = 0; k < N; ++k) u[k] = k % 20 == 0 || k == 0 ? random.normal() : u[k - 1];
+    Vector y = lsim(TransferFunction(values({3}), values({1, 3})), u, 0.1) + 0.1 * random.normal(N);
+    const auto structure = TransferStructure::single(1, 0);
+    EXPECT_FALSE(missed_of({IdData(Matrix(y), Matrix(u), 0.1), structure}));
+    y += u;
+    const auto missed = missed_of({IdData(Matrix(y), Matrix(u), 0.1), structure});
+    ASSERT_TRUE(missed);
+    EXPECT_EQ(missed->code, MissedCode::kFeedthrough);
+    EXPECT_EQ(missed->samples, 100'000);
+    EXPECT_THAT(message_text(sentence_of(*missed)),
+                HasSubstr("With as many zeros as poles the fit of the first 100000 samples is"));
+}
+
+}  // namespace test_missed_structure
