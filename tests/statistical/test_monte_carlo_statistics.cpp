@@ -44,7 +44,7 @@ MonteCarloMethod refined(const std::string& label, int poles, int zeros, const F
 }
 
 FitOptions exact_options(double lambda) {
-    FitOptions options;
+    FitOptions options = FitOptions{}.from_rest();
     options.lambda = lambda;
     options.tolerance = 1e-10;
     return options;
