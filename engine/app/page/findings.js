@@ -45,8 +45,8 @@ function pointsIn(messages) {
 /// goToPage(number), goToName(name of an answer).
 export function showFindings(result, openAnswers, older, ways) {
   const answers = openAnswers ? openAnswers.split(", ") : [];
-  const quoted = (what) => /["«]\s*([^\s"»]+)/.exec(what)?.[1];
-  const isOpen = ({ id, what }) => id === "answer-missing" && answers.some((text) => text.split(" ")[0] === quoted(what));
+  const isOpen = ({ id, remedy_message: remedy }) =>  // "Give it: answer("{}", ...)."
+    id === "answer-missing" && answers.some((text) => text.split(" ")[0] === remedy?.arguments[0].text);
   const findings = (result?.findings ?? []).filter((finding) => !isOpen(finding));
   const rules = findings.filter(({ severity }) => severity === "rule");
   const lost = findings.filter(({ id }) => id === "check-failed");
