@@ -1,6 +1,7 @@
 #include "base/languages.h"
 
 #include <algorithm>
+#include <iostream>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -45,6 +46,7 @@ const Language* language_of(std::string_view code) {
             language.catalog = std::make_unique<const Catalog>(language.po);
         } catch (const std::runtime_error& error) {
             language.error = error.what();
+            std::cerr << "dynlab: note: " << code << ".po, " << language.error << ": messages are in English\n";
         }
     }
     return &language;

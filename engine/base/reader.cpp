@@ -89,9 +89,30 @@ std::string_view translation_of_author(const Message& message, const Reader& rea
 }
 
 struct Format {
-    std::string_view text;
+    std::string text;
     std::vector<Slot> slots;
 };
+
+/// With its first letter, a to z or one of French, as a small or a capital one.
+std::string with_first_letter(std::string text, bool capital) {
+    const auto change = [capital](char& c, char first, char last) {
+        const char low = capital ? first : static_cast<char>(first - 0x20);
+        if (c >= low && c <= low + (last - first)) c = static_cast<char>(capital ? c - 0x20 : c + 0x20);
+    };
+    if (!text.empty()) change(text[0], 'a', 'z');
+    if (text.size() > 1 && text[0] == '\xC3') change(text[1], '\xA0', '\xBE');  // à to þ in UTF-8
+    return text;
+}
+
+/// The translation of an id. Behind a colon a sentence goes on with a small letter: its id is that with a capital one.
+std::string translation_of(const Message& message, const Catalog& catalog) {
+    const auto look = [&](const std::string& id) {
+        return message.many().empty() ? catalog.translation(id)
+                                      : catalog.plural(id, std::get<std::int64_t>(message.arguments().front()));
+    };
+    if (const std::string_view other = look(message.id()); !other.empty()) return std::string(other);
+    return with_first_letter(std::string(look(with_first_letter(message.id(), true))), false);
+}
 
 /// In the reader's language, and in its plural form.
 Format format_of(const Message& message, const Reader& reader) {
@@ -99,12 +120,11 @@ Format format_of(const Message& message, const Reader& reader) {
     const std::int64_t count = counted ? std::get<std::int64_t>(message.arguments().front()) : 1;
     const std::string_view english = counted && count != 1 ? message.many() : message.id();
     if (reader.catalog != nullptr) {
-        const std::string_view other =
-            counted ? reader.catalog->plural(message.id(), count) : reader.catalog->translation(message.id());
+        const std::string other = translation_of(message, *reader.catalog);
         const std::vector<Slot> slots = slots_in_translation(other, message.arguments().size());
         if (!other.empty() && slots.size() == message.arguments().size()) return {other, slots};
     }
-    return {english, slots_in(english)};
+    return {std::string(english), slots_in(english)};
 }
 
 }  // namespace

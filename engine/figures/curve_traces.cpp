@@ -56,8 +56,11 @@ std::vector<Rectangle> bars_of(const Curve& curve, const PanelLayout& panel, con
     for (std::size_t i = 0; i < samples.size(); ++i) {
         if (samples[i].gap()) continue;
         const auto [left, right] = bar_edges(curve.x, static_cast<Index>(i));
-        const Rectangle bar{on_page(panel.x, left, panel.box.width()), std::min(base, samples[i].y),
+        const double begin =
+            panel.x.log && !(left > 0) ? panel.x.low : left;  // as far to the left as there are numbers
+        const Rectangle bar{on_page(panel.x, begin, panel.box.width()), std::min(base, samples[i].y),
                             on_page(panel.x, right, panel.box.width()), std::max(base, samples[i].y)};
+        if (!std::isfinite(bar.left + bar.right)) continue;  // a neighbor that is no number leaves the width open
         const bool same_column = !bars.empty() && bar.right - bars.back().left < kResolution;
         if (same_column)  // bars thinner than a dot become one as tall as the tallest
             bars.back() = {bars.back().left, std::min(bars.back().bottom, bar.bottom), bar.right,

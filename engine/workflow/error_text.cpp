@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "base/languages.h"
 #include "base/reader.h"
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"
@@ -51,7 +52,7 @@ Message error_message(const RecordedError& error, const PercentScript& script) {
 }
 
 std::string error_text(const RecordedError& error, const PercentScript& script) {
-    return message_text(error_message(error, script));
+    return message_text(error_message(error, script), {catalog_of(script.header.language)});
 }
 
 }  // namespace dynlab::inline workflow

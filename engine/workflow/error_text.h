@@ -10,6 +10,7 @@ namespace dynlab::inline workflow {
 /// so that editors find the place; below it the line itself; then the calls that led there, each with its place and
 /// its line. Lines of files that the script required are read from its folder; one that is not there is left out.
 Message error_message(const RecordedError& error, const PercentScript& script);
-std::string error_text(const RecordedError& error, const PercentScript& script);  ///< in English
+/// In the language of the script.
+std::string error_text(const RecordedError& error, const PercentScript& script);
 
 }  // namespace dynlab::inline workflow

@@ -317,6 +317,7 @@ TEST(manual, refuses_folders_with_other_things_at_once) {
 TEST(manual, replaces_its_own_files_alone) {
     const TemporaryFolder folder;
     const fs::path site = folder.path() / "site";
+    fs::create_directories(site / "pictures");  // as a run leaves it that was killed before it wrote a file
     write_manual_folder(site, {{"index.html", "one"}, {"old.html", "old"}, {"pictures/a.svg", "picture"}});
     write_file_atomically(site / "notes.txt", "mine");
     write_manual_folder(site, {{"index.html", "two"}, {"new.html", "new"}});

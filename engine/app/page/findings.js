@@ -35,25 +35,23 @@ function answer(text, { goToName }) {
 }
 
 /// "3 of 20 points", where the lesson has checks.
-function pointsIn(checked) {
-  for (const text of checked ?? []) {
-    const found = /^checks of lesson .*: ([\d.]+) of ([\d.]+) points$/.exec(text);
-    if (found) return say("points", number(found[1]), number(found[2]));
-  }
-  return "";
+function pointsIn(messages) {
+  const told = messages?.find(({ id }) => id.startsWith("checks of ")); // "... lesson {}: {} of {} points"
+  const points = told?.arguments.slice(1).map(({ number: { value, digits } }) => number(value.toFixed(digits)));
+  return points ? say("points", ...points) : "";
 }
 
 /// `older`: the files have changed since, and are being checked again. `ways` lead to places: goTo(file, line),
 /// goToPage(number), goToName(name of an answer).
 export function showFindings(result, openAnswers, older, ways) {
   const answers = openAnswers ? openAnswers.split(", ") : [];
-  const quoted = (what) => /["«]\s*([^\s"»]+)/.exec(what)?.[1];
-  const isOpen = ({ id, what }) => id === "answer-missing" && answers.some((text) => text.split(" ")[0] === quoted(what));
+  const isOpen = ({ id, remedy_message: remedy }) =>  // "Give it: answer("{}", ...)."
+    id === "answer-missing" && answers.some((text) => text.split(" ")[0] === remedy?.arguments[0].text);
   const findings = (result?.findings ?? []).filter((finding) => !isOpen(finding));
   const rules = findings.filter(({ severity }) => severity === "rule");
   const lost = findings.filter(({ id }) => id === "check-failed");
   const hints = findings.filter((finding) => !rules.includes(finding) && !lost.includes(finding));
-  const points = pointsIn(result?.checked);
+  const points = pointsIn(result?.checked_messages);
   const words = [];
   if (answers.length > 0) words.push(say("openAnswers", answers.length));
   if (rules.length > 0) words.push(say("brokenRules", rules.length));

@@ -9,6 +9,7 @@
 #include "figures/plots/id_plot.h"
 #include "scripting/arguments/simulation_options.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/conversions/localized.h"
 #include "scripting/conversions/table_fields.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/figure_object.h"
@@ -157,7 +158,7 @@ int load(Call& call) {
     const LoadedData loaded = load_data(name, run.script_folder, run.graded, import_options(options));
     call.context().recorder.note_file_read(loaded.file);
     for (const Message& note : loaded.notes)
-        call.print(fmt::format("{}: {}\n", loaded.file.filename().string(), message_text(note)));
+        call.print(localized(call, Message("{}: {}", loaded.file.filename().string(), note)) + "\n");
     push_variables(call, loaded.variables, name);
     add_units_and_headers(call, loaded);
     return 1;
@@ -199,16 +200,18 @@ void check_names(const IdData& data) {
 /// Once in a run: time constants come out in samples where seconds are meant.
 void tell_sampling_time(const Call& call) {
     if (std::exchange(call.context().told_sampling_time, true)) return;
-    call.print("iddata: no sampling time was given, so one sample a second is taken; write iddata(y, u, Ts)\n");
+    call.print(localized(call, Message("iddata: no sampling time was given, so one sample a second is taken; write "
+                                       "iddata(y, u, Ts)")) +
+               "\n");
 }
 
 /// Once in a run: models do not know the unit of their data's time.
 void tell_time_unit(const Call& call, const std::string& unit) {
     if (unit == "s" || std::exchange(call.context().told_time_unit, true)) return;
-    call.print(
-        fmt::format("iddata: these data count time in {0}, and so do models made from them: where their texts "
-                    "and axes say s, read {0}\n",
-                    unit));
+    call.print(localized(call, Message("iddata: these data count time in {}, and so do models made from them: where "
+                                       "their texts and axes say s, read {}",
+                                       unit, unit)) +
+               "\n");
 }
 
 /// One column for each reference.

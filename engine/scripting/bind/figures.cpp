@@ -177,9 +177,10 @@ void note_left_out(const Call& call, const Panel& panel) {
     }
     if (left_out > 0)
         call.print(
-            fmt::format("{}: {} of {} points are left out: a logarithmic axis has no place for values that are not "
-                        "positive\n",
-                        call.function_name(), left_out, all));
+            localized(call, Message("{}: {} of {} points are left out: a logarithmic axis has no place for values "
+                                    "that are not positive",
+                                    call.function_name(), left_out, all)) +
+            "\n");
 }
 
 /// plot, and the same with logarithmic axes.

@@ -221,9 +221,9 @@ constexpr std::array kSystemFields = {
     Member{"Ts", field<StateSpace, &StateSpace::Ts>}};
 constexpr std::array kSystemOperators = {Member{"__tostring", field<StateSpace, system_text>}};
 
-std::string free_structure_text(const ProcessStructure& structure) {
-    return fmt::format("{} with the free parameters {}: procsrivc(data, ...) estimates them", structure.text(),
-                       fmt::join(structure.parameter_names(), ", "));
+Message free_structure_text(const ProcessStructure& structure) {
+    return Message("{} with the free parameters {}: procsrivc(data, ...) estimates them", structure.text(),
+                   listed(structure.parameter_names()));
 }
 
 /// A parameter that has no value yet.
@@ -245,7 +245,8 @@ constexpr std::array kStructureFields = {Member{"structure", field<ProcessStruct
                                          Member{"Zeta", kFreeParameter},
                                          Member{"Tz", kFreeParameter},
                                          Member{"Td", kFreeParameter}};
-constexpr std::array kStructureOperators = {Member{"__tostring", field<ProcessStructure, free_structure_text>}};
+constexpr std::array kStructureOperators = {
+    Member{"__tostring", localized_field<ProcessStructure, free_structure_text>}};
 
 constexpr std::array kModelTypes = {
     TypeEntry{&Boxed<Model>::type, kModelTypeFields, {}, kModelTypeOperators},

@@ -5,6 +5,7 @@
 
 #include "scripting/bind/bindings.h"
 #include "scripting/conversions/boxed.h"
+#include "scripting/conversions/localized.h"
 #include "scripting/conversions/numeric.h"
 #include "scripting/conversions/numeric_operators.h"
 #include "scripting/runtime/text_form.h"
@@ -169,8 +170,8 @@ int mask_element(Call& call) {
 
 int mask_tostring(Call& call) {
     MaskBlock& mask = mask_self(call);
-    return call.give(
-        fmt::format("mask: {} of {} true", std::count(mask.data(), mask.data() + mask.size, true), mask.size));
+    return call.give(localized(
+        call, Message("mask: {} of {} true", std::count(mask.data(), mask.data() + mask.size, true), mask.size)));
 }
 
 template <class Function>

@@ -96,7 +96,7 @@ Message argument_sentence(const std::string& text) {
     if (auto wanted = between(inside, "", " expected, got "))
         return Message("{}: {}", *function,
                        Message("argument {} must be {}, but {} was given", *number, with_article(*wanted),
-                               given == "no value" ? Message("no value") : Message::verbatim(given)));
+                               given == "no value" ? Message("no value") : what_it_is(given)));
     return Message("{}: argument {}: {}", *function, *number, inside);
 }
 

@@ -1,10 +1,12 @@
 #include "workflow/manual/manual_folder.h"
 
+#include <algorithm>
 #include <set>
 
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
+#include "platform/files/temporary_file.h"
 #include "platform/hash.h"
 
 namespace dynlab::inline workflow {
@@ -50,7 +52,11 @@ void check_file(const fs::path& folder, const std::string& name, const WrittenBe
 void check_manual_folder(const fs::path& folder) {
     if (!fs::exists(fs::symlink_status(folder))) return;
     if (!fs::is_directory(folder)) refuse(folder, Message("it is a file"));
-    if (fs::is_empty(folder)) return;
+    remove_leftover_files(folder);
+    const auto entries = fs::recursive_directory_iterator(folder);
+    if (std::all_of(begin(entries), end(entries),
+                    [](const auto& entry) { return entry.is_directory() && !entry.is_symlink(); }))
+        return;
     const auto before = written_before(folder);
     if (before.empty()) refuse(folder, Message("it holds other things than a manual"));
     for (const auto& [name, hashes] : before) check_file(folder, name, before);
@@ -68,8 +74,9 @@ void write_manual_folder(const fs::path& folder, const ManualFiles& files) {
     std::string both = list;
     for (const auto& [name, hashes] : before)
         for (const std::string& hash : hashes) both += hash + "  " + name + "\n";
-    for (const auto& [name, content] : files) fs::create_directories((folder / name).parent_path());
+    fs::create_directories(folder);
     write_file_atomically(folder / kList, both);
+    for (const auto& [name, content] : files) fs::create_directories((folder / name).parent_path());
     for (const auto& [name, content] : files) write_file_atomically(folder / name, content);
     for (const auto& [name, hashes] : before)
         if (!files.count(name)) fs::remove(folder / name);

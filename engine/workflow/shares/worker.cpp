@@ -18,6 +18,7 @@
 #include "data_io/values/cbor_values.h"
 #include "data_io/values/message_values.h"
 #include "platform/error.h"
+#include "platform/files/ends_with_program.h"
 #include "platform/interrupt.h"
 #include "platform/keys/secure_random.h"
 #include "platform/locks/abandoned_folders.h"
@@ -168,7 +169,11 @@ class WorkerProcess {
         std::cout.flush(), std::cerr.flush();
         const pid_t child = fork_bound_copy();
         if (child < 0) return;
-        if (child == 0) ::_exit(do_jobs(i));
+        if (child == 0) {
+            const int code = do_jobs(i);
+            end_what_ends_with_program();  // _exit runs no destructors, and jobs keep folders
+            ::_exit(code);
+        }
         hands_[i].process = child;
         hands_[i].started = Clock::now();
     }

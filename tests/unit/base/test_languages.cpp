@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "base/reader.h"
 
 namespace dynlab {
@@ -32,7 +34,12 @@ TEST(languages, missing_and_broken_catalogs_fall_back_to_english_with_a_reason) 
     EXPECT_EQ(catalog_of("zz"), nullptr);
     EXPECT_THAT(missing_catalog("zz"), HasSubstr("zz.po"));
     add_language("yy", "msgid \"a\nmsgstr \"b\"\n");
+    testing::internal::CaptureStderr();
     EXPECT_EQ(catalog_of("yy"), nullptr);
+    EXPECT_EQ(catalog_of("yy"), nullptr);
+    const std::string told = testing::internal::GetCapturedStderr();
+    EXPECT_THAT(told, testing::StartsWith("dynlab: note: yy.po, line 1"));
+    EXPECT_EQ(std::count(told.begin(), told.end(), '\n'), 1);  // told once
     EXPECT_THAT(missing_catalog("yy"), HasSubstr("yy.po, line 1"));
     EXPECT_EQ(message_text(Message("a {}", 1), {catalog_of("yy")}), "a 1");
 }

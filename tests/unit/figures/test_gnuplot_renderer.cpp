@@ -1,4 +1,5 @@
 #include "figures/gnuplot_renderer.h"
+#include "figures/gnuplot_script.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -330,6 +331,21 @@ TEST(gnuplot_renderer, extreme_data_are_drawn) {
             }
     EXPECT_NO_THROW(renderer.finish());
     EXPECT_EQ(file_count(folder.path()), static_cast<std::size_t>(number));
+}
+
+// Oracle: gnuplot's numbers are finite. A bar around a small number of a logarithmic axis begins below zero.
+TEST(gnuplot_renderer, bars_on_logarithmic_axes_begin_at_the_frame) {
+    for (const double x : {1e-149, 0.2}) {
+        Figure figure = sine();
+        Panel& panel = figure.panels[0];
+        panel.log_x = true;
+        panel.curves[0].style = CurveStyle::kBars;
+        panel.curves[0].x = Vector::Constant(1, x);
+        panel.curves[0].y = Vector::Constant(1, 2);
+        const std::string script = gnuplot_script(figure, FigureFormat::kPdf);
+        EXPECT_EQ(script.find("nan "), script.npos) << x;
+        EXPECT_NE(script.find("\n0.0000 0.0000 0.0000 "), script.npos) << x << "\n" << script;
+    }
 }
 
 }  // namespace test_gnuplot_renderer
