@@ -82,7 +82,7 @@ struct LinearModel {
 class StartLookAhead {
   public:
     /// The whole record is so many times as long as what is looked at.
-    StartLookAhead(LinearModel model, double whole) : model_(std::move(model)), whole_(whole) {
+    explicit StartLookAhead(LinearModel model) : model_(std::move(model)) {
         const Index d = model_.J.cols();
         const Matrix sums = tall_gram(model_.J, model_.errors);
         squares_ = sums(d, d);
@@ -101,37 +101,24 @@ class StartLookAhead {
     bool usable() const { return usable_; }
     bool promises(bool may_start, bool may_offset) const {
         const Columns &motions = model_.motions, &constants = model_.constants;
-        return (may_offset && promises_more(model_.own, own_gain_, constants, false)) ||
-               (may_start && promises_more(model_.own, own_gain_, motions, true)) ||
-               (may_start && may_offset && promises_both(constants, motions));
+        return (may_offset && promises(constants)) || (may_start && promises(motions)) ||
+               (may_start && may_offset && promises(both(constants, motions)));
     }
 
   private:
     Vector step(const Columns& places) const { return solve_semidefinite(gram_(places, places), descent_(places)); }
     double gain_of(const Columns& places) const { return std::max(0.0, descent_(places).dot(step(places))); }
 
-    /// What is gained `at_the_beginning` is gained once, however long the record is.
-    bool promises_more(const Columns& known, double known_gain, const Columns& more, bool at_the_beginning) const {
-        const Columns all = both(known, more);
-        const double gain = gain_of(all);
-        const double before = whole_ * (squares_ - known_gain);
-        const double after = before - (at_the_beginning ? 1 : whole_) * (gain - known_gain);
-        return counts(before, after, all, static_cast<Index>(more.size()));
-    }
-
-    bool promises_both(const Columns& constants, const Columns& motions) const {
-        const Columns with_constants = both(model_.own, constants), all = both(with_constants, motions);
-        const double constant_gain = gain_of(with_constants);
-        const double before = whole_ * (squares_ - own_gain_);
-        const double after = whole_ * (squares_ - constant_gain) - (gain_of(all) - constant_gain);
-        return counts(before, after, all, static_cast<Index>(constants.size() + motions.size()));
+    bool promises(const Columns& more) const {
+        const Columns all = both(model_.own, more);
+        return counts(squares_ - own_gain_, squares_ - gain_of(all), all, static_cast<Index>(more.size()));
     }
 
     /// The errors that the step leaves are looked at only where it gains enough were they white, but not very much: far
     /// from the best fit one step leaves errors that say little.
     bool counts(double before, double after, const Columns& places, Index values) const {
-        const double samples = whole_ * static_cast<double>(model_.errors.size());
-        const double least = whole_ * model_.least;
+        const auto samples = static_cast<double>(model_.errors.size());
+        const double least = model_.least;
         const double at_most = start_evidence(before, after, least, samples, values);
         if (!(at_most > kStartEvidence) || at_most > kWorthATry) return at_most > kWorthATry;
         const Vector left =
@@ -141,7 +128,7 @@ class StartLookAhead {
     }
 
     LinearModel model_;
-    double whole_, squares_ = 0, own_gain_ = 0;
+    double squares_ = 0, own_gain_ = 0;
     Matrix gram_;
     Vector descent_, scale_;
     bool usable_ = false;
@@ -152,10 +139,6 @@ bool may_start(const FitOptions& options) {
 }
 bool may_offset(const FitOptions& options) {
     return options.offset == Offset::kAuto;
-}
-
-double ratio_of_lengths(const IdData& whole, const IdData& part) {
-    return static_cast<double>(whole.sample_count()) / static_cast<double>(part.sample_count());
 }
 
 std::vector<Index> lengths_of(const TransferOutput& model) {
@@ -190,7 +173,7 @@ bool output_promises(const IdData& data, const TransferStructure& structure, con
         if (!(point[structure.delay_index(0, input)] > 0)) std::erase(linear.own, structure.delay_index(0, input));
     linear.motions = columns_from(model.initial_start(0, 0), model.offset_index(0, 0) - model.initial_start(0, 0));
     linear.constants = columns_from(model.offset_index(0, 0), model.parameter_count() - model.offset_index(0, 0));
-    const StartLookAhead ahead(std::move(linear), ratio_of_lengths(data, record));
+    const StartLookAhead ahead(std::move(linear));
     return !ahead.usable() || ahead.promises(may_start(options), may_offset(options));
 }
 
@@ -286,7 +269,7 @@ bool other_discrete_start_promises(const IdData& data, const Fit& from_rest, con
     linear.own = columns_from(0, own);
     linear.motions = columns_from(own, model.offset_index(0) - own);
     linear.constants = columns_from(model.offset_index(0), model.parameter_count() - model.offset_index(0));
-    const StartLookAhead ahead(std::move(linear), ratio_of_lengths(data, record));
+    const StartLookAhead ahead(std::move(linear));
     return !ahead.usable() || ahead.promises(may_start(options), may_offset(options));
 }
 

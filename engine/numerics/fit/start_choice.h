@@ -8,12 +8,13 @@ namespace dynlab::inline numerics {
 // The start condition of a fit whose options leave it open (initial_state or offset kAuto).
 //
 // A start from rest without offset is tried first: its fit is quick and mostly right. The LOOK AHEAD from it evaluates
-// the sensitivities J of the output once, on the first 3000 samples at most, extended by a constant and by the free
-// motions of 1/A, and asks what one Gauss-Newton step gains with each of them (d'g with (J'J) d = g = J'e). Where one
-// of them lowers BIC by more than 2 (positive evidence, Kass and Raftery 1995), or where the fit explains nothing from
-// which to look ahead, all start conditions are fitted and the smallest BIC wins. BIC counts as many samples as white
-// errors of the same power at low frequencies would have, N (1 - r)/(1 + r), r the correlation of the errors after the
-// step from one sample to the next: errors that follow each other imitate a constant.
+// the sensitivities J of the output once, on the first 3000 samples at most (what these do not show is too small to
+// matter), extended by a constant and by the free motions of 1/A, and asks what one Gauss-Newton step gains with each
+// of them (d'g with (J'J) d = g = J'e). Where one of them lowers BIC by more than 2 (positive evidence, Kass and
+// Raftery 1995), or where the fit explains nothing from which to look ahead, all start conditions are fitted and the
+// smallest BIC wins. BIC counts as many samples as white errors of the same power at low frequencies would have, N (1 -
+// r)/(1 + r), r the correlation of the errors after the step from one sample to the next: errors that follow each other
+// imitate a constant.
 
 /// Whether the options allow a start from rest without offset, and others.
 bool start_is_open(const FitOptions& options);
