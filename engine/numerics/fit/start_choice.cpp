@@ -21,7 +21,7 @@ namespace dynlab::inline numerics {
 namespace {
 
 constexpr Index kLookAheadSamples = 3000;  // samples
-constexpr double kLostFit = 20;            // per cent, of a difference equation: too far away to look ahead from
+constexpr double kLostFit = 5;             // per cent, of a difference equation: too far away to look ahead from
 constexpr double kStartRidge = 1e-9;       // of a sum of squares of sensitivities
 constexpr double kStartEvidence = 2;       // of BIC
 constexpr double kWorthATry = 100;         // of BIC, with all samples: then a fit decides what follows from its errors
