@@ -19,7 +19,7 @@ std::vector<std::string> languages();
 bool is_language(std::string_view code);
 
 /// The catalog of a language, read at its first use; nullptr, and thus English, for "en", for a language without one,
-/// and for one that cannot be read, which is told once on the error output. Safe to call from several threads.
+/// and for one that cannot be read, which is reported once on the error output. Safe to call from several threads.
 const Catalog* catalog_of(std::string_view language);
 
 /// Why catalog_of() is nullptr for a language that is not English; empty where it is not.

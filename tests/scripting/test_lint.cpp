@@ -78,6 +78,8 @@ const Planted kPlanted[] = {
     {"dynlab.histogram({1, 2, 3}, {number = 3})\n                             ^", "unknown-option", "the options are"},
     {"load(\"crane\", {skipp = 3})\n               ^", "unknown-option", "did you mean 'skip'"},
     {"rig(\"crane\", {sed = 3})\n              ^", "unknown-option", "did you mean 'seed'"},
+    {"figure{titel = \"t\", panels = {}}\n       ^", "unknown-option", "did you mean 'title'"},
+    {"montecarlo{runns = 3}\n           ^", "unknown-option", "did you mean 'runs'"},
     // text that is no Lua
     {"local x = 3 +\n             ^", "syntax", ""},
     {"for k = 1, 3 do\n^  print(k)", "syntax", "'for' of line 1 has no 'end'"},

@@ -21,10 +21,9 @@ inline constexpr OptionEntry kHoldOfOutput = option<&T::hold_y>(
     {.initial = "\"foh\"", .choices = kHolds});
 
 inline constexpr std::array kFirstFilterOptions = {
-    option<&FitOptions::lambda>("lambda",
-                                about("cut-off frequency of the filter of the first estimate; several are tried "
-                                      "unless given"),
-                                {.unit = "rad/s"}),
+    option<&FitOptions::lambda>(
+        "lambda", about("cut-off frequency of the filter of the first estimate; by default several are tried"),
+        {.unit = "rad/s"}),
     option<&FitOptions::hold_y>(
         "hold_y", about("how the output behaves between its samples inside the filters; it does not change the result"),
         {.initial = "\"foh\"", .choices = kHolds})};
@@ -46,7 +45,7 @@ inline constexpr OptionEntry kTolerance =
                                    {.initial = "1e-6", .member = "tolerance"});
 inline constexpr std::array kIterationOptions = {
     option<&FitOptions::max_iterations>(
-        "MaxIter", about("maximum number of iterations; unless given, a search that has not settled goes on up to 500"),
+        "MaxIter", about("maximum number of iterations; by default a search that has not settled continues up to 500"),
         {.least = 0, .member = "max_iterations"}),
     kTolerance};
 /// Of methods that end there in any case.
@@ -65,24 +64,23 @@ inline constexpr std::array kSharingOptions = {kCommonDenominator};
 
 inline constexpr OptionEntry kStableOption = option<&FitOptions::stable>(
     "Stable",
-    about("true keeps to models with all poles in the left half plane, false takes the best fit whatever its "
-          "poles; unless given, an unstable model is chosen only where it lowers the loss by 2 % or more"),
+    about("true keeps to models with all poles in the left half plane, false takes the best fit whatever its poles; by "
+          "default an unstable model is chosen only where it lowers the loss by 2 % or more"),
     {.member = "stable"});
 inline constexpr OptionEntry kFixedOption = option<&FitOptions::fixed>(
     "Fixed", about("known parameters, {a2 = 4}, which are not estimated"), {.member = "fixed"});
 inline constexpr std::array kSearchOptions = {
     kStableOption, kFixedOption,
-    option<&FitOptions::output_weights>(
-        "OutputWeights",
-        about("with several outputs a weight for each, by which its errors are multiplied; one over their "
-              "standard deviation unless given"),
-        {.member = "output_weights"})};
+    option<&FitOptions::output_weights>("OutputWeights",
+                                        about("with several outputs a weight for each, by which its errors are "
+                                              "multiplied; by default one over their standard deviation"),
+                                        {.member = "output_weights"})};
 
 inline constexpr std::array kDelayOptions = {
     option<&FitOptions::least_delay>("TdMin", about("least delay of the search"),
                                      {.unit = "s", .member = "least_delay"}),
     option<&FitOptions::largest_delay>(
-        "TdMax", about("largest delay of the search; a bound from the data unless given, and 0 for no delay"),
+        "TdMax", about("largest delay of the search; by default a bound from the data, and 0 for no delay"),
         {.unit = "s", .member = "largest_delay"}),
     option<&FitOptions::delay_count>("NumTd", about("maximum number of delays on the grid of the search"),
                                      {.member = "delay_count"})};

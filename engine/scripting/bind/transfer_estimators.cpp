@@ -24,7 +24,7 @@ constexpr std::array kOutputErrorOrders = {kNb, kNf, kNk};
 
 constexpr std::array kSvfFilterOptions = {kHoldOfOutput<SvfOptions>};
 constexpr std::array kMomentOptions = {
-    option<&SvfOptions::beta>("beta", about("gain of the filters; lambda unless given"), {.unit = "rad/s"}),
+    option<&SvfOptions::beta>("beta", about("gain of the filters; by default lambda"), {.unit = "rad/s"}),
     kHoldOfOutput<SvfOptions>};
 constexpr OptionTable kFiltered[] = {kSvfFilterOptions}, kMoments[] = {kMomentOptions};
 constexpr OptionTable kRefined[] = {kFirstFilterOptions, kStartOptions,   kIterationOptions,

@@ -38,6 +38,7 @@ bool is_options(const std::string& argument) {
 std::optional<std::size_t> place_of_options(const FunctionEntry& function) {
     std::optional<std::size_t> first;
     for (const std::string& form : forms_of(function.signature)) {
+        if (form.find('{') < form.find('(')) return 0;  // figure{options}: the table is the only argument
         const std::vector<std::string> arguments = arguments_of(form);
         const auto table = std::ranges::find_if(arguments, is_options);
         if (table == arguments.end()) continue;
