@@ -64,9 +64,9 @@ TEST_F(lesson_reader, knows_what_authors_wrote_and_what_the_program_says) {
     const Message message =
         Message("From a clean copy of the folder no report comes out: {}", Message::verbatim("quuxes abound here"));
     EXPECT_EQ(LessonReader("fr", "91_first").text(message),
-              "D'une copie propre du dossier il ne sort aucun rapport\u202F: c'est deux");
+              "Une copie propre du dossier ne donne aucun rapport\u202F: c'est deux");
     EXPECT_EQ(LessonReader("fr").text(message),
-              "D'une copie propre du dossier il ne sort aucun rapport\u202F: quuxes abound here");
+              "Une copie propre du dossier ne donne aucun rapport\u202F: quuxes abound here");
     EXPECT_EQ(LessonReader("en", "91_first").text(message), message_text(message));
     for (const char* language : {"", "klingon", "../fr", "fr/../fr"})
         EXPECT_EQ(LessonReader(language, "91_first").text(message), message_text(message)) << language;
