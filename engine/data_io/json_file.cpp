@@ -26,7 +26,7 @@ constexpr std::size_t kDeepestJson = 100;
 class ReadingMemory {
   public:
     ReadingMemory(const fs::path& file, std::size_t file_bytes)
-        : file_(file), file_bytes_(file_bytes), taken_(file_bytes) {}
+        : file_(file), file_bytes_(file_bytes), taken_(file_bytes + kOutgrownBytes) {}
     void take(std::size_t bytes) {
         if ((taken_ += bytes) > memory_for_reading(file_bytes_))
             throw EnvironmentError(refusal_for_memory(file_, file_bytes_));
@@ -34,6 +34,8 @@ class ReadingMemory {
     void give_back(std::size_t bytes) { taken_ -= bytes; }
 
   private:
+    /// The allocator keeps blocks that a list outgrew, up to the size from which it maps them singly (mallopt(3)).
+    static constexpr std::size_t kOutgrownBytes = std::size_t{32} << 20;
     const fs::path& file_;
     std::size_t file_bytes_, taken_;
 };
