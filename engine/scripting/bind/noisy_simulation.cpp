@@ -170,7 +170,7 @@ SimulationSpread spread_of(const Model& model, const InputSignals& input, Hold h
                               input.u.cols());
     if (const auto uncertain = uncertain_model(model))
         return simulation_spread(*uncertain, input.u.col(0), input.Ts, hold, runs, random);
-    if (model.estimate && model.outputs == 1 && model.estimate->covariance.size() > 0) {
+    if (model.estimate && model.outputs == 1 && model.estimate->covariance().size() > 0) {
         const Matrix covariance = model.estimate->trusted_covariance();
         if (model.polynomial) return simulation_spread(*model.polynomial, covariance, input.u, runs, random);
         if (const auto structure = structure_of_estimate(model))

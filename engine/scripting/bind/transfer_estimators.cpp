@@ -49,9 +49,14 @@ constexpr std::array kRefinedArguments = {
               "for each channel, those of output 1 first")}};
 constexpr std::array kTransferFunctionArguments = {kDataArgument, kPoleCount, kZeroCount};
 
-/// lssvf and ivsvf; lsgpmf and ivgpmf, whose filter has a gain beta. Their standard errors know the filters' colour.
-template <auto kMethod, bool kInstruments, bool kMomentFunctionals>
-Estimation read_filtered(const Call& call) {
+/// lssvf and ivsvf; lsgpmf and ivgpmf, whose filter has a gain beta.
+struct FilteredCall {
+    StructureMaker structure;
+    SvfOptions options;
+};
+
+template <bool kMomentFunctionals>
+FilteredCall filtered_call(const Call& call) {
     call.at_most(4);
     const auto orders = order_lists(call, 2, kCarxOrders);
     if (orders[0].size() != 1)
@@ -61,20 +66,35 @@ Estimation read_filtered(const Call& call) {
     wanted.lambda = call.number(3, "lambda");
     if constexpr (kMomentFunctionals) wanted.beta = wanted.lambda;
     options.read(wanted);
-    return
-        [structure = structure_of_orders(kCarxOrders, orders, Denominators::kPerOutput), wanted](const IdData& data) {
-            Fit fit = kMethod(data, structure(data), wanted);
-            colour_covariance(fit, data, wanted, kInstruments);
-            return fit;
-        };
+    return {structure_of_orders(kCarxOrders, orders, Denominators::kPerOutput), wanted};
 }
 
 template <auto kMethod, bool kInstruments, bool kMomentFunctionals>
+Estimation read_filtered(const Call& call) {
+    return [wanted = filtered_call<kMomentFunctionals>(call)](const IdData& data) {
+        Fit fit = kMethod(data, wanted.structure(data), wanted.options);
+        colour_covariance(fit, data, wanted.options, kInstruments);
+        return fit;
+    };
+}
+
+/// Standard errors that know the filters' colour take ten times as long as the estimate: they wait until they are read.
+template <auto kMethod, bool kInstruments, bool kMomentFunctionals>
 int estimate_filtered(Call& call) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    Fit result = read_filtered<kMethod, kInstruments, kMomentFunctionals>(call)(data);
-    measure_simulation(result, data);
-    return give_fit(call, call.function_name(), result, FitForm::kEquationError);
+    const FilteredCall wanted = filtered_call<kMomentFunctionals>(call);
+    Fit fit = kMethod(data, wanted.structure(data), wanted.options);
+    if (data.sample_count() > kMostColoured) colour_covariance(fit, data, wanted.options, kInstruments);  // a warning
+    measure_simulation(fit, data);
+    Estimate estimate = estimate_of(call.function_name(), fit, FitForm::kEquationError);
+    if (data.sample_count() <= kMostColoured)
+        estimate.errors = Deferred<ParameterErrors>::later(
+            [fit, shared = shared_object<IdData>(call.state(), 1), options = wanted.options] {
+                Fit coloured = fit;
+                colour_covariance(coloured, *shared, options, kInstruments);
+                return ParameterErrors{coloured.std, coloured.covariance};
+            });
+    return give_deferring(call, std::move(estimate), fit);
 }
 
 template <auto kMethod>

@@ -49,8 +49,8 @@ void add_polynomials(const Model& model, const TransferFunction& G, VariableTabl
 void add_estimate(const Estimate& estimate, VariableTable& fields) {
     fields["method"] = {estimate.method};
     fields["param"] = {estimate.theta};
-    if (estimate.std.size() > 0) fields["std"] = {estimate.std};
-    if (estimate.covariance.size() > 0) fields["covariance"] = {estimate.covariance};
+    if (estimate.std().size() > 0) fields["std"] = {estimate.std()};
+    if (estimate.covariance().size() > 0) fields["covariance"] = {estimate.covariance()};
     fields["names"] = list_of_texts(estimate.names);
     for (const auto& [name, value] : estimate.numbers) {
         if (name == "noise_variance") fields["NoiseVariance"] = {value};

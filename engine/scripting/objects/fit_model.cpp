@@ -84,8 +84,7 @@ Estimate basic_estimate(const char* method, const Fit& fit) {
     estimate.method = method;
     estimate.names = fit.names;
     estimate.theta = fit.theta;
-    estimate.std = fit.std;
-    estimate.covariance = fit.covariance;
+    estimate.errors = ParameterErrors{fit.std, fit.covariance};
     estimate.message = fit.full_message();
     estimate.warnings = fit.warnings;
     estimate.converged = fit.termination == Termination::kConverged;
@@ -129,6 +128,10 @@ int give_fit(const Call& call, const char* method, const Fit& fit, FitForm form)
 int give_diagnosed_fit(const Call& call, const char* method, const Fit& fit, const FitOptions& options) {
     Estimate estimate = estimate_of(method, fit);
     estimate.diagnostics = DeferredDiagnostics(fit, shared_object<IdData>(call.state(), 1), options);
+    return give_deferring(call, std::move(estimate), fit);
+}
+
+int give_deferring(const Call& call, Estimate estimate, const Fit& fit) {
     push_fitted(call, std::move(estimate), fit, 1);
     lua_pushvalue(call.state(), 1);  // the data are charged to Lua's memory as long as the model refers to them
     lua_setiuservalue(call.state(), -2, 1);

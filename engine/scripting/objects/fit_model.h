@@ -20,6 +20,8 @@ int give_fit(const Call& call, const char* method, const Fit& fit, FitForm form 
 /// The same of an estimation from the data at argument 1 by these options, whose diagnostics (fit/diagnostics.h) are
 /// computed when the script reads them.
 int give_diagnosed_fit(const Call& call, const char* method, const Fit& fit, const FitOptions& options);
+/// The same of an estimate that computes something from the data at argument 1 when it is read.
+int give_deferring(const Call& call, Estimate estimate, const Fit& fit);
 /// The same with what a method says besides.
 int give_estimate(const Call& call, Estimate estimate, const Fit& fit);
 /// The same of a fit with states, which has no theta.

@@ -21,14 +21,14 @@ std::size_t Boxed<StateSpace>::outside_bytes(const StateSpace& system) {
 }
 
 Message Estimate::full_message() const {
-    const std::optional<MissedStructure> missed = diagnostics.missed();
+    const std::optional<MissedStructure>& missed = diagnostics.missed();
     if (!missed) return message;
     return message.empty() ? sentence_of(*missed) : sentences({message, sentence_of(*missed)});
 }
 
 std::vector<Message> Estimate::all_warnings() const {
     std::vector<Message> all = warnings;
-    if (const std::optional<MissedStructure> missed = diagnostics.missed()) all.push_back(sentence_of(*missed));
+    if (const std::optional<MissedStructure>& missed = diagnostics.missed()) all.push_back(sentence_of(*missed));
     return all;
 }
 
@@ -39,7 +39,7 @@ std::shared_ptr<const Assessment> Estimate::colour() const {
 
 Matrix Estimate::trusted_covariance() const {
     const auto coloured = colour();
-    return coloured ? coloured->covariance : covariance;
+    return coloured ? coloured->covariance : covariance();
 }
 
 bool holds_model(const Call& call, int index) {
@@ -119,7 +119,7 @@ std::optional<UncertainModel> uncertain_model(const Model& model) {
 }
 
 ModelParameters parameters_of(const Model& model) {
-    if (model.estimate && !model.system) return {model.estimate->names, model.estimate->theta, model.estimate->std};
+    if (model.estimate && !model.system) return {model.estimate->names, model.estimate->theta, model.estimate->std()};
     if (model.process) return {model.process->structure.parameter_names(), model.process->parameters, {}};
     ModelParameters result;
     const Vector &num = model.G.num(), &den = model.G.den();

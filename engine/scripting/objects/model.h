@@ -15,12 +15,18 @@
 
 namespace dynlab::inline scripting {
 
+/// Of estimated parameters, in their order; empty when the method gives none.
+struct ParameterErrors {
+    Vector std;
+    Matrix covariance;
+};
+
 /// What an estimation method says of a model besides its coefficients.
 struct Estimate {
     std::string method;              ///< Lua name
     std::vector<std::string> names;  ///< of the parameters
-    Vector theta, std;               ///< std is empty when the method gives none
-    Matrix covariance;
+    Vector theta;
+    Deferred<ParameterErrors> errors;                           ///< some methods compute them when they are read
     Message message;                                            ///< how the estimation ended, with its warnings
     std::vector<Message> warnings;                              ///< of the estimation
     std::vector<std::pair<std::string, double>> numbers;        ///< fit_percent, noise_variance, iterations, ...
@@ -40,6 +46,8 @@ struct Estimate {
     std::vector<Message> all_warnings() const;
     /// The assessment of errors that are coloured; nothing for others.
     std::shared_ptr<const Assessment> colour() const;
+    const Vector& std() const { return errors.get().std; }
+    const Matrix& covariance() const { return errors.get().covariance; }
     /// The robust covariance when the output errors are coloured.
     Matrix trusted_covariance() const;
 };
