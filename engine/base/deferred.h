@@ -27,6 +27,13 @@ class Deferred {
         }
         return state_->value;
     }
+    /// The value where it was computed, else nothing.
+    const T* known() const {
+        const std::scoped_lock lock(state_->mutex);
+        return state_->compute ? nullptr : &state_->value;
+    }
+    /// To be changed, before copies are made.
+    T& edit() { return const_cast<T&>(get()); }
 
   private:
     struct State {

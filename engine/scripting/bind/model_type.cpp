@@ -99,8 +99,7 @@ int field_history(Call& call) {
 
 double noise_variance_of(const Model& model) {
     const Estimate& estimate = estimate_in(model);
-    for (const auto& [name, value] : estimate.numbers)
-        if (name == "noise_variance") return value;
+    if (const std::optional<double> variance = estimate.report().number("noise_variance")) return *variance;
     throw InvalidArgument("{} tells no variance of the noise", estimate.method);
 }
 

@@ -104,8 +104,9 @@ double own_noise_std(const Model* model) {
         throw InvalidArgument(
             "{} knows the error of its equation, which is no noise of the output: give the option snr, in dB",
             model->estimate->method);
-    for (const auto& [name, value] : model->estimate->numbers)
-        if (name == "noise_variance" && value >= 0) return std::sqrt(value);
+    if (const std::optional<double> variance = model->estimate->report().number("noise_variance");
+        variance && *variance >= 0)
+        return std::sqrt(*variance);
     throw InvalidArgument("{} tells no variance of the noise: give the option snr, in dB", model->estimate->method);
 }
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 
 #include "base/catalog.h"
@@ -78,23 +79,29 @@ Estimation read_filtered(const Call& call) {
     };
 }
 
-/// Standard errors that know the filters' colour take ten times as long as the estimate: they wait until they are read.
+/// The simulation and standard errors that know the filters' colour take ten times as long as the estimate: they wait
+/// until they are read, unless one of them has a warning.
 template <auto kMethod, bool kInstruments, bool kMomentFunctionals>
 int estimate_filtered(Call& call) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
     const FilteredCall wanted = filtered_call<kMomentFunctionals>(call);
-    Fit fit = kMethod(data, wanted.structure(data), wanted.options);
-    if (data.sample_count() > kMostColoured) colour_covariance(fit, data, wanted.options, kInstruments);  // a warning
-    measure_simulation(fit, data);
-    Estimate estimate = estimate_of(call.function_name(), fit, FitForm::kEquationError);
-    if (data.sample_count() <= kMostColoured)
-        estimate.errors = Deferred<ParameterErrors>::later(
-            [fit, shared = shared_object<IdData>(call.state(), 1), options = wanted.options] {
-                Fit coloured = fit;
-                colour_covariance(coloured, *shared, options, kInstruments);
-                return ParameterErrors{coloured.std, coloured.covariance};
-            });
-    return give_deferring(call, std::move(estimate), fit);
+    Fit found = kMethod(data, wanted.structure(data), wanted.options);
+    if (data.sample_count() > kMostColoured) colour_covariance(found, data, wanted.options, kInstruments);
+    if (!std::ranges::all_of(found.models, &TransferFunction::stable)) measure_simulation(found, data);
+    const auto fit = std::make_shared<const Fit>(std::move(found));
+    const auto shared = shared_object<IdData>(call.state(), 1);
+    const auto measured = [fit, shared] {
+        Fit copy = *fit;
+        if (copy.fit_percent.size() == 0) measure_simulation(copy, *shared);
+        return copy;
+    };
+    const auto with_errors = [fit, shared, options = wanted.options] {
+        Fit copy = *fit;
+        if (shared->sample_count() <= kMostColoured) colour_covariance(copy, *shared, options, kInstruments);
+        return copy;
+    };
+    return give_deferring(
+        call, deferred_estimate(call.function_name(), *fit, FitForm::kEquationError, measured, with_errors), *fit);
 }
 
 template <auto kMethod>

@@ -1,4 +1,6 @@
 #pragma once
+#include <functional>
+
 #include "scripting/objects/model.h"
 
 namespace dynlab::inline scripting {
@@ -14,6 +16,9 @@ enum class FitForm { kOutputError, kEquationError };
 
 /// What a script can ask of a fit. `method` is the Lua name.
 Estimate estimate_of(const char* method, const Fit& fit, FitForm form = FitForm::kOutputError);
+/// The same where each is computed when it is read: the fit with its simulation measured, and with standard errors.
+Estimate deferred_estimate(const char* method, const Fit& fit, FitForm form, std::function<Fit()> measured,
+                           std::function<Fit()> with_errors);
 
 /// Pushes the fitted model with all its channels.
 int give_fit(const Call& call, const char* method, const Fit& fit, FitForm form = FitForm::kOutputError);

@@ -9,7 +9,7 @@ namespace dynlab::inline scripting {
 std::size_t Boxed<Model>::outside_bytes(const Model& model) {
     std::size_t numbers = static_cast<std::size_t>(model.G.num().size() + model.G.den().size());
     if (model.estimate)
-        for (const auto& [name, values] : model.estimate->vectors) numbers += static_cast<std::size_t>(values.size());
+        if (const ReportFields* fields = model.estimate->fields.known()) numbers += fields->values();
     if (model.estimate && model.estimate->history)
         numbers += static_cast<std::size_t>(2 * model.estimate->history->theta.size());
     return numbers * sizeof(double);
@@ -18,6 +18,19 @@ std::size_t Boxed<Model>::outside_bytes(const Model& model) {
 std::size_t Boxed<StateSpace>::outside_bytes(const StateSpace& system) {
     return sizeof(double) *
            static_cast<std::size_t>(system.A.size() + system.B.size() + system.C.size() + system.D.size());
+}
+
+std::optional<double> ReportFields::number(std::string_view name) const {
+    for (const auto& [own, value] : numbers)
+        if (own == name) return value;
+    return std::nullopt;
+}
+
+std::size_t ReportFields::values() const {
+    std::size_t sum = 0;
+    for (const auto& [name, values] : vectors) sum += static_cast<std::size_t>(values.size());
+    for (const auto& [name, values] : matrices) sum += static_cast<std::size_t>(values.size());
+    return sum;
 }
 
 Message Estimate::full_message() const {

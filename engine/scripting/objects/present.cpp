@@ -162,8 +162,8 @@ std::string Presentation::channel_lines(const TransferFunction& G,
 
 std::string Presentation::estimate_lines(const Estimate& estimate) const {
     const auto number = [&estimate](std::string_view name) {
-        const auto found = std::ranges::find(estimate.numbers, name, [](const auto& one) { return one.first; });
-        return found == estimate.numbers.end() ? std::nullopt : std::optional(significant(found->second, 4));
+        const std::optional<double> found = estimate.report().number(name);
+        return found ? std::optional(significant(*found, 4)) : std::nullopt;
     };
     // The message of an estimate from a frequency response says how well it fits.
     const bool of_response = number("frequencies").has_value();

@@ -44,10 +44,8 @@ TypeEntries simulated_types() {
 
 std::size_t Boxed<SimulatedModel>::outside_bytes(const SimulatedModel& model) {
     const Estimate& estimate = *model.estimate;
-    auto numbers = static_cast<std::size_t>(estimate.theta.size() + estimate.covariance().size());
-    for (const auto& [name, values] : estimate.vectors) numbers += static_cast<std::size_t>(values.size());
-    for (const auto& [name, values] : estimate.matrices) numbers += static_cast<std::size_t>(values.size());
-    return numbers * sizeof(double);
+    const auto numbers = static_cast<std::size_t>(estimate.theta.size() + estimate.covariance().size());
+    return (numbers + estimate.report().values()) * sizeof(double);
 }
 
 const SimulatedModel* simulated_model(const Call& call, int index) {
