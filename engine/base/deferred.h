@@ -11,15 +11,18 @@ namespace dynlab::inline base {
 template <class T>
 class Deferred {
   public:
-    Deferred() : Deferred(T{}) {}
+    Deferred() = default;  ///< of T{}
     Deferred(T value) : state_(std::make_shared<State>()) { state_->value = std::move(value); }
     static Deferred later(std::function<T()> compute) {
         Deferred deferred;
+        deferred.state_ = std::make_shared<State>();
         deferred.state_->compute = std::move(compute);
         return deferred;
     }
 
     const T& get() const {
+        static const T nothing{};
+        if (!state_) return nothing;
         const std::scoped_lock lock(state_->mutex);
         if (state_->compute) {
             state_->value = state_->compute();
@@ -29,11 +32,15 @@ class Deferred {
     }
     /// The value where it was computed, else nothing.
     const T* known() const {
+        if (!state_) return &get();
         const std::scoped_lock lock(state_->mutex);
         return state_->compute ? nullptr : &state_->value;
     }
     /// To be changed, before copies are made.
-    T& edit() { return const_cast<T&>(get()); }
+    T& edit() {
+        if (!state_) state_ = std::make_shared<State>();
+        return const_cast<T&>(get());
+    }
 
   private:
     struct State {

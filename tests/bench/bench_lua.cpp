@@ -60,9 +60,9 @@ struct NumpyCall {
 };
 constexpr NumpyCall kNumpyCalls[] = {
     {"Lua lssvf(d, {2, 1, 0}, 3), N = 1500 (s)", "short", "lssvf(short, {2, 1, 0}, 3)", "lssvf", 1.0 / 20, 1.0 / 60,
-     200},
+     2000},
     {"Lua srivc(d, {1, 2, 0}), N = 1500 (s)", "short", "srivc(short, {1, 2, 0}, {lambda = 3})", "srivc", 1.0 / 40,
-     1.0 / 60, 50},
+     1.0 / 60, 500},
     {"Lua lssvf(d, {2, 1, 0}, 3), N = 999000 (s)", "d", "lssvf(d, {2, 1, 0}, 3)", "lssvf", 1.0 / 100, 1.0 / 150},
     {"Lua srivc(d, {1, 2, 0}), N = 999000 (s)", "d", "srivc(d, {1, 2, 0}, {lambda = 3})", "srivc", 1.0 / 80,
      1.0 / 100}};

@@ -53,9 +53,14 @@ DeferredDiagnostics::DeferredDiagnostics(Fit fit, std::shared_ptr<const IdData> 
     fit.trace.clear();
     fit.output.resize(0);
     options.cancel = nullptr;  // it may refer to what is gone by then
-    const auto of = std::make_shared<const Fit>(std::move(fit));
-    missed_ = decltype(missed_)::later([=] { return missed_by(*of, *data, options); });
-    assessment_ = decltype(assessment_)::later([=] { return assessment_of(*of, *data, options); });
+    struct Estimation {
+        Fit fit;
+        std::shared_ptr<const IdData> data;
+        FitOptions options;
+    };
+    const auto of = std::make_shared<const Estimation>(Estimation{std::move(fit), std::move(data), std::move(options)});
+    missed_ = decltype(missed_)::later([of] { return missed_by(of->fit, *of->data, of->options); });
+    assessment_ = decltype(assessment_)::later([of] { return assessment_of(of->fit, *of->data, of->options); });
 }
 
 }  // namespace dynlab::inline numerics
