@@ -57,7 +57,7 @@ int lint(const LintArguments& words, const CheckNames& check_names) {
                            {"column", found.column},
                            {"kind", found.kind},
                            {"message", message_text(found.message, user())}});
-            text += message_text(Message("{}: {}\n", finding_place(found, file, source), found.message), user());
+            text += fmt::format("{}: {}\n", finding_place(found, file, source), message_text(found.message, user()));
         }
     }
     if (words.json)
