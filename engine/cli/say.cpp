@@ -8,7 +8,7 @@
 #include "base/languages.h"
 #include "data_io/values/said_messages.h"
 #include "platform/terminal/terminal_text.h"
-#include "scripting/conversions/option_words.h"
+#include "scripting/interpreter/catalogue.h"
 
 namespace dynlab::inline cli {
 namespace {

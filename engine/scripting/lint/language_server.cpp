@@ -6,7 +6,6 @@
 #include "base/languages.h"
 #include "base/reader.h"
 #include "documents/script_header.h"
-#include "scripting/conversions/option_words.h"
 #include "scripting/interpreter/catalogue.h"
 #include "scripting/lint/function_forms.h"
 #include "scripting/lint/lint.h"
