@@ -130,7 +130,7 @@ void add_pack(CLI::App& app, Action& action) {
         "The data link and the figures that dynlab run saved (analysis_out) are left out. Equal folders give equal "
         "files, byte by byte.\nExample:  dynlab pack my-work");
     command->callback([words, &action] {
-        refuse_other_files(words->subject, "pack");
+        expect_script(words->subject, "pack");
         action = [words] { return pack(*words); };
     });
 }

@@ -66,7 +66,7 @@ void add_study(CLI::App& app, Action& action) {
         "Example:  dynlab study bias.lua --on processes:8\n"
         "Exit codes: 0 done, 1 the script failed, 2 wrong usage.");
     command->callback([words, &action] {
-        refuse_other_files(words->run.file, "study");
+        expect_script(words->run.file, "study");
         action = [words] {
             StudySharing sharing(*words);
             return run_and_show(words->run, &sharing);

@@ -9,12 +9,12 @@
 #include "course/hand_ins/folder_copy.h"
 #include "course/hand_ins/notebooks.h"
 #include "course/hand_ins/owners.h"
-#include "course/hand_ins/work_language.h"
 #include "data_io/tables/text_decoding.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/text/foreign_text.h"
 #include "platform/text/small_letters.h"
+#include "workflow/given_script.h"
 
 namespace dynlab::inline course {
 namespace {

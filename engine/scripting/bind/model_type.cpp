@@ -209,16 +209,17 @@ constexpr std::array kModelTypeOperators = {
     Member{"__tostring", localized_field<Model, channels_text>},
 };
 
-std::string system_text(const StateSpace& s) {
-    return fmt::format("A =\n{}\nB =\n{}\nC =\n{}\nD =\n{}{}", matrix_text(s.A), matrix_text(s.B), matrix_text(s.C),
-                       matrix_text(s.D), s.Ts > 0 ? fmt::format("\nTs = {} s", number_text(s.Ts)) : "");
+std::string system_text(const StateSpace& s, const Reader& reader) {
+    const auto text = [&](const Matrix& matrix) { return matrix_text(matrix, reader); };
+    return fmt::format("A =\n{}\nB =\n{}\nC =\n{}\nD =\n{}{}", text(s.A), text(s.B), text(s.C), text(s.D),
+                       s.Ts > 0 ? fmt::format("\nTs = {} s", number_text(s.Ts)) : "");
 }
 
 constexpr std::array kSystemFields = {
     Member{"A", field<StateSpace, &StateSpace::A>}, Member{"B", field<StateSpace, &StateSpace::B>},
     Member{"C", field<StateSpace, &StateSpace::C>}, Member{"D", field<StateSpace, &StateSpace::D>},
     Member{"Ts", field<StateSpace, &StateSpace::Ts>}};
-constexpr std::array kSystemOperators = {Member{"__tostring", field<StateSpace, system_text>}};
+constexpr std::array kSystemOperators = {Member{"__tostring", localized_field<StateSpace, system_text>}};
 
 Message free_structure_text(const ProcessStructure& structure) {
     return Message("{} with the free parameters {}: procsrivc(data, ...) estimates them", structure.text(),

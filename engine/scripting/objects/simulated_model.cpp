@@ -73,7 +73,7 @@ std::string presentation(const SimulatedModel& model, const Reader& reader) {
         const auto index = static_cast<Index>(i);
         text += fmt::format("  {:<{}} {:>12}", estimate.names[i], widest,
                             number_text(significant(estimate.theta[index], 6), reader));
-        if (estimate.std().size() > index) text += "  +- " + number_text(significant(estimate.std()[index], 3), reader);
+        if (estimate.std().size() > index) text += "  ± " + number_text(significant(estimate.std()[index], 3), reader);
         text += '\n';
     }
     return text + message_text(Message("Estimated by {}.", estimate.method), reader) + "\n" +
