@@ -20,6 +20,7 @@
 #include "platform/program_lookup.h"
 #include "platform/stopwatch.h"
 #include "platform/temporary_folder.h"
+#include "platform/utf8.h"
 
 namespace dynlab::inline documents {
 namespace {
@@ -135,10 +136,7 @@ class DocumentBuilder {
     }
 
     void check_characters(Complaints& complaints) const {
-        const PrintableCharacters printable =
-            format_ == DocumentFormat::kPdf
-                ? PrintableCharacters::of_latex(read_file(shared_templates_ / "latex/characters.tex"))
-                : PrintableCharacters::of_html();
+        const PrintableCharacters printable = PrintableCharacters::of_html();
         int number = 0;
         for (const std::string& line : lines_of(text_.markdown.text)) {
             ++number;
@@ -202,8 +200,11 @@ class DocumentBuilder {
                                      fs::absolute(source_.template_file).lexically_normal().string();
         try {
             const LatexLayout layout{shared_templates_, text_.language, text_.rules.slides};
-            return run_latex({body, layout, work_.path(), identity, options_.use_cache, options_.latex_format,
-                              options_.timings, options_.begun_format});
+            const LatexDocument document =
+                run_latex({body, layout, work_.path(), identity, options_.use_cache, options_.latex_format,
+                           options_.timings, options_.begun_format, options_.lualatex_fonts});
+            if (options_.notes) add_notes(document);
+            return document.pdf;
         } catch (const LatexRefusal& refusal) {
             const Place where = origin_of_refusal(refusal, text_.markdown, source_.template_file);
             const std::string& before = refusal.text_before;
@@ -211,6 +212,32 @@ class DocumentBuilder {
             throw DocumentError(where, refusal_message(refusal.message(), section_of(body, refusal.line),
                                                        trimmed(before).empty() ? "" : trimmed(end)));
         }
+    }
+
+    Place place_of(char32_t letter) const {
+        return find_in(text_.markdown, utf8_of(letter), source_.template_file);
+    }
+
+    void add_notes(const LatexDocument& document) const {
+        if (!document.first_beyond) return;
+        const char32_t first = *document.first_beyond;
+        options_.notes->push_back(placed(
+            place_of(first),
+            document.by_lualatex
+                ? Message("LuaLaTeX makes this PDF, which takes longer, because pdflatex cannot print \"{}\" ({})",
+                          utf8_of(first), code_of(first))
+                : Message("pdflatex cannot print \"{}\" ({}), and LuaLaTeX is not installed: letters of this kind are "
+                          "printed as \"?\". To print them: sudo apt install {}",
+                          utf8_of(first), code_of(first), kLualatexPackages)));
+        if (!document.by_lualatex || document.replaced.empty()) return;
+        std::vector<Message> letters;
+        for (const char32_t letter : document.replaced)
+            letters.push_back(Message::verbatim(utf8_of(letter) + " (" + code_of(letter) + ")"));
+        options_.notes->push_back(
+            placed(place_of(*document.replaced.begin()),
+                   Message("no installed font has these letters, which are printed as \"?\": {}. To add fonts: sudo apt "
+                           "install {}",
+                           MessageList{letters, Join::kComma}, "fonts-noto-core fonts-noto-cjk")));
     }
 
     const DocumentSource& source_;

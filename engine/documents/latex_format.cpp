@@ -33,7 +33,9 @@ std::vector<std::pair<std::string, std::string>> preamble_files(const LatexLayou
     const std::string language(other.empty() ? "english" : other);
     return {{"preamble.tex", read_file(folder / (layout.slides ? "slides_preamble.tex" : "preamble.tex"))},
             {"shared.tex", replaced(read_file(folder / "shared.tex"), "LANGUAGE", language)},
-            {"characters.tex", read_file(folder / "characters.tex")}};
+            {"characters.tex", read_file(folder / "characters.tex")},
+            {"vietnamese.tex", read_file(folder / "vietnamese.tex")},
+            {"unicode.tex", read_file(folder / "unicode.tex")}};
 }
 
 /// Size and date of the installed program and of Debian's LaTeX format, which every update of TeX rewrites.
@@ -93,6 +95,11 @@ void finish_format(ChildProcess& tex, const fs::path& folder) {
 
 void write_preamble(const LatexLayout& layout, const fs::path& folder) {
     for (const auto& [name, text] : preamble_files(layout)) write_work_file(folder / name, text);
+}
+
+PrintableCharacters printable_by_pdflatex(const fs::path& shared_templates) {
+    return PrintableCharacters::of_latex(read_file(shared_templates / "latex/characters.tex") +
+                                         read_file(shared_templates / "latex/vietnamese.tex"));
 }
 
 void check_missing_packages(const std::string& log) {
