@@ -214,9 +214,7 @@ class DocumentBuilder {
         }
     }
 
-    Place place_of(char32_t letter) const {
-        return find_in(text_.markdown, utf8_of(letter), source_.template_file);
-    }
+    Place place_of(char32_t letter) const { return find_in(text_.markdown, utf8_of(letter), source_.template_file); }
 
     void add_notes(const LatexDocument& document) const {
         if (!document.first_beyond) return;
@@ -233,11 +231,11 @@ class DocumentBuilder {
         std::vector<Message> letters;
         for (const char32_t letter : document.replaced)
             letters.push_back(Message::verbatim(utf8_of(letter) + " (" + code_of(letter) + ")"));
-        options_.notes->push_back(
-            placed(place_of(*document.replaced.begin()),
-                   Message("no installed font has these letters, which are printed as \"?\": {}. To add fonts: sudo apt "
-                           "install {}",
-                           MessageList{letters, Join::kComma}, "fonts-noto-core fonts-noto-cjk")));
+        options_.notes->push_back(placed(
+            place_of(*document.replaced.begin()),
+            Message("no installed font has these letters, which are printed as \"?\": {}. To add fonts: sudo apt "
+                    "install {}",
+                    MessageList{letters, Join::kComma}, "fonts-noto-core fonts-noto-cjk")));
     }
 
     const DocumentSource& source_;

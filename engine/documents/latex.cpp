@@ -1,5 +1,6 @@
 #include "documents/latex.h"
 
+#include <fmt/ranges.h>
 #include <re2/re2.h>
 
 #include <array>
@@ -28,7 +29,6 @@ using namespace std::chrono_literals;
 constexpr int kMostPasses = 4;
 constexpr std::uint64_t kMemoryLimit = 1u << 30, kLargestFile = 64u << 20;
 constexpr std::array kAuxiliaryFiles = {"main.aux", "main.out", "main.toc"};
-constexpr char kNotoFolders[] = "/usr/share/fonts/truetype/noto:/usr/share/fonts/opentype/noto";
 
 /// The program that sets a document.
 struct Engine {
@@ -54,11 +54,7 @@ class KeptAuxiliaryFiles {
         if (!job.use_cache) return;
         cache_.emplace();
         if (!cache_->lasting()) return;
-        entry_ = EntryName("latex-references")
-                     .add(job.identity)
-                     .add(job.layout.language)
-                     .add(engine.program)
-                     .text();
+        entry_ = EntryName("latex-references").add(job.identity).add(job.layout.language).add(engine.program).text();
         before_ = cache_->recall(entry_).value_or("");
         if (!before_.empty()) write_files();
     }
@@ -162,10 +158,10 @@ class LatexRun {
     }
 
     /// By LuaLaTeX, which cannot store a preamble with its fonts: it reads the preamble in each run.
-    LatexRun(const LatexJob& job, const std::string& scripts, const std::string& body)
+    LatexRun(const LatexJob& job, const std::set<std::string>& scripts, const std::string& body)
         : job_(job), engine_(kLualatex), fonts_(job.lualatex_fonts) {
         if (fonts_.empty() && job.use_cache) fonts_ = kept_fonts();
-        write_document("\\def\\dynlabscripts{" + scripts + "}", body);
+        write_document(fmt::format("\\def\\dynlabscripts{{{}}}", fmt::join(scripts, ",")), body);
     }
 
     fs::path pdf() {
@@ -248,7 +244,8 @@ class LatexRun {
         note("latex pass " + std::to_string(pass), start);
         if (run.timed_out) throw LatexRefusal(Message("{} did not finish within two minutes", engine_.program), 0, "");
         if (run.exit_code == 128 + SIGXFSZ)
-            throw LatexRefusal(Message("{} wrote a file of more than 64 MB; use smaller pictures", engine_.program), 0, "");
+            throw LatexRefusal(Message("{} wrote a file of more than 64 MB; use smaller pictures", engine_.program), 0,
+                               "");
         if (run.output_exceeded) throw LatexRefusal(Message("{} wrote messages without end", engine_.program), 0, "");
         const std::string log = "\n" + run.output;
         if (run.exit_code != 0) {
@@ -300,7 +297,8 @@ LatexDocument run_latex(const LatexJob& job) {
         result.pdf = LatexRun(composed_job).pdf();
         return result;
     }
-    const std::string scripts = scripts_of(pdflatex, body), directed = with_direction_marks(body);
+    const std::set<std::string> scripts = scripts_of(pdflatex, body);
+    const std::string directed = with_direction_marks(body);
     try {
         result.pdf = LatexRun(composed_job, scripts, directed).pdf();
     } catch (const MissingLetters& missing) {
@@ -310,7 +308,7 @@ LatexDocument run_latex(const LatexJob& job) {
     return result;
 }
 
-void make_lualatex_fonts(const LatexLayout& layout, const std::string& scripts, const fs::path& folder) {
+void make_lualatex_fonts(const LatexLayout& layout, const std::set<std::string>& scripts, const fs::path& folder) {
     if (!has_lualatex()) return;
     const TemporaryFolder work;
     LatexJob job{kFontSample, layout, work.path(), "", false};

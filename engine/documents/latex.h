@@ -41,6 +41,9 @@ struct LatexRefusal : ErrorOf<std::runtime_error> {
     std::string text_before;
 };
 
+/// Where LuaLaTeX looks for Noto's fonts, a search path.
+inline constexpr char kNotoFolders[] = "/usr/share/fonts/truetype/noto:/usr/share/fonts/opentype/noto";
+
 /// The programs and fonts for letters that pdflatex does not have.
 inline constexpr char kLualatexPackages[] = "texlive-luatex fonts-noto-core fonts-noto-cjk";
 
@@ -52,6 +55,7 @@ LatexDocument run_latex(const LatexJob& job);
 
 /// Reads the fonts that LuaLaTeX needs for these scripts (scripts_of), which takes seconds, and keeps what it needs of
 /// them in `folder`. Does nothing where LuaLaTeX is not installed.
-void make_lualatex_fonts(const LatexLayout& layout, const std::string& scripts, const std::filesystem::path& folder);
+void make_lualatex_fonts(const LatexLayout& layout, const std::set<std::string>& scripts,
+                         const std::filesystem::path& folder);
 
 }  // namespace dynlab::inline documents

@@ -48,7 +48,7 @@ Script script_of(char32_t character);
 
 bool is_right_to_left(char32_t character);  ///< a letter of a script that is written so
 bool is_mark(char32_t character);           ///< an accent or a vowel sign that combines with the letter before it
-bool is_capital(char32_t character);    ///< of a script that knows capitals
-bool is_ideograph(char32_t character);  ///< of a script that writes words without spaces: each stands for itself
+bool is_capital(char32_t character);        ///< of a script that knows capitals
+bool is_ideograph(char32_t character);      ///< of a script that writes words without spaces: each stands for itself
 
 }  // namespace dynlab::inline platform

@@ -1,7 +1,6 @@
 #include "documents/words/scripts.h"
 
 #include <algorithm>
-#include <map>
 
 #include "platform/utf8.h"
 
@@ -74,22 +73,18 @@ std::set<char32_t> letters_beyond(const PrintableCharacters& pdflatex, std::stri
     return letters;
 }
 
-std::string scripts_of(const PrintableCharacters& pdflatex, std::string_view text) {
-    std::map<std::string, std::string> scripts;
-    for (std::string_view rest = text; !rest.empty();) {
-        const char32_t c = next_character(rest);
+std::set<std::string> scripts_of(const PrintableCharacters& pdflatex, std::string_view text) {
+    const bool greek = has_greek_words(pdflatex, text);
+    std::set<std::string> scripts;
+    while (!text.empty()) {
+        const char32_t c = next_character(text);
         if (c <= 0x7F) continue;
-        if (const Script script = script_of(c); !script.name.empty()) scripts[script.name] = script.code;
+        Script script = script_of(c);
+        if (script.name.empty() || script.name == "Latin" || (script.name == "Greek" && !greek)) continue;
+        script.code[0] = static_cast<char>(script.code[0] - 'A' + 'a');
+        scripts.insert(script.name + "=" + script.code);
     }
-    scripts.erase("Latin");
-    if (!has_greek_words(pdflatex, text)) scripts.erase("Greek");
-    std::string result;
-    for (auto& [name, code] : scripts) {
-        std::string tag = code;
-        tag[0] = static_cast<char>(tag[0] - 'A' + 'a');
-        result += (result.empty() ? "" : ",") + name + "=" + tag;
-    }
-    return result;
+    return scripts;
 }
 
 std::string with_direction_marks(std::string_view latex) {

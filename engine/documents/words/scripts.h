@@ -14,9 +14,9 @@ namespace dynlab::inline documents {
 /// The first character of `text` that pdflatex cannot set.
 std::optional<char32_t> first_beyond(const PrintableCharacters& pdflatex, std::string_view text);
 
-/// The scripts of the text's letters as report_templates/latex/unicode.tex takes them: "Arabic=arab,Han=hani". Latin is
-/// not named, and Greek only where the text has words of it.
-std::string scripts_of(const PrintableCharacters& pdflatex, std::string_view text);
+/// The scripts of the text's letters as report_templates/latex/unicode.tex takes them: "Arabic=arab", "Han=hani". Latin
+/// is not named, and Greek only where the text has words of it.
+std::set<std::string> scripts_of(const PrintableCharacters& pdflatex, std::string_view text);
 
 /// LaTeX text with U+200E around each right-to-left phrase, so that the numbers and signs beside a name keep their
 /// places. Targets of links stay as they are.
