@@ -93,9 +93,13 @@ class DocumentBuilder {
         check_characters(complaints);
         find_latex_brackets(text_.markdown, complaints);
         const std::string bibliography = placed_bibliography(source_, text_, work_.path(), complaints);
-        const PandocResult written = run_pandoc(pandoc_job(bibliography), complaints);
+        const std::vector<PlacedPicture> logo = find_logo(complaints);
+        PandocJob job = pandoc_job(bibliography);
+        if (!logo.empty()) job.logo = logo.front().written_name;
+        const PandocResult written = run_pandoc(job, complaints);
         std::vector<PlacedPicture> pictures =
             find_picture_files(written.pictures, text_.markdown, source_.template_file, format_, prefix(), complaints);
+        pictures.insert(pictures.end(), logo.begin(), logo.end());
         // A document that cannot be made tells its gaps together with what stands in its way.
         if (options_.gaps) (complaints.empty() ? *options_.gaps : complaints).add_all(written.gaps);
         complaints.throw_if_any();
@@ -115,6 +119,13 @@ class DocumentBuilder {
     std::string prefix() const {
         if (format_ == DocumentFormat::kMarkdown) return output_.stem().string() + "_files/picture-";
         return "dynlab-picture-";
+    }
+
+    /// One picture, or none.
+    std::vector<PlacedPicture> find_logo(Complaints& complaints) const {
+        if (text_.logo_named_in.empty() || format_ == DocumentFormat::kMarkdown) return {};
+        return find_picture_files({{0, false, text_.metadata.at("logo")}}, {}, text_.logo_named_in, format_, prefix(),
+                                  complaints);
     }
 
     PandocJob pandoc_job(const std::string& bibliography) const {
@@ -258,6 +269,12 @@ PreparedText prepared_text(const DocumentSource& source) {
         check_metadata(key, value, {source.template_file});
         text.metadata[key] = value;
     }
+    const TemplateFile settings = read_settings(own_file(shared_folder() / "report_templates/settings.yaml"));
+    if (text.metadata.contains("logo"))
+        text.logo_named_in = source.template_file;
+    else if (settings.metadata.contains("logo"))
+        text.logo_named_in = settings.file;
+    for (const auto& [key, value] : settings.metadata) text.metadata.emplace(key, value);
     if (text.metadata.count("lang") && !text.metadata.at("lang").empty()) text.language = text.metadata.at("lang");
     if (source.record && source.record->error && !shows_cells(file))
         begin_with_error(source.record->error->text({catalog_of(text.language)}), source.template_file, text.markdown);
@@ -287,7 +304,9 @@ DocumentFormat document_format(const fs::path& file) {
 
 void DocumentMaker::make(const DocumentSource& source, const fs::path& output, DocumentFormat format,
                          const std::function<void()>& wait_for_figures) const {
-    DocumentBuilder(source, output, format, options_).make(wait_for_figures);
+    DocumentSource named = source;
+    named.template_file = own_file(source.template_file);
+    DocumentBuilder(named, output, format, options_).make(wait_for_figures);
 }
 
 }  // namespace dynlab::inline documents

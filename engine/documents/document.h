@@ -36,6 +36,7 @@ struct PreparedText {
     std::map<std::string, std::string> metadata;
     DocumentRules rules;
     std::string language = "en";
+    std::filesystem::path logo_named_in = {};  ///< the file that names the logo, which is beside it
 };
 /// Throws DocumentError for what read_template, check_metadata and with_cells refuse.
 PreparedText prepared_text(const DocumentSource& source);

@@ -224,7 +224,8 @@ class LatexRun {
                              {"MKTEXFMT", "0"},
                              {"TEXMFHOME", "/nonexistent"},
                              {"TEXMFOUTPUT", ""},
-                             {"LC_ALL", "C.UTF-8"}};
+                             {"LC_ALL", "C.UTF-8"},
+                             {"TEXINPUTS", template_files(job_.layout)}};
         if (!format_folder_.empty()) child.environment.emplace_back("TEXFORMATS", format_folder_.string() + ":");
         if (engine_.program == kLualatex.program) {
             const std::string own = (job_.work_folder / "fonts").string();

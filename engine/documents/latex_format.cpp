@@ -56,7 +56,11 @@ ChildProcess begin_format(const LatexLayout& layout, const fs::path& folder) {
                      std::string("-jobname=") + kLatexFormatName,
                      "&pdflatex \\input{preamble}\\dump"};
     child.folder = folder;
-    child.environment = {{"max_print_line", "10000"}, {"openin_any", "p"}, {"openout_any", "p"}, {"MKTEXFMT", "0"}};
+    child.environment = {{"max_print_line", "10000"},
+                         {"openin_any", "p"},
+                         {"openout_any", "p"},
+                         {"MKTEXFMT", "0"},
+                         {"TEXINPUTS", template_files(layout)}};
     child.processor_time = 60s;
     child.timeout = 600s;
     return ChildProcess(child, "texlive-latex-base");
@@ -95,6 +99,11 @@ void finish_format(ChildProcess& tex, const fs::path& folder) {
 
 void write_preamble(const LatexLayout& layout, const fs::path& folder) {
     for (const auto& [name, text] : preamble_files(layout)) write_work_file(folder / name, text);
+}
+
+std::string template_files(const LatexLayout& layout) {
+    const std::string shared = fs::absolute(layout.shared_templates).string();
+    return ".:" + shared + "/latex:" + shared + ":";
 }
 
 PrintableCharacters printable_by_pdflatex(const fs::path& shared_templates) {

@@ -22,6 +22,9 @@ struct LatexLayout {
 /// Writes preamble.tex, and what it reads, into `folder`.
 void write_preamble(const LatexLayout& layout, const std::filesystem::path& folder);
 
+/// A search path of TeX: the working folder, what a layout's own LaTeX names beside it, TeX's files.
+std::string template_files(const LatexLayout& layout);
+
 /// The letters that the preamble declares to pdflatex.
 PrintableCharacters printable_by_pdflatex(const std::filesystem::path& shared_templates);
 
