@@ -59,6 +59,7 @@ int make_document(ReportRequest request, bool show_timings) {
     const std::string file = std::filesystem::absolute(request.output).lexically_normal().string();
     if (result.error) complain(*result.error);
     if (!result.gaps.empty()) complain(Message("{}", MessageList{result.gaps, Join::kLines}));
+    for (const Message& remark : result.notes) note(remark);
     for (const UnplacedEntries& entries : result.unplaced) note(entries.message());
     say(result.up_to_date      ? Message("{} (up to date)", file)
         : result.error         ? Message("{} (up to the error)", file)

@@ -85,6 +85,7 @@ class ClassGrader {
         outcome_.unowned = static_cast<int>(eye.unowned);
         outcome_.unreadable = static_cast<int>(eye.unreadable);
         write_class_results(all);
+        for (Message& note : documents_.notes()) outcome_.notes.push_back(std::move(note));
     }
 
   private:

@@ -52,8 +52,7 @@ std::string joined(const std::vector<std::string>& words, std::size_t from, std:
 }  // namespace
 
 struct MarkedText::Printable {
-    PrintableCharacters characters =
-        PrintableCharacters::of_latex(read_file(shared_folder() / "report_templates" / "latex" / "characters.tex"));
+    PrintableCharacters characters = PrintableCharacters::of_html();
 };
 
 MarkedText::MarkedText() : printable_(std::make_unique<Printable>()) {}
