@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "course/hand_ins/owners.h"
 #include "course/names/name_patterns.h"
 #include "numerics/error.h"
 #include "platform/error.h"
@@ -146,15 +147,64 @@ std::vector<Group> groups_of(Course& course) {
 }
 
 Group group_named(Course& course, const std::string& name) {
+    const std::vector<Group> groups = groups_of(course);
     std::vector<std::string> names;
-    for (const Group& group : groups_of(course)) {
+    for (const Group& group : groups) {
         if (::strcasecmp(group.name.c_str(), name.c_str()) == 0) return group;
         names.push_back(group.name);
     }
-    const auto near = nearest_word(name, names);
+    const std::vector<Student> students = students_of(course);
+    const Owners owners(students, names);
+    const Owners::Found found = owners.called(name);
+    if (const auto group = std::ranges::find(groups, found.group, &Group::name); group != groups.end()) return *group;
+    if (found.doubtful) throw InvalidArgument("\"{}\" could mean several groups: {}", name, found.trouble);
+    const auto near = nearest_word(name, owners.names());
     throw near ? InvalidArgument("there is no group \"{}\" in this course; did you mean {}?", name, *near)
                : InvalidArgument(
                      "there is no group \"{}\" in this course; see dynlab course status for those there are", name);
+}
+
+Student student_named(Course& course, const std::string& name) {
+    const std::vector<Student> students = students_of(course);
+    const auto by_id = std::ranges::find(students, name, &Student::id);
+    if (by_id != students.end()) return *by_id;
+    std::vector<Student> alone = students;  // each is an owner, also of those who share a group
+    for (Student& student : alone) student.group.clear();
+    const Owners owners(alone);
+    const Owners::Found found = owners.called(name);
+    if (found.anybody()) return students[found.students.front()];
+    if (found.doubtful) throw InvalidArgument("several students are called \"{}\": give the id", name);
+    const auto near = nearest_word(name, owners.names());
+    throw near ? InvalidArgument("there is no student \"{}\"; did you mean {}?", name, *near)
+               : InvalidArgument("there is no student \"{}\"", name);
+}
+
+std::vector<std::string> members_at(Course& course, std::int64_t group, Instant at) {
+    std::vector<std::string> members;
+    for (Rows rows = course.database().query(
+             "SELECT DISTINCT student FROM memberships m WHERE group_id = ?1 AND ifnull(until, ?2 + 1) > ?2 AND "
+             "(since <= ?2 OR since = (SELECT min(since) FROM memberships f WHERE f.student = m.student)) "
+             "ORDER BY student",
+             group, at);
+         rows.next();)
+        members.push_back(rows.text(0));
+    return members;
+}
+
+std::map<std::string, std::int64_t> groups_at_submission(Course& course, std::int64_t assignment) {
+    std::map<std::string, std::int64_t> groups;
+    for (Rows rows = course.database().query(
+             "SELECT group_id, max(received_at) FROM standing WHERE assignment = ? AND stage = 'first' GROUP BY "
+             "group_id ORDER BY 2",
+             assignment);
+         rows.next();)
+        for (const std::string& student : members_at(course, rows.integer(0), rows.integer(1)))
+            groups[student] = rows.integer(0);
+    for (Rows rows = course.database().query(
+             "SELECT student, min(group_id) FROM memberships WHERE until IS NULL GROUP BY student");
+         rows.next();)
+        groups.try_emplace(rows.text(0), rows.integer(1));
+    return groups;
 }
 
 std::vector<Student> students_of(Course& course) {
