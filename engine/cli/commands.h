@@ -59,7 +59,6 @@ void add_hand_back(CLI::App& app, Action& action);
 void add_similar(CLI::App& app, Action& action);
 void add_course(CLI::App& app, Action& action);
 void add_test_lesson(CLI::App& app, Action& action);
-void add_work(CLI::App& app, Action& action);
 void add_study(CLI::App& app, Action& action);
 void add_boxed_version(CLI::App& app, Action& action);
 

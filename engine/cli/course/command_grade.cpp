@@ -7,9 +7,8 @@
 #include "base/reader.h"
 #include "cli/commands.h"
 #include "cli/course/grading_options.h"
-#include "cli/course/share_options.h"
 #include "cli/document_command.h"
-#include "course/grading/grading.h"
+#include "course/grading/grade_folder.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/program_lookup.h"
@@ -21,10 +20,10 @@ namespace {
 namespace fs = std::filesystem;
 
 struct GradeArguments {
-    std::string submissions, lesson, out, checks, secret, roster, owners, deadlines, timezone, on, spool,
-        keep = "best", isolation = "full";
+    std::string submissions, lesson, out, checks, secret, roster, owners, deadlines, timezone, keep = "best",
+                                                                                               isolation = "full";
     std::vector<std::string> only;
-    int jobs = 0, timeout = 60, lease = 30;
+    int jobs = 0, timeout = 60;
     bool regrade = false, again = false, no_pdf = false, answers = false;
 };
 
@@ -41,36 +40,35 @@ std::string eye_text(const GradingOutcome& outcome) {
 }
 
 int grade(const GradeArguments& words) {
-    GradingRequest request;
-    request.submissions = words.submissions;
-    request.out = words.out;
-    request.setup.lesson = find_lesson(words.lesson);
-    request.setup.more_checks = given(words.checks);
-    request.setup.isolation = words.isolation == "full" ? Isolation::kFull : Isolation::kProcess;
-    request.setup.time.processor = std::chrono::seconds(words.timeout);
-    request.setup.program = running_program();
+    FolderRequest request;
+    GradingOptions& options = request.options;
+    options.out = words.out;
+    options.setup.lesson = find_lesson(words.lesson);
+    options.setup.more_checks = given(words.checks);
+    options.setup.isolation = words.isolation == "full" ? Isolation::kFull : Isolation::kProcess;
+    options.setup.time.processor = std::chrono::seconds(words.timeout);
+    options.setup.program = running_program();
     if (!words.secret.empty()) {
-        request.setup.secret = read_file(words.secret);
-        if (request.setup.secret.empty())
+        options.setup.secret = read_file(words.secret);
+        if (options.setup.secret.empty())
             throw EnvironmentError("{} is empty: hidden records drawn from it would be no secret", words.secret);
     }
-    request.roster = given(words.roster);
-    request.owners = given(words.owners);
-    request.deadlines = given(words.deadlines);
-    request.newest_counts = words.keep == "newest";
-    request.only = words.only;
-    request.setup.jobs =
+    options.setup.jobs =
         words.jobs > 0 ? words.jobs : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-    request.timezone = words.timezone;
+    options.regrade = words.regrade;
+    options.pdf = !words.no_pdf;
+    ClassSources& sources = request.sources;
+    sources.submissions = words.submissions;
+    sources.roster = given(words.roster);
+    sources.owners = given(words.owners);
+    sources.deadlines = given(words.deadlines);
+    sources.newest_counts = words.keep == "newest";
+    sources.only = words.only;
+    sources.timezone = words.timezone;
     request.again = words.again;
-    request.regrade = words.regrade;
-    request.pdf = !words.no_pdf;
-    request.on = words.on;
-    request.spool = given(words.spool);
-    request.lease_seconds = words.lease;
     if (words.secret.empty())
         std::cerr << "dynlab: no --secret FILE: anybody who reads the project can compute the hidden records\n";
-    const GradingOutcome outcome = grade_class(request);
+    const GradingOutcome outcome = grade_folder(request);
     for (const Message& note : outcome.notes)
         std::cerr << "dynlab: note: " << terminal_text(message_text(note)) << '\n';
     for (const Message& complaint : outcome.complaints)
@@ -79,11 +77,11 @@ int grade(const GradeArguments& words) {
                              message_text(plural(outcome.submissions, "{} submission", "{} submissions")), outcome.made,
                              outcome.kept,
                              outcome.not_whole > 0 ? fmt::format(", {} with ungraded checks", outcome.not_whole) : "",
-                             isolation_name(request.setup.isolation))
-              << eye_text(outcome) << (request.out / "gradebook.csv").string() << '\n'
-              << (request.out / (request.pdf ? "summary.pdf" : "summary.md")).string() << '\n';
-    const fs::path answers = request.out / (request.pdf ? "model_answers.pdf" : "model_answers.md");
-    if (words.answers) make_document(model_answers_of(request.setup.lesson, answers), false);
+                             isolation_name(options.setup.isolation))
+              << eye_text(outcome) << (options.out / "gradebook.csv").string() << '\n'
+              << (options.out / (options.pdf ? "summary.pdf" : "summary.md")).string() << '\n';
+    const fs::path answers = options.out / (options.pdf ? "model_answers.pdf" : "model_answers.md");
+    if (words.answers) make_document(model_answers_of(options.setup.lesson, answers), false);
     const bool all_is_graded = outcome.not_whole + outcome.unreadable + outcome.unowned == 0;
     return all_is_graded && outcome.complaints.empty() ? kDone : kFailed;
 }
@@ -132,7 +130,6 @@ void add_grade(CLI::App& app, Action& action) {
     command->add_option("--jobs", words->jobs, "So many at once; as many as there are cores unless given")
         ->type_name("N")
         ->check(CLI::Range(1, 256));
-    add_share_options(*command, words->on, words->spool, words->lease);
     add_timeout_option(*command, words->timeout);
     command->add_option("--isolation", words->isolation, "full: file system, network and processes of its own")
         ->type_name("full|process")

@@ -6,30 +6,24 @@
 
 #include "course/boxes/boxed_document.h"
 #include "course/grading/grading_rules.h"
-#include "course/hand_ins/owners.h"
-#include "course/hand_ins/roster.h"
-#include "course/hand_ins/submission.h"
+#include "course/grading/work_item.h"
 
 namespace dynlab::inline course {
 
 /// A class and its marks, after one run of grade.
 struct ClassResults {
     struct Entry {
-        Submission submission;
+        const WorkItem* item = nullptr;
         std::optional<Grade> grade;  ///< nothing: not graded yet
-        Owners::Found owner;         ///< where there is a roster
-        std::int64_t received = 0;   ///< seconds since 1970
-        std::string content = {};    ///< hash of what was handed in; empty for what was not looked at
+        std::string content = {};    ///< hash of what was submitted; empty for what was not looked at
     };
     std::vector<Entry> entries;
-    const Roster* roster = nullptr;
+    const ClassWork* work = nullptr;
     std::filesystem::path out;
     const GradingSetup* setup = nullptr;
     bool pdf = true;
     const BoxedDocuments* documents = nullptr;
     std::vector<Message> complaints;
-    bool deadlines = false;      ///< there are some: the gradebook tells the reason of each penalty
-    bool newest_counts = false;  ///< of several hand-ins of one student; else the better one
 };
 
 /// What the instructor must look at.
