@@ -24,7 +24,7 @@ struct GradeArguments {
                                                                                                isolation = "full";
     std::vector<std::string> only;
     int jobs = 0, timeout = 60;
-    bool regrade = false, again = false, no_pdf = false, answers = false;
+    bool regrade = false, again = false, no_pdf = false, answers = false, force = false;
 };
 
 std::optional<fs::path> given(const std::string& path) {
@@ -57,6 +57,7 @@ int grade(const GradeArguments& words) {
         words.jobs > 0 ? words.jobs : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     options.regrade = words.regrade;
     options.pdf = !words.no_pdf;
+    options.above_maximum = words.force;
     ClassSources& sources = request.sources;
     sources.submissions = words.submissions;
     sources.roster = given(words.roster);
@@ -138,11 +139,15 @@ void add_grade(CLI::App& app, Action& action) {
     command->add_flag(
         "--answers", words->answers,
         "Model answers for all, OUT/model_answers.pdf: the worked solution's text; dynlab hand-back adds them");
+    command->add_flag("--force", words->force, "Take marks in marks.csv that are above the points of their check");
     command->add_flag("--no-pdf", words->no_pdf, "Feedback and summary as Markdown only");
     command->footer(
         "Every submission is run and checked alone in a box; what it breaks is its own. A run that was ended goes on\n"
-        "where it was. Your own marks go into OUT/manual.csv (submission,check,points,reason) and survive every "
-        "regrade.\n"
+        "where it was. Your own marks go into OUT/marks.csv (who,check,points,reason) and survive every regrade: who "
+        "is a\n"
+        "group, an id, a name or a submission, check is a check or * for the whole submission. What is to be marked by "
+        "hand\n"
+        "gets rows there; dynlab never takes one away.\n"
         "In OUT: gradebook.csv, summary.pdf, and for each submission results/NAME/results.json (Gradescope),\n"
         "feedback.md and feedback.pdf.\n"
         "Example:  dynlab grade handed-in --lesson 04 --out marks --secret secret.txt --roster roster.csv\n"
@@ -155,7 +160,7 @@ void add_grade(CLI::App& app, Action& action) {
         "(\"15 min\"), percent_per_day, most_percent; what a row leaves empty is as in the row of *.\n"
         "What cannot be read (a PDF alone, a .rar, another lesson's script) is \"unreadable\": it has no marks until "
         "you\n"
-        "give some in manual.csv. It is listed under \"need your eye\", as is what belongs to nobody in the roster.\n"
+        "give some in marks.csv. It is listed under \"need your eye\", as is what belongs to nobody in the roster.\n"
         "Exit codes: 0 all is graded, 1 something is left ungraded, unreadable or nobody's, 2 wrong usage.");
     command->callback([words, &action] { action = [words] { return grade(*words); }; });
 }

@@ -30,7 +30,7 @@ struct TriedRules {
 };
 
 /// Grades a class. In `options.out`: results/NAME/ with results.json and feedback.md and .pdf for each submission,
-/// logs/NAME/log.txt, which may quote hidden records, gradebook.csv, summary.md or .pdf, manual.csv. Each submission is
+/// logs/NAME/log.txt, which may quote hidden records, gradebook.csv, summary.md or .pdf, marks.csv. Each submission is
 /// graded alone, in boxes, by as many threads as `setup.jobs`; a result whose inputs are unchanged is kept, so that a
 /// run that was ended goes on where it was. Marks depend on neither the order nor the threads. The caller has the lock
 /// of the folder. Throws Interrupted after Ctrl-C.
