@@ -7,6 +7,7 @@
 #include "base/reader.h"
 #include "cli/commands.h"
 #include "cli/course/grading_options.h"
+#include "cli/course/grading_report.h"
 #include "cli/document_command.h"
 #include "course/grading/grade_folder.h"
 #include "platform/atomic_file.h"
@@ -29,14 +30,6 @@ struct GradeArguments {
 
 std::optional<fs::path> given(const std::string& path) {
     return path.empty() ? std::nullopt : std::optional<fs::path>(path);
-}
-
-std::string eye_text(const GradingOutcome& outcome) {
-    if (outcome.eye.empty()) return "";
-    std::string text =
-        fmt::format("{} your eye:\n", outcome.eye.size() == 1 ? "1 needs" : fmt::format("{} need", outcome.eye.size()));
-    for (const Message& sentence : outcome.eye) text += "  " + terminal_text(message_text(sentence)) + "\n";
-    return text;
 }
 
 int grade(const GradeArguments& words) {
@@ -70,21 +63,10 @@ int grade(const GradeArguments& words) {
     if (words.secret.empty())
         std::cerr << "dynlab: no --secret FILE: anybody who reads the project can compute the hidden records\n";
     const GradingOutcome outcome = grade_folder(request);
-    for (const Message& note : outcome.notes)
-        std::cerr << "dynlab: note: " << terminal_text(message_text(note)) << '\n';
-    for (const Message& complaint : outcome.complaints)
-        std::cerr << "dynlab: " << terminal_text(message_text(complaint)) << '\n';
-    std::cout << fmt::format("{}: {} graded now, {} unchanged{}; isolation {}\n",
-                             message_text(plural(outcome.submissions, "{} submission", "{} submissions")), outcome.made,
-                             outcome.kept,
-                             outcome.not_whole > 0 ? fmt::format(", {} with ungraded checks", outcome.not_whole) : "",
-                             isolation_name(options.setup.isolation))
-              << eye_text(outcome) << (options.out / "gradebook.csv").string() << '\n'
-              << (options.out / (options.pdf ? "summary.pdf" : "summary.md")).string() << '\n';
+    const int code = show_grading(outcome, options.setup.isolation, options.out, options.pdf);
     const fs::path answers = options.out / (options.pdf ? "model_answers.pdf" : "model_answers.md");
     if (words.answers) make_document(model_answers_of(options.setup.lesson, answers), false);
-    const bool all_is_graded = outcome.not_whole + outcome.unreadable + outcome.unowned == 0;
-    return all_is_graded && outcome.complaints.empty() ? kDone : kFailed;
+    return code;
 }
 
 }  // namespace

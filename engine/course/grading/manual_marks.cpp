@@ -55,7 +55,8 @@ class MarkedItems {
         const Owners::Found owner = owners_.called(who);
         take([&](const WorkItem& item) {
             return item.submission.lms_id == who || item.submission.person == who ||
-                   (owner.anybody() && item.students == owner.students);
+                   (owner.anybody() &&
+                    (item.students == owner.students || (!owner.group.empty() && item.group == owner.group)));
         });
         std::set<std::string> owners;  // a number of a platform may be the id of somebody else
         for (const WorkItem* item : found.items) owners.insert(owner_of(*item));

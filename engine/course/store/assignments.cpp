@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "course/hand_ins/lateness.h"
 #include "course/store/exceptions.h"
 #include "numerics/error.h"
 #include "platform/spelling.h"
@@ -284,9 +285,7 @@ Costs costs_of(const std::string& text) {
 }
 
 double late_percent(const Costs& costs, std::int64_t late) {
-    constexpr std::int64_t kDay = 86400;
-    if (late <= 0) return 0;
-    return std::min(costs.late_most, costs.late_day * static_cast<double>((late + kDay - 1) / kDay));
+    return late_percent(costs.late_day, costs.late_most, late);
 }
 
 }  // namespace dynlab::inline course
