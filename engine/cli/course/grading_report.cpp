@@ -11,27 +11,32 @@
 namespace dynlab::inline cli {
 namespace {
 
-std::string eye_text(const GradingOutcome& outcome) {
-    if (outcome.eye.empty()) return "";
-    std::string text =
-        fmt::format("{} your eye:\n", outcome.eye.size() == 1 ? "1 needs" : fmt::format("{} need", outcome.eye.size()));
-    for (const Message& sentence : outcome.eye) text += "  " + terminal_text(message_text(sentence)) + "\n";
+std::string attention_text(const GradingOutcome& outcome) {
+    if (outcome.attention.empty()) return "";
+    std::string text = message_text(plural(static_cast<std::int64_t>(outcome.attention.size()),
+                                           "{} note needs attention:", "{} notes need attention:")) +
+                       "\n";
+    for (const Message& sentence : outcome.attention) text += "  " + terminal_text(message_text(sentence)) + "\n";
     return text;
 }
 
 }  // namespace
 
-int show_grading(const GradingOutcome& outcome, Isolation isolation, const std::filesystem::path& out, bool pdf) {
+void show_complaints(const GradingOutcome& outcome) {
     for (const Message& note : outcome.notes)
         std::cerr << "dynlab: note: " << terminal_text(message_text(note)) << '\n';
     for (const Message& complaint : outcome.complaints)
         std::cerr << "dynlab: " << terminal_text(message_text(complaint)) << '\n';
+}
+
+int show_grading(const GradingOutcome& outcome, Isolation isolation, const std::filesystem::path& out, bool pdf) {
+    show_complaints(outcome);
     std::cout << fmt::format("{}: {} graded now, {} unchanged{}; isolation {}\n",
                              message_text(plural(outcome.submissions, "{} submission", "{} submissions")), outcome.made,
                              outcome.kept,
                              outcome.not_whole > 0 ? fmt::format(", {} with ungraded checks", outcome.not_whole) : "",
                              isolation_name(isolation))
-              << eye_text(outcome) << (out / "gradebook.csv").string() << '\n'
+              << attention_text(outcome) << (out / "gradebook.csv").string() << '\n'
               << (out / (pdf ? "summary.pdf" : "summary.md")).string() << '\n';
     const bool all_is_graded = outcome.not_whole + outcome.unreadable + outcome.unowned == 0;
     return all_is_graded && outcome.complaints.empty() ? kDone : kFailed;

@@ -86,16 +86,20 @@ RunRecord run_showing_activity(RunRequest& request, GnuplotRenderer& renderer) {
 
 }  // namespace
 
-int run_and_show(const RunArguments& words, RunSharing* sharing) {
+fs::path figures_folder(const fs::path& script) {
+    if (script.empty()) return "dynlab_out";
+    return (folder_of(script) / (script.stem().string() + "_out")).lexically_normal();
+}
+
+int run_and_show(const RunArguments& words, CallsInParts* parts) {
     const bool from_file = !words.file.empty();
     RunRequest request;
     const fs::path file = from_file ? meant_script(words.file) : fs::path();
     request.script = from_file ? read_script_or_notebook(file) : parse_percent_script(words.code, "command line");
     request.seed = words.seed.value();
     request.slider_values = words.sliders.values();
-    const std::string stem = from_file ? file.stem().string() : "dynlab";
     const fs::path beside = from_file ? folder_of(file) : fs::path(".");
-    const fs::path out = words.out.empty() ? (beside / (stem + "_out")).lexically_normal() : fs::path(words.out);
+    const fs::path out = words.out.empty() ? figures_folder(file) : fs::path(words.out);
     request.out_folder = words.out.empty() ? beside : out;
     if (!words.out.empty()) fs::create_directories(out);
 
@@ -104,17 +108,10 @@ int run_and_show(const RunArguments& words, RunSharing* sharing) {
     WrittenFiles written(state_file("written"),
                          words.force ? WrittenFiles::Others::kReplaced : WrittenFiles::Others::kKept);
     GnuplotRenderer renderer(&cache);
-    if (sharing == nullptr) {
-        request.call_cache = &calls;
-    } else {
-        request.seed = request.seed.value_or(request.script.header.seed);
-        request.shared = &sharing->begin(out, *request.seed);
-    }
+    if (parts == nullptr) request.call_cache = &calls;
+    request.parts = parts;
     request.written = &written;
     RunRecord record = run_showing_activity(request, renderer);
-    if (sharing != nullptr)
-        for (const std::string& note : sharing->end(!record.error))
-            std::cerr << "dynlab: note: " << terminal_text(note) << '\n';
     if (words.out.empty()) remove_old_figures(out);  // a folder that was named is somebody's
     save_figures(record, renderer, out, request.script.header.language);
     if (words.gnuplot) save_gnuplot_files(record, request.script.header.language);

@@ -223,20 +223,7 @@ std::string attention_of(const ClassResults& results) {
         attention += "- " + escaped_markdown(message_text(sentence)) + "\n";
     };
     for (const Message& complaint : results.complaints) add(complaint);
-    for (const Message& sentence : what_needs_the_eye(results).sentences) add(sentence);
-    for (const Message& sentence : several_of_one(results)) add(sentence);
-    for (const Entry& entry : results.entries) {
-        if (!entry.grade || entry.grade->without_marks()) continue;
-        const std::string name = shown_name(entry.item->submission);
-        if (!entry.grade->remark.empty()) add(Message("\"{}\": {}", name, entry.grade->remark));
-        if (!entry.grade->trouble.empty())
-            add(entry.grade->began
-                    ? Message("the script of \"{}\" did not run to its end: {}", name, entry.grade->trouble)
-                    : Message("the script of \"{}\" could not be begun: {}", name, entry.grade->trouble));
-        if (entry.grade->penalty > 0)
-            add(Message("\"{}\" was late, which costs {} points: {}", name, points_text(entry.grade->penalty),
-                        entry.grade->lateness));
-    }
+    for (const Message& sentence : what_needs_attention(results).sentences) add(sentence);
     return attention.empty() ? "Nothing.\n" : attention;
 }
 
@@ -285,33 +272,39 @@ RecordedFigure histogram_of(const Vector& points, double possible) {
 
 }  // namespace
 
-NeedsTheEye what_needs_the_eye(const ClassResults& results) {
-    NeedsTheEye eye;
-    // A broken check is complained of once; it is not the fault of any submission.
-    const auto whole = [](const Entry& entry) {
-        return !entry.grade || entry.grade->unreadable || entry.grade->whole();
-    };
+Attention what_needs_attention(const ClassResults& results) {
+    Attention attention;
+    const auto add = [&](Message sentence) { attention.sentences.push_back(std::move(sentence)); };
+    // A broken check is reported once; it is not the fault of any submission.
+    const auto whole = [](const Grade& grade) { return grade.unreadable || grade.whole(); };
     const bool some_whole =
-        std::ranges::any_of(results.entries, [&](const Entry& entry) { return entry.grade && whole(entry); });
+        std::ranges::any_of(results.entries, [&](const Entry& entry) { return entry.grade && whole(*entry.grade); });
     std::map<std::string, const Entry*> by_content;
     for (const Entry& entry : results.entries) {
         const std::string name = shown_name(entry.item->submission);
-        const auto add = [&](Message sentence) { eye.sentences.push_back(std::move(sentence)); };
         if (results.work->roster && !entry.item->unmatched.empty()) {
             add(Message("\"{}\" belongs to nobody in the roster: {}; write it into a list for --owners", name,
                         entry.item->unmatched));
-            ++eye.unowned;
+            ++attention.unowned;
         }
         if (!entry.grade) continue;
-        if (entry.grade->without_marks()) {
-            add(Message("\"{}\" cannot be read: {}", name, entry.grade->trouble));
-            ++eye.unreadable;
-        } else if (waits_for_a_hand(*entry.grade)) {
-            add(Message("\"{}\" is to be marked by hand: marks.csv", name));
-        } else if (!whole(entry) && some_whole) {
-            add(Message("\"{}\" is not graded completely", name));
-        } else if (entry.grade->silent && entry.grade->trouble.empty()) {
-            add(Message("\"{}\" ran to its end but gave no answer", name));
+        const Grade& grade = *entry.grade;
+        if (grade.without_marks()) {
+            add(Message("\"{}\" cannot be read: {}", name, grade.trouble));
+            ++attention.unreadable;
+        } else {
+            if (waits_for_a_hand(grade))
+                add(Message("\"{}\" is to be marked by hand: marks.csv", name));
+            else if (!whole(grade) && some_whole)
+                add(Message("\"{}\" is not graded completely", name));
+            if (grade.trouble.empty() && grade.silent) add(Message("\"{}\" ran to its end but gave no answer", name));
+            if (!grade.trouble.empty())
+                add(grade.began ? Message("the script of \"{}\" did not run to its end: {}", name, grade.trouble)
+                                : Message("the script of \"{}\" could not be begun: {}", name, grade.trouble));
+            if (!grade.remark.empty()) add(Message("\"{}\": {}", name, grade.remark));
+            if (grade.penalty > 0)
+                add(Message("\"{}\" was late, which costs {} points: {}", name, points_text(grade.penalty),
+                            grade.lateness));
         }
         if (entry.content.empty()) continue;
         const auto [same, fresh] = by_content.emplace(entry.content, &entry);
@@ -320,7 +313,8 @@ NeedsTheEye what_needs_the_eye(const ClassResults& results) {
             add(Message("\"{}\" is the same, byte for byte, as \"{}\" of somebody else", name,
                         shown_name(same->second->item->submission)));
     }
-    return eye;
+    for (Message& sentence : several_of_one(results)) add(std::move(sentence));
+    return attention;
 }
 
 std::vector<std::string> counted_instead(const ClassResults& results) {

@@ -26,19 +26,19 @@ struct ClassResults {
     std::vector<Message> complaints;
 };
 
-/// What the instructor must look at.
-struct NeedsTheEye {
-    std::vector<Message> sentences;           ///< one a submission: ""group-5" cannot be read: It is empty."
+/// What needs the instructor's attention.
+struct Attention {
+    std::vector<Message> sentences;           ///< ""group-5" cannot be read: It is empty."
     std::size_t unowned = 0, unreadable = 0;  ///< of those
 };
-NeedsTheEye what_needs_the_eye(const ClassResults& results);
+Attention what_needs_attention(const ClassResults& results);
 
 /// For each entry the name of the one that counts in place of it, for each of its owners; empty where it counts itself.
 std::vector<std::string> counted_instead(const ClassResults& results);
 
 /// Writes gradebook.csv (a row for each student of the roster, or each submission where there is none) and the summary
-/// (report_templates/class_summary.md, set in a box): numbers, histogram, success of each check, what needs the
-/// instructor's eye. What is to be marked by hand gets rows in marks.csv (manual_marks.h); summary.json has the
+/// (report_templates/class_summary.md, set in a box): numbers, histogram, success of each check, what needs
+/// attention. What is to be marked by hand gets rows in marks.csv (manual_marks.h); summary.json has the
 /// numbers for programs (grading/class_statistics.h).
 void write_class_results(const ClassResults& results);
 

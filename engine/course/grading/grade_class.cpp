@@ -41,6 +41,9 @@ class ClassGrader {
         if (failure_) std::rethrow_exception(failure_);
     }
 
+    /// So far.
+    const GradingOutcome& outcome() const { return outcome_; }
+
     GradingOutcome conclude() {
         take_earlier_results();
         for (const Message& sentence : pipeline_.manual().complaints()) outcome_.complaints.push_back(sentence);
@@ -48,10 +51,10 @@ class ClassGrader {
         // Threads end in any order.
         std::ranges::sort(outcome_.complaints, {}, [](const Message& complaint) { return message_text(complaint); });
         const ClassResults all = results();
-        NeedsTheEye eye = what_needs_the_eye(all);
-        outcome_.eye = std::move(eye.sentences);
-        outcome_.unowned = static_cast<int>(eye.unowned);
-        outcome_.unreadable = static_cast<int>(eye.unreadable);
+        Attention attention = what_needs_attention(all);
+        outcome_.attention = std::move(attention.sentences);
+        outcome_.unowned = static_cast<int>(attention.unowned);
+        outcome_.unreadable = static_cast<int>(attention.unreadable);
         write_class_results(all);
         return std::move(outcome_);
     }
@@ -158,6 +161,7 @@ class ClassGrader {
         const std::lock_guard lock(mutex_);
         graded_[place].grade = std::move(grade);
         outcome_.complaints.push_back(Message("\"{}\" could not be graded: {}", name, reason));
+        ++outcome_.failed;
         bar_->advance(++done_);
     }
 
@@ -256,6 +260,34 @@ GradingOutcome grade_class(const ClassWork& work, const TriedRules& tried, const
     ClassGrader grader(work, tried, options);
     grader.grade_chosen();
     return grader.conclude();
+}
+
+GradingOutcome grade_part_of_class(const ClassWork& work, const Part& part, const TriedRules& tried,
+                                   const GradingOptions& options) {
+    ClassWork own = work;
+    own.chosen.clear();
+    for (std::size_t k = 0; k < work.chosen.size(); ++k)
+        if (part.has(k)) own.chosen.push_back(work.chosen[k]);
+    ClassGrader grader(own, tried, options);
+    grader.grade_chosen();
+    return grader.outcome();
+}
+
+MissingParts ungraded_parts(const ClassWork& work, int parts, const TriedRules& tried, const GradingOptions& options) {
+    const GradingPipeline pipeline(tried.rules, options, work);
+    MissingParts missing;
+    const auto graded = [&](const WorkItem& item) {
+        try {
+            return pipeline.kept_grade(item, pipeline.keys_of(item)).has_value();
+        } catch (const fs::filesystem_error&) {  // cannot be looked into
+            return false;
+        }
+    };
+    for (std::size_t k = 0; k < work.chosen.size(); ++k) {
+        const int part = Part{1, parts}.part_of(k);
+        if (!missing.parts.contains(part) && !graded(work.items[work.chosen[k]])) missing.parts.insert(part);
+    }
+    return missing;
 }
 
 }  // namespace dynlab::inline course

@@ -4,15 +4,22 @@
 #include "platform/error.h"
 
 namespace dynlab::inline course {
+namespace {
 
-GradingOutcome grade_folder(const FolderRequest& request) {
-    const GradingOptions& options = request.options;
-    if (const auto obstacle = obstacle_to(options.setup.isolation)) throw EnvironmentError(*obstacle);
-    const FileLock lock = lock_results(options.out);
-    const ClassFolder folder(request.sources, options.out, options.setup);
-    const TriedRules tried(options);
+std::optional<FileLock> lock_for(const FolderRequest& request) {
+    if (const auto obstacle = obstacle_to(request.options.setup.isolation)) throw EnvironmentError(*obstacle);
+    if (request.part) return {};  // each result is written by one part, and whole
+    return lock_results(request.options.out);
+}
+
+}  // namespace
+
+FolderGrading::FolderGrading(const FolderRequest& request)
+    : request_(request),
+      lock_(lock_for(request)),
+      folder_(request.sources, request.options.out, request.options.setup),
+      tried_(request.options) {
     remember_inputs(request);
-    return grade_class(folder.work(), tried, options);
 }
 
 }  // namespace dynlab::inline course

@@ -16,24 +16,27 @@ namespace fs = std::filesystem;
 
 constexpr char kMemoryFile[] = "grading.json";
 
-/// An input that marks depend on: as it was named, and a hash of what stood there; both empty where it was not given.
+/// An input that marks depend on: as it was named, a hash of its content, and where it is; empty where it was not
+/// given.
 struct RememberedInput {
-    std::string name, hash;
+    std::string name, hash, path;
 };
 
 /// What a folder of results was made with.
 struct GradingMemory {
     std::string lesson;
     RememberedInput lesson_checks, checks, secret, roster, owners, deadlines;
-    std::string keep, timezone;
+    std::string keep, timezone, isolation;
+    int timeout = 0;
 };
 
-DYNLAB_DESCRIBE(RememberedInput, name, hash)
-DYNLAB_DESCRIBE(GradingMemory, lesson, lesson_checks, checks, secret, roster, owners, deadlines, keep, timezone)
+DYNLAB_DESCRIBE(RememberedInput, name, hash, path)
+DYNLAB_DESCRIBE(GradingMemory, lesson, lesson_checks, checks, secret, roster, owners, deadlines, keep, timezone,
+                isolation, timeout)
 
 RememberedInput remembered_file(const std::optional<fs::path>& file) {
     if (!file) return {};
-    return {file->string(), sha256_of_file(*file)};
+    return {file->string(), sha256_of_file(*file), fs::absolute(*file).lexically_normal().string()};
 }
 
 /// Of all files in a folder and below it.
@@ -42,11 +45,14 @@ RememberedInput remembered_folder(const std::optional<fs::path>& folder) {
     std::vector<fs::path> files;
     for (const auto& entry : fs::recursive_directory_iterator(*folder))
         if (entry.is_regular_file()) files.push_back(entry.path());
-    return {folder->string(), hash_of_files(std::move(files), *folder)};
+    return {folder->string(), hash_of_files(std::move(files), *folder),
+            fs::absolute(*folder).lexically_normal().string()};
 }
 
-RememberedInput remembered_text(const std::string& name, const std::string& text) {
-    return text.empty() ? RememberedInput{} : RememberedInput{name, sha256_of("dynlab grade:" + text)};
+/// Its file's own hash would help to guess it.
+RememberedInput remembered_secret(const fs::path& file, const std::string& text) {
+    if (text.empty()) return {};
+    return {"--secret", sha256_of("dynlab grade:" + text), fs::absolute(file).lexically_normal().string()};
 }
 
 /// Nothing where there is none, or where it cannot be read.
@@ -95,7 +101,27 @@ std::vector<Message> differences_of(const GradingMemory& then, const GradingMemo
     return clauses;
 }
 
+/// Seen from here.
+std::string path_from_here(const RememberedInput& input) {
+    return input.path.empty() ? std::string() : fs::proximate(input.path).string();
+}
+
 }  // namespace
+
+std::optional<RememberedOptions> remembered_options(const fs::path& out) {
+    const std::optional<GradingMemory> then = read_memory(out);
+    if (!then) return {};
+    return RememberedOptions{then->lesson,
+                             path_from_here(then->checks),
+                             path_from_here(then->secret),
+                             path_from_here(then->roster),
+                             path_from_here(then->owners),
+                             path_from_here(then->deadlines),
+                             then->keep,
+                             then->timezone,
+                             then->isolation,
+                             then->timeout};
+}
 
 void remember_inputs(const FolderRequest& request) {
     GradingMemory now;
@@ -103,29 +129,35 @@ void remember_inputs(const FolderRequest& request) {
     now.lesson_checks = remembered_file(request.options.setup.lesson.folder / "checks.lua");
     now.lesson_checks.name = request.options.setup.lesson.slug + "/checks.lua";  // wherever it is installed
     now.checks = remembered_folder(request.options.setup.more_checks);
-    now.secret = remembered_text("--secret", request.options.setup.secret);
+    now.secret = remembered_secret(request.secret, request.options.setup.secret);
     now.roster = remembered_file(request.sources.roster);
     now.owners = remembered_file(request.sources.owners);
     now.deadlines = remembered_file(request.sources.deadlines);
     now.keep = request.sources.newest_counts ? "newest" : "best";
     now.timezone = request.sources.timezone;
+    now.isolation = isolation_name(request.options.setup.isolation);
+    now.timeout = static_cast<int>(
+        std::chrono::duration_cast<std::chrono::seconds>(request.options.setup.time.processor).count());
     const std::optional<GradingMemory> then = read_memory(request.options.out);
     if (request.again && !request.sources.only.empty())
-        throw EnvironmentError("--again grades all of the class anew; leave --only out");
+        throw EnvironmentError("--again grades all of the class again; leave --only out");
     if (then && !request.again)
         if (auto differences = differences_of(*then, now, request.sources.only.empty()); !differences.empty()) {
             const MessageList all{std::move(differences)};
             if (request.sources.only.empty())
                 throw EnvironmentError(
-                    "the marks in {} were made with other inputs: {}. Give the same again, or --again to grade all "
-                    "with "
-                    "these, or another --out",
+                    "the marks in {} were made with other inputs: {}. Leave them out to go on with those, or give "
+                    "--again "
+                    "to grade all with these, or another --out",
                     request.options.out.string(), all);
             throw EnvironmentError(
-                "the marks in {} were made with other inputs: {}. Give the same again, or another --out",
+                "the marks in {} were made with other inputs: {}. Leave them out to go on with those, or give another "
+                "--out",
                 request.options.out.string(), all);
         }
-    write_file_atomically(request.options.out / kMemoryFile, json_of(now, 2) + "\n");
+    const fs::path file = request.options.out / kMemoryFile;
+    const std::string text = json_of(now, 2) + "\n";
+    if (!fs::exists(file) || read_file(file) != text) write_file_atomically(file, text);
 }
 
 }  // namespace dynlab::inline course

@@ -30,7 +30,8 @@ std::optional<std::size_t> first_column(const TextTable& table, std::initializer
 void put_aside(const fs::path& file) {
     fs::path aside = file.string() + ".imported";
     for (int i = 2; fs::exists(aside); ++i) aside = fmt::format("{}.imported-{}", file.string(), i);
-    fs::rename(file, aside);
+    std::error_code ignored;  // another part of the class may have done it
+    fs::rename(file, aside, ignored);
 }
 
 /// Finds what a row is about.
