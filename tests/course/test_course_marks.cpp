@@ -115,9 +115,9 @@ TEST(course_marks, wrong_scores_are_refused_with_their_line) {
 }
 
 // oracle: what a presentation is: slides and script, one deadline, a sheet for the oral
-TEST(course_marks, of_a_presentation_come_from_the_sheet_of_the_oral) {
+TEST(course_marks, of_a_talk_come_from_the_sheet_of_the_oral) {
     CourseBench bench(3);
-    CourseBench::expect_done(bench.course({"assignment", "add", "talk", "--kind", "presentation", "--first",
+    CourseBench::expect_done(bench.course({"assignment", "add", "talk", "--kind", "talk", "--first",
                                            "2026-04-01 12:00", "--criteria", "content:10,figures:5,answers:5"}));
     for (int i = 1; i <= 2; ++i) {
         bench.bench().write("in/" + CourseBench::group(i) + "/slides.pdf", small_pdf("slide"));
@@ -134,14 +134,14 @@ TEST(course_marks, of_a_presentation_come_from_the_sheet_of_the_oral) {
                 AllOf(HasSubstr("script"), Not(HasSubstr("final version"))));
     for (const char* stage : {"review", "final"})
         EXPECT_THAT(bench.course({stage, "receive", "group-03.pdf", "--assignment", "talk"}).error_output,
-                    HasSubstr("talk is a presentation: it has no "));
+                    HasSubstr("talk is a talk: it has no "));
     EXPECT_THAT(bench.course({"peer", "assign", "talk", "--at", "2026-04-02 10:00"}).error_output,
-                HasSubstr("presentation"));
+                HasSubstr("talk"));
     for (const std::vector<std::string>& words : {std::vector<std::string>{"peer", "send", "talk"},
                                                   {"peer", "show", "talk"},
                                                   {"release", "talk"},
                                                   {"override", "talk", "group-01", "reviews", "80", "--reason", "x"}})
-        EXPECT_THAT(bench.course(words).error_output, HasSubstr("talk is a presentation: it has no reviews"));
+        EXPECT_THAT(bench.course(words).error_output, HasSubstr("talk is a talk: it has no reviews"));
     EXPECT_THAT(bench.course({"oral", "sheet", "crane"}).error_output, HasSubstr("crane is a report: "));
     EXPECT_EQ(bench.course({"oral", "sheet", "talk"}).output,
               "group,content,figures,answers,comment\r\ngroup-01,,,,\r\ngroup-02,,,,\r\ngroup-03,,,,\r\n");
@@ -205,7 +205,7 @@ TEST(course_marks, what_is_late_or_missing_costs_what_the_course_says) {
 TEST(course_marks, a_forgotten_cell_is_told) {
     CourseBench bench(2);
     CourseBench::expect_done(
-        bench.course({"assignment", "add", "talk", "--kind", "presentation", "--first", "2026-04-01 12:00"}));
+        bench.course({"assignment", "add", "talk", "--kind", "talk", "--first", "2026-04-01 12:00"}));
     bench.bench().write("oral.csv", "group,content,slides,delivery,answers\ngroup-01,4,3,,5\ngroup-02,4,4,4,4\n");
     CourseBench::expect_done(bench.course({"scores", "talk", "oral.csv"}));
     EXPECT_THAT(bench.course({"marks", "talk"}).output,
@@ -219,7 +219,7 @@ TEST(course_marks, students_have_points_of_their_own_at_the_oral) {
     bench.bench().write("roster.csv", "id,name,group\ns1,Ada King,group-01\ns2,Bo Ek,group-01\ns3,Cy Li,group-02\n");
     CourseBench::expect_done(bench.course({"roster", "import", "roster.csv"}));
     CourseBench::expect_done(
-        bench.course({"assignment", "add", "talk", "--kind", "presentation", "--first", "2026-04-01 12:00",
+        bench.course({"assignment", "add", "talk", "--kind", "talk", "--first", "2026-04-01 12:00",
                       "--criteria", "content:5,answers:5", "--costs", "late-day:10"}));
     EXPECT_EQ(bench.course({"oral", "sheet", "talk", "--students"}).output,
               "group,student,name,content,answers,comment\r\ngroup-01,,,,,\r\ngroup-01,s1,Ada King,,,\r\n"
@@ -274,7 +274,7 @@ TEST(course_marks, students_have_points_of_their_own_at_the_oral) {
 TEST(course_marks, the_order_of_talks_is_drawn) {
     CourseBench bench(16);  // one of 16! orders is that of the names
     CourseBench::expect_done(
-        bench.course({"assignment", "add", "talk", "--kind", "presentation", "--first", "2026-04-01 12:00"}));
+        bench.course({"assignment", "add", "talk", "--kind", "talk", "--first", "2026-04-01 12:00"}));
     const std::string drawn = bench.course({"oral", "sheet", "talk", "--drawn"}).output;
     const std::string plain = bench.course({"oral", "sheet", "talk"}).output;
     EXPECT_NE(drawn, plain);

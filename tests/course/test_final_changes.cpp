@@ -173,9 +173,9 @@ TEST_F(final_changes, knows_when_nothing_can_be_compared) {
     EXPECT_THAT(document("group-01"), HasSubstr("Final version: The pack’s report could not be made again"));
     EXPECT_THAT(document("group-01"), HasSubstr("the values are those of the pack’s own record.json"));
     CourseBench::expect_done(
-        bench_.course({"assignment", "add", "talk", "--kind", "presentation", "--first", "2026-04-01 12:00"}));
+        bench_.course({"assignment", "add", "talk", "--kind", "talk", "--first", "2026-04-01 12:00"}));
     EXPECT_THAT(changes({"--assignment", "talk"}).error_output,
-                HasSubstr("talk is a presentation: it has no final version"));
+                HasSubstr("talk is a talk: it has no final version"));
 }
 
 }  // namespace test_final_changes

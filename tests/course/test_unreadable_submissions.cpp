@@ -85,7 +85,7 @@ TEST(unreadable_submissions, have_no_marks_and_are_told_by_name) {
     EXPECT_THAT(feedback, Not(HasSubstr("submission"))) << "where it lay in the box is nothing to its author";
     EXPECT_THAT(summary, HasSubstr("the mean is 0.67"));  // 2, 0 and 0
     // The instructor may mark them all the same.
-    work.write("out/manual.csv", "submission,check,points,reason\npdf,x,1,from the PDF\n");
+    work.write("out/marks.csv", "who,check,points,reason\npdf,x,1,from the PDF\n");
     bench.grade();
     EXPECT_THAT(work.read("out/gradebook.csv"), HasSubstr(",pdf,graded,1,2,"));
 }

@@ -8,6 +8,7 @@
 #include "base/reader.h"
 #include "cli/commands.h"
 #include "cli/course/grading_options.h"
+#include "cli/course/grading_report.h"
 #include "cli/course/part_options.h"
 #include "cli/document_command.h"
 #include "course/grading/grade_folder.h"
@@ -28,7 +29,7 @@ struct GradeArguments {
     std::vector<std::string> only;
     PartOptions parts;
     int jobs = 0, timeout = 0;
-    bool regrade = false, again = false, no_pdf = false, answers = false;
+    bool regrade = false, again = false, no_pdf = false, answers = false, force = false;
 };
 
 constexpr char kNone[] = "none";  // of a file that OUT was made with
@@ -36,15 +37,6 @@ constexpr int kTimeout = 60;
 
 std::optional<fs::path> given(const std::string& path) {
     return path.empty() || path == kNone ? std::nullopt : std::optional<fs::path>(path);
-}
-
-std::string attention_text(const GradingOutcome& outcome) {
-    if (outcome.attention.empty()) return "";
-    std::string text = message_text(plural(static_cast<std::int64_t>(outcome.attention.size()),
-                                           "{} note needs attention:", "{} notes need attention:")) +
-                       "\n";
-    for (const Message& sentence : outcome.attention) text += "  " + terminal_text(message_text(sentence)) + "\n";
-    return text;
 }
 
 /// What is not given is as it was when OUT was made.
@@ -92,6 +84,7 @@ FolderRequest request_of(const GradeArguments& words) {
     options.setup.jobs = jobs_for(words);
     options.regrade = words.regrade;
     options.pdf = !words.no_pdf;
+    options.above_maximum = words.force;
     ClassSources& sources = request.sources;
     sources.submissions = words.submissions;
     sources.roster = given(words.roster);
@@ -103,13 +96,6 @@ FolderRequest request_of(const GradeArguments& words) {
     request.again = words.again;
     request.part = words.parts.chosen();
     return request;
-}
-
-void show_complaints(const GradingOutcome& outcome) {
-    for (const Message& note : outcome.notes)
-        std::cerr << "dynlab: note: " << terminal_text(message_text(note)) << '\n';
-    for (const Message& complaint : outcome.complaints)
-        std::cerr << "dynlab: " << terminal_text(message_text(complaint)) << '\n';
 }
 
 int grade_part(const FolderGrading& grading, const Part& part) {
@@ -136,18 +122,10 @@ int grade(const GradeArguments& given_words) {
     if (!words.parts.on.empty() && !done_on(words.parts.on, parts, missing)) return kDone;
     if (words.parts.join) refuse_missing_parts(missing(noted_parts(parts)).parts, noted_parts(parts));
     const GradingOutcome outcome = grading.grade();
-    show_complaints(outcome);
-    std::cout << fmt::format("{}: {} graded now, {} unchanged{}; isolation {}\n",
-                             message_text(plural(outcome.submissions, "{} submission", "{} submissions")), outcome.made,
-                             outcome.kept,
-                             outcome.not_whole > 0 ? fmt::format(", {} with ungraded checks", outcome.not_whole) : "",
-                             isolation_name(options.setup.isolation))
-              << attention_text(outcome) << (options.out / "gradebook.csv").string() << '\n'
-              << (options.out / (options.pdf ? "summary.pdf" : "summary.md")).string() << '\n';
+    const int code = show_grading(outcome, options.setup.isolation, options.out, options.pdf);
     const fs::path answers = options.out / (options.pdf ? "model_answers.pdf" : "model_answers.md");
     if (words.answers) make_document(model_answers_of(options.setup.lesson, answers), false);
-    const bool all_is_graded = outcome.not_whole + outcome.unreadable + outcome.unowned == 0;
-    return all_is_graded && outcome.complaints.empty() ? kDone : kFailed;
+    return code;
 }
 
 }  // namespace
@@ -216,11 +194,15 @@ void add_grade(CLI::App& app, Action& action) {
     command->add_flag(
         "--answers", words->answers,
         "Model answers for all, OUT/model_answers.pdf: the worked solution's text; dynlab hand-back adds them");
+    command->add_flag("--force", words->force, "Take marks in marks.csv that are above the points of their check");
     command->add_flag("--no-pdf", words->no_pdf, "Feedback and summary as Markdown only");
     command->footer(
         "Every submission is run and checked alone in a box; what it breaks is its own. A run that was ended goes on\n"
-        "where it was. Your own marks go into OUT/manual.csv (submission,check,points,reason) and survive every "
-        "regrade.\n"
+        "where it was. Your own marks go into OUT/marks.csv (who,check,points,reason) and survive every regrade: who "
+        "is a\n"
+        "group, an id, a name or a submission, check is a check or * for the whole submission. What is to be marked by "
+        "hand\n"
+        "gets rows there; dynlab never takes one away.\n"
         "In OUT: gradebook.csv, summary.pdf, and for each submission results/NAME/results.json (Gradescope),\n"
         "feedback.md and feedback.pdf.\n"
         "Example:  dynlab grade handed-in --lesson 04 --out marks --secret secret.txt --roster roster.csv\n"
@@ -233,7 +215,7 @@ void add_grade(CLI::App& app, Action& action) {
         "(\"15 min\"), percent_per_day, most_percent; what a row leaves empty is as in the row of *.\n"
         "What cannot be read (a PDF alone, a .rar, another lesson's script) is \"unreadable\": it has no marks until "
         "you\n"
-        "give some in manual.csv. What needs attention is listed here and in the summary: that, what belongs to\n"
+        "give some in marks.csv. What needs attention is listed here and in the summary: that, what belongs to\n"
         "nobody in the roster, scripts that stop, late submissions with a penalty, several of one student.\n"
         "Exit codes: 0 all is graded, 1 something is left ungraded, unreadable or nobody's, 2 wrong usage.");
     command->callback([words, &action] {

@@ -9,6 +9,7 @@
 #include "base/reader.h"
 #include "course/grading/class_statistics.h"
 #include "course/grading/feedback.h"
+#include "course/grading/manual_marks.h"
 #include "data_io/text_table.h"
 #include "figures/gnuplot_renderer.h"
 #include "figures/histogram.h"
@@ -138,21 +139,23 @@ TextTable gradebook_of(const ClassResults& results) {
 }
 
 bool waits_for_a_hand(const Grade& grade) {
-    return std::ranges::any_of(grade.checks, [](const CheckGrade& check) { return check.by_hand && !check.graded; });
+    return !grade.whole_mark &&
+           std::ranges::any_of(grade.checks, [](const CheckGrade& check) { return check.by_hand && !check.graded; });
 }
 
-/// What is to be marked by hand and is not yet: a table to be filled in and put into manual.csv.
-TextTable open_marks(const ClassResults& results) {
-    TextTable table;
-    table.names = {"submission", "check", "points", "comment", "of", "about", "rubric"};
+/// Adds what is to be marked by hand and is not yet to the instructor's file.
+void ask_for_marks(const ClassResults& results) {
+    std::vector<MarksFile::Row> rows;
+    std::vector<std::vector<std::string>> more;  // of, about, rubric
     for (const Entry& entry : results.entries) {
-        if (!entry.grade || entry.grade->without_marks()) continue;
-        for (const CheckGrade& check : entry.grade->checks)
-            if (check.by_hand && !check.graded)
-                table.rows.push_back({entry.item->submission.name, check.id, "", "", points_text(check.points),
-                                      message_text(check.about), check.rubric});
+        if (!entry.grade || entry.grade->without_marks() || !waits_for_a_hand(*entry.grade)) continue;
+        for (const CheckGrade& check : entry.grade->checks) {
+            if (!check.by_hand || check.graded) continue;
+            rows.push_back({0, entry.item->submission.name, check.id, {}, ""});
+            more.push_back({points_text(check.points), message_text(check.about), check.rubric});
+        }
     }
-    return table;
+    MarksFile(results.out).add(rows, more);
 }
 
 std::vector<Grade> grades_of(const ClassResults& results) {
@@ -291,7 +294,7 @@ Attention what_needs_attention(const ClassResults& results) {
             ++attention.unreadable;
         } else {
             if (waits_for_a_hand(grade))
-                add(Message("\"{}\" is to be marked by hand: by_hand.csv", name));
+                add(Message("\"{}\" is to be marked by hand: marks.csv", name));
             else if (!whole(grade) && some_whole)
                 add(Message("\"{}\" is not graded completely", name));
             if (grade.trouble.empty() && grade.silent) add(Message("\"{}\" ran to its end but gave no answer", name));
@@ -329,11 +332,7 @@ std::vector<std::string> counted_instead(const ClassResults& results) {
 
 void write_class_results(const ClassResults& results) {
     write_file_atomically(results.out / "gradebook.csv", csv_text(gradebook_of(results)));
-    const TextTable open = open_marks(results);
-    if (open.rows.empty())
-        std::filesystem::remove(results.out / "by_hand.csv");
-    else
-        write_file_atomically(results.out / "by_hand.csv", csv_text(open));
+    ask_for_marks(results);
     double possible = 0;
     for (const Entry& entry : results.entries)
         if (entry.grade) possible = std::max(possible, entry.grade->possible());

@@ -38,7 +38,7 @@ std::vector<std::string> counted_instead(const ClassResults& results);
 
 /// Writes gradebook.csv (a row for each student of the roster, or each submission where there is none) and the summary
 /// (report_templates/class_summary.md, set in a box): numbers, histogram, success of each check, what needs
-/// attention. by_hand.csv is the table of what is to be marked by hand yet, where there is any, summary.json the
+/// attention. What is to be marked by hand gets rows in marks.csv (manual_marks.h); summary.json has the
 /// numbers for programs (grading/class_statistics.h).
 void write_class_results(const ClassResults& results);
 

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <ctime>
 #include <set>
 
 #include "course/hand_ins/course_clock.h"
+#include "course/hand_ins/lateness.h"
 #include "course/hand_ins/owners.h"
 #include "data_io/text_table.h"
 #include "platform/error.h"
@@ -19,7 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr char kForAll[] = "*";
-constexpr double kSecondsOfADay = 86400;
 
 std::string shown_instant(long instant) {
     const std::time_t seconds = instant;
@@ -101,7 +100,27 @@ class DeadlineTable {
     TextTable table_;
 };
 
+/// "received 2026-03-01 18:20 CET, 20 min after the deadline of 2026-03-01 18:00 CET; each begun day costs 10 % of the
+/// points"
+Message reason_of(const LatePolicy& policy, std::int64_t received) {
+    const std::string came = shown_instant(received), due = shown_instant(policy.deadline);
+    const Message duration = duration_message(received - policy.deadline);
+    if (policy.most_percent < 100)
+        return Message(
+            "received {}, {} after the deadline of {}; each begun day costs {} % of the points, at most {} %", came,
+            duration, due, significant(policy.percent_per_day, 4), significant(policy.most_percent, 4));
+    return Message("received {}, {} after the deadline of {}; each begun day costs {} % of the points", came, duration,
+                   due, significant(policy.percent_per_day, 4));
+}
+
 }  // namespace
+
+Lateness lateness_of(const LatePolicy& policy, std::int64_t received) {
+    const std::int64_t late = received - policy.deadline;
+    if (late <= policy.grace) return {};
+    return {static_cast<double>(late) / 3600, late_percent(policy.percent_per_day, policy.most_percent, late),
+            reason_of(policy, received)};
+}
 
 Deadlines::Deadlines(const fs::path& file) {
     const DeadlineTable table(file);
@@ -150,27 +169,9 @@ long Deadlines::received(const Submission& submission, const std::vector<std::st
     return newest;
 }
 
-/// "received 2026-03-01 18:20 CET, 20 min after the deadline of 2026-03-01 18:00 CET; each begun day costs 10 % of the
-/// points"
-Message Deadlines::reason(const Rule& rule, long came) {
-    const std::string received = shown_instant(came), due = shown_instant(rule.deadline);
-    const Message duration = duration_message(came - rule.deadline);
-    if (rule.most_percent < 100)
-        return Message(
-            "received {}, {} after the deadline of {}; each begun day costs {} % of the points, at most {} %", received,
-            duration, due, significant(rule.percent_per_day, 4), significant(rule.most_percent, 4));
-    return Message("received {}, {} after the deadline of {}; each begun day costs {} % of the points", received,
-                   duration, due, significant(rule.percent_per_day, 4));
-}
-
 Lateness Deadlines::of(const Submission& submission, const std::vector<std::string>& also) const {
     const Rule* const rule = rule_for(submission, also);
-    if (rule == nullptr) return {};
-    const long came = received(submission, also), late = came - rule->deadline;
-    if (late <= rule->grace) return {};
-    const double days = std::ceil(static_cast<double>(late) / kSecondsOfADay);
-    return {static_cast<double>(late) / 3600, std::min(rule->most_percent, days * rule->percent_per_day),
-            reason(*rule, came)};
+    return rule == nullptr ? Lateness{} : lateness_of(*rule, received(submission, also));
 }
 
 std::vector<std::string> Deadlines::strays(const std::vector<Submission>& submissions,

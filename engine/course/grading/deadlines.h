@@ -9,6 +9,14 @@
 
 namespace dynlab::inline course {
 
+/// A deadline, and what missing it costs.
+struct LatePolicy {
+    std::int64_t deadline = 0, grace = 0;
+    double percent_per_day = 10, most_percent = 100;
+};
+/// Of what was received then; times are shown in the process's time zone.
+Lateness lateness_of(const LatePolicy& policy, std::int64_t received);
+
 /// What lateness costs. The table has the columns `submission` (a submission's name, an LMS number, a group, a
 /// student's id or name, or * for all), `deadline` (2026-03-01 18:00, local time, seconds optional), and optionally
 /// `extra` (time that is granted beyond the deadline of all: "2 d", "3 h"), `received` (when it was received, if not by
@@ -31,13 +39,9 @@ class Deadlines {
                                     const std::vector<std::string>& known) const;
 
   private:
-    struct Rule {
-        long deadline = 0;
+    struct Rule : LatePolicy {
         std::optional<long> received;
-        long grace = 0;
-        double percent_per_day = 10, most_percent = 100;
     };
-    static Message reason(const Rule& rule, long came);
     const Rule* rule_for(const Submission& submission, const std::vector<std::string>& also) const;
 
     std::map<std::string, Rule> rules_;

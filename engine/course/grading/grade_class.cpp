@@ -4,9 +4,7 @@
 #include <atomic>
 #include <exception>
 #include <functional>
-#include <map>
 #include <mutex>
-#include <set>
 #include <thread>
 #include <utility>
 
@@ -26,10 +24,7 @@ namespace fs = std::filesystem;
 class ClassGrader {
   public:
     ClassGrader(const ClassWork& work, const TriedRules& tried, const GradingOptions& options)
-        : work_(work),
-          options_(options),
-          pipeline_(tried.rules, options, work.newest_counts),
-          graded_(work.items.size()) {
+        : work_(work), options_(options), pipeline_(tried.rules, options, work), graded_(work.items.size()) {
         outcome_.submissions = static_cast<int>(work.items.size());
         outcome_.complaints = tried.complaints;
         outcome_.complaints.insert(outcome_.complaints.end(), work.complaints.begin(), work.complaints.end());
@@ -51,7 +46,7 @@ class ClassGrader {
 
     GradingOutcome conclude() {
         take_earlier_results();
-        complain_of_marks();
+        for (const Message& sentence : pipeline_.manual().complaints()) outcome_.complaints.push_back(sentence);
         say_which_counts();
         // Threads end in any order.
         std::ranges::sort(outcome_.complaints, {}, [](const Message& complaint) { return message_text(complaint); });
@@ -193,16 +188,6 @@ class ClassGrader {
             if (one.grade && !one.grade->whole() && !one.grade->unreadable) ++outcome_.not_whole;
     }
 
-    /// Rows of manual.csv that match nothing, most likely by a slip of the pen.
-    void complain_of_marks() {
-        std::set<std::string> names;
-        std::map<std::string, double> checks;  // and their points
-        for (const WorkItem& item : work_.items) names.insert(item.submission.name);
-        for (const CheckDescription& check : pipeline_.rules().checks()) checks[check.id] = check.points;
-        for (Message& sentence : pipeline_.manual().strays(names, checks))
-            outcome_.complaints.push_back(std::move(sentence));
-    }
-
     /// Of several submissions of one student, each that does not count says so: known only when all are graded.
     void say_which_counts() {
         const std::vector<std::string> instead = counted_instead(results());
@@ -289,7 +274,7 @@ GradingOutcome grade_part_of_class(const ClassWork& work, const Part& part, cons
 }
 
 MissingParts ungraded_parts(const ClassWork& work, int parts, const TriedRules& tried, const GradingOptions& options) {
-    const GradingPipeline pipeline(tried.rules, options, work.newest_counts);
+    const GradingPipeline pipeline(tried.rules, options, work);
     MissingParts missing;
     const auto graded = [&](const WorkItem& item) {
         try {

@@ -39,7 +39,7 @@ GradingOutcome grade_part_of_class(const ClassWork& work, const Part& part, cons
 MissingParts ungraded_parts(const ClassWork& work, int parts, const TriedRules& tried, const GradingOptions& options);
 
 /// Grades a class. In `options.out`: results/NAME/ with results.json and feedback.md and .pdf for each submission,
-/// logs/NAME/log.txt, which may quote hidden records, gradebook.csv, summary.md or .pdf, manual.csv. Each submission is
+/// logs/NAME/log.txt, which may quote hidden records, gradebook.csv, summary.md or .pdf, marks.csv. Each submission is
 /// graded alone, in boxes, by as many threads as `setup.jobs`; a result whose inputs are unchanged is kept, so that a
 /// run that was ended goes on where it was. Marks depend on neither the order nor the threads. The caller has the lock
 /// of the folder. Throws Interrupted after Ctrl-C.

@@ -13,11 +13,11 @@ namespace dynlab::inline course {
 
 namespace fs = std::filesystem;
 
-GradingPipeline::GradingPipeline(const GradingRules& rules, const GradingOptions& options, bool newest_counts)
+GradingPipeline::GradingPipeline(const GradingRules& rules, const GradingOptions& options, const ClassWork& work)
     : rules_(rules),
       options_(options),
-      newest_counts_(newest_counts),
-      manual_(options.out / "manual.csv"),
+      newest_counts_(work.newest_counts),
+      manual_(options.out, work, rules.checks(), options.above_maximum),
       documents_(options.setup.isolation, options.setup.program) {}
 
 GradingPipeline::Keys GradingPipeline::keys_of(const WorkItem& item) const {
@@ -70,7 +70,7 @@ GradingPipeline::Finished GradingPipeline::finish(const WorkItem& item, Grade gr
     grade.lateness = item.lateness.reason;
     grade.penalty = 0;
     Grade marked = manual_.applied(grade);
-    grade.penalty = marked.penalty = marked.earned() * item.lateness.percent / 100;
+    if (!marked.whole_mark) grade.penalty = marked.penalty = marked.earned() * item.lateness.percent / 100;
     Message trouble = write_files(item, grade, marked);
     return {std::move(marked), std::move(trouble)};
 }

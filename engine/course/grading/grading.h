@@ -13,9 +13,10 @@ namespace dynlab::inline course {
 
 struct GradingOptions {
     GradingSetup setup;
-    std::filesystem::path out;  ///< folder of results
-    bool regrade = false;       ///< also what has a result already
-    bool pdf = true;            ///< feedback and summary as PDF, besides Markdown
+    std::filesystem::path out;   ///< folder of results
+    bool regrade = false;        ///< also what has a result already
+    bool pdf = true;             ///< feedback and summary as PDF, besides Markdown
+    bool above_maximum = false;  ///< marks of the instructor may exceed the points of their checks
 };
 
 /// What happens to one submission, a stage after the other:
@@ -26,7 +27,7 @@ struct GradingOptions {
 /// so that equal inputs are not computed again. Threads may share a pipeline.
 class GradingPipeline {
   public:
-    GradingPipeline(const GradingRules& rules, const GradingOptions& options, bool newest_counts);
+    GradingPipeline(const GradingRules& rules, const GradingOptions& options, const ClassWork& work);
 
     /// What a grade depends on.
     struct Keys {

@@ -322,6 +322,21 @@ Owners::Found Owners::find(const Submission& submission) const {
     return others.size() == 1 ? others.front() : written;
 }
 
+Owners::Found Owners::called(const std::string& name) const {
+    std::vector<std::size_t> students, owners = whole(name, students);
+    const Words wanted = words_of_name(name);
+    for (std::size_t i = 0; i < students_.size() && owners.empty(); ++i)
+        if (!name.empty() && (students_[i].moodle == name || students_[i].canvas == name))
+            owners.push_back(owner_of_[i]);
+    const bool nobody = owners.empty() && !wanted.empty();
+    for (std::size_t i = 0; i < students_.size() && nobody; ++i) {
+        const Words parts = words_of_name(students_[i].name);
+        const auto bears = [&parts](const std::string& word) { return std::ranges::find(parts, word) != parts.end(); };
+        if (std::ranges::all_of(wanted, bears)) owners.push_back(owner_of_[i]);
+    }
+    return found(without_doubles(owners));
+}
+
 Owners::Found Owners::as_written(const Submission& submission) const {
     if (const auto owner = listed(submission)) return found({*owner});
     if (!submission.submitters.empty()) return by_list(submission.submitters);

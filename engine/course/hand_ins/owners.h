@@ -38,6 +38,9 @@ class Owners {
     /// A name that fits nobody and came from an archive without a character set is tried in those of other scripts,
     /// too: where all that fits is one owner, it is theirs.
     Found find(const Submission& submission) const;
+    /// Who is called so and no more: a group in any spelling, a student's name, id, address or number of a platform, or
+    /// a part of a name that only the members of one group bear.
+    Found called(const std::string& name) const;
 
     /// All names that could have been meant, for suggestions.
     std::vector<std::string> names() const;

@@ -158,7 +158,10 @@ void fill_imported(const fs::path& folder, const fs::path& from, std::map<std::s
     for (const std::string& table : course_tables()) {
         if (older && !all.tables.contains(table)) continue;  // one that a later version brought
         for (StoredRow& row : all.tables[table]) {
-            if (older) row.erase("seed");  // from which earlier versions drew pairs and pseudonyms
+            if (older && table != "students")
+                row.erase("seed");  // from which earlier versions drew pairs and pseudonyms
+            if (older && table == "assignments")
+                if (auto& kind = row["kind"]; kind.value == StoredCell{"presentation"}.value) kind.value = "talk";
             insert_row(db, table, row);
         }
     }
@@ -206,7 +209,7 @@ std::string marks_csv(Course& course, const Assignment& a) {
         const auto group = by_name.find(s.group);
         if (group != by_name.end()) {
             const std::int64_t id = group->second.id;
-            const char* const part = a.is_report() ? "report" : "slides";
+            const char* const part = a.document();
             const auto first = arrival(course, versions[id]["first"], part),
                        last = arrival(course, versions[id]["final"], part);
             row.insert(row.end(), {first.first, first.second, a.is_report() ? last.first : "", last.second});

@@ -59,7 +59,7 @@ class Status {
         : course_(course),
           assignment_(assignment),
           now_(now),
-          main_(assignment.is_report() ? "report" : "slides"),
+          main_(assignment.document()),
           versions_(newest_versions(course, assignment)),
           pairs_(review_pairs(course, assignment)),
           twins_(groups_with_the_same_file(course, assignment)) {}

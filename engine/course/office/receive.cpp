@@ -36,7 +36,7 @@ constexpr std::uintmax_t kMostBytes = 200u << 20;
 std::string part_of(const Assignment& assignment, const std::string& stage, const std::string& kind) {
     if (kind != "pdf" && kind != "text") return kind;
     if (stage == "review") return "review";
-    return assignment.is_report() ? "report" : "slides";
+    return assignment.is_lab() ? "report" : assignment.document();
 }
 
 /// A file on its way into the store.
@@ -80,7 +80,7 @@ class HandInReceiver {
     HandInReceiver(Course& course, const ReceiveRequest& request)
         : course_(course), request_(request), senders_(course), incoming_(way()) {
         outcome_.assignment = assignment_named(course, request.assignment);
-        due_for(course, outcome_.assignment, 0, request.stage);  // a presentation has no reviews
+        due_for(course, outcome_.assignment, 0, request.stage);  // a talk has no reviews
         if (request.of.size() > 1 && request.of.size() != request.files.size())
             throw InvalidArgument("{} and {} times --of: say --of once for each file, in their order",
                                   plural(request.files.size(), "{} file", "{} files"), request.of.size());
@@ -249,6 +249,7 @@ class HandInReceiver {
 
     /// A pack's PDF counts as if it had come beside it, unless one did.
     void open_packs() {
+        if (outcome_.assignment.is_lab()) return;  // its pack is graded as it is
         const std::string part = document_part();
         std::set<std::string> present;
         for (const Candidate& c : candidates_) present.insert(slot_of(c, c.part));

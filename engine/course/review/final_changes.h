@@ -60,7 +60,7 @@ struct FinalChangesRequest {
 
 /// Compares final versions with those that reviewers read (the newest first version where none was sent), and looks in
 /// the changes for traces of every released review. Groups who handed in nothing are left out. Changes nothing in the
-/// store. Throws InvalidArgument for a presentation or an unknown group.
+/// store. Throws InvalidArgument for a talk or an unknown group.
 std::vector<GroupChanges> final_changes(Course& course, const Assignment& assignment,
                                         const FinalChangesRequest& request);
 

@@ -7,7 +7,6 @@
 #include "course/store/groups.h"
 #include "numerics/error.h"
 #include "platform/hash.h"
-#include "platform/spelling.h"
 
 namespace dynlab::inline course {
 namespace {
@@ -36,12 +35,12 @@ std::map<std::string, CriterionPoints> student_points(Course& course, const Assi
 /// Finds whose rows are.
 class RowOwners {
   public:
-    explicit RowOwners(Course& course) : course_(course), students_(students_of(course)) {}
+    explicit RowOwners(Course& course) : course_(course) {}
 
     /// Throws InvalidArgument.
     RowOwner find(const std::string& group, const std::string& student) const {
         if (student.empty()) return {group_named(course_, group).id, ""};
-        const Student& found = student_called(student);
+        const Student found = student_named(course_, student);
         if (found.group.empty()) throw InvalidArgument("{} is in no group", found.id);
         const Group own = group_named(course_, found.group);
         if (!group.empty() && group_named(course_, group).id != own.id)
@@ -50,23 +49,7 @@ class RowOwners {
     }
 
   private:
-    const Student& student_called(const std::string& words) const {
-        std::vector<const Student*> named;
-        std::vector<std::string> known;
-        for (const Student& s : students_) {
-            if (s.id == words) return s;
-            if (s.name == words) named.push_back(&s);
-            known.push_back(s.id), known.push_back(s.name);
-        }
-        if (named.size() == 1) return *named.front();
-        if (!named.empty()) throw InvalidArgument("several students are called {}: give the id", words);
-        const auto near = nearest_word(words, known);
-        throw near ? InvalidArgument("there is no student \"{}\"; did you mean {}?", words, *near)
-                   : InvalidArgument("there is no student \"{}\"", words);
-    }
-
     Course& course_;
-    std::vector<Student> students_;
 };
 
 /// Reads a sheet into the store.

@@ -15,7 +15,7 @@ struct AssignOutcome {
 };
 /// Allots the reviews of an assignment, or mends the allotment after late-comers and drop-outs: what is written stays,
 /// and what is sent as long as both are in the course and nobody reviews work of their own. Repeating it changes
-/// nothing. Throws InvalidArgument before the deadline of the first version (unless `early`), for a presentation, and
+/// nothing. Throws InvalidArgument before the deadline of the first version (unless `early`), for a talk, and
 /// where there are too few groups.
 AssignOutcome assign_reviews(Course& course, const Assignment& assignment, Instant now, bool early);
 
@@ -64,7 +64,7 @@ struct SendOutcome {
 /// Makes the copies that have not been made yet, or of which a newer version stands (of a report as long as its review
 /// is not written), and puts them into outbox/ASSIGNMENT/WAY/GROUP/. A hit stops that copy only. What is held back is
 /// not sent; what nobody is to get any more is taken out of the outbox. Copies are kept in the store like all that is
-/// handed in. Throws InvalidArgument for a presentation, and for reviews that may still come (unless `early`);
+/// handed in. Throws InvalidArgument for a talk, and for reviews that may still come (unless `early`);
 /// EnvironmentError for a copy that the store does not hold as it was made.
 SendOutcome send_copies(Course& course, const Assignment& assignment, Way way, Instant now,
                         const AnonymousCopier& copier, bool early = false);

@@ -58,7 +58,7 @@ Marks marks_of(const std::vector<Criterion>& criteria, const std::vector<ScoredR
                const std::vector<std::int64_t>& groups);
 
 /// The same from the store: the newest scores and overrides, final versions with their weight, costs of what is late or
-/// missing at `now`. Oral scores mark a presentation's work.
+/// missing at `now`. Oral scores mark a talk's work.
 Marks course_marks(Course& course, const Assignment& assignment, Instant now = CourseClock::now());
 
 /// Reads scores, whole or not at all. Columns: reviewer (a group), report (report-NN; may miss where the group has one)

@@ -15,7 +15,6 @@ namespace dynlab::inline course {
 namespace {
 
 constexpr double kMostPercent = 200;
-constexpr std::int64_t kDay = 86400;
 constexpr char kInstructor[] = "instructor";
 
 /// The newest points by owner: a pair, or a group.
@@ -107,13 +106,12 @@ class CostTaker {
     }
 
     void take_off_work(GroupMark& mark) {
-        const char* const part = a_.is_report() ? "report" : "slides";
+        const char* const part = a_.document();
         for (const char* stage : {"first", "final"}) {
             const HandedInParts& parts = versions_[mark.group][stage];
             const auto found = parts.find(part);
             if (found == parts.end() || !found->second.is_late()) continue;
-            const std::int64_t days = (found->second.late + kDay - 1) / kDay;
-            take(mark, mark.work, a_.costs.late_day * static_cast<double>(days),
+            take(mark, mark.work, late_percent(a_.costs, found->second.late),
                  std::string_view(stage) == "first"
                      ? Message("a first version late by {}", duration_message(found->second.late))
                      : Message("a final version late by {}", duration_message(found->second.late)));
