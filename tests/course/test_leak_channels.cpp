@@ -7,9 +7,9 @@
 #include <cctype>
 #include <cmath>
 
-#include "course/names/anonymous_copy.h"
-#include "course/names/drawn_letters.h"
-#include "course/names/jpeg_parts.h"
+#include "course/anonymity/anonymous_copy.h"
+#include "course/anonymity/drawn_letters.h"
+#include "course/anonymity/jpeg_parts.h"
 #include "documents/work_file.h"
 #include "leak_corpus.h"
 

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "course/names/sought_names.h"
+#include "course/anonymity/identity_matcher.h"
 
 namespace dynlab {
 namespace test_name_forms {
@@ -17,8 +17,8 @@ Student known(const char* id, const char* name, const char* group, const char* m
 }
 
 /// The authors Lovelace, Li and Wu of group-01, and others of their course.
-SoughtNames course() {
-    SoughtNames names;
+IdentityMatcher course() {
+    IdentityMatcher names;
     names.add(known("20214711", "Ada Lovelace", "group-01", "ada.l@uni.example"), true);
     names.add(known("20214712", "Bo Li", "group-01"), true);
     names.add(known("20214713", "Meiling Wu", "group-01"), true);
@@ -29,7 +29,7 @@ SoughtNames course() {
     return names;
 }
 
-std::string found(const SoughtNames& names, const std::string& text, TextManner manner = TextManner::kProse) {
+std::string found(const IdentityMatcher& names, const std::string& text, TextManner manner = TextManner::kProse) {
     std::string result;
     for (const NameHit& hit : names.find(text, manner))
         result += (result.empty() ? "" : ", ") + hit.who + (hit.certain ? "" : "?");
@@ -37,7 +37,7 @@ std::string found(const SoughtNames& names, const std::string& text, TextManner 
 }
 
 void expect_certain(const std::vector<std::string>& texts, TextManner manner = TextManner::kProse) {
-    const SoughtNames names = course();
+    const IdentityMatcher names = course();
     for (const std::string& text : texts) {
         const auto hits = names.find(text, manner);
         EXPECT_TRUE(std::any_of(hits.begin(), hits.end(), [](const NameHit& hit) { return hit.certain; }))
@@ -46,7 +46,7 @@ void expect_certain(const std::vector<std::string>& texts, TextManner manner = T
 }
 
 void expect_hint(const std::vector<std::string>& texts) {
-    const SoughtNames names = course();
+    const IdentityMatcher names = course();
     for (const std::string& text : texts) {
         const auto hits = names.find(text, TextManner::kProse);
         EXPECT_FALSE(hits.empty()) << text;
@@ -60,7 +60,7 @@ TEST(name_forms, numbers_of_accounts_and_in_groups) {
 }
 
 TEST(name_forms, numbers_of_one_digit_say_nothing) {
-    SoughtNames names;
+    IdentityMatcher names;
     names.add(known("1", "Ada Lovelace", "group-01"), true);
     names.add(known("12", "Bo Linwood", "group-02", "b2@uni.example"));
     names.add(known("a7", "Grace Hopper", "group-03"));
@@ -117,14 +117,14 @@ TEST(name_forms, broken_and_spaced) {
 
 TEST(name_forms, in_bytes) {
     expect_certain({"xx Bo Li yy", "AdaLovelaceHand", "by Ada Lovelace"}, TextManner::kBytes);
-    const SoughtNames names = course();
+    const IdentityMatcher names = course();
     EXPECT_EQ(found(names, "ABCDEF+Hopper-Bold", TextManner::kBytes), "Grace Brewster Hopper?");
     EXPECT_EQ(found(names, "boli bo li hopper", TextManner::kBytes), "");
 }
 
 // Oracle: nobody of the course is meant.
 TEST(name_forms, what_only_looks_like_them) {
-    const SoughtNames names = course();
+    const IdentityMatcher names = course();
     for (const char* text : {"0x20214711",
                              "120214711",
                              "20214711.5",

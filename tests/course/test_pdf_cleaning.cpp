@@ -3,7 +3,7 @@
 
 #include <regex>
 
-#include "course/names/anonymous_copy.h"
+#include "course/anonymity/anonymous_copy.h"
 #include "leak_corpus.h"
 
 namespace dynlab {

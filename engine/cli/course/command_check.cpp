@@ -34,13 +34,13 @@ struct CheckArguments {
 };
 
 /// The people of the roster, and whoever's account this is.
-std::shared_ptr<const SoughtNames> sought_by(const CheckArguments& words) {
-    auto names = std::make_shared<SoughtNames>();
+std::shared_ptr<const IdentityMatcher> sought_by(const CheckArguments& words) {
+    auto names = std::make_shared<IdentityMatcher>();
     if (!words.roster.empty()) {
         const Roster roster(words.roster);
         if (const Message unsought = unsought_numbers(roster.students()); !unsought.empty())
             std::cerr << terminal_text(fmt::format("dynlab: {}: {}\n", words.roster, message_text(unsought)));
-        *names = SoughtNames(roster);
+        *names = IdentityMatcher(roster);
     }
     if (const char* home = std::getenv("HOME")) names->add_account(home);
     return names;

@@ -4,7 +4,7 @@
 
 #include "base/reader.h"
 #include "cli/course/course_commands.h"
-#include "course/names/anonymous_copy.h"
+#include "course/anonymity/anonymous_copy.h"
 #include "course/returns/returned_files.h"
 #include "course/review/peer_review.h"
 #include "platform/program_lookup.h"

@@ -10,7 +10,7 @@
 #include "course/findings/layout_findings.h"
 #include "course/findings/leftover_findings.h"
 #include "course/findings/section_findings.h"
-#include "course/names/name_findings.h"
+#include "course/anonymity/anonymity_findings.h"
 #include "documents/percent_script.h"
 #include "documents/template_file.h"
 #include "platform/atomic_file.h"
@@ -123,7 +123,7 @@ void check_text(const PdfLayout& layout, const DocumentText& text, const Documen
     result.checked.push_back(text.is_slides() ? Message("text size") : Message("text size and margins"));
 }
 
-void check_names(const fs::path& file, const PdfLayout& layout, const SoughtNames& names, const PdfLimits& limits,
+void check_names(const fs::path& file, const PdfLayout& layout, const IdentityMatcher& names, const PdfLimits& limits,
                  CheckResult& result) {
     NameSearchLimits search;
     search.pdf = limits;

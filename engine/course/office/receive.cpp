@@ -296,8 +296,8 @@ class HandInReceiver {
         course_.keep_files(files, look, request_.progress);
     }
 
-    std::shared_ptr<const SoughtNames> everybody() const {
-        return std::make_shared<const SoughtNames>(Roster(students_of(course_)));
+    std::shared_ptr<const IdentityMatcher> everybody() const {
+        return std::make_shared<const IdentityMatcher>(Roster(students_of(course_)));
     }
 
     void inspect(Candidate& candidate, const std::optional<Inspector>& inspector) const {

@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "course/names/name_patterns.h"
+#include "course/anonymity/name_patterns.h"
 #include "numerics/error.h"
 #include "platform/error.h"
 #include "platform/spelling.h"

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "course/hand_ins/finding.h"
-#include "course/names/sought_names.h"
+#include "course/anonymity/identity_matcher.h"
 #include "documents/pdf/pdf_objects.h"
 #include "platform/box.h"
 
@@ -11,7 +11,7 @@ namespace dynlab::inline course {
 
 /// How copies for anonymous readers are made.
 struct AnonymousCopySetup {
-    SoughtNames names;  ///< of everybody in the course: a hit stops the copy
+    IdentityMatcher names;  ///< of everybody in the course: a hit stops the copy
     Isolation isolation = strongest_isolation();
     std::filesystem::path program;                      ///< dynlab, which makes reports again
     TimeLimits report_time{std::chrono::seconds(120)};  ///< of a report made again

@@ -1,4 +1,4 @@
-#include "course/names/name_findings.h"
+#include "course/anonymity/anonymity_findings.h"
 
 #include <algorithm>
 #include <array>
@@ -6,9 +6,9 @@
 #include <set>
 #include <tuple>
 
-#include "course/names/drawn_letters.h"
-#include "course/names/pdf_places.h"
-#include "course/names/plain_words.h"
+#include "course/anonymity/drawn_letters.h"
+#include "course/anonymity/pdf_places.h"
+#include "platform/text/plain_words.h"
 #include "data_io/values/cbor_values.h"
 #include "data_io/values/message_values.h"
 #include "documents/work_file.h"
@@ -152,7 +152,7 @@ std::string page_text(const PdfPage& page) {
 /// One file's search: its pages, its objects, its earlier versions and the PDFs in it.
 class NameSearch {
   public:
-    NameSearch(const SoughtNames& sought, const NameSearchLimits& limits) : sought_(sought), limits_(limits) {}
+    NameSearch(const IdentityMatcher& sought, const NameSearchLimits& limits) : sought_(sought), limits_(limits) {}
 
     void search(const fs::path& file, const PdfLayout& layout) {
         search_pages(layout, PdfPlace::kText);
@@ -307,7 +307,7 @@ class NameSearch {
         found_ = std::move(kept);
     }
 
-    const SoughtNames& sought_;
+    const IdentityMatcher& sought_;
     const NameSearchLimits& limits_;
     std::vector<Found> found_;
     std::set<std::string> authors_;
@@ -317,7 +317,7 @@ class NameSearch {
 
 }  // namespace
 
-Findings name_findings(const fs::path& file, const PdfLayout& layout, const SoughtNames& sought,
+Findings name_findings(const fs::path& file, const PdfLayout& layout, const IdentityMatcher& sought,
                        const NameSearchLimits& limits) {
     NameSearch search(sought, limits);
     search.search(file, layout);

@@ -5,7 +5,7 @@
 
 #include "base/message.h"
 #include "course/hand_ins/roster.h"
-#include "course/names/name_tokens.h"
+#include "course/anonymity/name_tokens.h"
 
 namespace dynlab::inline course {
 

@@ -2,7 +2,7 @@
 #include <filesystem>
 
 #include "course/hand_ins/finding.h"
-#include "course/names/sought_names.h"
+#include "course/anonymity/identity_matcher.h"
 #include "documents/pdf/pdf_layout.h"
 #include "documents/pdf/pdf_objects.h"
 
@@ -20,7 +20,7 @@ struct NameSearchLimits {
 /// its own: names-not-listed. author-named (hint): the metadata name an author who is not known. not-searched (rule):
 /// the inside of the file, or a part of it, cannot be read, so that nothing can be said. Pictures of text are not read.
 /// `layout` is the file's, as read_pdf_layout gives it. Throws PdfRefusal when there is no such file.
-Findings name_findings(const std::filesystem::path& file, const PdfLayout& layout, const SoughtNames& sought,
+Findings name_findings(const std::filesystem::path& file, const PdfLayout& layout, const IdentityMatcher& sought,
                        const NameSearchLimits& limits);
 
 }  // namespace dynlab::inline course

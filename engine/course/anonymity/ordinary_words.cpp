@@ -1,5 +1,5 @@
-#include "course/names/name_patterns.h"
-#include "course/names/word_set.h"
+#include "course/anonymity/name_patterns.h"
+#include "platform/text/word_set.h"
 
 namespace dynlab::inline course {
 namespace {

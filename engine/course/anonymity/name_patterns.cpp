@@ -1,4 +1,4 @@
-#include "course/names/name_patterns.h"
+#include "course/anonymity/name_patterns.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "course/names/sought_names.h"
+#include "course/anonymity/identity_matcher.h"
 
 #include <toml++/toml.h>
 
@@ -251,11 +251,11 @@ bool is_nobodys(const std::string& user) {
 
 }  // namespace
 
-SoughtNames::SoughtNames(const Roster& roster) {
+IdentityMatcher::IdentityMatcher(const Roster& roster) {
     for (const Student& student : roster.students()) add(student);
 }
 
-void SoughtNames::add(const Student& student, bool own) {
+void IdentityMatcher::add(const Student& student, bool own) {
     ++people_;
     add_writings(student, own);
     if (own) {
@@ -271,19 +271,19 @@ void SoughtNames::add(const Student& student, bool own) {
     }
 }
 
-void SoughtNames::add_writings(const Student& student, bool own) {
+void IdentityMatcher::add_writings(const Student& student, bool own) {
     for (NamePattern& pattern : patterns_of(student, own)) index(std::move(pattern));
     const std::string address = squeezed(student.mail, nullptr);
     if (address.find('@') != std::string::npos && address.size() >= kShortestAddress)
         addresses_.emplace_back(address, student.name.empty() ? student.id : student.name);
 }
 
-void SoughtNames::add_account(const fs::path& home) {
+void IdentityMatcher::add_account(const fs::path& home) {
     const std::string folder = home.lexically_normal().string();
     if (std::ranges::count(folder, '/') >= 2 && !is_nobodys(home.filename().string())) homes_.push_back(folder);
 }
 
-void SoughtNames::index(NamePattern pattern) {
+void IdentityMatcher::index(NamePattern pattern) {
     std::vector<NamePattern>& row = patterns_[static_cast<unsigned char>(pattern.letters.front())];
     const auto same = [&pattern](const NamePattern& other) {
         return other.who == pattern.who && other.letters == pattern.letters && other.kind == pattern.kind &&
@@ -293,7 +293,7 @@ void SoughtNames::index(NamePattern pattern) {
     if (std::ranges::none_of(row, same)) row.push_back(std::move(pattern));
 }
 
-void SoughtNames::find_patterns(const Tokens& tokens, std::string_view text, TextManner manner,
+void IdentityMatcher::find_patterns(const Tokens& tokens, std::string_view text, TextManner manner,
                                 std::vector<NameHit>& hits) const {
     for (std::size_t i = 0; i < tokens.size(); ++i) {
         for (const NamePattern& pattern : patterns_[static_cast<unsigned char>(tokens[i].letters.front())]) {
@@ -325,7 +325,7 @@ void SoughtNames::find_patterns(const Tokens& tokens, std::string_view text, Tex
     }
 }
 
-void SoughtNames::find_addresses(std::string_view text, std::vector<NameHit>& hits) const {
+void IdentityMatcher::find_addresses(std::string_view text, std::vector<NameHit>& hits) const {
     if (addresses_.empty() || text.find('@') == std::string_view::npos) return;
     std::vector<std::size_t> offsets;
     const std::string bare = squeezed(text, &offsets);
@@ -337,7 +337,7 @@ void SoughtNames::find_addresses(std::string_view text, std::vector<NameHit>& hi
 }
 
 /// What a terminal shows before a command: ada@laptop:~$
-void SoughtNames::find_prompts(std::string_view text, std::vector<NameHit>& hits) const {
+void IdentityMatcher::find_prompts(std::string_view text, std::vector<NameHit>& hits) const {
     const auto is_of_name = [](char c) {
         return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' || c == '.';
     };
@@ -352,7 +352,7 @@ void SoughtNames::find_prompts(std::string_view text, std::vector<NameHit>& hits
     }
 }
 
-void SoughtNames::find_paths(std::string_view text, std::vector<NameHit>& hits) const {
+void IdentityMatcher::find_paths(std::string_view text, std::vector<NameHit>& hits) const {
     constexpr std::string_view kRoots[] = {"/home/",  "/home1/", "/home2/",   "/home3/",   "/homes/",
                                            "/users/", "/Users/", "\\Users\\", "\\users\\", "\\home\\"};
     for (const std::string_view root : kRoots) {
@@ -375,7 +375,7 @@ void SoughtNames::find_paths(std::string_view text, std::vector<NameHit>& hits) 
     }
 }
 
-std::vector<NameHit> SoughtNames::find(std::string_view text, TextManner manner) const {
+std::vector<NameHit> IdentityMatcher::find(std::string_view text, TextManner manner) const {
     std::vector<NameHit> hits;
     if (people_ > 0) find_patterns(name_tokens(text), text, manner, hits);
     for (const Reading reading : {Reading::kCamel, Reading::kLookAlike})

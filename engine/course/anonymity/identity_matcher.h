@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "course/hand_ins/roster.h"
-#include "course/names/name_patterns.h"
+#include "course/anonymity/name_patterns.h"
 
 namespace dynlab::inline course {
 
@@ -38,10 +38,10 @@ struct NameHit {
 /// words for a group, and without its zeros ("Group 1") as uncertain where it is not the authors' own. Home folders
 /// (/home/NAME, C:\Users\NAME, the prompt NAME@HOST:~) count whoever's they are. Letters that look like others are read
 /// as those.
-class SoughtNames {
+class IdentityMatcher {
   public:
-    SoughtNames() = default;
-    explicit SoughtNames(const Roster& roster);
+    IdentityMatcher() = default;
+    explicit IdentityMatcher(const Roster& roster);
     /// `own`: of the document's authors.
     void add(const Student& student, bool own = false);
     /// The account that documents are made with: its home folder and its name in paths.

@@ -1,4 +1,4 @@
-#include "course/names/anonymous_copy.h"
+#include "course/anonymity/anonymous_copy.h"
 
 #include <algorithm>
 #include <csignal>
@@ -7,7 +7,7 @@
 #include "course/boxes/boxed_work.h"
 #include "course/boxes/told_reason.h"
 #include "course/hand_ins/staging.h"
-#include "course/names/name_findings.h"
+#include "course/anonymity/anonymity_findings.h"
 #include "documents/work_file.h"
 #include "platform/atomic_file.h"
 #include "platform/hash.h"
