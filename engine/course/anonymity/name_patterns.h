@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "base/message.h"
-#include "course/hand_ins/roster.h"
 #include "course/anonymity/name_tokens.h"
+#include "course/hand_ins/roster.h"
 
 namespace dynlab::inline course {
 
@@ -21,27 +21,33 @@ struct NamePattern {
     bool given_only = false;
     bool reversed = false;    ///< surname first
     bool capital = false;     ///< in prose, each part begins with a capital
-    bool labelled = false;    ///< counts behind "student", "ID" and their like only
-    bool spaced = true;       ///< parts may stand apart: "group 01", but not "group 1", which counts something
+    bool ordinary = false;    ///< a surname alone that is also an ordinary word: "Page"
+    bool labelled = false;    ///< counts only after "student", "ID" and similar words
+    bool spaced = true;       ///< parts may be apart: "group 01", but not "group 1", which counts something
     std::string initials;     ///< of the given names, for a surname alone
     bool own = false;         ///< of one of the document's own authors
-    bool initialled = false;  ///< a name and an initial, written with a point or a comma: "B. Li", "Wu, M.", "Ada L."
-    bool connected = false;   ///< two people of a group, who may be joined by a word: "Wu & Li", "Ada and Grace"
+    bool initialled = false;  ///< a name and an initial, with a full stop or a comma: "B. Li", "Wu, M.", "Ada L."
+    bool connected = false;   ///< two people of a group, whom a word may join: "Wu & Li", "Ada and Grace"
     bool bare = false;        ///< a group's number without its zeros: "Group 1", "team1", but not "group 1"
+    bool account = false;     ///< counts only in paths and addresses: "~alovelace"
 };
 
-/// All ways in which the student's name, number, group and the account in the mail address are looked for.
+/// All ways of writing the student's name, number, group and the account in the mail address.
 std::vector<NamePattern> patterns_of(const Student& student, bool own);
 
-/// Whether a student's number is looked for: one of fewer than three letters and digits stands in every document.
-bool is_sought_number(const std::string& id);
-/// Says whose numbers are not looked for; empty where all are.
-Message unsought_numbers(const std::vector<Student>& students);
+/// Whether documents are searched for a student's number: not if it has fewer than three letters and digits.
+bool is_searched_number(const std::string& id);
+/// Names the students whose numbers are too short to search for; empty if there are none.
+Message numbers_too_short(const std::vector<Student>& students);
 
-/// Ways in which two authors of one document are named together, each by surname or given name only.
+/// Ways of naming two authors of one document together, each by surname or given name only.
 std::vector<NamePattern> patterns_of_pair(const Student& one, const Student& other);
 
-/// A name that stands in documents with another meaning: an ordinary word in English or French, a name of the field.
-bool is_ordinary_word(const std::string& folded);
+/// A name as a bibliography has it: letters of the surname and of each given name.
+struct CitedAuthor {
+    std::string surname;
+    std::vector<std::string> given;
+};
+CitedAuthor cited_author(const std::string& name);
 
 }  // namespace dynlab::inline course

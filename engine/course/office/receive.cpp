@@ -297,7 +297,9 @@ class HandInReceiver {
     }
 
     std::shared_ptr<const IdentityMatcher> everybody() const {
-        return std::make_shared<const IdentityMatcher>(Roster(students_of(course_)));
+        IdentityMatcher names(students_of(course_));
+        names.add_cited(cited_authors());
+        return std::make_shared<const IdentityMatcher>(std::move(names));
     }
 
     void inspect(Candidate& candidate, const std::optional<Inspector>& inspector) const {
