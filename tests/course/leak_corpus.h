@@ -3,7 +3,7 @@
 
 #include "base/reader.h"
 #include "check_fixture.h"
-#include "course/names/sought_names.h"
+#include "course/anonymity/identity_matcher.h"
 
 namespace dynlab {
 
@@ -12,7 +12,7 @@ class LeakCorpus : public CheckTest {
   protected:
     LeakCorpus() {
         standard_ = DocumentStandard();
-        names_ = std::make_shared<SoughtNames>();
+        names_ = std::make_shared<IdentityMatcher>();
         const auto know = [this](const char* id, const char* name, const char* group, const char* mail) {
             Student student;
             student.id = id;
@@ -111,7 +111,7 @@ class LeakCorpus : public CheckTest {
         return pdf.substr(begin, pdf.find('R', begin) + 1 - begin);
     }
 
-    std::shared_ptr<SoughtNames> names_;
+    std::shared_ptr<IdentityMatcher> names_;
 };
 
 }  // namespace dynlab

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "base/reader.h"
-#include "course/names/anonymous_copy.h"
+#include "course/anonymity/anonymous_copy.h"
 #include "leak_corpus.h"
 
 namespace dynlab {
@@ -218,7 +218,7 @@ TEST_F(leaks, cited_authors_and_given_names_are_hints) {
 }
 
 /// "Quandtlaaasen (1999), ..." for so many classmates, whom it adds to those looked for.
-std::string citations(SoughtNames& names, int count) {
+std::string citations(IdentityMatcher& names, int count) {
     std::string text;
     for (int i = 0; i < count; ++i) {
         Student classmate;

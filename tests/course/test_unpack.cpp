@@ -6,7 +6,7 @@
 #include "course/course_bench.h"
 #include "course/grading_bench.h"
 #include "course/hand_ins/submission.h"
-#include "course/names/byte_text.h"
+#include "course/anonymity/byte_text.h"
 #include "support/message_texts.h"
 
 namespace dynlab::test {

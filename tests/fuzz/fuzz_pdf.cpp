@@ -1,6 +1,6 @@
 // PDFs of others: their pages and everything inside, in guarded copies, and the copy that is cleaned.
-#include "course/names/anonymous_copy.h"
-#include "course/names/name_findings.h"
+#include "course/anonymity/anonymous_copy.h"
+#include "course/anonymity/anonymity_findings.h"
 #include "fuzz/fuzz_input.h"
 #include "platform/error.h"
 
@@ -11,7 +11,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     student.id = "20214711";
     student.name = "Zoé Brandtner";
     student.group = "group-07";
-    SoughtNames names;
+    IdentityMatcher names;
     names.add(student, true);
     const std::filesystem::path file = fuzz::file_of(fuzz::text_of(data, size), "input.pdf");
     try {

@@ -1,8 +1,8 @@
 // What the search for names reads inside of PDFs, piece by piece in this process.
-#include "course/names/byte_text.h"
-#include "course/names/content_text.h"
-#include "course/names/jpeg_parts.h"
-#include "course/names/sought_names.h"
+#include "course/anonymity/byte_text.h"
+#include "course/anonymity/content_text.h"
+#include "course/anonymity/jpeg_parts.h"
+#include "course/anonymity/identity_matcher.h"
 #include "documents/pdf/inflate.h"
 #include "documents/pdf/plain_streams.h"
 #include "fuzz/fuzz_input.h"
@@ -11,8 +11,8 @@ using namespace dynlab;
 
 namespace {
 
-SoughtNames names_to_seek() {
-    SoughtNames names;
+IdentityMatcher names_to_seek() {
+    IdentityMatcher names;
     const auto know = [&names](const char* id, const char* name, const char* group, bool own) {
         Student student;
         student.id = id;
@@ -27,7 +27,7 @@ SoughtNames names_to_seek() {
 }
 
 void seek(const std::string& text) {
-    static const SoughtNames names = names_to_seek();
+    static const IdentityMatcher names = names_to_seek();
     for (const TextManner manner : {TextManner::kProse, TextManner::kData, TextManner::kBytes})
         for (const NameHit& hit : names.find(text, manner))
             fuzz::demand(hit.begin < hit.end && hit.end <= text.size() && !hit.who.empty());

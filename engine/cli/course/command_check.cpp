@@ -35,13 +35,14 @@ struct CheckArguments {
 };
 
 /// The people of the roster, and whoever's account this is.
-std::shared_ptr<const SoughtNames> sought_by(const CheckArguments& words) {
-    auto names = std::make_shared<SoughtNames>();
+std::shared_ptr<const IdentityMatcher> matcher_for(const CheckArguments& words) {
+    auto names = std::make_shared<IdentityMatcher>();
     if (!words.roster.empty()) {
         const Roster roster(words.roster);
-        if (const Message unsought = unsought_numbers(roster.students()); !unsought.empty())
-            std::cerr << terminal_text(fmt::format("dynlab: {}: {}\n", words.roster, message_text(unsought)));
-        *names = SoughtNames(roster);
+        if (const Message too_short = numbers_too_short(roster.students()); !too_short.empty())
+            std::cerr << terminal_text(fmt::format("dynlab: {}: {}\n", words.roster, message_text(too_short)));
+        *names = IdentityMatcher(roster.students());
+        names->add_cited(cited_authors());
     }
     if (const char* home = std::getenv("HOME")) names->add_account(home);
     return names;
@@ -91,7 +92,7 @@ int check(const CheckArguments& words) {
         return kUsage;
     };
     try {
-        wishes.names = sought_by(words);
+        wishes.names = matcher_for(words);
         if (!words.template_name.empty()) wishes.standard = standard_of(words.template_name);
     } catch (const std::runtime_error& error) {
         return misuse(message_of(error));
@@ -134,8 +135,8 @@ void add_check(CLI::App& app, Action& action) {
         "What is demanded comes from the template that analysis.lua names; of a PDF alone, wide pages are slides, the\n"
         "headings of a review make it a peer_review, and others are a lab_report. Pages, sections, figures that the\n"
         "text never mentions, unfilled slots, languages, text size and margins are looked at. The members in\n"
-        "group.toml and the people of a roster are looked for in text, metadata, pictures, links, comments, embedded\n"
-        "files and everything else inside, home folders too: dynlab help names.\n"
+        "group.toml and the people of a roster are searched for in the text, bookmarks, targets of links, document\n"
+        "information and the file name, home folders too: dynlab help names.\n"
         "Examples:  dynlab check my-crane     dynlab check report.pdf     dynlab check talk.pdf --template slides "
         "--json\n"
         "Exit codes: 0 no rule is broken (there may be hints), 1 a rule is broken, 2 wrong usage.\n"

@@ -4,7 +4,7 @@
 
 #include "base/reader.h"
 #include "cli/course/course_commands.h"
-#include "course/names/anonymous_copy.h"
+#include "course/anonymity/anonymous_copy.h"
 #include "course/returns/returned_files.h"
 #include "course/review/peer_review.h"
 #include "platform/program_lookup.h"
@@ -16,6 +16,7 @@ namespace {
 
 struct PeerArguments {
     std::string assignment, at, reviewer, author, reason;
+    std::vector<std::string> accepted;  ///< groups
     bool early = false;
 };
 
@@ -55,11 +56,13 @@ Message with_page(const Finding& finding) {
     return finding.page > 0 ? Message("page {}: {}", finding.page, finding.what) : finding.what;
 }
 
-/// Copies are searched for everybody in the course; a name that is certain stops one.
+/// Copies are searched for everyone in the course; a certain hit stops the copy unless it is accepted.
 AnonymousCopier anonymous_copier() {
     return [](const CopyRequest& request) {
         AnonymousCopySetup setup;
         for (const Student& student : request.people) setup.names.add(student, student.group == request.group);
+        setup.names.add_cited(cited_authors());
+        setup.accept = request.accept;
         setup.program = running_program();
         const AnonymousCopy copy =
             anonymous_copy(request.pack.empty() ? request.pdf : request.pack, request.copy, setup);
@@ -74,8 +77,8 @@ AnonymousCopier anonymous_copier() {
 int send(const CourseArguments& where, const PeerArguments& words, Way way) {
     Course course(where.folder);
     const Assignment assignment = assignment_named(course, words.assignment);
-    const SendOutcome done =
-        send_copies(course, assignment, way, time_of(course, words.at), anonymous_copier(), words.early);
+    const SendOutcome done = send_copies(course, assignment, way, time_of(course, words.at), anonymous_copier(),
+                                         words.early, {words.accepted, words.reason});
     for (const auto* lines : {&done.hits, &done.hints})
         for (const Message& line : *lines) std::cerr << "dynlab: " << terminal_text(message_text(line)) << '\n';
     std::cout << fmt::format("{}: {} sent now{}, {} before, {} stopped, {} not come yet{}; in {}\n", assignment.name,
@@ -172,6 +175,14 @@ CLI::App* add_one(CLI::App& parent, const char* name, const char* about, CourseA
     add_time_option(*command, words->at);
     if (run == assign) command->add_flag("--early", words->early, "Although first versions may still come");
     if (run == release) command->add_flag("--early", words->early, "Although reviews may still come");
+    if (run == send_reports || run == release) {
+        auto* const accept =
+            command->add_option("--accept", words->accepted, "Send this group's document although names were found");
+        auto* const reason =
+            command->add_option("--reason", words->reason, "Why; recorded in the history")->type_name("TEXT");
+        accept->type_name("GROUP")->needs(reason);
+        reason->needs(accept);
+    }
     command->callback([&where, words, run, &action] { action = [&where, words, run] { return run(where, *words); }; });
     return command;
 }
@@ -188,12 +199,14 @@ void add_peer_commands(CLI::App& course, CourseArguments& where, Action& action)
             "Example:  dynlab course peer assign crane");
     add_one(*peer, "send", "Make anonymous copies of the reports for their reviewers", where, action, send_reports)
         ->footer(
-            "A name found in a copy stops that copy, and you are told where it is. Repeated, it makes only what is new."
-            "\n"
-            "Example:  dynlab course peer send crane");
+            "A name in a copy stops that copy; dynlab prints where it is. Where no person is meant, --accept sends "
+            "it.\n"
+            "Repeated, the command makes only what is new.\n"
+            "Examples:  dynlab course peer send crane\n"
+            "           dynlab course peer send crane --accept group-01 --reason \"Page is a word there\"");
     add_one(course, "release", "Make anonymous copies of the reviews for the authors", where, action, release)
         ->footer(
-            "A review that names somebody is stopped, like a report. Repeated, it makes what is new only.\n"
+            "A review with a name in it is stopped, like a report. Repeated, the command makes only what is new.\n"
             "Example:  dynlab course release crane");
     add_one(*peer, "set", "A group is to review another one's report", where, action, set_pair)
         ->footer("Example:  dynlab course peer set crane group-02 group-07 --reason \"agreed with both\"");

@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "course/boxes/told_reason.h"
 #include "course/findings/finding_description.h"
-#include "course/names/plain_words.h"
+#include "platform/text/plain_words.h"
 #include "data_io/values/json_values.h"
 
 namespace dynlab::inline course {

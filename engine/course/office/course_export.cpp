@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 #include "base/reader.h"
-#include "course/names/plain_words.h"
+#include "platform/text/plain_words.h"
 #include "course/review/oral_marks.h"
 #include "course/review/review_marks.h"
 #include "course/store/course_schema.h"

@@ -297,8 +297,10 @@ class HandInReceiver {
         course_.keep_files(files, look, request_.progress);
     }
 
-    std::shared_ptr<const SoughtNames> everybody() const {
-        return std::make_shared<const SoughtNames>(Roster(students_of(course_)));
+    std::shared_ptr<const IdentityMatcher> everybody() const {
+        IdentityMatcher names(students_of(course_));
+        names.add_cited(cited_authors());
+        return std::make_shared<const IdentityMatcher>(std::move(names));
     }
 
     void inspect(Candidate& candidate, const std::optional<Inspector>& inspector) const {

@@ -1,4 +1,4 @@
-#include "course/names/word_set.h"
+#include "platform/text/word_set.h"
 #include "course/review/remark_traces.h"
 
 namespace dynlab::inline course {

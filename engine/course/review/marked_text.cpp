@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "course/grading/feedback.h"
-#include "course/names/plain_words.h"
+#include "platform/text/plain_words.h"
 #include "documents/text_lines.h"
 #include "documents/words/characters.h"
 #include "platform/atomic_file.h"

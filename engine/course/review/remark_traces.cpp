@@ -6,7 +6,7 @@
 #include <cctype>
 #include <set>
 
-#include "course/names/plain_words.h"
+#include "platform/text/plain_words.h"
 
 namespace dynlab::inline course {
 namespace {

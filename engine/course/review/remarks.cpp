@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "course/names/plain_words.h"
+#include "platform/text/plain_words.h"
 #include "course/review/text_blocks.h"
 
 namespace dynlab::inline course {

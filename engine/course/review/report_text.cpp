@@ -4,7 +4,7 @@
 #include <cctype>
 #include <set>
 
-#include "course/names/plain_words.h"
+#include "platform/text/plain_words.h"
 #include "course/review/text_blocks.h"
 #include "documents/text_lines.h"
 #include "platform/text/small_letters.h"

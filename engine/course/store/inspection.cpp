@@ -32,7 +32,7 @@ DocumentStandard standard_of_reports(const std::string& lesson) {
 
 }  // namespace
 
-Inspector::Inspector(std::shared_ptr<const SoughtNames> names, const std::string& lesson) {
+Inspector::Inspector(std::shared_ptr<const IdentityMatcher> names, const std::string& lesson) {
     const auto hold_against = [this](const char* part, const char* template_name) {
         wishes_[part].standard = standard_of(template_name);
     };

@@ -1,4 +1,4 @@
-#include "course/names/name_tokens.h"
+#include "course/anonymity/name_tokens.h"
 
 #include "platform/text/look_alikes.h"
 #include "platform/utf8.h"

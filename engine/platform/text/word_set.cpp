@@ -1,8 +1,8 @@
-#include "course/names/word_set.h"
+#include "platform/text/word_set.h"
 
 #include <algorithm>
 
-namespace dynlab::inline course {
+namespace dynlab::inline platform {
 
 std::unordered_set<std::string_view> word_set(std::string_view list) {
     std::unordered_set<std::string_view> words;
@@ -14,4 +14,4 @@ std::unordered_set<std::string_view> word_set(std::string_view list) {
     return words;
 }
 
-}  // namespace dynlab::inline course
+}  // namespace dynlab::inline platform

@@ -1,4 +1,4 @@
-#include "course/names/sought_names.h"
+#include "course/anonymity/identity_matcher.h"
 
 #include <toml++/toml.h>
 
@@ -6,135 +6,21 @@
 #include <tuple>
 
 #include "platform/atomic_file.h"
+#include "platform/utf8.h"
 
 namespace dynlab::inline course {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kShortestJoined = 7;  ///< letters of a whole name written as one word
-constexpr std::size_t kSureInBytes = 8;     ///< letters that bytes do not spell by chance
 constexpr std::size_t kShortestAddress = 6;
-constexpr std::size_t kShortestGrouped = 7;  ///< digits of a number that is written in groups
-constexpr std::size_t kLongestPrefix = 3;    ///< letters before an account's number
-constexpr std::size_t kShortestPlural = 5, kShortestInSmall = 6, kShortestInBytes = 5;  ///< letters of a surname
+constexpr int kMaxDecodings = 2;             ///< of percent-encoded text
+constexpr std::size_t kShortestInSmall = 6;  ///< letters of a surname
 
 using Tokens = std::vector<NameToken>;
 
 bool is_one_of(const std::string& word, std::initializer_list<const char*> words) {
     return std::ranges::any_of(words, [&word](const char* one) { return word == one; });
-}
-
-bool is_label(const NameToken& token) {
-    return is_one_of(token.letters,
-                     {"student", "students", "id", "number", "nr", "no", "etudiant", "etudiants", "etudiante", "numero",
-                      "matricule", "author", "authors", "auteur", "auteure", "auteurs", "group", "groupe"});
-}
-
-/// One try to read a pattern at a token.
-class PatternMatcher {
-  public:
-    PatternMatcher(const NamePattern& pattern, const Tokens& tokens, std::size_t first, std::string_view text,
-                   TextManner manner)
-        : pattern_(pattern),
-          tokens_(tokens),
-          first_(first),
-          next_(first),
-          text_(text),
-          strict_(pattern.initialled || pattern.connected ||
-                  (manner == TextManner::kProse && pattern.capital && pattern.whole)) {}
-
-    bool succeeds() {
-        while (read_ < pattern_.letters.size()) {
-            if (next_ == tokens_.size()) return false;
-            if (skips_initial() || skips_connection()) ++next_;
-            if (next_ == tokens_.size() || !takes(tokens_[next_])) return false;
-        }
-        return pattern_.kind == NameKind::kName || stands_apart();
-    }
-    std::size_t end() const { return next_; }  ///< one past the last token
-
-  private:
-    bool at_break() const { return pattern_.breaks.contains(read_); }
-
-    /// "Ada M. Lovelace".
-    bool skips_initial() const {
-        if (pattern_.kind != NameKind::kName || read_ == 0 || !at_break() || next_ + 1 >= tokens_.size()) return false;
-        const NameToken& token = tokens_[next_];
-        return token.letters.size() == 1 && !token.digits && token.capital && token.gap != Gap::kWide &&
-               pattern_.letters[read_] != token.letters.front();
-    }
-
-    /// "Wu and Li".
-    bool skips_connection() const {
-        if (!pattern_.connected || read_ == 0 || !at_break()) return false;
-        const NameToken& token = tokens_[next_];
-        return token.gap == Gap::kSpace && is_one_of(token.letters, {"and", "et", "und", "with", "y", "e"});
-    }
-
-    /// "2021 4711", "2021-4711", "2021/4711".
-    bool is_grouped(const NameToken& token) const {
-        const NameToken& before = tokens_[next_ - 1];
-        if (pattern_.kind != NameKind::kNumber || !token.digits || !before.digits) return false;
-        if (token.letters.size() < 2 || before.letters.size() < 2 || pattern_.letters.size() < kShortestGrouped)
-            return false;
-        const std::string_view between = text_.substr(before.end, token.begin - before.end);
-        return between == "-" || between == "/" ||
-               (token.gap == Gap::kSpace && between.size() <= 3 && between.find('\n') == std::string_view::npos);
-    }
-
-    bool gap_fits(const NameToken& token) const {
-        if (next_ == first_) return true;
-        if (at_break()) return token.gap != Gap::kWide && (pattern_.spaced || token.gap != Gap::kSpace);
-        if (token.gap == Gap::kNone || token.gap == Gap::kBreak || is_grouped(token)) return true;
-        // Letters set apart, alone or in pairs: "L O V E L A C E".
-        return token.gap == Gap::kSpace && token.letters.size() <= 2 && tokens_[next_ - 1].letters.size() <= 2 &&
-               pattern_.letters.size() >= kShortestJoined;
-    }
-
-    /// "Lovelaces", "Lovelace's" without its apostrophe.
-    bool is_plural(const NameToken& token) const {
-        const std::string_view rest = std::string_view(pattern_.letters).substr(read_);
-        return pattern_.kind == NameKind::kName && !pattern_.given_only && rest.size() >= kShortestPlural &&
-               token.letters.size() == rest.size() + 1 && token.letters.ends_with('s') &&
-               token.letters.starts_with(rest);
-    }
-
-    bool takes(const NameToken& token) {
-        const bool plural = is_plural(token);
-        if (!plural && pattern_.letters.compare(read_, token.letters.size(), token.letters) != 0) return false;
-        if (!gap_fits(token)) return false;
-        const bool begins_part = read_ == 0 || at_break();
-        if (strict_ && begins_part && !token.capital && !token.digits) return false;
-        const auto inside = pattern_.breaks.upper_bound(read_);
-        const bool joined = inside != pattern_.breaks.end() && *inside < read_ + token.letters.size();
-        if (joined && pattern_.letters.size() < kShortestJoined) return false;
-        read_ += token.letters.size() - (plural ? 1 : 0);
-        ++next_;
-        return true;
-    }
-
-    /// A number is not part of a longer one and has no decimals. Accounts have letters before it: "s20214711".
-    bool stands_apart() const {
-        if (next_ < tokens_.size() && tokens_[next_].gap == Gap::kNone) return false;
-        if (first_ == 0 || tokens_[first_].gap != Gap::kNone) return true;
-        const NameToken& before = tokens_[first_ - 1];
-        const bool is_account = pattern_.kind == NameKind::kNumber && tokens_[first_].digits && !before.digits &&
-                                (first_ == 1 || before.gap != Gap::kNone);
-        return is_account && (before.letters.size() <= kLongestPrefix || is_label(before));
-    }
-
-    const NamePattern& pattern_;
-    const Tokens& tokens_;
-    std::size_t first_, next_, read_ = 0;
-    std::string_view text_;
-    bool strict_;  ///< every part begins with a capital
-};
-
-bool is_labelled(const Tokens& tokens, std::size_t first) {
-    for (std::size_t back = 1; back <= 2 && back <= first; ++back)
-        if (is_label(tokens[first - back])) return true;
-    return false;
 }
 
 /// 20214711.5 is not a student's number.
@@ -209,15 +95,6 @@ bool has_point(const NamePattern& pattern, std::string_view text, std::size_t be
     return written.find(pattern.reversed ? ',' : '.') != std::string_view::npos;
 }
 
-/// Whether bytes spell it on purpose: long enough, or with capitals and apart.
-bool stands_out(const NamePattern& pattern, const Tokens& tokens, std::size_t first, std::size_t end) {
-    if (pattern.whole && pattern.letters.size() >= kSureInBytes) return true;
-    const bool capitals = std::all_of(tokens.begin() + static_cast<std::ptrdiff_t>(first),
-                                      tokens.begin() + static_cast<std::ptrdiff_t>(end),
-                                      [](const NameToken& token) { return token.capital; });
-    return pattern.kind == NameKind::kName && capitals && (!pattern.whole || end > first + 1);
-}
-
 /// A group's number without its zeros: "Group 1", "group1", "group_1"; "group 1" counts something.
 bool is_counted(const NamePattern& pattern, const Tokens& tokens, std::size_t first, std::size_t end) {
     return pattern.bare && end > first + 1 && tokens[end - 1].gap == Gap::kSpace && !tokens[first].capital;
@@ -249,13 +126,94 @@ bool is_nobodys(const std::string& user) {
                             "public", "default", "guest", "runner", "home", "root"});
 }
 
-}  // namespace
-
-SoughtNames::SoughtNames(const Roster& roster) {
-    for (const Student& student : roster.students()) add(student);
+/// An ordinary word that may be a name: with a capital within a sentence, and no number behind it ("Page 3").
+bool may_be_name(const Tokens& tokens, std::size_t at, std::string_view text) {
+    const bool counted = at + 1 < tokens.size() && tokens[at + 1].digits && tokens[at + 1].gap == Gap::kSpace;
+    const std::size_t from = at > 0 ? tokens[at - 1].end : 0;
+    const std::string_view between = text.substr(from, tokens[at].begin - from);
+    return tokens[at].capital && !counted && between.find_first_of(".!?:") == std::string_view::npos;
 }
 
-void SoughtNames::add(const Student& student, bool own) {
+/// "%C3%A9" -> "é"; bytes that are not UTF-8 are taken as Latin-1.
+std::string percent_decoded(std::string_view text) {
+    std::string bytes;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const auto digit = [&](std::size_t at) {
+            const char c = at < text.size() ? text[at] : ' ';
+            return std::isxdigit(static_cast<unsigned char>(c)) != 0 ? std::stoi(std::string(1, c), nullptr, 16) : -1;
+        };
+        const bool coded = text[i] == '%' && digit(i + 1) >= 0 && digit(i + 2) >= 0;
+        bytes += coded ? static_cast<char>(digit(i + 1) * 16 + digit(i + 2)) : text[i];
+        if (coded) i += 2;
+    }
+    std::string utf8;
+    for (std::string_view rest = bytes; !rest.empty();) {
+        const char first = rest.front();
+        utf8 += utf8_of(take_character(rest).value_or(static_cast<unsigned char>(first)));
+    }
+    return utf8;
+}
+
+NameHit hit_of(std::string_view text, const std::string& who, NameKind kind, std::size_t begin, std::size_t end) {
+    return {who, kind, true, false, std::string(text.substr(begin, end - begin)), begin, end};
+}
+
+/// What a terminal shows before a command: ada@laptop:~$
+void find_prompts(std::string_view text, std::vector<NameHit>& hits) {
+    const auto is_of_name = [](char c) {
+        return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' || c == '.';
+    };
+    for (std::size_t at = text.find(":~"); at != std::string_view::npos; at = text.find(":~", at + 1)) {
+        std::size_t host = at;
+        while (host > 0 && is_of_name(text[host - 1])) --host;
+        if (host == at || host == 0 || text[host - 1] != '@') continue;
+        std::size_t begin = host - 1;
+        while (begin > 0 && is_of_name(text[begin - 1])) --begin;
+        if (!is_nobodys(squeezed(text.substr(begin, host - 1 - begin), nullptr)))
+            hits.push_back(hit_of(text, std::string(text.substr(begin, at - begin)), NameKind::kHome, begin, at));
+    }
+}
+
+}  // namespace
+
+IdentityMatcher::IdentityMatcher(const std::vector<Student>& students) {
+    for (const Student& student : students) add(student);
+}
+
+void IdentityMatcher::add_cited(const std::vector<CitedAuthor>& authors) {
+    for (const CitedAuthor& author : authors) {
+        std::set<std::string>& given = cited_[author.surname];
+        std::string joined;
+        for (const std::string& name : author.given) {
+            given.insert(name);
+            given.insert(name.substr(0, 1));
+            joined += name;
+        }
+        cited_names_.insert(joined + author.surname);
+        cited_names_.insert(author.surname + joined);
+    }
+}
+
+/// A cited author's surname beside a given name or initial of theirs, or beside another cited author's surname.
+bool IdentityMatcher::is_cited(const NamePattern& pattern, const Tokens& tokens, std::size_t first,
+                               std::size_t end) const {
+    const auto author = cited_.find(pattern.letters);
+    if (pattern.whole || author == cited_.end()) return false;
+    const auto belongs = [&](const NameToken& token) {
+        const bool own_initial = token.letters.size() == 1 && pattern.initials.find(token.letters) != std::string::npos;
+        return !own_initial && (author->second.contains(token.letters) || cited_.contains(token.letters));
+    };
+    const auto is_connection = [](const NameToken& token) { return is_one_of(token.letters, {"and", "et"}); };
+    if (first > 0 && tokens[first].gap != Gap::kWide) {
+        const bool skip = first > 1 && is_connection(tokens[first - 1]);
+        if (belongs(tokens[first - (skip ? 2 : 1)])) return true;
+    }
+    if (end == tokens.size() || tokens[end].gap == Gap::kWide) return false;
+    const bool skip = end + 1 < tokens.size() && is_connection(tokens[end]);
+    return belongs(tokens[end + (skip ? 1 : 0)]);
+}
+
+void IdentityMatcher::add(const Student& student, bool own) {
     ++people_;
     add_writings(student, own);
     if (own) {
@@ -271,19 +229,19 @@ void SoughtNames::add(const Student& student, bool own) {
     }
 }
 
-void SoughtNames::add_writings(const Student& student, bool own) {
+void IdentityMatcher::add_writings(const Student& student, bool own) {
     for (NamePattern& pattern : patterns_of(student, own)) index(std::move(pattern));
     const std::string address = squeezed(student.mail, nullptr);
     if (address.find('@') != std::string::npos && address.size() >= kShortestAddress)
         addresses_.emplace_back(address, student.name.empty() ? student.id : student.name);
 }
 
-void SoughtNames::add_account(const fs::path& home) {
+void IdentityMatcher::add_account(const fs::path& home) {
     const std::string folder = home.lexically_normal().string();
     if (std::ranges::count(folder, '/') >= 2 && !is_nobodys(home.filename().string())) homes_.push_back(folder);
 }
 
-void SoughtNames::index(NamePattern pattern) {
+void IdentityMatcher::index(NamePattern pattern) {
     std::vector<NamePattern>& row = patterns_[static_cast<unsigned char>(pattern.letters.front())];
     const auto same = [&pattern](const NamePattern& other) {
         return other.who == pattern.who && other.letters == pattern.letters && other.kind == pattern.kind &&
@@ -293,66 +251,56 @@ void SoughtNames::index(NamePattern pattern) {
     if (std::ranges::none_of(row, same)) row.push_back(std::move(pattern));
 }
 
-void SoughtNames::find_patterns(const Tokens& tokens, std::string_view text, TextManner manner,
-                                std::vector<NameHit>& hits) const {
+void IdentityMatcher::find_patterns(const Tokens& tokens, std::string_view text, TextManner manner,
+                                    std::vector<NameHit>& hits) const {
     for (std::size_t i = 0; i < tokens.size(); ++i) {
         for (const NamePattern& pattern : patterns_[static_cast<unsigned char>(tokens[i].letters.front())]) {
-            if (manner == TextManner::kBytes && !pattern.whole && pattern.letters.size() < kShortestInBytes) continue;
-            PatternMatcher reading(pattern, tokens, i, text, manner);
-            if (!reading.succeeds()) continue;
-            const std::size_t end = reading.end();
+            const auto match = match_pattern(pattern, tokens, i, text, manner);
+            if (!match) continue;
+            const std::size_t end = match->end;
             const bool whole_text = manner == TextManner::kData && i == 0 && end == tokens.size();
-            if (pattern.labelled && !whole_text && !is_labelled(tokens, i)) continue;
             const NameToken& last = tokens[end - 1];
-            if (pattern.kind == NameKind::kNumber && has_decimals(tokens, end, text)) continue;
             const std::string_view written = text.substr(tokens[i].begin, last.end - tokens[i].begin);
-            if (!whole_text && may_be_words(pattern, tokens, i, end, written)) continue;
-            if (!whole_text && is_counted(pattern, tokens, i, end)) continue;
-            if (pattern.initialled && !has_point(pattern, text, tokens[i].begin, last.end)) continue;
             const bool identifier = is_in_identifier(text, tokens[i].begin, last.end);
             const bool alone = pattern.kind == NameKind::kName && !pattern.whole;
             const bool in_small = manner == TextManner::kProse && alone && !tokens[i].capital;
-            if (in_small && !identifier && (pattern.given_only || pattern.letters.size() < kShortestInSmall)) continue;
-            if (manner == TextManner::kBytes && !stands_out(pattern, tokens, i, end)) continue;
-            bool certain = pattern.given_only ? identifier && pattern.own
-                           : pattern.whole    ? true
-                                              : !looks_cited(pattern, tokens, i, end, text);
+            const bool short_or_given = pattern.given_only || pattern.letters.size() < kShortestInSmall;
+            if (pattern.labelled && !whole_text && !is_labelled(tokens, i)) continue;
+            if (pattern.kind == NameKind::kNumber && has_decimals(tokens, end, text)) continue;
+            if (!whole_text && may_be_words(pattern, tokens, i, end, written)) continue;
+            if (!whole_text && is_counted(pattern, tokens, i, end)) continue;
+            if (pattern.account && !whole_text && !identifier) continue;
+            if (pattern.initialled && !has_point(pattern, text, tokens[i].begin, last.end)) continue;
+            if (in_small && !identifier && short_or_given) continue;
+            const bool passed_over = !pattern.own && !authors_.empty();
+            const bool as_name =
+                manner == TextManner::kProse ? !identifier && may_be_name(tokens, i, text) : whole_text;
+            if (pattern.ordinary && (passed_over || !as_name)) continue;
+            const bool cited = alone && looks_cited(pattern, tokens, i, end, text);
+            if (alone && (is_cited(pattern, tokens, i, end) || (cited && cited_.contains(pattern.letters)))) continue;
+            bool certain = pattern.given_only ? identifier && pattern.own : pattern.whole || !cited;
             if (in_small && !identifier && !pattern.own) certain = false;
             if (pattern.bare && !pattern.own) certain = false;
-            if (manner == TextManner::kBytes && !pattern.whole) certain = false;  // whoever designed the font
-            hits.push_back({pattern.who, pattern.kind, certain, tokens[i].begin, last.end});
+            if (pattern.ordinary || (match->parted && alone)) certain = false;
+            if (pattern.whole && cited_names_.contains(pattern.letters)) certain = false;
+            hits.push_back({pattern.who, pattern.kind, certain, pattern.ordinary, std::string(written), tokens[i].begin,
+                            last.end});
         }
     }
 }
 
-void SoughtNames::find_addresses(std::string_view text, std::vector<NameHit>& hits) const {
+void IdentityMatcher::find_addresses(std::string_view text, std::vector<NameHit>& hits) const {
     if (addresses_.empty() || text.find('@') == std::string_view::npos) return;
     std::vector<std::size_t> offsets;
     const std::string bare = squeezed(text, &offsets);
     for (const auto& [address, who] : addresses_) {
         const std::size_t at = bare.find(address);
         if (at != std::string::npos)
-            hits.push_back({who, NameKind::kMail, true, offsets[at], offsets[at + address.size() - 1] + 1});
+            hits.push_back(hit_of(text, who, NameKind::kMail, offsets[at], offsets[at + address.size() - 1] + 1));
     }
 }
 
-/// What a terminal shows before a command: ada@laptop:~$
-void SoughtNames::find_prompts(std::string_view text, std::vector<NameHit>& hits) const {
-    const auto is_of_name = [](char c) {
-        return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' || c == '.';
-    };
-    for (std::size_t at = text.find(":~"); at != std::string_view::npos; at = text.find(":~", at + 1)) {
-        std::size_t host = at;
-        while (host > 0 && is_of_name(text[host - 1])) --host;
-        if (host == at || host == 0 || text[host - 1] != '@') continue;
-        std::size_t begin = host - 1;
-        while (begin > 0 && is_of_name(text[begin - 1])) --begin;
-        if (!is_nobodys(squeezed(text.substr(begin, host - 1 - begin), nullptr)))
-            hits.push_back({std::string(text.substr(begin, at - begin)), NameKind::kHome, true, begin, at});
-    }
-}
-
-void SoughtNames::find_paths(std::string_view text, std::vector<NameHit>& hits) const {
+void IdentityMatcher::find_paths(std::string_view text, std::vector<NameHit>& hits) const {
     constexpr std::string_view kRoots[] = {"/home/",  "/home1/", "/home2/",   "/home3/",   "/homes/",
                                            "/users/", "/Users/", "\\Users\\", "\\users\\", "\\home\\"};
     for (const std::string_view root : kRoots) {
@@ -365,24 +313,30 @@ void SoughtNames::find_paths(std::string_view text, std::vector<NameHit>& hits) 
             if (is_in_address(text, at)) continue;
             const std::string user = squeezed(text.substr(begin, end - begin), nullptr);
             if (!is_nobodys(user))
-                hits.push_back({std::string(text.substr(at, end - at)), NameKind::kHome, true, at, end});
+                hits.push_back(hit_of(text, std::string(text.substr(at, end - at)), NameKind::kHome, at, end));
         }
     }
     find_prompts(text, hits);
     for (const std::string& home : homes_) {
         const std::size_t at = text.find(home);
-        if (at != std::string_view::npos) hits.push_back({home, NameKind::kHome, true, at, at + home.size()});
+        if (at != std::string_view::npos) hits.push_back(hit_of(text, home, NameKind::kHome, at, at + home.size()));
     }
 }
 
-std::vector<NameHit> SoughtNames::find(std::string_view text, TextManner manner) const {
+std::vector<NameHit> IdentityMatcher::find(std::string_view given, TextManner manner) const {
     std::vector<NameHit> hits;
-    if (people_ > 0) find_patterns(name_tokens(text), text, manner, hits);
-    for (const Reading reading : {Reading::kCamel, Reading::kLookAlike})
-        if (people_ > 0 && reads_otherwise(text, reading))
-            find_patterns(name_tokens(text, reading), text, manner, hits);
-    find_addresses(text, hits);
-    find_paths(text, hits);
+    std::string text(given);
+    for (int decodings = 0; decodings <= kMaxDecodings; ++decodings) {
+        if (people_ > 0) find_patterns(name_tokens(text), text, manner, hits);
+        for (const Reading reading : {Reading::kCamel, Reading::kLookAlike})
+            if (people_ > 0 && reads_otherwise(text, reading))
+                find_patterns(name_tokens(text, reading), text, manner, hits);
+        find_addresses(text, hits);
+        find_paths(text, hits);
+        std::string decoded = text.find('%') == std::string::npos ? text : percent_decoded(text);
+        if (decoded == text) break;
+        text = std::move(decoded);
+    }
     std::ranges::stable_sort(hits, [](const NameHit& a, const NameHit& b) {
         return std::make_tuple(!a.certain, a.begin, b.end) < std::make_tuple(!b.certain, b.begin, a.end);
     });

@@ -3,7 +3,7 @@
 #include <string_view>
 #include <vector>
 
-namespace dynlab::inline course {
+namespace dynlab::inline platform {
 
 /// Lower case without accents and ligatures ("Procédé" -> "procede"); characters beyond Latin letters become spaces,
 /// except quotation marks and dashes, which become ' and -.
@@ -16,4 +16,4 @@ std::vector<std::string> plain_words(std::string_view utf8);
 /// The text with control characters and broken UTF-8 as '?', and with at most `most` characters: fit for a terminal.
 std::string printable(std::string_view utf8, std::size_t most = 200);
 
-}  // namespace dynlab::inline course
+}  // namespace dynlab::inline platform

@@ -1,13 +1,15 @@
-#include "course/names/anonymous_copy.h"
+#include "course/anonymity/anonymous_copy.h"
 
 #include <algorithm>
 #include <csignal>
 
 #include "base/reader.h"
+#include "course/anonymity/anonymity_findings.h"
 #include "course/boxes/boxed_work.h"
 #include "course/boxes/told_reason.h"
 #include "course/hand_ins/staging.h"
-#include "course/names/name_findings.h"
+#include "documents/pdf/distilled_pdf.h"
+#include "documents/pdf/pdf_layout.h"
 #include "documents/work_file.h"
 #include "platform/atomic_file.h"
 #include "platform/hash.h"
@@ -21,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kLargestFile = 64ull << 20, kMostMade = 200ull << 20;
+constexpr std::uint64_t kMaxFile = 64ull << 20, kMaxMade = 200ull << 20;
 
 std::uint64_t bytes_below(const fs::path& folder) {
     std::uint64_t bytes = 0;
@@ -39,7 +41,7 @@ std::optional<fs::path> pdf_below(const fs::path& folder) {
     std::vector<fs::path> found;
     for (const auto& entry : fs::recursive_directory_iterator(folder))
         if (fs::is_regular_file(entry.symlink_status()) && is_pdf(entry.path())) found.push_back(entry.path());
-    std::sort(found.begin(), found.end());
+    std::ranges::sort(found);
     const auto usual =
         std::find_if(found.begin(), found.end(), [](const fs::path& file) { return file.filename() == "report.pdf"; });
     if (usual != found.end()) return *usual;
@@ -49,21 +51,20 @@ std::optional<fs::path> pdf_below(const fs::path& folder) {
 /// The making of one copy.
 class CopyingAnonymously {
   public:
-    CopyingAnonymously(const fs::path& handed_in, const AnonymousCopySetup& setup)
-        : handed_in_(handed_in), setup_(setup) {}
+    CopyingAnonymously(const fs::path& submission, const AnonymousCopySetup& setup)
+        : submission_(submission), setup_(setup) {}
 
     AnonymousCopy make(const fs::path& copy) {
         const std::optional<fs::path> original = found_original();
         if (!original) return std::move(result_);
         try {
-            const std::string bytes = clean_pdf(*original, setup_.objects);
-            const fs::path cleaned = work_.path() / "clean.pdf";
-            write_work_file(cleaned, bytes);
-            NameSearchLimits limits;
-            limits.objects = setup_.objects;
-            result_.findings = name_findings(cleaned, read_pdf_layout(cleaned), setup_.names, limits);
-            result_.made = std::none_of(result_.findings.begin(), result_.findings.end(),
-                                        [](const Finding& finding) { return finding.severity == Severity::kRule; });
+            const std::string bytes = distilled_pdf(*original, {setup_.isolation, {std::chrono::seconds(60)}, {}});
+            const fs::path printed = work_.path() / "copy.pdf";
+            write_work_file(printed, bytes);
+            result_.findings = anonymity_findings(printed, read_pdf_layout(printed), setup_.names);
+            const bool clean = std::ranges::none_of(
+                result_.findings, [](const Finding& finding) { return finding.severity == Severity::kRule; });
+            result_.made = clean || setup_.accept;
             if (!result_.made) return std::move(result_);
             write_file_atomically(copy, bytes);
             result_.hash = sha256_of(bytes);
@@ -75,17 +76,17 @@ class CopyingAnonymously {
     }
 
   private:
-    /// The PDF made again or handed in; says in the result which, or why there is none.
+    /// The PDF made again or submitted; says in the result which, or why there is none.
     std::optional<fs::path> found_original() {
-        if (fs::is_regular_file(handed_in_) && is_pdf(handed_in_)) return handed_in_;
-        Submission submission;
-        submission.path = handed_in_;
-        submission.archive = !fs::is_directory(handed_in_);
+        if (fs::is_regular_file(submission_) && is_pdf(submission_)) return submission_;
+        Submission given;
+        given.path = submission_;
+        given.archive = !fs::is_directory(submission_);
         const fs::path staged = work_.path() / "staged";
         fs::create_directories(staged);
         std::optional<fs::path> source;
         try {
-            source = stage_submission(submission, staged, setup_.isolation, setup_.program).folder;
+            source = stage_submission(given, staged, setup_.isolation, setup_.program).folder;
         } catch (const SubmissionError& error) {
             result_.trouble = error.message();
         }
@@ -113,11 +114,11 @@ class CopyingAnonymously {
         const fs::path program = box.add_program(setup_.program);
         Box::Limits limits;
         limits.time = setup_.report_time;
-        limits.file_bytes = kLargestFile;
+        limits.file_bytes = kMaxFile;
         const ChildResult child =
             box.run({program.string(), "report", inside.string(), "-o", (out / "report.pdf").string()}, {}, "", limits);
         const bool made = child.exit_code == 0 && fs::is_regular_file(report());
-        if (made && bytes_below(report().parent_path()) <= kMostMade) return true;
+        if (made && bytes_below(report().parent_path()) <= kMaxMade) return true;
         result_.trouble = Message("The report cannot be made again: {}",
                                   made ? Message("it is too large") : reason_of(child, inside));
         return false;
@@ -125,12 +126,12 @@ class CopyingAnonymously {
 
     Message reason_of(const ChildResult& child, const fs::path& folder) const {
         if (child.timed_out) return reason_of_end(child, setup_.report_time);
-        if (child.exit_code == 128 + SIGXFSZ) return Message("it writes a file of more than {} MB", kLargestFile >> 20);
+        if (child.exit_code == 128 + SIGXFSZ) return Message("it writes a file of more than {} MB", kMaxFile >> 20);
         const std::string first_line = child.error_output.substr(0, child.error_output.find('\n'));
         return Message::verbatim(without_full_stop(terminal_text(told_outside(first_line, folder))));
     }
 
-    fs::path handed_in_;
+    fs::path submission_;
     const AnonymousCopySetup& setup_;
     AnonymousCopy result_;
     TemporaryFolder work_;
@@ -138,8 +139,8 @@ class CopyingAnonymously {
 
 }  // namespace
 
-AnonymousCopy anonymous_copy(const fs::path& handed_in, const fs::path& copy, const AnonymousCopySetup& setup) {
-    return CopyingAnonymously(handed_in, setup).make(copy);
+AnonymousCopy anonymous_copy(const fs::path& submission, const fs::path& copy, const AnonymousCopySetup& setup) {
+    return CopyingAnonymously(submission, setup).make(copy);
 }
 
 }  // namespace dynlab::inline course

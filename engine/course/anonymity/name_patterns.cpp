@@ -1,17 +1,20 @@
-#include "course/names/name_patterns.h"
+#include "course/anonymity/name_patterns.h"
 
 #include <algorithm>
 
+#include "documents/text_lines.h"
+#include "platform/text/ordinary_words.h"
 #include "platform/utf8.h"
 
 namespace dynlab::inline course {
 namespace {
 
-constexpr std::size_t kShortestName = 4;    ///< letters of a surname or given name alone
-constexpr std::size_t kShortestGiven = 3;   ///< of the document's own authors
-constexpr std::size_t kShortestNumber = 6;  ///< digits
-constexpr std::size_t kShortestMixed = 5;   ///< letters and digits
-constexpr std::size_t kShortestSought = 3;  ///< of a number that is looked for at all
+constexpr std::size_t kShortestName = 4;                            ///< letters of a surname or given name alone
+constexpr std::size_t kShortestGiven = 3;                           ///< of the document's own authors
+constexpr std::size_t kShortestNumber = 6;                          ///< digits
+constexpr std::size_t kShortestMixed = 5;                           ///< letters and digits
+constexpr std::size_t kShortestSearched = 3;                        ///< of a number that is searched for
+constexpr std::size_t kShortestOrdinary = 3, kShortestAccount = 6;  ///< letters
 
 /// A word of a name: "O'Brien" has two tokens.
 struct Part {
@@ -166,6 +169,11 @@ void add_names(const std::string& who, const FullName& name, bool own, std::vect
     if (may_stand_alone(name.surname)) {
         append(alone, name.surname);
         patterns.push_back(alone);
+    } else if (name.surname.letters.size() >= kShortestOrdinary && is_ordinary_word(name.surname.letters)) {
+        append(alone, name.surname);
+        alone.ordinary = true;
+        patterns.push_back(alone);
+        alone.ordinary = false;
     }
     if (!own) return;
     if (!name.given.empty() && !name.surname.letters.empty()) add_initialled(who, name, patterns);
@@ -183,35 +191,12 @@ void add_names(const std::string& who, const FullName& name, bool own, std::vect
 }
 
 /// "Müller" may be written "Mueller".
-std::string umlauts_written_out(const std::string& name) {
-    std::string result;
-    for (std::string_view rest = name; !rest.empty();) {
-        const std::string_view before = rest;
-        const char32_t c = next_character(rest);
-        switch (c) {
-            case U'ä':
-            case U'Ä':
-                result += "ae";
-                break;
-            case U'ö':
-            case U'Ö':
-            case U'ø':
-            case U'Ø':
-                result += "oe";
-                break;
-            case U'ü':
-            case U'Ü':
-                result += "ue";
-                break;
-            case U'å':
-            case U'Å':
-                result += "aa";
-                break;
-            default:
-                result += before.substr(0, before.size() - rest.size());
-        }
-    }
-    return result;
+std::string umlauts_written_out(std::string name) {
+    constexpr std::pair<const char*, const char*> kWritten[] = {{"ä", "ae"}, {"Ä", "Ae"}, {"ö", "oe"}, {"Ö", "Oe"},
+                                                                {"ø", "oe"}, {"Ø", "Oe"}, {"ü", "ue"}, {"Ü", "Ue"},
+                                                                {"å", "aa"}, {"Å", "Aa"}};
+    for (const auto& [letter, written] : kWritten) name = replaced(name, letter, written);
+    return name;
 }
 
 /// A number, an account's name, a group's name with a number in it.
@@ -226,10 +211,15 @@ void add_number(NameKind kind, const std::string& who, const std::string& text, 
         (token.digits ? digits : letters) = true;
         if (token.digits && token.letters.size() == 1) pattern.spaced = false;
     }
-    if (!digits || (kind != NameKind::kGroup && !is_sought_number(text))) return;
+    if (!digits || (kind != NameKind::kGroup && !is_searched_number(text))) return;
     pattern.labelled = pattern.letters.size() < (letters ? kShortestMixed : kShortestNumber);
     patterns.push_back(pattern);
 }
+
+/// Of one digit, written and Roman.
+constexpr const char* kWrittenNumbers[][2] = {{"zero", "0"},     {"one", "i"},  {"two", "ii"}, {"three", "iii"},
+                                              {"four", "iv"},    {"five", "v"}, {"six", "vi"}, {"seven", "vii"},
+                                              {"eight", "viii"}, {"nine", "ix"}};
 
 /// "group-01" is also "Team 01", "group1" or "Group 1", in all words for a group; of the authors' own, "G01" too.
 void add_group(const std::string& group, bool own, std::vector<NamePattern>& patterns) {
@@ -253,6 +243,9 @@ void add_group(const std::string& group, bool own, std::vector<NamePattern>& pat
         for (const std::string& word : words) {
             add(word, number);
             add(word, number.size() == 1 ? "0" + number : given);
+            if (own && number.size() == 1)
+                for (const char* written : kWrittenNumbers[static_cast<std::size_t>(number.front() - '0')])
+                    add(word, written), patterns.back().bare = true;
         }
         if (own && given.front() == '0') add("g", given), patterns.back().breaks.clear();
     }
@@ -261,18 +254,25 @@ void add_group(const std::string& group, bool own, std::vector<NamePattern>& pat
 
 }  // namespace
 
-bool is_sought_number(const std::string& id) {
+bool is_searched_number(const std::string& id) {
     std::size_t letters = 0;
     for (const NameToken& token : name_tokens(id)) letters += token.letters.size();
-    return letters >= kShortestSought;
+    return letters >= kShortestSearched;
 }
 
-Message unsought_numbers(const std::vector<Student>& students) {
-    const auto unsought = [](const Student& student) { return !is_sought_number(student.id); };
-    const auto first = std::ranges::find_if(students, unsought);
+Message numbers_too_short(const std::vector<Student>& students) {
+    const auto is_short = [](const Student& student) { return !is_searched_number(student.id); };
+    const auto first = std::ranges::find_if(students, is_short);
     if (first == students.end()) return {};
-    return Message("ids of fewer than {} letters and digits ({}, such as {}) are not looked for in documents",
-                   kShortestSought, std::ranges::count_if(students, unsought), first->id);
+    return Message("documents are not searched for ids of fewer than {} letters and digits ({}, such as {})",
+                   kShortestSearched, std::ranges::count_if(students, is_short), first->id);
+}
+
+CitedAuthor cited_author(const std::string& name) {
+    const FullName full = full_name(name);
+    CitedAuthor author{full.surname.letters, {}};
+    for (const Part& part : full.given) author.given.push_back(part.letters);
+    return author;
 }
 
 std::vector<NamePattern> patterns_of_pair(const Student& one, const Student& other) {
@@ -310,6 +310,14 @@ std::vector<NamePattern> patterns_of(const Student& student, bool own) {
         pattern.kind = NameKind::kMail;
         pattern.capital = false;
         patterns.push_back(pattern);
+    }
+    if (const FullName name = full_name(student.name); !name.given.empty()) {
+        NamePattern pattern;
+        pattern.kind = NameKind::kMail;
+        pattern.who = who;
+        pattern.letters = name.given.front().letters.substr(0, 1) + name.surname.letters;
+        pattern.account = true;
+        if (may_stand_alone(name.surname) && pattern.letters.size() >= kShortestAccount) patterns.push_back(pattern);
     }
     std::erase_if(patterns, [](const NamePattern& pattern) { return pattern.letters.empty(); });
     return patterns;

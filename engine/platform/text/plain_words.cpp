@@ -1,11 +1,11 @@
-#include "course/names/plain_words.h"
+#include "platform/text/plain_words.h"
 
 #include <cctype>
 
 #include "platform/terminal/terminal_text.h"
 #include "platform/utf8.h"
 
-namespace dynlab::inline course {
+namespace dynlab::inline platform {
 namespace {
 
 bool is_ascii(char c) {
@@ -63,4 +63,4 @@ std::string printable(std::string_view utf8, std::size_t most) {
     return result;
 }
 
-}  // namespace dynlab::inline course
+}  // namespace dynlab::inline platform

@@ -1,5 +1,5 @@
 // Oracle: the definitions in plain_words.h.
-#include "course/names/plain_words.h"
+#include "platform/text/plain_words.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
