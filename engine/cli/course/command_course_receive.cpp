@@ -242,11 +242,11 @@ void add_receive_commands(CLI::App& course, CourseArguments& where, Action& acti
     review->require_subcommand(1);
     add_receive(*review, "receive", "Take reviews", "review",
                 "dynlab course review receive review-report-07.pdf --from group-02", where, action);
-    CLI::App* final = course.add_subcommand("final", "Final versions, and what changed in them");
+    CLI::App* final = course.add_subcommand("final", "Final versions");
     final->require_subcommand(1);
     add_receive(*final, "receive", "Take final versions", "final",
                 "dynlab course final receive final.zip --assignment crane", where, action);
-    add_final_changes(*final, where, action);
+    add_changes(*final, where, action)->group("");  // its old name
     add_work(course, where, action);
     add_course_verify(course, where, action);
     add_key(course, where, action);

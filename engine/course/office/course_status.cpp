@@ -270,7 +270,7 @@ class Status {
             return fmt::format("wait for reviews, dynlab course review receive FILE... --assignment {}",
                                assignment_.name);
         if (now_ > *assignment_.final_due)
-            return (finals_ > 0 ? command("final changes --assignment") + ", then " : "") + command("export");
+            return (finals_ > 0 ? command("changes --assignment") + ", then " : "") + command("export");
         return command("scores") + " FILE.csv, then " + command("marks");
     }
 
