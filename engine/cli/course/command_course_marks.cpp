@@ -79,6 +79,16 @@ void tell_costs_and_gaps(Course& course, const Assignment& a, const Marks& all) 
                 std::cout << terminal_text(
                     fmt::format("{}: the final version has {:.1f} percent, {:g} percent of the work's mark.\n",
                                 group.name, *mark.final_version, a.final_weight));
+            const auto tell_zeros = [&](const std::string& whose, const std::vector<std::string>& zeros) {
+                if (!zeros.empty())
+                    std::cout << terminal_text(message_text(
+                                     Message("{}: no points for {}, counted as 0.", whose, listed(zeros, Join::kAnd))))
+                              << '\n';
+            };
+            tell_zeros(group.name, mark.zeros);
+            for (const StudentMark& own : mark.students) tell_zeros(group.name + ", " + own.student, own.zeros);
+            if (a.is_report() && mark.scored == 1 && a.reviews > 1)
+                std::cout << terminal_text(message_text(Message("{} rests on one review.", group.name))) << '\n';
             std::vector<std::string> forgotten;
             for (std::size_t c = 0; c < a.criteria.size(); ++c)
                 if (!mark.medians[c]) forgotten.push_back(a.criteria[c].name);
