@@ -298,6 +298,7 @@ void add_course(CLI::App& app, Action& action) {
     add_receive_commands(*course, where, action);
     add_findings_command(*course, where, action);
     add_peer_commands(*course, where, action);
+    add_changes(*course, where, action);
     add_mark_commands(*course, where, action);
     add_correction_commands(*course, where, action);
     add_status(*course, where, action);
@@ -310,8 +311,7 @@ void add_course(CLI::App& app, Action& action) {
         "  dynlab course status crane                                 who is late, and what to do\n"
         "  dynlab course findings group-07                            what was found in a group's report\n"
         "  dynlab course peer assign crane                            who reviews whom\n"
-        "  dynlab course final changes --assignment crane             what changed after the reviews, remark by "
-        "remark\n"
+        "  dynlab course changes --assignment crane                   first and final versions, word by word\n"
         "  dynlab course marks crane                                  from the reviewers' scores and your own word\n"
         "  dynlab course export crane --out marks.csv                 for Moodle and Canvas\n"
         "More: dynlab help review_marks (how marks come out of scores), dynlab help names (what is searched for)\n"

@@ -40,11 +40,12 @@ int show_pairs(const CourseArguments& where, const PeerArguments& words) {
     const Assignment assignment = assignment_named(course, words.assignment);
     refuse_without_reviews(assignment);
     for (const ReviewPair& pair : review_pairs(course, assignment)) {
-        const char* const state = pair.released  ? "released"
-                                  : pair.written ? "written"
-                                  : pair.ended   ? "taken back"
-                                  : pair.sent    ? "sent"
-                                                 : "allotted";
+        const char* const state = pair.released      ? "released"
+                                  : pair.voluntary() ? "voluntary"
+                                  : pair.written     ? "written"
+                                  : pair.ended       ? "taken back"
+                                  : pair.sent        ? "sent"
+                                                     : "allotted";
         rows.push_back(
             {pair.reviewer_name, pair.report_pseudonym(), pair.author_name, pair.reviewer_pseudonym(), state});
     }
@@ -85,6 +86,10 @@ int send(const CourseArguments& where, const PeerArguments& words, Way way) {
                              done.sent, done.again > 0 ? fmt::format(" ({} in a newer version)", done.again) : "",
                              done.before, done.stopped, done.waiting,
                              done.held > 0 ? fmt::format(", {} held back", done.held) : "", done.folder.string());
+    if (!done.unreviewed.empty())
+        std::cout << terminal_text(message_text(Message("No review: {}.", listed(done.unreviewed)))) << '\n';
+    if (!done.reviewed_once.empty())
+        std::cout << terminal_text(message_text(Message("One review only: {}.", listed(done.reviewed_once)))) << '\n';
     for (const std::string& file : done.removed)
         std::cout << terminal_text(fmt::format("Taken out of the folder: {}\n", file));
     return done.stopped == 0 ? kDone : kFailed;

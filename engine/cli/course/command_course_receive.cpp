@@ -36,6 +36,7 @@ Message remark(const Received& r) {
         return Message("known already; by --times it came {}: dynlab course time corrects that", r.other_time);
     if (r.known) return Message("known already, nothing changed");
     MessageList clauses{{}, Join::kSemicolon};
+    if (r.voluntary) clauses.items.push_back(Message("voluntary: the report was taken back; the review has no marks"));
     if (!r.twin.empty()) clauses.items.push_back(Message("the same file as {}", r.twin));
     if (!r.earlier.empty()) clauses.items.push_back(Message("the same file as {}", r.earlier));
     if (r.marked_late) clauses.items.push_back(Message("the platform calls it late: see --times"));
@@ -242,11 +243,11 @@ void add_receive_commands(CLI::App& course, CourseArguments& where, Action& acti
     review->require_subcommand(1);
     add_receive(*review, "receive", "Take reviews", "review",
                 "dynlab course review receive review-report-07.pdf --from group-02", where, action);
-    CLI::App* final = course.add_subcommand("final", "Final versions, and what changed in them");
+    CLI::App* final = course.add_subcommand("final", "Final versions");
     final->require_subcommand(1);
     add_receive(*final, "receive", "Take final versions", "final",
                 "dynlab course final receive final.zip --assignment crane", where, action);
-    add_final_changes(*final, where, action);
+    add_changes(*final, where, action)->group("");  // its old name
     add_work(course, where, action);
     add_course_verify(course, where, action);
     add_key(course, where, action);

@@ -34,8 +34,8 @@ class WorkBar {
     std::unique_ptr<ProgressBar> bar_;
 };
 
-/// final changes: below the command final.
-void add_final_changes(CLI::App& final, CourseArguments& where, Action& action);
+/// changes.
+CLI::App* add_changes(CLI::App& course, CourseArguments& where, Action& action);
 
 /// receive, review receive, final receive, work, verify, key.
 void add_receive_commands(CLI::App& course, CourseArguments& where, Action& action);
