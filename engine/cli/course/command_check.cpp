@@ -10,7 +10,7 @@
 #include "course/findings/findings_report.h"
 #include "course/findings/lesson_reader.h"
 #include "course/grading/folder_check.h"
-#include "course/hand_ins/work_language.h"
+#include "course/intake/work_language.h"
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"

@@ -9,7 +9,7 @@
 #include "cli/options/script_options.h"
 #include "cli/say.h"
 #include "course/grading/hand_in.h"
-#include "course/hand_ins/roster.h"
+#include "course/intake/roster.h"
 #include "documents/pdf/pdf_layout.h"
 #include "platform/error.h"
 #include "platform/temporary_folder.h"

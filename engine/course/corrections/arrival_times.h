@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "course/hand_ins/course_clock.h"
+#include "course/intake/course_clock.h"
 #include "course/store/incoming.h"
 
 namespace dynlab::inline course {

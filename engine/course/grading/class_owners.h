@@ -5,8 +5,8 @@
 
 #include "course/grading/grade.h"
 #include "course/grading/grading.h"
-#include "course/hand_ins/owners.h"
-#include "course/hand_ins/roster.h"
+#include "course/intake/owners.h"
+#include "course/intake/roster.h"
 
 namespace dynlab::inline course {
 

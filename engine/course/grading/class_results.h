@@ -6,9 +6,9 @@
 
 #include "course/boxes/boxed_document.h"
 #include "course/grading/grading_rules.h"
-#include "course/hand_ins/owners.h"
-#include "course/hand_ins/roster.h"
-#include "course/hand_ins/submission.h"
+#include "course/intake/owners.h"
+#include "course/intake/roster.h"
+#include "course/intake/submission.h"
 
 namespace dynlab::inline course {
 

@@ -8,8 +8,8 @@
 #include <ctime>
 #include <set>
 
-#include "course/hand_ins/course_clock.h"
-#include "course/hand_ins/owners.h"
+#include "course/intake/course_clock.h"
+#include "course/intake/owners.h"
 #include "data_io/text_table.h"
 #include "platform/error.h"
 

@@ -3,8 +3,8 @@
 #include <map>
 
 #include "course/boxes/zip_file.h"
-#include "course/hand_ins/folder_copy.h"
-#include "course/hand_ins/notebooks.h"
+#include "course/intake/folder_copy.h"
+#include "course/intake/notebooks.h"
 #include "data_io/dataset_index.h"
 #include "data_io/values/json_values.h"
 #include "platform/atomic_file.h"

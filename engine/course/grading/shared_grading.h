@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "course/grading/grading.h"
-#include "course/hand_ins/staging.h"
+#include "course/intake/staging.h"
 #include "workflow/shares/coordinator.h"
 #include "workflow/shares/worker.h"
 

@@ -6,7 +6,7 @@
 #include "base/reader.h"
 #include "course/boxes/boxed_work.h"
 #include "course/boxes/told_reason.h"
-#include "course/hand_ins/staging.h"
+#include "course/intake/staging.h"
 #include "course/names/name_findings.h"
 #include "documents/work_file.h"
 #include "platform/atomic_file.h"

@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <string>
 
-#include "course/hand_ins/finding.h"
+#include "course/intake/finding.h"
 #include "course/names/sought_names.h"
 #include "documents/pdf/pdf_objects.h"
 #include "platform/box.h"

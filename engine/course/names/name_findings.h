@@ -1,7 +1,7 @@
 #pragma once
 #include <filesystem>
 
-#include "course/hand_ins/finding.h"
+#include "course/intake/finding.h"
 #include "course/names/sought_names.h"
 #include "documents/pdf/pdf_layout.h"
 #include "documents/pdf/pdf_objects.h"

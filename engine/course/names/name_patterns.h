@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/message.h"
-#include "course/hand_ins/roster.h"
+#include "course/intake/roster.h"
 #include "course/names/name_tokens.h"
 
 namespace dynlab::inline course {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "course/hand_ins/roster.h"
+#include "course/intake/roster.h"
 #include "course/names/name_patterns.h"
 
 namespace dynlab::inline course {

@@ -11,7 +11,7 @@
 #include "course/findings/lesson_reader.h"
 #include "course/grading/feedback.h"
 #include "course/grading/grade.h"
-#include "course/hand_ins/roster.h"
+#include "course/intake/roster.h"
 #include "course/returns/mailing.h"
 #include "data_io/text_table.h"
 #include "platform/atomic_file.h"

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "course/hand_ins/owners.h"
+#include "course/intake/owners.h"
 #include "course/store/groups.h"
 
 namespace dynlab::inline course {

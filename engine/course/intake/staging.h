@@ -3,7 +3,7 @@
 #include <string>
 
 #include "base/message.h"
-#include "course/hand_ins/submission.h"
+#include "course/intake/submission.h"
 
 namespace dynlab::inline course {
 

@@ -1,4 +1,4 @@
-#include "course/hand_ins/work_language.h"
+#include "course/intake/work_language.h"
 
 #include "documents/error.h"
 #include "documents/percent_script.h"

@@ -1,4 +1,4 @@
-#include "course/hand_ins/submission.h"
+#include "course/intake/submission.h"
 
 #include <fmt/format.h>
 #include <re2/re2.h>
@@ -11,7 +11,7 @@
 #include "base/error.h"
 #include "course/boxes/boxed_work.h"
 #include "course/boxes/job_descriptions.h"
-#include "course/hand_ins/owners.h"
+#include "course/intake/owners.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/text/foreign_text.h"

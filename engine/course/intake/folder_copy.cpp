@@ -1,4 +1,4 @@
-#include "course/hand_ins/folder_copy.h"
+#include "course/intake/folder_copy.h"
 
 #include "platform/error.h"
 #include "platform/program_lookup.h"

@@ -1,4 +1,4 @@
-#include "course/hand_ins/owners.h"
+#include "course/intake/owners.h"
 
 #include <fmt/format.h>
 

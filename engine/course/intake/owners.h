@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "course/hand_ins/roster.h"
-#include "course/hand_ins/submission.h"
+#include "course/intake/roster.h"
+#include "course/intake/submission.h"
 
 namespace dynlab::inline course {
 
