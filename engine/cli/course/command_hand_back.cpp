@@ -3,7 +3,7 @@
 
 #include "base/reader.h"
 #include "cli/commands.h"
-#include "course/returns/handed_back.h"
+#include "course/export/handed_back.h"
 #include "platform/terminal/terminal_text.h"
 
 namespace dynlab::inline cli {

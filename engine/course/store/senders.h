@@ -8,7 +8,7 @@
 
 namespace dynlab::inline course {
 
-/// Whose file it is, by its name or its folder's (hand_ins/owners.h), among the groups of a course.
+/// Whose file it is, by its name or its folder's (intake/owners.h), among the groups of a course.
 class Senders {
   public:
     explicit Senders(Course& course);

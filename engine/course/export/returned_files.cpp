@@ -1,12 +1,12 @@
-#include "course/returns/returned_files.h"
+#include "course/export/returned_files.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "base/reader.h"
+#include "course/export/mailing.h"
 #include "course/office/receive.h"
-#include "course/returns/mailing.h"
 #include "course/store/groups.h"
 #include "numerics/error.h"
 #include "platform/atomic_file.h"

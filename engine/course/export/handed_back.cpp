@@ -1,4 +1,4 @@
-#include "course/returns/handed_back.h"
+#include "course/export/handed_back.h"
 
 #include <fmt/format.h>
 #include <re2/re2.h>
@@ -8,11 +8,11 @@
 #include <optional>
 
 #include "base/reader.h"
+#include "course/export/mailing.h"
 #include "course/findings/lesson_reader.h"
 #include "course/grading/feedback.h"
 #include "course/grading/grade.h"
 #include "course/intake/roster.h"
-#include "course/returns/mailing.h"
 #include "data_io/text_table.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
