@@ -33,13 +33,6 @@ struct MarkedStudent : Recipient {
     fs::path feedback;           ///< empty where there is none
 };
 
-/// Whether two names have the same words, in any order.
-bool same_person(const std::string& a, const std::string& b) {
-    std::vector<std::string> one = words_of_name(a), other = words_of_name(b);
-    std::ranges::sort(one), std::ranges::sort(other);
-    return !one.empty() && one == other;
-}
-
 std::size_t needed_column(const TextTable& table, const char* name, const fs::path& file) {
     if (const auto column = table.column(name)) return *column;
     throw EnvironmentError("{} has no column {}; it is not what dynlab grade writes", file.string(), name);

@@ -102,6 +102,12 @@ std::vector<std::string> words_of_name(std::string_view given) {
     return words;
 }
 
+bool same_person(const std::string& a, const std::string& b) {
+    Words one = words_of_name(a), other = words_of_name(b);
+    std::ranges::sort(one), std::ranges::sort(other);
+    return !one.empty() && one == other;
+}
+
 bool is_word_for_group(const std::string& word) {
     const Words words = words_of_name(word);
     return words.size() == 1 && names_a_group(words.front());
