@@ -36,6 +36,7 @@ Message remark(const Received& r) {
         return Message("known already; by --times it came {}: dynlab course time corrects that", r.other_time);
     if (r.known) return Message("known already, nothing changed");
     MessageList clauses{{}, Join::kSemicolon};
+    if (!r.remark.empty()) clauses.items.push_back(r.remark);
     if (!r.twin.empty()) clauses.items.push_back(Message("the same file as {}", r.twin));
     if (!r.earlier.empty()) clauses.items.push_back(Message("the same file as {}", r.earlier));
     if (r.marked_late) clauses.items.push_back(Message("the platform calls it late: see --times"));

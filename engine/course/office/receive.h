@@ -37,6 +37,7 @@ struct Received {
     Message missing;           ///< of a pack without the PDF that is wanted, a clause: "no PDF in the pack"
     std::string earlier;       ///< when an earlier version with the same content came: "v1 of Sat 2026-02-28 12:00"
     std::string other_time;    ///< of a known file: when it came by `time_of`, where the store says another time
+    Message remark;            ///< name and content differ, a clause
     bool marked_late = false;  ///< the platform wrote LATE into the name, though the time says nothing of it
     int scores = 0;            ///< that the pack of a review brought
     int rules_broken = 0;
