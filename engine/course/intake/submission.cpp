@@ -4,6 +4,7 @@
 #include <re2/re2.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <map>
 #include <set>
 #include <sstream>
@@ -247,6 +248,11 @@ std::vector<Message> unpack_submission(const fs::path& archive, const fs::path& 
                                        const fs::path& program, const SubmissionLimits& limits) {
     fs::create_directories(to);
     Box box(level);
+    // Times in zips have no zone: they are in the course's, which this process has, or in the machine's.
+    if (const char* zone = std::getenv("TZ"))
+        box.set_environment("TZ", zone);
+    else if (fs::exists("/etc/localtime"))
+        box.add("/etc/localtime", "/etc/localtime");
     UnpackJob job;
     job.archive = box.add(archive, "/box/archive");
     job.to = box.add_writable(to, "/box/unpacked");

@@ -16,6 +16,7 @@
 #include "course/review/review_pairs.h"
 #include "course/store/exceptions.h"
 #include "course/store/inspection.h"
+#include "course/store/participants.h"
 #include "course/store/receipts.h"
 #include "course/store/senders.h"
 #include "course/store/side_by_side.h"
@@ -313,6 +314,7 @@ class HandInReceiver {
                 has_any(candidate, candidate.part))
                 continue;
             outcome_.received.push_back(take(candidate));
+            keep_participant(course_, outcome_.assignment.id, candidate.file->sender, candidate.group);
             if (!outcome_.received.back().known)
                 ++fresh;
             else if (candidate.part == "pack")

@@ -16,7 +16,7 @@ struct ReceiveRequest {
     std::string from;                         ///< a group; empty: by the files' names
     std::vector<std::string> of;  ///< of reviews: the report's pseudonym for each file; empty: by the files' names
     Instant at = 0;               ///< time of receipt, where `time_of` tells none
-    std::function<std::optional<Instant>(const IncomingFile&)> time_of;  ///< may be empty (arrival_times.h)
+    std::function<std::optional<Instant>(const IncomingFile&)> time_of;  ///< may be empty (intake/arrival_times.h)
     Isolation level = Isolation::kFull;
     std::filesystem::path program;
     bool take_as_first = false;  ///< a first version even when the group's report was reviewed already

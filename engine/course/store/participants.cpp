@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "course/intake/owners.h"
+
 namespace dynlab::inline course {
 namespace {
 
@@ -12,9 +14,16 @@ std::string setting_of(std::int64_t assignment) {
 
 }  // namespace
 
-void keep_participant(Course& course, std::int64_t assignment, const std::string& student, const std::string& number) {
-    course.database().run("INSERT INTO course VALUES (?, ?) ON CONFLICT DO UPDATE SET value = excluded.value",
-                          setting_of(assignment) + student, number);
+void keep_participant(Course& course, std::int64_t assignment, const Submission& sender, const Group& group) {
+    if (sender.name.find("_assignsubmission_") == std::string::npos || sender.lms_id.empty()) return;
+    for (const std::string& id : group.members) {
+        Rows rows = course.database().query("SELECT name FROM students WHERE id = ?", id);
+        if (!rows.next() || (group.members.size() > 1 && !same_person(rows.text(0), sender.person))) continue;
+        course.database().run(
+            "INSERT INTO course VALUES (?, ?) ON CONFLICT DO UPDATE SET value = excluded.value WHERE value <> "
+            "excluded.value",
+            setting_of(assignment) + id, sender.lms_id);
+    }
 }
 
 std::map<std::string, std::string> participants_of(Course& course, std::int64_t assignment) {
