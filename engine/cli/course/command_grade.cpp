@@ -21,11 +21,11 @@ namespace {
 namespace fs = std::filesystem;
 
 struct GradeArguments {
-    std::string submissions, lesson, out, checks, secret, roster, owners, deadlines, timezone, on, spool,
+    std::string submissions, lesson, out, checks, secret, roster, owners, deadlines, times, timezone, on, spool,
         keep = "best", isolation = "full";
     std::vector<std::string> only;
     int jobs = 0, timeout = 60, lease = 30;
-    bool regrade = false, again = false, no_pdf = false, answers = false;
+    bool regrade = false, again = false, no_pdf = false, answers = false, accept_late = false;
 };
 
 std::optional<fs::path> given(const std::string& path) {
@@ -37,6 +37,13 @@ std::string eye_text(const GradingOutcome& outcome) {
     std::string text =
         fmt::format("{} your eye:\n", outcome.eye.size() == 1 ? "1 needs" : fmt::format("{} need", outcome.eye.size()));
     for (const Message& sentence : outcome.eye) text += "  " + terminal_text(message_text(sentence)) + "\n";
+    return text;
+}
+
+std::string late_text(const GradingOutcome& outcome) {
+    if (outcome.late.empty()) return "";
+    std::string text = fmt::format("{} late:\n", outcome.late.size());
+    for (const Message& clause : outcome.late) text += "  " + terminal_text(message_text(clause)) + "\n";
     return text;
 }
 
@@ -62,6 +69,8 @@ int grade(const GradeArguments& words) {
     request.setup.jobs =
         words.jobs > 0 ? words.jobs : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     request.timezone = words.timezone;
+    request.times = given(words.times);
+    request.accept_late = words.accept_late;
     request.again = words.again;
     request.regrade = words.regrade;
     request.pdf = !words.no_pdf;
@@ -80,11 +89,11 @@ int grade(const GradeArguments& words) {
                              outcome.kept,
                              outcome.not_whole > 0 ? fmt::format(", {} with ungraded checks", outcome.not_whole) : "",
                              isolation_name(request.setup.isolation))
-              << eye_text(outcome) << (request.out / "gradebook.csv").string() << '\n'
+              << late_text(outcome) << eye_text(outcome) << (request.out / "gradebook.csv").string() << '\n'
               << (request.out / (request.pdf ? "summary.pdf" : "summary.md")).string() << '\n';
     const fs::path answers = request.out / (request.pdf ? "model_answers.pdf" : "model_answers.md");
     if (words.answers) make_document(model_answers_of(request.setup.lesson, answers), false);
-    const bool all_is_graded = outcome.not_whole + outcome.unreadable + outcome.unowned == 0;
+    const bool all_is_graded = outcome.not_whole + outcome.unreadable + outcome.unowned + outcome.unconfirmed == 0;
     return all_is_graded && outcome.complaints.empty() ? kDone : kFailed;
 }
 
@@ -121,8 +130,18 @@ void add_grade(CLI::App& app, Action& action) {
                      "CSV with the columns submission (a group, an id, or *), deadline, extra, grace, ...")
         ->type_name("CSV")
         ->check(CLI::ExistingFile);
-    command->add_option("--timezone", words->timezone, "Of the times in deadlines, this machine's unless given")
+    command
+        ->add_option(
+            "--times", words->times,
+            "When each was submitted: Moodle's grading worksheet or another CSV (column id, identifier, group, "
+            "name or mail, and time). Default: the times of the files")
+        ->type_name("CSV")
+        ->check(CLI::ExistingFile);
+    command
+        ->add_option("--timezone", words->timezone,
+                     "Time zone of deadlines and of times in zips. Default: this machine's")
         ->type_name("ZONE");
+    command->add_flag("--accept-late", words->accept_late, "Apply penalties of half the points or more");
     command
         ->add_option("--only", words->only,
                      "Grade this submission only, by its name, group, id or student; may be repeated")
@@ -156,10 +175,13 @@ void add_grade(CLI::App& app, Action& action) {
         "clock; answers that it gave before count.\n"
         "Deadlines: submission, deadline, and where wanted extra (\"2 d\" beyond the deadline of *), received, grace\n"
         "(\"15 min\"), percent_per_day, most_percent; what a row leaves empty is as in the row of *.\n"
+        "A penalty of half the points or more is not applied until --accept-late is given once, or the row received\n"
+        "says when it came.\n"
         "What cannot be read (a PDF alone, a .rar, another lesson's script) is \"unreadable\": it has no marks until "
         "you\n"
         "give some in manual.csv. It is listed under \"need your eye\", as is what belongs to nobody in the roster.\n"
-        "Exit codes: 0 all is graded, 1 something is left ungraded, unreadable or nobody's, 2 wrong usage.");
+        "Exit codes: 0 all is graded, 1 something is left ungraded, unreadable, unconfirmed or nobody's, 2 wrong "
+        "usage.");
     command->callback([words, &action] { action = [words] { return grade(*words); }; });
 }
 

@@ -145,6 +145,7 @@ const Deadlines::Rule* Deadlines::rule_for(const Submission& submission, const s
 long Deadlines::received(const Submission& submission, const std::vector<std::string>& also) const {
     const Rule* const rule = rule_for(submission, also);
     if (rule != nullptr && rule->received) return *rule->received;
+    if (const auto time = times_.of(submission, also)) return *time;
     if (submission.loose.empty()) return written(submission.path);
     long newest = 0;
     for (const LooseFile& file : submission.loose) newest = std::max(newest, written(file.path));
@@ -162,7 +163,8 @@ Deadlines::Lateness Deadlines::of(const Submission& submission, const std::vecto
             came,
             rule->deadline,
             rule->percent_per_day,
-            rule->most_percent};
+            rule->most_percent,
+            rule->received.has_value()};
 }
 
 Message Deadlines::Lateness::reason() const {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "course/intake/arrival_times.h"
 #include "course/intake/submission.h"
 
 namespace dynlab::inline course {
@@ -19,11 +20,14 @@ class Deadlines {
     Deadlines() = default;
     /// Times are in the process's time zone. Throws EnvironmentError with file, line and column.
     explicit Deadlines(const std::filesystem::path& file);
+    /// When submissions were received as the platform tells: goes before the times of files.
+    void set_times(ArrivalTimes times) { times_ = std::move(times); }
 
     struct Lateness {
         double hours = 0, percent = 0;  ///< of the points earned; 0 in time
         long came = 0, deadline = 0;    ///< seconds since 1970
         double percent_per_day = 0, most_percent = 100;
+        bool typed = false;  ///< the table says when it was received
         /// "received 2026-03-01 18:20 CET, 20 min after the deadline of 2026-03-01 18:00 CET; each begun day costs 10 %
         /// of the points"; empty in time
         Message reason() const;
@@ -31,8 +35,8 @@ class Deadlines {
     /// `also`: by what else the submission may be named in the table: its owners' group, ids and names. A row of its
     /// own name goes first; of several others the one with the latest deadline holds.
     Lateness of(const Submission& submission, const std::vector<std::string>& also) const;
-    /// When it was received: as the table has it, else by the time of the archive or the newest file; seconds since
-    /// 1970.
+    /// When it was received: as the table has it, else as the platform does, else by the time of the archive or the
+    /// newest file; seconds since 1970.
     long received(const Submission& submission, const std::vector<std::string>& also) const;
     /// The names in the table that are none of these, nor those of the submissions.
     std::vector<std::string> strays(const std::vector<Submission>& submissions,
@@ -48,6 +52,7 @@ class Deadlines {
     const Rule* rule_for(const Submission& submission, const std::vector<std::string>& also) const;
 
     std::map<std::string, Rule> rules_;
+    ArrivalTimes times_;
 };
 
 }  // namespace dynlab::inline course

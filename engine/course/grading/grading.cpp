@@ -18,6 +18,7 @@
 #include "course/grading/deadlines.h"
 #include "course/grading/feedback.h"
 #include "course/grading/grading_memory.h"
+#include "course/grading/late_penalties.h"
 #include "course/grading/manual_marks.h"
 #include "course/grading/shared_grading.h"
 #include "course/intake/course_clock.h"
@@ -45,10 +46,11 @@ class ClassGrader {
           submissions_(submissions_in(opened(request), left_out_, request.out)),
           rules_(request.setup),
           manual_(request.out / "manual.csv"),
-          documents_(request.setup.isolation, request.setup.program) {
+          documents_(request.setup.isolation, request.setup.program),
+          late_(request.out, request.accept_late) {
         refuse_other_lessons(request);
-        if (!request.timezone.empty()) const CourseClock clock(request.timezone);
         if (request.deadlines) deadlines_ = Deadlines(*request.deadlines);
+        if (request.times) deadlines_.set_times(ArrivalTimes(*request.times));
         outcome_.complaints = rules_.try_solution(request.out / "runs/.worked_solution.cbor", request.regrade);
         if (const auto note = rules_.note_on_time()) outcome_.notes.push_back(*note);
         owners_.emplace(request);
@@ -84,10 +86,20 @@ class ClassGrader {
         outcome_.eye = std::move(eye.sentences);
         outcome_.unowned = static_cast<int>(eye.unowned);
         outcome_.unreadable = static_cast<int>(eye.unreadable);
+        tell_of_lateness();
         write_class_results(all);
     }
 
   private:
+    void tell_of_lateness() {
+        outcome_.late = late_.late();
+        const std::vector<Message> waiting = late_.waiting();
+        outcome_.unconfirmed = static_cast<int>(waiting.size());
+        outcome_.eye.insert(outcome_.eye.end(), waiting.begin(), waiting.end());
+        if (Message doubt = late_.doubt(); !doubt.empty()) outcome_.notes.push_back(std::move(doubt));
+        late_.save();
+    }
+
     static FileLock locked(const GradingRequest& request) {
         fs::create_directories(request.out);
         FileLock lock(request.out / ".lock");
@@ -263,11 +275,15 @@ class ClassGrader {
     void complete(std::size_t index, Grade grade, bool kept, ProgressBar& bar) {
         const Submission& submission = submissions_[index];
         owners_->address(submission, grade);
-        const Deadlines::Lateness late = deadlines_.of(submission, owners_->names_of(submission));
+        const LatePenalties::Counted late = lateness_of(submission);
         grade.late_hours = late.hours;
-        grade.lateness = late.reason();
+        grade.lateness = late.reason;
         finish(submission, std::move(grade), late.percent, index);
         advance(bar, kept ? &outcome_.kept : &outcome_.made);
+    }
+
+    LatePenalties::Counted lateness_of(const Submission& submission) {
+        return late_.counted(submission.name, deadlines_.of(submission, owners_->names_of(submission)));
     }
 
     void advance(ProgressBar& bar, int* count = nullptr) {
@@ -287,8 +303,7 @@ class ClassGrader {
             if (!grade) continue;
             grade->counts_instead = instead[i];
             grade->newest_counts = request_.newest_counts;
-            const double percent = deadlines_.of(submissions_[i], owners_->names_of(submissions_[i])).percent;
-            finish(submissions_[i], *std::move(grade), percent, i);
+            finish(submissions_[i], *std::move(grade), lateness_of(submissions_[i]).percent, i);
         }
     }
 
@@ -418,6 +433,7 @@ class ClassGrader {
     ManualMarks manual_;
     BoxedDocuments documents_;
     Deadlines deadlines_;
+    LatePenalties late_;
     std::optional<ClassOwners> owners_;
     std::vector<std::optional<Grade>> grades_;
     std::vector<std::string> contents_;  ///< hashes, of those that were looked at
@@ -434,6 +450,7 @@ class ClassGrader {
 
 GradingOutcome grade_class(const GradingRequest& request) {
     if (const auto obstacle = obstacle_to(request.setup.isolation)) throw EnvironmentError(*obstacle);
+    if (!request.timezone.empty()) const CourseClock clock(request.timezone);  // of times in zips, too
     GradingOutcome outcome;
     ClassGrader(request, outcome).run();
     return outcome;
