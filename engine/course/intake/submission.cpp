@@ -53,7 +53,7 @@ std::string name_of_entry(const fs::path& entry) {
 bool can_be_work(const std::string& name) {
     static const std::set<std::string> kEndings = {".lua",   ".pdf", ".rar", ".7z", ".docx", ".doc",
                                                    ".ipynb", ".odt", ".m",   ".py", ".gz",   ".bz2"};
-    return kEndings.contains(ending_of(name));
+    return kEndings.contains(ending_of(name)) || in_small_letters(name).ends_with(".lua.txt");
 }
 
 /// What Moodle makes for a text typed into its form, beside the files.
