@@ -5,7 +5,7 @@
 
 #include "course/course_bench.h"
 #include "course/grading_bench.h"
-#include "course/hand_ins/submission.h"
+#include "course/intake/submission.h"
 #include "course/anonymity/byte_text.h"
 #include "support/message_texts.h"
 

@@ -299,6 +299,7 @@ void add_course(CLI::App& app, Action& action) {
     add_findings_command(*course, where, action);
     add_peer_commands(*course, where, action);
     add_changes(*course, where, action);
+    add_remind_command(*course, where, action);
     add_mark_commands(*course, where, action);
     add_correction_commands(*course, where, action);
     add_status(*course, where, action);

@@ -5,7 +5,7 @@
 #include "base/reader.h"
 #include "cli/course/course_commands.h"
 #include "course/anonymity/anonymous_copy.h"
-#include "course/returns/returned_files.h"
+#include "course/export/returned_files.h"
 #include "course/review/peer_review.h"
 #include "platform/program_lookup.h"
 #include "platform/terminal/aligned_table.h"

@@ -46,6 +46,9 @@ void add_peer_commands(CLI::App& course, CourseArguments& where, Action& action)
 /// time, withdraw, restore, extend, hold, history.
 void add_correction_commands(CLI::App& course, CourseArguments& where, Action& action);
 
+/// remind.
+void add_remind_command(CLI::App& course, CourseArguments& where, Action& action);
+
 /// findings.
 void add_findings_command(CLI::App& course, CourseArguments& where, Action& action);
 

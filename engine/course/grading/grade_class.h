@@ -13,6 +13,8 @@ struct GradingOutcome {
     int unowned = 0, unreadable = 0;
     int failed = 0;                   ///< could not be graded now, through no doing of the student
     std::vector<Message> complaints;  ///< whole sentences for the instructor
+    int unconfirmed = 0;              ///< penalties that wait for the instructor
+    std::vector<Message> late;        ///< a clause for each late submission, with what it costs
     std::vector<Message> notes;       ///< of the time that is given
     std::vector<Message> attention;   ///< what needs attention, a sentence each, as in the summary
 };

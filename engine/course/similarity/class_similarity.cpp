@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "course/hand_ins/staging.h"
+#include "course/intake/staging.h"
 #include "course/similarity/similarity.h"
 #include "data_io/text_table.h"
 #include "documents/solutions.h"

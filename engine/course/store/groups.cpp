@@ -7,7 +7,7 @@
 #include <set>
 
 #include "course/anonymity/name_patterns.h"
-#include "course/hand_ins/owners.h"
+#include "course/intake/owners.h"
 #include "numerics/error.h"
 #include "platform/error.h"
 #include "platform/spelling.h"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/message.h"
-#include "course/hand_ins/roster.h"
+#include "course/intake/roster.h"
 #include "course/store/course_store.h"
 
 namespace dynlab::inline course {

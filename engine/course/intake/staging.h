@@ -3,7 +3,7 @@
 #include <string>
 
 #include "base/message.h"
-#include "course/hand_ins/submission.h"
+#include "course/intake/submission.h"
 
 namespace dynlab::inline course {
 
@@ -18,9 +18,10 @@ struct StagedWork {
 /// archives as well where there is none outside of them; a notebook analysis.ipynb becomes one (notebooks.h). Of
 /// several the newest is taken: by the numbers in their names
 /// ("work.zip", "work_v2.zip"), else by the scripts' times. A script to whose name a platform added
-/// ("..._analysis.lua", "analysis-1.lua") is taken under its own; one in UTF-16 is brought to UTF-8. Archives are
-/// unpacked in a box by `program`. Throws SubmissionError with a sentence for the student: there is none, with what
-/// there is instead; several of one age; too large.
+/// ("..._analysis.lua", "analysis-1.lua") is taken under its own, and where there is none, one whose name a browser or
+/// a system changed ("Analysis.lua", "analysis.lua.txt", "analysis (1).lua"); one in UTF-16 is brought to UTF-8.
+/// Archives are unpacked in a box by `program`. Throws SubmissionError with a sentence for the student: there is none,
+/// with what there is instead; several of one age; too large.
 StagedWork stage_submission(const Submission& submission, const std::filesystem::path& to, Isolation level,
                             const std::filesystem::path& program, const SubmissionLimits& limits = {});
 

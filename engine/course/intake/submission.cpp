@@ -1,9 +1,10 @@
-#include "course/hand_ins/submission.h"
+#include "course/intake/submission.h"
 
 #include <fmt/format.h>
 #include <re2/re2.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <map>
 #include <set>
 #include <sstream>
@@ -11,7 +12,7 @@
 #include "base/error.h"
 #include "course/boxes/boxed_work.h"
 #include "course/boxes/job_descriptions.h"
-#include "course/hand_ins/owners.h"
+#include "course/intake/owners.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/text/foreign_text.h"
@@ -52,7 +53,7 @@ std::string name_of_entry(const fs::path& entry) {
 bool can_be_work(const std::string& name) {
     static const std::set<std::string> kEndings = {".lua",   ".pdf", ".rar", ".7z", ".docx", ".doc",
                                                    ".ipynb", ".odt", ".m",   ".py", ".gz",   ".bz2"};
-    return kEndings.contains(ending_of(name));
+    return kEndings.contains(ending_of(name)) || in_small_letters(name).ends_with(".lua.txt");
 }
 
 /// What Moodle makes for a text typed into its form, beside the files.
@@ -247,6 +248,11 @@ std::vector<Message> unpack_submission(const fs::path& archive, const fs::path& 
                                        const fs::path& program, const SubmissionLimits& limits) {
     fs::create_directories(to);
     Box box(level);
+    // Times in zips have no zone: they are in the course's, which this process has, or in the machine's.
+    if (const char* zone = std::getenv("TZ"))
+        box.set_environment("TZ", zone);
+    else if (fs::exists("/etc/localtime"))
+        box.add("/etc/localtime", "/etc/localtime");
     UnpackJob job;
     job.archive = box.add(archive, "/box/archive");
     job.to = box.add_writable(to, "/box/unpacked");

@@ -1,4 +1,4 @@
-#include "course/hand_ins/owners.h"
+#include "course/intake/owners.h"
 
 #include <fmt/format.h>
 
@@ -100,6 +100,12 @@ std::vector<std::string> words_of_name(std::string_view given) {
     for (std::string& word : words)
         if (is_number_word(word)) word.erase(0, std::min(word.find_first_not_of('0'), word.size() - 1));
     return words;
+}
+
+bool same_person(const std::string& a, const std::string& b) {
+    Words one = words_of_name(a), other = words_of_name(b);
+    std::ranges::sort(one), std::ranges::sort(other);
+    return !one.empty() && one == other;
 }
 
 bool is_word_for_group(const std::string& word) {

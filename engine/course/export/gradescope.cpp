@@ -1,4 +1,4 @@
-#include "course/returns/gradescope.h"
+#include "course/export/gradescope.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "course/hand_ins/notebooks.h"
+#include "course/intake/notebooks.h"
 
 #include "documents/error.h"
 #include "platform/atomic_file.h"

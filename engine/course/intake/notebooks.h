@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "course/hand_ins/submission.h"
+#include "course/intake/submission.h"
 
 namespace dynlab::inline course {
 

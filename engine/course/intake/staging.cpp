@@ -1,4 +1,4 @@
-#include "course/hand_ins/staging.h"
+#include "course/intake/staging.h"
 
 #include <fmt/format.h>
 #include <re2/re2.h>
@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <set>
 
-#include "course/hand_ins/folder_copy.h"
-#include "course/hand_ins/notebooks.h"
-#include "course/hand_ins/owners.h"
+#include "course/intake/folder_copy.h"
+#include "course/intake/notebooks.h"
+#include "course/intake/owners.h"
 #include "data_io/tables/text_decoding.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"

@@ -1,4 +1,4 @@
-#include "course/hand_ins/roster.h"
+#include "course/intake/roster.h"
 
 #include <algorithm>
 #include <map>

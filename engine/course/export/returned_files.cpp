@@ -1,16 +1,20 @@
-#include "course/returns/returned_files.h"
+#include "course/export/returned_files.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "base/reader.h"
+#include "course/export/mailing.h"
+#include "course/export/platform_sheet.h"
+#include "course/intake/owners.h"
 #include "course/office/receive.h"
-#include "course/returns/mailing.h"
 #include "course/store/groups.h"
+#include "course/store/participants.h"
 #include "numerics/error.h"
 #include "platform/atomic_file.h"
 #include "platform/hash.h"
+#include "platform/text/small_letters.h"
 
 namespace dynlab::inline course {
 namespace {
@@ -29,6 +33,7 @@ class Returner {
     Returner(Course& course, const Assignment& assignment, const ReturnRequest& request)
         : course_(course), assignment_(assignment), request_(request) {
         for (const Student& student : students_of(course)) students_[student.id] = student;
+        if (request.moodle) settle_numbers();
     }
 
     ReturnOutcome run() {
@@ -42,6 +47,38 @@ class Returner {
     }
 
   private:
+    void settle_numbers() {
+        std::map<std::string, std::string> numbers = participants_of(course_, assignment_.id);
+        if (!request_.worksheet.empty()) numbers = numbers_in(PlatformSheet(request_.worksheet, ""));
+        for (const auto& [id, number] : numbers)
+            if (const Student& student = students_[id]; !student.moodle.empty() && student.moodle != number)
+                ++outcome_.other_numbers;
+        for (auto& [id, student] : students_) {
+            const auto found = numbers.find(id);
+            if (found != numbers.end())
+                student.moodle = found->second;
+            else if (outcome_.other_numbers > 0 || !request_.worksheet.empty())
+                student.moodle.clear();
+        }
+    }
+
+    /// By student: whose id, mail or, where nobody else has it, name stands there.
+    std::map<std::string, std::string> numbers_in(const PlatformSheet& sheet) const {
+        std::map<std::string, std::string> numbers;
+        for (const PlatformSheet::Person& person : sheet.people()) {
+            std::vector<std::string> certain, named;
+            for (const auto& [id, student] : students_) {
+                const bool same_mail =
+                    !person.mail.empty() && in_small_letters(student.mail) == in_small_letters(person.mail);
+                if (id == person.id || same_mail) certain.push_back(id);
+                if (same_person(student.name, person.name)) named.push_back(id);
+            }
+            const std::vector<std::string>& found = certain.empty() ? named : certain;
+            if (found.size() == 1) numbers[found.front()] = person.number;
+        }
+        return numbers;
+    }
+
     void collect(const Group& group) {
         std::vector<FileToReturn> files;
         for (const char* way : {"to-review", "reviews"}) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -18,5 +19,8 @@ struct FolderCopy {
 /// leads to the course's data, whatever it led to before. No other link is followed or copied. Files keep their times.
 FolderCopy copy_folder(const std::filesystem::path& from, const std::filesystem::path& to, std::uint64_t most_bytes,
                        int most_files);
+
+/// The content of all files below, without links, by their path there.
+std::map<std::string, std::string> contents_of(const std::filesystem::path& folder);
 
 }  // namespace dynlab::inline course

@@ -1,4 +1,4 @@
-#include "course/hand_ins/course_clock.h"
+#include "course/intake/course_clock.h"
 
 #include <charconv>
 #include <cstdlib>

@@ -1,4 +1,4 @@
-#include "course/returns/mailing.h"
+#include "course/export/mailing.h"
 
 #include <fmt/format.h>
 

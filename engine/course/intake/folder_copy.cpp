@@ -1,4 +1,6 @@
-#include "course/hand_ins/folder_copy.h"
+#include "course/intake/folder_copy.h"
+
+#include "platform/atomic_file.h"
 
 #include "platform/error.h"
 #include "platform/program_lookup.h"
@@ -62,6 +64,18 @@ FolderCopy copy_folder(const fs::path& from, const fs::path& to, std::uint64_t m
         throw EnvironmentError("cannot copy {}: {} ({})", from.string(), error.code().message(),
                                error.path1().string());
     }
+}
+
+std::map<std::string, std::string> contents_of(const fs::path& folder) {
+    std::map<std::string, std::string> contents;
+    for (auto entry = fs::recursive_directory_iterator(folder); entry != fs::recursive_directory_iterator(); ++entry) {
+        if (entry->is_symlink()) {
+            entry.disable_recursion_pending();
+        } else if (entry->is_regular_file()) {
+            contents[entry->path().lexically_relative(folder).generic_string()] = read_file(entry->path());
+        }
+    }
+    return contents;
 }
 
 }  // namespace dynlab::inline course

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "course/hand_ins/roster.h"
-#include "course/hand_ins/submission.h"
+#include "course/intake/roster.h"
+#include "course/intake/submission.h"
 
 namespace dynlab::inline course {
 
@@ -83,6 +83,9 @@ class Owners {
 
 /// A text in words that can be compared: runs of folded letters, and numbers without leading zeros.
 std::vector<std::string> words_of_name(std::string_view text);
+
+/// Whether two names have the same words, in any order.
+bool same_person(const std::string& a, const std::string& b);
 
 /// "group", "Gruppe", "team" and the like.
 bool is_word_for_group(const std::string& word);
