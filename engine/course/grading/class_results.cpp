@@ -289,7 +289,7 @@ NeedsTheEye what_needs_the_eye(const ClassResults& results) {
     };
     const bool some_whole =
         std::ranges::any_of(results.entries, [&](const Entry& entry) { return entry.grade && whole(entry); });
-    std::map<std::string, const Entry*> by_content;
+    std::map<std::string, std::vector<const Entry*>> by_content;
     for (const Entry& entry : results.entries) {
         const std::string name = shown_name(entry.submission);
         const auto add = [&](Message sentence) { eye.sentences.push_back(std::move(sentence)); };
@@ -310,11 +310,16 @@ NeedsTheEye what_needs_the_eye(const ClassResults& results) {
             add(Message("\"{}\" ran to its end but gave no answer", name));
         }
         if (entry.content.empty()) continue;
-        const auto [same, fresh] = by_content.emplace(entry.content, &entry);
-        const bool others = !fresh && results.roster && same->second->owner.students != entry.owner.students;
-        if (others)
-            add(Message("\"{}\" is the same, byte for byte, as \"{}\" of somebody else", name,
-                        shown_name(same->second->submission)));
+        by_content[entry.content].push_back(&entry);
+    }
+    for (const auto& [content, entries] : by_content) {
+        const auto of_others = [&](const Entry* entry) {
+            return entry->owner.students != entries.front()->owner.students;
+        };
+        if (!results.roster || std::ranges::none_of(entries, of_others)) continue;
+        std::vector<std::string> names;
+        for (const Entry* entry : entries) names.push_back(fmt::format("\"{}\"", shown_name(entry->submission)));
+        eye.sentences.push_back(Message("{} are the same, byte for byte", listed(names, Join::kAnd)));
     }
     return eye;
 }
