@@ -301,6 +301,7 @@ void add_course(CLI::App& app, Action& action) {
     add_changes(*course, where, action);
     add_remind_command(*course, where, action);
     add_mark_commands(*course, where, action);
+    add_course_answers(*course, where, action);
     add_correction_commands(*course, where, action);
     add_status(*course, where, action);
     course->footer(

@@ -40,6 +40,9 @@ CLI::App* add_changes(CLI::App& course, CourseArguments& where, Action& action);
 /// receive, review receive, final receive, work, verify, key.
 void add_receive_commands(CLI::App& course, CourseArguments& where, Action& action);
 
+/// answers.
+void add_course_answers(CLI::App& course, CourseArguments& where, Action& action);
+
 /// peer assign, peer send, peer show, release.
 void add_peer_commands(CLI::App& course, CourseArguments& where, Action& action);
 
