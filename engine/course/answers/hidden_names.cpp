@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::string_view kHidden = "[name]";
 
-void hide(std::string& text, const SoughtNames& names, bool only_certain) {
+void hide(std::string& text, const IdentityMatcher& names, bool only_certain) {
     constexpr int kMaxRounds = 1000;  // find() reports each person once, so that it is asked again for each place
     for (int round = 0; round < kMaxRounds; ++round) {
         std::vector<NameHit> hits = names.find(text, TextManner::kProse);
@@ -25,7 +25,7 @@ void hide(std::string& text, const SoughtNames& names, bool only_certain) {
 }  // namespace
 
 std::string HiddenNames::hidden_in(std::string text, const std::vector<Student>& authors) const {
-    SoughtNames own;
+    IdentityMatcher own;
     for (const Student& author : authors) own.add(author, true);
     if (!own.empty()) hide(text, own, false);
     hide(text, everybody_, true);

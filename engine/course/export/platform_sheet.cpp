@@ -34,7 +34,7 @@ constexpr const char* kMaximum[] = {"maxim", "maximal", "bestwertung", "massim",
 constexpr const char* kMail[] = {"mail", "email", "courriel", "correo"};
 constexpr const char* kComment[] = {"comment", "kommentar", "comentari", "opmerking", "retroaliment"};
 
-std::string plain_words(const std::string& text) {
+std::string heading_key(const std::string& text) {
     return fmt::format("{}", fmt::join(words_of_name(text), " "));
 }
 
@@ -89,7 +89,7 @@ PlatformSheet::PlatformSheet(const std::filesystem::path& file, const std::strin
     if (!is_utf8(text)) text = utf8_of_windows_1252(text);
     split(text);
     if (lines_.empty()) throw EnvironmentError("{}: the file is empty; download it again", file.string());
-    for (const std::string& cell : lines_.front().cells) names_.push_back(plain_words(without_quotes(cell)));
+    for (const std::string& cell : lines_.front().cells) names_.push_back(heading_key(without_quotes(cell)));
     if (names_.size() > 1 && names_[1] == "id")
         recognise_canvas(assignment);
     else

@@ -4,6 +4,9 @@
 #include <re2/re2.h>
 
 #include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <map>
 #include <set>
 
 #include "course/intake/folder_copy.h"
@@ -107,6 +110,43 @@ void make_utf8(const fs::path& script) {
     fs::last_write_time(script, written);
 }
 
+/// "my%20analysis.lua" as "my analysis.lua".
+std::string without_percent_signs(const std::string& name) {
+    std::string plain;
+    for (std::size_t i = 0; i < name.size(); ++i) {
+        unsigned code = 0;
+        const char* const digits = name.data() + i + 1;
+        const bool encoded =
+            name[i] == '%' && i + 2 < name.size() && std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2;
+        plain += encoded ? static_cast<char>(code) : name[i];
+        if (encoded) i += 2;
+    }
+    return plain;
+}
+
+/// "analysis.lua" or "analysis.ipynb" for what browsers, systems and platforms make of these names: another case, .txt
+/// at the end, "my%20analysis.lua", "analysis (1).lua", "analysis-1.lua", "ada_4711_analysis.lua"; else empty.
+std::string name_meant_by(const std::string& name) {
+    static const RE2 kForm(R"((?:.*[ _-])?analysis(?:[ _-]?\(?\d+\)?|[ _-]copy)?(\.lua|\.ipynb)(?:\.txt)?)",
+                           RE2::Latin1);
+    std::string ending;
+    if (!RE2::FullMatch(in_small_letters(without_percent_signs(name)), kForm, &ending)) return "";
+    return "analysis" + ending;
+}
+
+/// A PDF or another file of bytes under a script's name would be graded as a script without answers.
+void refuse_other_content(const fs::path& script) {
+    constexpr std::size_t kStart = 1024;
+    std::ifstream in(script, std::ios::binary);
+    std::string start(kStart, '\0');
+    in.read(start.data(), static_cast<std::streamsize>(kStart));
+    start.resize(static_cast<std::size_t>(in.gcount()));
+    if (start.starts_with("%PDF-"))
+        throw SubmissionError("Its analysis.lua is a PDF under another name: submit the script.");
+    if (start.find('\0') != std::string::npos)
+        throw SubmissionError("Its analysis.lua is not a text: submit the script, saved in UTF-8.");
+}
+
 MessageList listed_places(const std::vector<FoundScript>& found) {
     std::vector<std::string> shown;
     for (const FoundScript& script : found) shown.push_back(fmt::format("\"{}\"", script.shown));
@@ -126,8 +166,9 @@ class Stager {
         take_notebooks_in(root_);
         std::vector<FoundScript> found = scripts_in(root_, "");
         if (found.empty()) open_archives(root_, "", 1, found);
+        if (found.empty() && take_other_names()) found = scripts_in(root_, "");
         if (found.empty()) throw SubmissionError(obstacle());
-        if (found.size() == 1) return staged(found.front(), {});
+        if (found.size() == 1) return staged(found.front(), renamed_);
         const std::optional<FoundScript> newest = newest_of(found);
         if (!newest)
             throw SubmissionError(
@@ -140,11 +181,27 @@ class Stager {
   private:
     StagedWork staged(const FoundScript& script, const Message& remark) const {
         make_utf8(script.folder / kScript);
+        refuse_other_content(script.folder / kScript);
         return {script.folder, remark, "", of_notebooks_.contains(script.folder)};
     }
 
     void take_notebooks_in(const fs::path& folder) {
         for (const fs::path& place : take_notebooks(folder)) of_notebooks_.insert(place);
+    }
+
+    /// Where no file has the name itself: files whose name was changed on their way, one a folder at most.
+    bool take_other_names() {
+        std::map<fs::path, std::vector<fs::path>> meant;
+        for (const fs::path& file : files_below(root_))
+            if (!name_meant_by(file.filename().string()).empty()) meant[file.parent_path()].push_back(file);
+        for (const auto& [folder, files] : meant) {
+            if (files.size() > 1) continue;
+            const std::string name = name_meant_by(files.front().filename().string());
+            renamed_ = Message("\"{}\" was taken as {}", shown_place(files.front(), root_), name);
+            fs::rename(files.front(), folder / name);
+        }
+        if (!renamed_.empty()) take_notebooks_in(root_);
+        return !renamed_.empty();
     }
 
     void fill_root() {
@@ -274,6 +331,7 @@ class Stager {
     int opened_ = 0;
     std::set<fs::path> of_notebooks_;  ///< folders whose script was a notebook
     std::vector<Message> left_out_;    ///< and why, a clause each
+    Message renamed_;                  ///< of a script that came under another name
     Message damage_;                   ///< of the last archive that could not be opened
 };
 
