@@ -159,7 +159,6 @@ const auto& name_hints() {
         {"isct isdt", Message("a discrete model has G.Ts above zero")},
         {"lpvsrivc", Message("rsrivc(data, {nb, nf, nk}, lambda, {forgetting = 0.99}) follows parameters that change "
                              "with time; srivc(data, {nb, nf, nk}) fits a record at one operating point")},
-        {"minreal", Message("there is no model reduction; pzmap(G) shows which poles and zeros cancel")},
         {"isstable", Message("write stable(G)")},
         {"misdata", Message("write fillmissing(data)")},
         {"idnlgrey",
