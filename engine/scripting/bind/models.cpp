@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <functional>
 
 #include "numerics/models/convert.h"
 #include "numerics/simulation/stability_margins.h"
@@ -7,6 +8,7 @@
 #include "scripting/bind/bindings.h"
 #include "scripting/conversions/localized.h"
 #include "scripting/conversions/numeric.h"
+#include "scripting/conversions/table_fields.h"
 #include "scripting/objects/grey_object.h"
 #include "scripting/objects/model.h"
 #include "scripting/objects/present.h"
@@ -229,27 +231,11 @@ int to_continuous(Call& call) {
     return give_model(call, d2c(model_argument(call, 1, "G").G, method_argument(call, 2)));
 }
 
-int poles(Call& call) {
+/// kGet of the transfer function, the only argument.
+template <auto kGet>
+int of_model(Call& call) {
     call.at_most(1);
-    push_object(call.state(), model_argument(call, 1, "G").G.poles());
-    return 1;
-}
-int zeros_of(Call& call) {
-    call.at_most(1);
-    push_object(call.state(), model_argument(call, 1, "G").G.zeros());
-    return 1;
-}
-int dc_gain(Call& call) {
-    call.at_most(1);
-    return call.give(model_argument(call, 1, "G").G.dc_gain());
-}
-int bandwidth_of(Call& call) {
-    call.at_most(1);
-    return call.give(bandwidth(model_argument(call, 1, "G").G));
-}
-int stable(Call& call) {
-    call.at_most(1);
-    return call.give(model_argument(call, 1, "G").G.stable());
+    return give_value(call, std::invoke(kGet, model_argument(call, 1, "G").G));
 }
 
 /// gain margin, phase margin (degrees), their frequencies (rad/s), delay margin (s)
@@ -313,15 +299,18 @@ constexpr FunctionEntry kModelsFunctions[] = {
      "discrete-time equal of a continuous-time model", guarded<to_discrete>, kNoOptions, kDiscreteArguments},
     {"d2c", "models", "d2c(Gd, \"zoh\" | \"foh\" | \"tustin\") -> G", "continuous-time equal of a discrete-time model",
      guarded<to_continuous>, kNoOptions, kContinuousArguments},
-    {"pole", "models", "pole(G) -> complex vector", "poles", guarded<poles>, kNoOptions, kModelAlone},
-    {"zero", "models", "zero(G) -> complex vector", "zeros", guarded<zeros_of>, kNoOptions, kModelAlone},
-    {"dcgain", "models", "dcgain(G) -> K", "steady-state gain", guarded<dc_gain>, kNoOptions, kModelAlone},
+    {"pole", "models", "pole(G) -> complex vector", "poles", guarded<of_model<&TransferFunction::poles>>, kNoOptions,
+     kModelAlone},
+    {"zero", "models", "zero(G) -> complex vector", "zeros", guarded<of_model<&TransferFunction::zeros>>, kNoOptions,
+     kModelAlone},
+    {"dcgain", "models", "dcgain(G) -> K", "steady-state gain", guarded<of_model<&TransferFunction::dc_gain>>,
+     kNoOptions, kModelAlone},
     {"damp", "models", "damp(G) -> wn, zeta, T", "natural frequency, damping ratio and time constant of every pole",
      guarded<damp>, kNoOptions, kModelAlone},
     {"bandwidth", "models", "bandwidth(G) -> w", "frequency (rad/s) at which the gain is 3 dB below its dc value",
-     guarded<bandwidth_of>, kNoOptions, kModelAlone},
-    {"stable", "models", "stable(G) -> true or false", "whether all poles are stable", guarded<stable>, kNoOptions,
-     kModelAlone},
+     guarded<of_model<bandwidth>>, kNoOptions, kModelAlone},
+    {"stable", "models", "stable(G) -> true or false", "whether all poles are stable",
+     guarded<of_model<&TransferFunction::stable>>, kNoOptions, kModelAlone},
     {"margin", "models", "margin(G) -> Gm, Pm, Wcg, Wcp, Dm", "gain, phase and delay margin of the loop that G closes",
      guarded<margins>, kNoOptions, kLoopArguments},
     {"present", "models", "present(G, ...)", "prints all that is known of models", guarded<present>, kNoOptions,
