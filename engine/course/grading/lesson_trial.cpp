@@ -51,13 +51,14 @@ class Faults {
             return true;
         } catch (const MissingProgram&) {
             throw;
+        } catch (const DocumentError& error) {
+            const Place& place = error.place();
+            const bool here = place.line > 0 && fs::exists(lesson_.folder / place.file.filename());
+            add(here ? place.file : file, here ? place.line : 0, here ? error.sentence() : error.message());
         } catch (const std::runtime_error& error) {
-            const LocatedMessage told = take_apart(error.what());
-            const bool here = told.line > 0 && fs::exists(lesson_.folder / fs::path(told.file).filename());
-            add(here ? fs::path(told.file) : file, here ? told.line : 0,
-                here ? Message::verbatim(told.text) : message_of(error));
-            return false;
+            add(file, 0, message_of(error));
         }
+        return false;
     }
 
     LessonFaults found() { return std::move(found_); }
