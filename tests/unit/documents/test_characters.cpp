@@ -30,8 +30,6 @@ TEST(characters, broken_text_and_control_characters_are_named) {
         EXPECT_THAT(message_text(printable.complaint("\xed\xa0\x80").value()), HasSubstr("UTF-8")) << "surrogate";
         EXPECT_THAT(message_text(printable.complaint("\x1b[31m").value()), HasSubstr("control character U+001B"));
     }
-    EXPECT_THAT(message_text(PrintableCharacters::of_latex(kDeclared).complaint("e\u0301").value()),
-                HasSubstr("combining accent"));
     EXPECT_FALSE(PrintableCharacters::of_html().complaint("你好 😀"));
 }
 
