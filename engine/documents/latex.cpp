@@ -211,6 +211,7 @@ class LatexRun {
         ChildOptions child;
         child.command = {engine_.program, "-no-shell-escape", "-interaction=nonstopmode", "-halt-on-error",
                          "-file-line-error"};
+        if (engine_.program == kLualatex.program) child.command.push_back("--nosocket");
         if (draft) child.command.push_back("-draftmode");
         if (!format_folder_.empty()) child.command.push_back(std::string("-fmt=") + kLatexFormatName);
         child.command.push_back("main.tex");
