@@ -51,10 +51,9 @@ void refuse_missing_parts(const std::set<int>& missing, int parts) {
     std::vector<std::string> commands;
     for (const int index : missing) commands.push_back(shown_command("--part " + Part{index, parts}.text()));
     throw EnvironmentError(
-        "{} of {} cannot be joined: not made yet, or made from other files or by another version of dynlab. Make them "
-        "by\n{}",
-        plural(static_cast<std::int64_t>(missing.size()), "{} part", "{} parts"), parts,
-        listed(commands, Join::kLines));
+        "the parts cannot be joined: {} of {} not made yet, or made from other files or by another version of dynlab. "
+        "Make what is missing by\n{}",
+        plural(static_cast<std::int64_t>(missing.size()), "{} is", "{} are"), parts, listed(commands, Join::kLines));
 }
 
 }  // namespace dynlab::inline cli

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <signal.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <sstream>
@@ -11,6 +13,7 @@
 #include "platform/atomic_file.h"
 #include "platform/child_process.h"
 #include "platform/error.h"
+#include "platform/interrupt.h"
 #include "platform/program_lookup.h"
 #include "platform/text/read_number.h"
 #include "workflow/parts/part.h"
@@ -21,7 +24,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr char kSlurmPackage[] = "slurm-client", kJobs[] = "slurm-jobs", kNotedParts[] = "count";
-constexpr auto kSlurmAnswers = std::chrono::seconds(30);
+constexpr auto kSlurmAnswers = std::chrono::seconds(30), kEndOfHosts = std::chrono::seconds(5);
+constexpr auto kBetweenSignals = std::chrono::milliseconds(300);
 constexpr int kPartsOfAHost = 8, kPartsOfASlot = 2;
 
 std::vector<std::string> split_at_commas(const std::string& text) {
@@ -148,6 +152,27 @@ std::string submit(const Machines& machines, const fs::path& logs, std::vector<s
     return id.front().substr(0, id.front().find(';'));  // a cluster's name may follow
 }
 
+/// Its jobs are in process groups of their own, so Ctrl-C is for it to pass on: at the second SIGTERM it ends them, and
+/// with the connections what they do on other hosts.
+ChildResult run_parallel(ChildOptions options) {
+    using Clock = std::chrono::steady_clock;
+    const SlowEnding slow;
+    int process = 0, asked = 0;
+    Clock::time_point next;
+    options.heeds_interrupt = false;
+    options.give_up = [&] {
+        if (!interrupted() || (asked > 0 && Clock::now() < next)) return false;
+        next = Clock::now() + (asked == 0 ? kBetweenSignals : kEndOfHosts);
+        if (asked < 2) ::kill(process, SIGTERM);
+        return ++asked > 2;
+    };
+    ChildProcess parallel(options, "parallel");
+    process = parallel.id();
+    ChildResult done = parallel.wait();
+    throw_if_interrupted();
+    return done;
+}
+
 /// Jobs of an earlier call would do the same work.
 void refuse_queued_jobs(const fs::path& folder) {
     if (!fs::exists(folder / kJobs)) return;
@@ -201,7 +226,7 @@ Message submit_to_slurm(const Machines& machines, const WorkInParts& work) {
     write_file_atomically(logs / kJobs, fmt::format("{}", fmt::join(ids, ",")));
     const auto parts = static_cast<std::int64_t>(work.missing.size());
     return Message(
-        "Slurm has {} of {} in job {}; job {} joins them.\n"
+        "Slurm has {} (of {}) in job {}; job {} joins them.\n"
         "  follow    squeue --jobs={}; tail {}/slurm-*.txt\n"
         "  cancel    scancel {}\n"
         "  continue  the same command again: what is done stays\n",
@@ -228,7 +253,7 @@ std::vector<Message> do_on_hosts(const Machines& machines, const WorkInParts& wo
                      command_line() + fmt::format(" --part {{}}/{}", machines.parts),
                      ":::"};
     for (const int part : work.missing) child.command.push_back(std::to_string(part));
-    const ChildResult done = run_child(child, "parallel");
+    const ChildResult done = run_parallel(child);
     std::vector<Message> said;
     std::istringstream lines(done.error_output);
     for (std::string line; std::getline(lines, line) && said.size() < 20;)
