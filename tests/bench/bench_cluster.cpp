@@ -42,7 +42,7 @@ void measure_cluster(Report& report) {
     const LoopbackSlurm slurm;
     if (slurm.reason_to_skip().empty()) {
         const std::string in_slurm = "export " + slurm.environment() + "; " + grading_on("--on slurm:tasks=2") +
-                                     "; until [ -e out/summary.md ]; do sleep 0.1; done";
+                                     "; timeout 300 bash -c 'until [ -e out/summary.md ]; do sleep 0.1; done'";
         const auto [local, shared] = paired_medians(
             kRepetitions, [&] { run_by_shell(bench, threads); }, [&] { run_by_shell(bench, in_slurm); });
         report.results.push_back(

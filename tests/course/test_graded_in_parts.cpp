@@ -35,7 +35,7 @@ TEST_F(graded_in_parts, parts_give_what_one_process_gives_and_nothing_is_graded_
     EXPECT_FALSE(fs::exists(work().path("shared/gradebook.csv")));
     const ChildResult early = grade("shared", "--join");
     EXPECT_EQ(early.exit_code, 1);
-    EXPECT_THAT(early.error_output, AllOf(HasSubstr("1 is of 2 not made yet"), HasSubstr("--part 2/2")));
+    EXPECT_THAT(early.error_output, AllOf(HasSubstr("1 part of 2 cannot be joined"), HasSubstr("--part 2/2")));
     EXPECT_THAT(grade("shared", "--part 2/2").output, HasSubstr("part 2/2: 3 graded now, 0 unchanged"));
     EXPECT_THAT(grade("shared", "--part 1/2").output, HasSubstr("part 1/2: 0 graded now, 4 unchanged"));
     EXPECT_THAT(grade("shared", "--join").output, HasSubstr("7 submissions: 0 graded now, 7 unchanged"));

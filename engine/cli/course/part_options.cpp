@@ -51,9 +51,12 @@ void refuse_missing_parts(const std::set<int>& missing, int parts) {
     std::vector<std::string> commands;
     for (const int index : missing) commands.push_back(shown_command("--part " + Part{index, parts}.text()));
     throw EnvironmentError(
-        "the parts cannot be joined: {} of {} not made yet, or made from other files or by another version of dynlab. "
-        "Make what is missing by\n{}",
-        plural(static_cast<std::int64_t>(missing.size()), "{} is", "{} are"), parts, listed(commands, Join::kLines));
+        "{}", plural(static_cast<std::int64_t>(missing.size()),
+                     "{} part of {} cannot be joined: it was not made yet, or from other files or by another version "
+                     "of dynlab. Make it by\n{}",
+                     "{} parts of {} cannot be joined: they were not made yet, or from other files or by another "
+                     "version of dynlab. Make them by\n{}",
+                     parts, listed(commands, Join::kLines)));
 }
 
 }  // namespace dynlab::inline cli

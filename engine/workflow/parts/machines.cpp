@@ -224,13 +224,15 @@ Message submit_to_slurm(const Machines& machines, const WorkInParts& work) {
     ids.push_back(submit(machines, logs, {"--output=slurm-join-%j.txt", "--kill-on-invalid-dep=yes", after_last()},
                          fmt::format(kScript, command_line() + " --join")));
     write_file_atomically(logs / kJobs, fmt::format("{}", fmt::join(ids, ",")));
-    const auto parts = static_cast<std::int64_t>(work.missing.size());
     return Message(
-        "Slurm has {} (of {}) in job {}; job {} joins them.\n"
+        "{}\n"
         "  follow    squeue --jobs={}; tail {}/slurm-*.txt\n"
         "  cancel    scancel {}\n"
         "  continue  the same command again: what is done stays\n",
-        plural(parts, "{} part", "{} parts"), machines.parts, ids.front(), ids.back(),
+        plural(static_cast<std::int64_t>(work.missing.size()),
+               "Slurm has {} part (of {}) in job {}; job {} joins the parts.",
+               "Slurm has {} parts (of {}) in job {}; job {} joins the parts.", machines.parts, ids.front(),
+               ids.back()),
         fmt::format("{}", fmt::join(ids, ",")), work.folder.string(), fmt::format("{}", fmt::join(ids, " ")));
 }
 

@@ -55,8 +55,9 @@ std::vector<std::string> StudyParts::all(const std::vector<fs::path>& files, std
         made.push_back(file);
     }
     if (!missing_.parts.empty())
-        throw EnvironmentError("{} of this call of montecarlo are missing",
-                               plural(static_cast<std::int64_t>(missing_.parts.size()), "{} part", "{} parts"));
+        throw EnvironmentError("{}", plural(static_cast<std::int64_t>(missing_.parts.size()),
+                                            "{} part of this call of montecarlo is missing",
+                                            "{} parts of this call of montecarlo are missing"));
     std::vector<std::string> bytes;
     for (const fs::path& file : made) bytes.push_back(read_file(file));
     return bytes;
