@@ -47,6 +47,7 @@ TEST(unreadable_submissions, have_no_marks_and_are_told_by_name) {
     bench.hand_in("crane", "-- ---\n-- title: Crane\n-- lesson: 03_crane\n-- ---\nanswer('x', 42)\n");
     bench.hand_in("cannot begin", "-- ---\n-- nonsense\n-- ---\n");
     work.write("in/pdf/report.pdf", "%PDF");
+    work.write("in/renamed/analysis.lua", "%PDF-1.5\n1 0 obj\n");
     work.write("in/capital/Analysis.lua", kSolution);
     work.write("in/copy/my analysis (2).lua", kSolution);
     work.write("in/text/analysis.lua.txt", kSolution);
@@ -57,7 +58,7 @@ TEST(unreadable_submissions, have_no_marks_and_are_told_by_name) {
     work.shell("mkdir in/movie && cp in/right/analysis.lua in/movie/ && truncate -s 300M in/movie/movie.mp4");
     const ChildResult graded = bench.grade();
     EXPECT_EQ(graded.exit_code, 1);
-    EXPECT_THAT(graded.output, HasSubstr("12 notes need attention:\n"));
+    EXPECT_THAT(graded.output, HasSubstr("14 notes need attention:\n"));
     const std::string book = work.read("out/gradebook.csv");
     for (const auto& [name, told] :
          {std::pair("crane", "the script of lesson 03_crane, not of 99_small"), std::pair("pdf", "only \"report.pdf\""),
@@ -113,7 +114,7 @@ TEST(unreadable_submissions, scripts_are_found_wherever_they_lie_and_the_newest_
     EXPECT_EQ(GradingBench::score(bench.result("both")), 0);  // archives beside a script are not opened
     EXPECT_THAT(GradingBench::trouble(bench.result("unclear")),
                 AllOf(HasSubstr("several folders"), HasSubstr("\"one\", \"other\"")));
-    EXPECT_THAT(graded.output, HasSubstr("1 note needs attention"));
+    EXPECT_THAT(graded.output, AllOf(HasSubstr("\"unclear\" cannot be read"), HasSubstr("was taken as the newest")));
     EXPECT_THAT(work.read("out/summary.md"), AllOf(HasSubstr("work_v2.zip"), HasSubstr("was taken as the newest")));
 }
 
