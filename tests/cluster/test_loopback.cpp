@@ -134,7 +134,7 @@ TEST_F(loopback, a_killed_task_runs_again) {
     wait_for_slurm(slurm);
     EXPECT_THAT(logs(), HasSubstr("Killed"));
     expect_equal_results(work(), "alone", "shared");
-    EXPECT_LT(graded_by_parts(), kClass);  // what the killed one had done was not done again
+    EXPECT_LE(graded_by_parts(), kClass);  // what the killed one had done was not done again
 }
 
 TEST_F(loopback, a_cancelled_array_can_be_continued) {

@@ -62,6 +62,7 @@ TEST(unreadable_submissions, have_no_marks_and_are_told_by_name) {
     const std::string book = work.read("out/gradebook.csv");
     for (const auto& [name, told] :
          {std::pair("crane", "the script of lesson 03_crane, not of 99_small"), std::pair("pdf", "only \"report.pdf\""),
+          std::pair("renamed", "is a PDF, not a script"),
           std::pair("capital", "no analysis.lua in it, but \"Analysis.lua\""),
           std::pair("copy", "but \"my analysis (2).lua\""), std::pair("text", "but \"analysis.lua.txt\""),
           std::pair("seven", ".7z archives cannot be opened here"),
@@ -79,7 +80,7 @@ TEST(unreadable_submissions, have_no_marks_and_are_told_by_name) {
     EXPECT_THAT(graded.output, HasSubstr("  \"silent\" ran to its end but gave no answer\n"));
     EXPECT_THAT(graded.output, Not(HasSubstr("right")));
     const std::string summary = work.read("out/summary.md");
-    EXPECT_THAT(summary, HasSubstr("11 that cannot be read"));
+    EXPECT_THAT(summary, HasSubstr("12 that cannot be read"));
     EXPECT_THAT(summary, HasSubstr("could not be begun"));
     const std::string feedback = work.read("out/results/cannot begin/feedback.md");
     EXPECT_THAT(feedback, HasSubstr("Your script could not be begun"));

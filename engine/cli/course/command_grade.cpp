@@ -112,7 +112,7 @@ void show_complaints(const GradingOutcome& outcome) {
         std::cerr << "dynlab: " << terminal_text(message_text(complaint)) << '\n';
 }
 
-int grade_part(const FolderGrading& grading, const Part& part) {
+int grade_part(const FolderGrading& grading, const WorkPart& part) {
     const GradingOutcome outcome = grading.grade_part();
     show_complaints(outcome);
     std::cout << fmt::format("part {}: {} graded now, {} unchanged, {} could not be graded\n", part.text(),

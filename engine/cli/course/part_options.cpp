@@ -49,7 +49,7 @@ bool done_on(const std::string& on, const std::filesystem::path& folder,
 void refuse_missing_parts(const std::set<int>& missing, int parts) {
     if (missing.empty()) return;
     std::vector<std::string> commands;
-    for (const int index : missing) commands.push_back(shown_command("--part " + Part{index, parts}.text()));
+    for (const int index : missing) commands.push_back(shown_command("--part " + WorkPart{index, parts}.text()));
     throw EnvironmentError(
         "{}", plural(static_cast<std::int64_t>(missing.size()),
                      "{} part of {} cannot be joined: it was not made yet, or from other files or by another version "

@@ -52,13 +52,13 @@ Machines slurm_in(const std::string& list) {
                           value = equal == std::string::npos ? "" : word.substr(equal + 1);
         const bool ours = name == "tasks" || name == "rounds";
         if (!only_of(name, "abcdefghijklmnopqrstuvwxyz-") || value.empty() ||
-            (ours && number_up_to(Part::kMost, value) == 0))
+            (ours && number_up_to(WorkPart::kMost, value) == 0))
             throw EnvironmentError(
                 "\"{}\" in --on slurm:{} is no OPTION=VALUE: tasks=N and rounds=N (up to {}), or any option of sbatch, "
                 "such as partition=short or time=2:00:00",
-                word, list, Part::kMost);
+                word, list, WorkPart::kMost);
         if (ours)
-            (name == "tasks" ? machines.parts : machines.rounds) = number_up_to(Part::kMost, value);
+            (name == "tasks" ? machines.parts : machines.rounds) = number_up_to(WorkPart::kMost, value);
         else
             machines.words.push_back(fmt::format("--{}={}", name, value));
     }
@@ -77,7 +77,7 @@ Machines hosts_in(const std::string& list) {
                 "\"{}\" in --on hosts:{} is no host: write HOST, USER@HOST, or 4/HOST for four parts at once", word,
                 list);
         machines.words.push_back(word);
-        machines.parts = std::min(Part::kMost, machines.parts + kPartsOfASlot * slots);
+        machines.parts = std::min(WorkPart::kMost, machines.parts + kPartsOfASlot * slots);
     }
     return machines;
 }
@@ -126,7 +126,7 @@ Message first_line(const ChildResult& child) {
     return said.empty() ? Message("exit code {}, without a message", child.exit_code) : Message::verbatim(said);
 }
 
-[[noreturn]] void refuse(const ChildResult& child) {
+[[noreturn]] void refuse_work(const ChildResult& child) {
     const std::string& said = child.error_output;
     Message remedy = Message("the options after slurm: in --on are given to sbatch");
     if (said.find("partition") != std::string::npos) {
@@ -148,7 +148,7 @@ std::string submit(const Machines& machines, const fs::path& logs, std::vector<s
     words.insert(words.end(), machines.words.begin(), machines.words.end());
     const ChildResult child = ask_slurm(words, script);
     const std::vector<std::string> id = words_between_spaces(child.output);
-    if (child.exit_code != 0 || id.empty()) refuse(child);
+    if (child.exit_code != 0 || id.empty()) refuse_work(child);
     return id.front().substr(0, id.front().find(';'));  // a cluster's name may follow
 }
 
@@ -187,11 +187,11 @@ void refuse_queued_jobs(const fs::path& folder) {
 
 }  // namespace
 
-std::optional<Part> part_in(const std::string& text) {
+std::optional<WorkPart> part_in(const std::string& text) {
     const std::size_t slash = text.find('/');
-    const int count = slash == std::string::npos ? 0 : number_up_to(Part::kMost, text.substr(slash + 1));
+    const int count = slash == std::string::npos ? 0 : number_up_to(WorkPart::kMost, text.substr(slash + 1));
     const int index = count == 0 ? 0 : number_up_to(count, text.substr(0, slash));
-    return index == 0 ? std::nullopt : std::optional<Part>({index, count});
+    return index == 0 ? std::nullopt : std::optional<WorkPart>({index, count});
 }
 
 Machines machines_in(const std::string& text) {
@@ -281,7 +281,7 @@ std::string shown_command(const std::string& option) {
 
 int noted_parts(const fs::path& folder) {
     const fs::path file = folder / kNotedParts;
-    return std::max(1, fs::exists(file) ? number_up_to(Part::kMost, read_file(file)) : 1);
+    return std::max(1, fs::exists(file) ? number_up_to(WorkPart::kMost, read_file(file)) : 1);
 }
 
 void note_parts(const fs::path& folder, int parts) {

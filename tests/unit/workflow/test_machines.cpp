@@ -28,7 +28,7 @@ TEST(machines, the_parts_together_have_everything_once) {
     for (const int count : {1, 2, 7, 40})
         for (std::size_t place = 0; place < 30; ++place) {
             int owners = 0;
-            for (int index = 1; index <= count; ++index) owners += Part{index, count}.has(place);
+            for (int index = 1; index <= count; ++index) owners += WorkPart{index, count}.has(place);
             EXPECT_EQ(owners, 1) << place << " of " << count;
         }
 }

@@ -29,7 +29,7 @@ print(montecarlo{system = tf({2}, {1, 4, 3 + M.lssvf.mean[1]}), input = prbs(4, 
 class study_parts : public testing::Test {
   protected:
     PercentScript script(const std::string& code) const { return parse_percent_script(code, work_.path("study.lua")); }
-    MissingParts run(const std::string& code, std::optional<Part> part, int count = 2) const {
+    MissingParts run(const std::string& code, std::optional<WorkPart> part, int count = 2) const {
         return run_study_part(script(code), 1, folder(), count, part);
     }
     fs::path folder() const { return work_.path("parts"); }
@@ -59,17 +59,17 @@ TEST_F(study_parts, give_together_what_one_run_gives) {
     const std::string alone = work_.run(kFirst, "study.lua").printed;
     ASSERT_FALSE(alone.empty());
     EXPECT_THAT(run(kFirst, {}).parts, ElementsAre(1, 2));
-    EXPECT_THAT(run(kFirst, Part{2, 2}).parts, ElementsAre(1));
+    EXPECT_THAT(run(kFirst, WorkPart{2, 2}).parts, ElementsAre(1));
     EXPECT_THAT(joined(kFirst), HasSubstr("1 part of this call of montecarlo"));
-    EXPECT_THAT(run(kFirst, Part{1, 2}).parts, IsEmpty());
+    EXPECT_THAT(run(kFirst, WorkPart{1, 2}).parts, IsEmpty());
     EXPECT_EQ(joined(kFirst), alone);
 }
 
 TEST_F(study_parts, are_not_made_again) {
-    for (const int index : {1, 2}) run(kFirst, Part{index, 2});
+    for (const int index : {1, 2}) run(kFirst, WorkPart{index, 2});
     const auto before = files();
     EXPECT_EQ(before.size(), 12u);
-    for (const int index : {1, 2, 3}) EXPECT_THAT(run(kFirst, Part{index, 3}, 3).parts, IsEmpty());
+    for (const int index : {1, 2, 3}) EXPECT_THAT(run(kFirst, WorkPart{index, 3}, 3).parts, IsEmpty());
     joined(kFirst);
     EXPECT_EQ(files(), before);
     fs::remove(folder() / before.begin()->first);
@@ -79,18 +79,18 @@ TEST_F(study_parts, are_not_made_again) {
 TEST_F(study_parts, of_a_call_wait_for_all_parts_of_the_call_before) {
     const std::string both = std::string(kFirst) + kSecond;
     const std::string alone = work_.run(both, "study.lua").printed;
-    run(both, Part{1, 2});
+    run(both, WorkPart{1, 2});
     EXPECT_EQ(run(both, {}).call, 1u);
-    run(both, Part{2, 2});  // completes the first call and makes its share of the second
+    run(both, WorkPart{2, 2});  // completes the first call and makes its share of the second
     EXPECT_EQ(run(both, {}), (MissingParts{{1}, 2}));
-    run(both, Part{1, 2});
+    run(both, WorkPart{1, 2});
     EXPECT_EQ(joined(both), alone);
 }
 
 TEST_F(study_parts, of_another_script_or_of_other_data_are_not_joined) {
     const std::string code = std::string("local d = load('mine.csv')\n") + kFirst;
     work_.write("mine.csv", "t,y\n0,1\n1,2\n2,3\n");
-    for (const int index : {1, 2}) run(code, Part{index, 2});
+    for (const int index : {1, 2}) run(code, WorkPart{index, 2});
     EXPECT_THAT(run(code, {}).parts, IsEmpty());
     EXPECT_THAT(run("local other = 1\n" + code, {}).parts, ElementsAre(1, 2));
     work_.write("mine.csv", "t,y\n0,1\n1,2\n2,4\n");
@@ -98,7 +98,7 @@ TEST_F(study_parts, of_another_script_or_of_other_data_are_not_joined) {
 }
 
 TEST_F(study_parts, errors_of_the_script_are_passed_on) {
-    EXPECT_THROW(run("error('no')\n", Part{1, 2}), EnvironmentError);
+    EXPECT_THROW(run("error('no')\n", WorkPart{1, 2}), EnvironmentError);
 }
 
 }  // namespace test_study_parts
