@@ -266,7 +266,7 @@ GradingOutcome grade_class(const ClassWork& work, const TriedRules& tried, const
     return grader.conclude();
 }
 
-GradingOutcome grade_part_of_class(const ClassWork& work, const Part& part, const TriedRules& tried,
+GradingOutcome grade_part_of_class(const ClassWork& work, const WorkPart& part, const TriedRules& tried,
                                    const GradingOptions& options) {
     ClassWork own = work;
     own.chosen.clear();
@@ -288,7 +288,7 @@ MissingParts ungraded_parts(const ClassWork& work, int parts, const TriedRules& 
         }
     };
     for (std::size_t k = 0; k < work.chosen.size(); ++k) {
-        const int part = Part{1, parts}.part_of(k);
+        const int part = WorkPart{1, parts}.part_of(k);
         if (!missing.parts.contains(part) && !graded(work.items[work.chosen[k]])) missing.parts.insert(part);
     }
     return missing;
