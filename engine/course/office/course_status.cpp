@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "base/reader.h"
 #include "course/review/review_pairs.h"
 #include "course/store/exceptions.h"
 #include "course/store/groups.h"
+#include "course/store/marks.h"
 #include "course/store/newest_versions.h"
+#include "course/store/refusals.h"
 #include "platform/terminal/aligned_table.h"
 
 namespace dynlab::inline course {
@@ -62,17 +65,31 @@ class Status {
           main_(assignment.document()),
           versions_(newest_versions(course, assignment)),
           pairs_(review_pairs(course, assignment)),
-          twins_(groups_with_the_same_file(course, assignment)) {}
+          twins_(groups_with_the_same_file(course, assignment)),
+          labs_(assignment.is_lab() ? lab_marks(course, assignment) : std::vector<LabMark>()) {
+        for (const auto& pair : kindred_groups(course)) kindred_.insert(pair);
+    }
 
     std::string text() {
         for (const Group& group : groups_of(course_)) add(group);
         std::string text = heading() + '\n' + aligned_table(header(), rows_) + '\n' + sums();
         const std::string next = next_step();
-        return text + (next.empty() ? "" : "Next: " + next + '\n');
+        return text + refusals() + (next.empty() ? "" : "Next: " + next + '\n');
     }
 
   private:
+    /// Files that were not taken and after which nothing came that was.
+    std::string refusals() const {
+        std::string text;
+        for (const RefusedFile& file : refused_files(course_, assignment_, true))
+            text +=
+                message_text(Message("Not taken: {}, {}: {}", file.name, course_.clock().show(file.at), file.reason)) +
+                "\n";
+        return text;
+    }
+
     std::vector<std::string> header() const {
+        if (assignment_.is_lab()) return {"group", "members", "submission", "points", "to do"};
         if (!assignment_.is_report()) return {"group", "members", "slides", "script", "to do"};
         return {"group", "members", "first version", "reviews written", "reviews received", "final version", "to do"};
     }
@@ -86,7 +103,11 @@ class Status {
         const auto line = [&](const char* what, Instant due) {
             text += fmt::format("  {:<14} {}\n", what, when(clock, due, now_));
         };
-        line(assignment_.is_report() ? "first version" : "slides, script", assignment_.first_due);
+        if (assignment_.first_due != kNoDeadline)
+            line(assignment_.is_report() ? "first version"
+                 : assignment_.is_lab()  ? "deadline"
+                                         : "slides, script",
+                 assignment_.first_due);
         if (assignment_.review_due) line("reviews", *assignment_.review_due);
         if (assignment_.final_due) line("final version", *assignment_.final_due);
         for (Rows rows = course_.database().query(
@@ -113,6 +134,15 @@ class Status {
         if (group.dropped_out && first.empty() && last.empty()) return;
         ++groups_;
         const std::string members = fmt::format("{}", group.members.size());
+        if (assignment_.is_lab()) {
+            const auto mark = std::ranges::find(labs_, group.id, &LabMark::group);
+            const bool known = mark != labs_.end() && mark->earned;
+            rows_.push_back({group.name, members, cell_of(first, main_),
+                             known ? fmt::format("{:.4g} of {:.4g}", *mark->earned, mark->possible) : "-",
+                             to_do(group, first, last)});
+            count(group, first, last);
+            return;
+        }
         if (!assignment_.is_report()) {
             const std::string script =
                 first.contains("pack") ? cell_of(first, "pack") + " (pack)" : cell_of(first, "script");
@@ -122,10 +152,11 @@ class Status {
             count(group, first, last);
             return;
         }
-        int to_write = 0, written = 0, late = 0, to_get = 0, got = 0;
+        int to_write = 0, written = 0, late = 0, to_get = 0, got = 0, voluntary = 0;
         for (const ReviewPair& pair : pairs_) {
+            voluntary += pair.reviewer == group.id && pair.voluntary();
             if (pair.ended) continue;
-            if (pair.reviewer == group.id) ++to_write, written += pair.written, late += pair.late;
+            if (pair.reviewer == group.id) ++to_write, written += pair.written, late += pair.late > 0;
             if (pair.author == group.id) ++to_get, got += pair.written;
         }
         const auto share = [](int part, int whole) {
@@ -133,7 +164,8 @@ class Status {
         };
         open_reviews_ += group.dropped_out ? 0 : to_write - written;
         rows_.push_back({group.name, members, cell_of(first, main_),
-                         share(written, to_write) + (late > 0 ? fmt::format(", {} late", late) : ""),
+                         share(written, to_write) + (late > 0 ? fmt::format(", {} late", late) : "") +
+                             (voluntary > 0 ? fmt::format(", {} voluntary", voluntary) : ""),
                          share(got, to_get), cell_of(last, main_), to_do(group, first, last)});
         count(group, first, last);
     }
@@ -177,11 +209,12 @@ class Status {
         if (found == first.end()) {
             only_pack(first, "");
             if (things.empty() && due_over("first"))
-                things.push_back(assignment_.is_report() ? "ask for the first version, or roster drop"
-                                                         : "ask for the slides, or roster drop");
+                things.push_back(assignment_.is_lab()      ? "ask for the submission, or roster drop"
+                                 : assignment_.is_report() ? "ask for the first version, or roster drop"
+                                                           : "ask for the slides, or roster drop");
             return join(things);
         }
-        if (!assignment_.is_report()) {
+        if (assignment_.is_talk()) {
             if (!first.contains("script") && !first.contains("pack") && due_over("first"))
                 things.push_back("ask for the script");
         }
@@ -195,6 +228,11 @@ class Status {
         const auto id = group.id;
         if (const auto twin = twins_.find(id); twin != twins_.end())
             things.push_back(fmt::format("handed in the same file as {}", twin->second));
+        if (any_pair([&](const ReviewPair& p) {
+                return p.reviewer == id &&
+                       kindred_.contains(std::pair(std::min(p.reviewer, p.author), std::max(p.reviewer, p.author)));
+            }))
+            things.push_back("reviews a report of a present or former member: peer assign");
         if (is_held(course_, assignment_, id, {})) things.push_back("its report is held back");
         if (any_pair([id](const ReviewPair& p) { return p.author == id && p.newer_report; }) &&
             !is_held(course_, assignment_, id, {}))
@@ -252,15 +290,17 @@ class Status {
             return fmt::format("dynlab course {} {}", words, assignment_.name);
         };
         if (present_ == 0) return fmt::format("dynlab course receive FILE... --assignment {}", assignment_.name);
+        if (assignment_.is_lab()) return command("grade");
         if (!assignment_.is_report()) return command("oral sheet");
         if (now_ <= assignment_.first_due + assignment_.grace) return {};
         if (pairs_.empty() || unassigned_ > 0) return command("peer assign");
         if (any_pair([this](const ReviewPair& p) {
-                return ((!p.sent && !p.written) || p.newer_report) && !is_held(course_, assignment_, p.author, {});
+                return ((!p.sent && !p.written) || p.newer_report) && !p.stopped_report &&
+                       !is_held(course_, assignment_, p.author, {});
             }))
             return command("peer send");
         if (any_pair([this](const ReviewPair& p) {
-                return ((p.written && !p.released) || p.newer_review) &&
+                return ((p.written && !p.released) || p.newer_review) && !p.stopped_review &&
                        !is_held(course_, assignment_, p.reviewer, p.id);
             }) &&
             now_ > *assignment_.review_due + assignment_.grace)
@@ -270,7 +310,7 @@ class Status {
             return fmt::format("wait for reviews, dynlab course review receive FILE... --assignment {}",
                                assignment_.name);
         if (now_ > *assignment_.final_due)
-            return (finals_ > 0 ? command("final changes --assignment") + ", then " : "") + command("export");
+            return (finals_ > 0 ? command("changes --assignment") + ", then " : "") + command("export");
         return command("scores") + " FILE.csv, then " + command("marks");
     }
 
@@ -281,6 +321,8 @@ class Status {
     std::map<std::int64_t, std::map<std::string, HandedInParts>> versions_;
     std::vector<ReviewPair> pairs_;
     std::map<std::int64_t, std::string> twins_;
+    std::vector<LabMark> labs_;
+    std::set<std::pair<std::int64_t, std::int64_t>> kindred_;  ///< groups with a common member, now or before
     std::vector<std::vector<std::string>> rows_;
     int groups_ = 0, present_ = 0, late_ = 0, unreadable_ = 0, missing_ = 0, unassigned_ = 0, open_reviews_ = 0,
         finals_ = 0;
@@ -302,7 +344,9 @@ std::string course_summary(Course& course, Instant now) {
         "\n";
     std::vector<std::vector<std::string>> rows;
     for (const Assignment& a : assignments_of(course)) {
-        const auto shown = [&](std::optional<Instant> due) { return due ? when(course.clock(), *due, now) : "-"; };
+        const auto shown = [&](std::optional<Instant> due) {
+            return due && *due != kNoDeadline ? when(course.clock(), *due, now) : "-";
+        };
         rows.push_back({a.name, a.kind, shown(a.first_due), shown(a.review_due), shown(a.final_due)});
     }
     if (rows.empty()) return text + "No assignments yet: dynlab course assignment add NAME --first TIME ...\n";

@@ -372,7 +372,7 @@ class HandInReceiver {
         received.names = c.inspection.names;
         received.from_pack = c.from_pack, received.made = c.made;
         if (!has_any(c, document_part())) received.missing = c.missing;
-        if (c.pair) received.about = c.pair->report_pseudonym();
+        if (c.pair) received.about = c.pair->report_pseudonym(), received.voluntary = c.pair->ended;
         Rows before = db.query(
             "SELECT v.id, v.number, v.hash, s.late, s.id IS NULL FROM versions v LEFT JOIN standing s ON s.id = v.id "
             "WHERE v.assignment = ? AND v.group_id = ? AND v.stage = ? AND ifnull(v.pair, 0) = ? AND v.part = ? ORDER "

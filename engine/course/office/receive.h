@@ -30,6 +30,7 @@ struct Received {
     std::int64_t version = 0, id = 0;
     std::int64_t late = 0;     ///< of its content, which may be that of an earlier version
     bool known = false;        ///< the same content as the version before: nothing was changed
+    bool voluntary = false;    ///< a review of a report that had been taken back
     bool from_pack = false;    ///< a PDF that was taken out of the group's pack
     bool withdrawn = false;    ///< known, and withdrawn by the instructor
     std::string twin;          ///< whose the same bytes are: "group-02's", "a review by group-02"

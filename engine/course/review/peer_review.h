@@ -34,7 +34,7 @@ void wish_pair(Course& course, const Assignment& assignment, const std::string& 
 /// that names in their comments reach nobody and are not looked for; what the PDF made from them holds is searched.
 struct CopyRequest {
     std::filesystem::path pdf;    ///< as it was handed in
-    std::filesystem::path pack;   ///< its source, where the group handed one in; else empty
+    std::filesystem::path pack;   ///< its source, where one was submitted with it or later; else empty
     std::filesystem::path copy;   ///< where the clean copy is to be written
     std::vector<Student> people;  ///< all of the course, with group, name, id and mail address
     std::string group = {};       ///< whose it is
@@ -56,6 +56,7 @@ struct SendOutcome {
     int sent = 0, before = 0, stopped = 0, waiting = 0;  ///< copies: now; earlier; with hits; of what has not come
     int again = 0;                                       ///< of those now: newer versions of what had been sent before
     int held = 0;                                        ///< that the instructor holds back
+    std::vector<std::string> unreviewed, reviewed_once;  ///< of reviews: groups whose report has no or one review
     std::vector<std::string> removed;  ///< files of the outbox that nobody is to get any more: taken back, withdrawn
     std::vector<Message> hits;         ///< a line for each document that was stopped
     std::vector<Message> hints;        ///< a line for each that was sent and may name somebody

@@ -3,14 +3,27 @@
 #include "course/store/inspection.h"
 
 namespace dynlab::inline course {
+namespace {
+
+constexpr char kStandingFile[] = "SELECT id, number, late, part, hash, name, received_at FROM standing f WHERE ";
+
+std::optional<StandingFile> file_in(Rows rows) {
+    if (!rows.next()) return {};
+    return StandingFile{rows.integer(0), rows.integer(1), rows.integer(2), rows.text(3),
+                        rows.text(4),    rows.text(5),    rows.integer(6)};
+}
+
+}  // namespace
 
 std::map<std::int64_t, std::map<std::string, HandedInParts>> newest_versions(Course& course,
                                                                              const Assignment& assignment) {
     std::map<std::int64_t, std::map<std::string, HandedInParts>> all;
     for (Rows rows = course.database().query(
-             "SELECT group_id, stage, part, number, late, received_at, findings FROM standing WHERE assignment = ? AND "
-             "stage <> 'review' ORDER BY number",
-             assignment.id);
+             "SELECT group_id, stage, CASE ?2 WHEN 'lab' THEN replace(part, 'pack', 'script') ELSE part END, number, "
+             "late, received_at, findings FROM standing WHERE assignment = ?1 AND stage <> 'review' ORDER BY CASE ?2 "
+             "WHEN "
+             "'lab' THEN received_at ELSE number END, id",
+             assignment.id, assignment.kind);
          rows.next();) {
         HandedIn& newest = all[rows.integer(0)][rows.text(1)][rows.text(2)];
         const Inspection seen = inspection_from(rows.text(6));
@@ -19,6 +32,55 @@ std::map<std::int64_t, std::map<std::string, HandedInParts>> newest_versions(Cou
                   seen.rules_broken, seen.trouble};
     }
     return all;
+}
+
+std::map<std::string, std::int64_t> author_groups(Course& course, const Assignment& assignment) {
+    std::map<std::int64_t, Instant> submitted;
+    for (Rows rows = course.database().query(
+             "SELECT group_id, min(received_at) FROM standing WHERE assignment = ? AND stage = 'first' GROUP BY "
+             "group_id",
+             assignment.id);
+         rows.next();)
+        submitted[rows.integer(0)] = rows.integer(1);
+    std::map<std::string, std::int64_t> authors, present;
+    // The group of several that counts comes last: a present one, the first by name.
+    for (Rows rows = course.database().query(
+             "SELECT m.student, m.group_id, m.since, m.until, m.since = min(m.since) OVER (PARTITION BY m.student) "
+             "FROM memberships m JOIN groups g ON g.id = m.group_id ORDER BY m.until IS NULL, g.name DESC, m.since");
+         rows.next();) {
+        const std::string student = rows.text(0);
+        const std::int64_t group = rows.integer(1);
+        const std::optional<Instant> until = rows.optional_integer(3);
+        if (!until) present[student] = group;
+        const auto at = submitted.find(group);
+        if (at == submitted.end() || (until && *until <= at->second)) continue;
+        if (rows.integer(2) <= at->second || rows.integer(4) != 0) authors[student] = group;
+    }
+    authors.merge(present);
+    return authors;
+}
+
+std::optional<StandingFile> newest_file(Course& course, const Assignment& assignment, std::int64_t group,
+                                        const std::string& stage, const std::string& part, std::int64_t pair) {
+    return file_in(course.database().query(
+        std::string(kStandingFile) + "assignment = ? AND group_id = ? AND stage = ? AND part = ? AND ifnull(pair, 0) = "
+                                     "? ORDER BY number DESC LIMIT 1",
+        assignment.id, group, stage, part, pair));
+}
+
+std::optional<StandingFile> standing_file(Course& course, std::int64_t id) {
+    return file_in(course.database().query(std::string(kStandingFile) + "id = ?", id));
+}
+
+std::optional<StandingFile> pack_of_document(Course& course, std::int64_t document) {
+    return file_in(course.database().query(
+        std::string(kStandingFile) +
+            "part = 'pack' AND EXISTS (SELECT 1 FROM standing d WHERE d.id = ? AND d.assignment = f.assignment AND "
+            "d.group_id = f.group_id AND d.stage = f.stage AND ifnull(d.pair, 0) = ifnull(f.pair, 0) AND f.received_at "
+            ">= d.received_at AND NOT EXISTS (SELECT 1 FROM standing e WHERE e.assignment = d.assignment AND "
+            "e.group_id = d.group_id AND e.stage = d.stage AND ifnull(e.pair, 0) = ifnull(d.pair, 0) AND e.part = "
+            "d.part AND e.number > d.number AND e.received_at <= f.received_at)) ORDER BY number DESC LIMIT 1",
+        document));
 }
 
 }  // namespace dynlab::inline course
