@@ -283,7 +283,8 @@ void import_course(const fs::path& file, const fs::path& from, const fs::path& f
         if (!settings.contains(needed)) throw EnvironmentError("{}: the course's {} is missing", file.string(), needed);
     for (const fs::path& kept : handed_in)
         if (!fs::exists(kept))
-            throw EnvironmentError("{} has no file {}; nothing was made", from.string(), kept.filename().string());
+            throw EnvironmentError("{} has no file {}; nothing was made. Name the folder of the old course with --from",
+                                   from.string(), kept.filename().string());
     const fs::path place = fs::absolute(folder).lexically_normal();
     const fs::path whole = place.has_filename() ? place : place.parent_path();
     if (fs::exists(whole) && !(fs::is_directory(whole) && fs::is_empty(whole)))
