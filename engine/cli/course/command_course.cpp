@@ -94,7 +94,7 @@ void add_import(CLI::App& course, CourseArguments& where, Action& action) {
         "  dynlab course import roster.csv\n"
         "  dynlab course import course.json copy --from signals-2026    from course export --json");
     command->callback([&where, words, &action] {
-        action = [&where, words] {
+        action = [&where, words]() -> int {
             if (words->folder.empty()) return import_people(where, words->file, words->no_groups);
             import_course(words->file, words->from, words->folder);
             std::cout << fmt::format("Course made in {} from {}.\n", words->folder, words->file);

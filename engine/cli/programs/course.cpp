@@ -2,7 +2,7 @@
 #include <iostream>
 #include <iterator>
 
-#include "cli/course/course_aliases.h"
+#include "cli/course_aliases.h"
 #include "cli/pages/figure_view.h"
 #include "cli/program.h"
 #include "course/checks/check_functions.h"

@@ -1,4 +1,4 @@
-#include "cli/course/course_aliases.h"
+#include "cli/course_aliases.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cli/course/course_aliases.h"
+#include "cli/course_aliases.h"
 
 namespace dynlab::test {
 namespace test_course_aliases {
