@@ -19,9 +19,11 @@ std::map<std::int64_t, std::map<std::string, HandedInParts>> newest_versions(Cou
                                                                              const Assignment& assignment) {
     std::map<std::int64_t, std::map<std::string, HandedInParts>> all;
     for (Rows rows = course.database().query(
-             "SELECT group_id, stage, part, number, late, received_at, findings FROM standing WHERE assignment = ? AND "
-             "stage <> 'review' ORDER BY number",
-             assignment.id);
+             "SELECT group_id, stage, CASE ?2 WHEN 'lab' THEN replace(part, 'pack', 'script') ELSE part END, number, "
+             "late, received_at, findings FROM standing WHERE assignment = ?1 AND stage <> 'review' ORDER BY CASE ?2 "
+             "WHEN "
+             "'lab' THEN received_at ELSE number END, id",
+             assignment.id, assignment.kind);
          rows.next();) {
         HandedIn& newest = all[rows.integer(0)][rows.text(1)][rows.text(2)];
         const Inspection seen = inspection_from(rows.text(6));

@@ -16,7 +16,8 @@ struct HandedIn {
     std::string trouble;  ///< why it cannot be read; else empty
     bool is_late() const { return late > 0 && in_time == 0; }
 };
-using HandedInParts = std::map<std::string, HandedIn>;  ///< by part: report, slides, script, pack
+using HandedInParts = std::map<std::string, HandedIn>;  ///< by part: report, slides, script, pack; of a lab a pack is a
+                                                        ///< script
 
 /// By group and stage ("first", "final").
 std::map<std::int64_t, std::map<std::string, HandedInParts>> newest_versions(Course& course,
