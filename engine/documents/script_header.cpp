@@ -153,4 +153,17 @@ std::size_t read_script_header(const std::vector<std::string>& lines, const std:
                         Message("the script header is not closed: a line \"-- ---\" is missing after it"));
 }
 
+std::string language_of_script(std::string_view source) {
+    constexpr std::string_view kKey = "language:";
+    for (const std::string_view line : lines_with_ends(source)) {
+        if (line.starts_with("#!")) continue;
+        if (!line.starts_with("--")) break;
+        const std::string entry = trimmed(line.substr(2));
+        if (!entry.starts_with(kKey)) continue;
+        const std::string language = trimmed(std::string_view(entry).substr(kKey.size()));
+        return is_language(language) ? language : "";
+    }
+    return "en";
+}
+
 }  // namespace dynlab::inline documents

@@ -12,7 +12,6 @@
 #include "documents/text_lines.h"
 #include "documents/weave.h"
 #include "platform/written_files.h"
-#include "scripting/memoized_calls/shared_pieces.h"
 #include "workflow/script_world.h"
 
 namespace dynlab::inline workflow {
@@ -102,7 +101,7 @@ ScriptWorld::ScriptWorld(const RunRequest& request, GnuplotRenderer& renderer)
       sliders{request.slider_values},
       runtime(run_options(request), renderer) {
     runtime.services() = {
-        .language = &language, .sliders = &sliders, .written = request.written, .shared = request.shared};
+        .language = &language, .sliders = &sliders, .written = request.written, .parts = request.parts};
 }
 
 RunRecord run_script(const RunRequest& request, GnuplotRenderer& renderer) {

@@ -16,7 +16,7 @@ class WrittenFiles;
 
 namespace dynlab::inline scripting {
 class CallCache;
-class SharedPieces;
+class CallsInParts;
 }
 
 namespace dynlab::inline workflow {
@@ -31,7 +31,7 @@ struct RunRequest {
     bool stay_in_folder = false;      ///< files are read from the script's folder and the installed data only
     WrittenFiles* written = nullptr;  ///< says which files the script may replace; all without
     CallCache* call_cache = nullptr;  ///< where results of long calls are kept
-    SharedPieces* shared = nullptr;   ///< who shares the work of long calls with other machines
+    CallsInParts* parts = nullptr;    ///< makes calls of montecarlo in parts
 };
 
 /// Runs a script from top to bottom. An error of the script stands in the record; Ctrl-C throws Interrupted. Throws

@@ -53,20 +53,22 @@ TEST(checks_of_ones_own, marked_by_hand_wait_for_their_points) {
         "check{id = 'text', points = 4, about = 'Question 3', by_hand = true, rubric = 'two reasons'}\n");
     const ChildResult open = bench.grade({"--checks", "own"});
     EXPECT_THAT(open.error_output, Not(HasSubstr("worked solution")));
-    EXPECT_EQ(bench.bench().read("out/by_hand.csv"),
-              "submission,check,points,comment,of,about,rubric\r\na,text,,,4,Question 3,two reasons\r\n");
+    EXPECT_EQ(bench.bench().read("out/marks.csv"),
+              "who,check,points,reason,of,about,rubric\r\na,text,,,4,Question 3,two reasons\r\n");
     EXPECT_THAT(bench.bench().read("out/gradebook.csv"), HasSubstr(",a,partly ungraded,,5,"));
     EXPECT_THAT(bench.bench().read("out/summary.md"), HasSubstr("is to be marked by hand"));
-    bench.bench().write("out/manual.csv",
+    bench.bench().write("out/marks.csv",
                         "submission;check;points;comment;of\na;text;2,5;one reason of two;4\na;x;;not looked at;2\n");
     const ChildResult marked = bench.grade({"--checks", "own"});
     EXPECT_EQ(marked.exit_code, 0) << marked.error_output;
     EXPECT_EQ(bench.result("a").at("score"), 7.5);
     EXPECT_THAT(bench.bench().read("out/results/a/feedback.md"), HasSubstr("one reason of two"));
-    EXPECT_FALSE(std::filesystem::exists(bench.bench().path("out/by_hand.csv")));
-    bench.bench().write("out/manual.csv", "submission,check,points\na,text,9\n");
+    bench.bench().write("out/marks.csv", "who,check,points\na,text,9\n");
     EXPECT_THAT(bench.grade({"--checks", "own"}).error_output,
                 HasSubstr("gets 9 points for the check \"text\", which has 4"));
+    EXPECT_FALSE(bench.result("a").contains("score"));
+    EXPECT_EQ(bench.grade({"--checks", "own", "--force"}).exit_code, 0);
+    EXPECT_EQ(bench.result("a").at("score"), 14);
 }
 
 TEST(checks_of_ones_own, change_and_drop_those_of_the_lesson) {

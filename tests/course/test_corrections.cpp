@@ -172,7 +172,7 @@ TEST_F(corrections, an_override_is_taken_back) {
 }
 
 TEST_F(corrections, an_assignment_is_removed_while_nothing_hangs_on_it) {
-    done({"assignment", "add", "talk", "--kind", "presentation", "--first", "2026-04-01 12:00"});
+    done({"assignment", "add", "talk", "--kind", "talk", "--first", "2026-04-01 12:00"});
     EXPECT_THAT(done({"oral", "sheet", "talk"}), HasSubstr("group,content,slides,delivery,answers"));
     done({"assignment", "remove", "talk", "--reason", "mistyped"});
     EXPECT_THAT(done({"status"}), Not(HasSubstr("talk")));

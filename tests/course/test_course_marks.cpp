@@ -115,9 +115,9 @@ TEST(course_marks, wrong_scores_are_refused_with_their_line) {
 }
 
 // oracle: what a presentation is: slides and script, one deadline, a sheet for the oral
-TEST(course_marks, of_a_presentation_come_from_the_sheet_of_the_oral) {
+TEST(course_marks, of_a_talk_come_from_the_sheet_of_the_oral) {
     CourseBench bench(3);
-    CourseBench::expect_done(bench.course({"assignment", "add", "talk", "--kind", "presentation", "--first",
+    CourseBench::expect_done(bench.course({"assignment", "add", "talk", "--kind", "talk", "--first",
                                            "2026-04-01 12:00", "--criteria", "content:10,figures:5,answers:5"}));
     for (int i = 1; i <= 2; ++i) {
         bench.bench().write("in/" + CourseBench::group(i) + "/slides.pdf", small_pdf("slide"));
@@ -134,14 +134,14 @@ TEST(course_marks, of_a_presentation_come_from_the_sheet_of_the_oral) {
                 AllOf(HasSubstr("script"), Not(HasSubstr("final version"))));
     for (const char* stage : {"review", "final"})
         EXPECT_THAT(bench.course({stage, "receive", "group-03.pdf", "--assignment", "talk"}).error_output,
-                    HasSubstr("talk is a presentation: it has no "));
+                    HasSubstr("talk is a talk: it has no "));
     EXPECT_THAT(bench.course({"peer", "assign", "talk", "--at", "2026-04-02 10:00"}).error_output,
-                HasSubstr("presentation"));
+                HasSubstr("talk"));
     for (const std::vector<std::string>& words : {std::vector<std::string>{"peer", "send", "talk"},
                                                   {"peer", "show", "talk"},
                                                   {"release", "talk"},
                                                   {"override", "talk", "group-01", "reviews", "80", "--reason", "x"}})
-        EXPECT_THAT(bench.course(words).error_output, HasSubstr("talk is a presentation: it has no reviews"));
+        EXPECT_THAT(bench.course(words).error_output, HasSubstr("talk is a talk: it has no reviews"));
     EXPECT_THAT(bench.course({"oral", "sheet", "crane"}).error_output, HasSubstr("crane is a report: "));
     EXPECT_EQ(bench.course({"oral", "sheet", "talk"}).output,
               "group,content,figures,answers,comment\r\ngroup-01,,,,\r\ngroup-02,,,,\r\ngroup-03,,,,\r\n");
@@ -149,7 +149,7 @@ TEST(course_marks, of_a_presentation_come_from_the_sheet_of_the_oral) {
     EXPECT_THAT(bench.course({"scores", "talk", "oral.csv"}).output, HasSubstr("talk: 4 new scores."));
     const std::string marks = bench.course({"marks", "talk"}).output;
     EXPECT_THAT(marks, ContainsRegex("group-01 +8 +5 +3 +80\\.0"));
-    EXPECT_THAT(marks, ContainsRegex("group-02 +10 +- +- +100\\.0"));  // of what was scored
+    EXPECT_THAT(marks, ContainsRegex("group-02 +10 +0 +0 +50\\.0"));  // others have points there
     EXPECT_THAT(marks, ContainsRegex("group-03 +- +- +- +- "));
     EXPECT_THAT(bench.course({"oral", "sheet", "talk"}).output, HasSubstr("group-01,8,5,3,\r\n"));
     bench.bench().write("oral.csv", "group,content\ngroup-01,11\n");
@@ -170,6 +170,9 @@ TEST(course_marks, the_instructor_is_a_reviewer_whom_others_are_held_against) {
     EXPECT_THAT(bench.course({"scores", "crane", "mine.csv"}).output, HasSubstr("0 new scores"));
     EXPECT_THAT(course.marks(),
                 AllOf(ContainsRegex("group-04 +4\\.5 .* 90\\.0 "), ContainsRegex("group-01 .* 73\\.3")));
+    bench.bench().write("group-04.pdf", small_pdf("final"));
+    CourseBench::expect_done(
+        bench.course({"final", "receive", "group-04.pdf", "--at", "2026-03-14 10:00", "--no-checks"}));
     bench.bench().write("final.csv", "group,data,steps,conclusions,strength,suggestions\ngroup-04,5,5,5,5,5\n");
     CourseBench::expect_done(bench.course({"scores", "crane", "final.csv", "--stage", "final"}));
     EXPECT_THAT(course.marks(), AllOf(ContainsRegex("group-04 +4\\.5 .* 95\\.0 "),
@@ -205,12 +208,11 @@ TEST(course_marks, what_is_late_or_missing_costs_what_the_course_says) {
 TEST(course_marks, a_forgotten_cell_is_told) {
     CourseBench bench(2);
     CourseBench::expect_done(
-        bench.course({"assignment", "add", "talk", "--kind", "presentation", "--first", "2026-04-01 12:00"}));
+        bench.course({"assignment", "add", "talk", "--kind", "talk", "--first", "2026-04-01 12:00"}));
     bench.bench().write("oral.csv", "group,content,slides,delivery,answers\ngroup-01,4,3,,5\ngroup-02,4,4,4,4\n");
     CourseBench::expect_done(bench.course({"scores", "talk", "oral.csv"}));
     EXPECT_THAT(bench.course({"marks", "talk"}).output,
-                AllOf(HasSubstr("group-01: no points for delivery; its mark is of the other criteria only."),
-                      Not(HasSubstr("group-02:"))));
+                AllOf(HasSubstr("group-01: no points for delivery, counted as 0."), Not(HasSubstr("group-02:"))));
 }
 
 // oracle: by hand: a group of 7 of 10 points, one of whose members has 4 + 5; a day late costs 10; the help's example
@@ -219,7 +221,7 @@ TEST(course_marks, students_have_points_of_their_own_at_the_oral) {
     bench.bench().write("roster.csv", "id,name,group\ns1,Ada King,group-01\ns2,Bo Ek,group-01\ns3,Cy Li,group-02\n");
     CourseBench::expect_done(bench.course({"roster", "import", "roster.csv"}));
     CourseBench::expect_done(
-        bench.course({"assignment", "add", "talk", "--kind", "presentation", "--first", "2026-04-01 12:00",
+        bench.course({"assignment", "add", "talk", "--kind", "talk", "--first", "2026-04-01 12:00",
                       "--criteria", "content:5,answers:5", "--costs", "late-day:10"}));
     EXPECT_EQ(bench.course({"oral", "sheet", "talk", "--students"}).output,
               "group,student,name,content,answers,comment\r\ngroup-01,,,,,\r\ngroup-01,s1,Ada King,,,\r\n"
@@ -239,7 +241,7 @@ TEST(course_marks, students_have_points_of_their_own_at_the_oral) {
                                HasSubstr("group-01, Bo Ek (s2): knew the bias\n")));
     const auto mark_of = [&](const std::string& id) {
         return bench.bench()
-            .shell("$DYNLAB course --course k export talk | awk -F, '$1 == \"" + id + "\" {printf \"%s\", $11}'")
+            .shell("$DYNLAB course --course k export talk | awk -F, '$1 == \"" + id + "\" {printf \"%s\", $13}'")
             .output;
     };
     EXPECT_EQ(mark_of("s1"), "70");
@@ -264,8 +266,8 @@ TEST(course_marks, students_have_points_of_their_own_at_the_oral) {
     EXPECT_THAT(read("student,content\ns1,3\ns33,3\n").error_output,
                 HasSubstr("oral.csv, line 3: there is no student \"s33\"; did you mean s3?"));
     EXPECT_THAT(read("content\n3\n").error_output, HasSubstr("the column group or student is missing"));
-    EXPECT_THAT(read("group,content\ngroup-01,-\n").error_output,
-                HasSubstr("content must be a number from 0 to 5, but \"-\" was given"));
+    EXPECT_THAT(read("group,content\ngroup-01,x\n").error_output,
+                HasSubstr("content must be a number from 0 to 5, but \"x\" was given"));
     EXPECT_EQ(bench.dump(), before);
     EXPECT_THAT(bench.course({"assignment", "remove", "talk", "--reason", "x"}).error_output, HasSubstr("hangs on it"));
 }
@@ -274,7 +276,7 @@ TEST(course_marks, students_have_points_of_their_own_at_the_oral) {
 TEST(course_marks, the_order_of_talks_is_drawn) {
     CourseBench bench(16);  // one of 16! orders is that of the names
     CourseBench::expect_done(
-        bench.course({"assignment", "add", "talk", "--kind", "presentation", "--first", "2026-04-01 12:00"}));
+        bench.course({"assignment", "add", "talk", "--kind", "talk", "--first", "2026-04-01 12:00"}));
     const std::string drawn = bench.course({"oral", "sheet", "talk", "--drawn"}).output;
     const std::string plain = bench.course({"oral", "sheet", "talk"}).output;
     EXPECT_NE(drawn, plain);

@@ -149,9 +149,9 @@ TEST(course_store, refuses_bad_input_and_stays_untouched) {
             "the deadline of the reviews (Sun 2026-03-08 12:00) must come after that of the first version");
     refused({"assignment", "add", "b", "--first", "2026-03-09"}, "--first must be a time such as");
     refused({"assignment", "add", "../b", "--first", "2026-03-09 12:00"}, "must be a short word");
-    refused({"assignment", "add", "talk", "--kind", "presentation", "--first", "2026-03-09 12:00", "--final",
+    refused({"assignment", "add", "talk", "--kind", "talk", "--first", "2026-03-09 12:00", "--final",
              "2026-03-12 12:00"},
-            "a presentation has one deadline");
+            "a talk has one deadline");
     refused({"assignment", "add", "crane", "--first", "2026-02-01 12:00", "--review", "2026-03-08 12:00", "--final",
              "2026-03-15 12:00"},
             "only deadlines may move, to later ones");

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "course/grading_bench.h"
-#include "course/hand_ins/work_language.h"
+#include "workflow/given_script.h"
 
 namespace dynlab::test {
 namespace test_feedback {
@@ -104,8 +104,8 @@ TEST(feedback, of_a_hand_in_that_does_not_count_says_so) {
                                                           "better one counts: Ida Rhodes (900003)."));
     EXPECT_THAT(feedback("Ida Rhodes_900003"), Not(HasSubstr("ne compte pas")));
     // A mark by hand turns it round.
-    work.write("out/manual.csv",
-               "submission,check,points,reason\nZoé Lefèvre_900001_assignsubmission_file_,x,2.5,said it\n"
+    work.write("out/marks.csv",
+               "who,check,points,reason\nZoé Lefèvre_900001_assignsubmission_file_,x,1.5,said it\n"
                "Ida Rhodes_900003_assignsubmission_file_,x,0,copied\n");
     EXPECT_THAT(bench.grade({"--roster", "roster.csv"}).output, HasSubstr("0 graded now, 2 unchanged"));
     EXPECT_THAT(feedback("Zoé Lefèvre_900001"), Not(HasSubstr("does not count")));

@@ -3,7 +3,7 @@
 
 #include <ctime>
 
-#include "course/grading/class_owners.h"
+#include "course/grading/class_folder.h"
 #include "course/grading/deadlines.h"
 #include "course/grading_bench.h"
 #include "platform/error.h"
@@ -128,15 +128,15 @@ TEST(gradebook_memory, only_takes_a_name_a_group_an_id_or_a_student) {
          {"Anna Müller_900001_assignsubmission_file_", "group-2", "Ben Lee_900003_assignsubmission_file_"})
         bench.hand_in(name, kSolution);
     work.write("roster.csv", "id;name;group\n1;Anna Müller;group-1\n2;Zoë Ade;group-2\n3;Ben Lee;group-3\n");
-    GradingRequest request;
-    request.roster = work.path("roster.csv");
-    const ClassOwners owners(request);
-    std::vector<Message> left_out;
-    const std::vector<Submission> submissions = submissions_in(work.path("in"), left_out);
+    ClassSources sources;
+    sources.submissions = work.path("in");
+    sources.roster = work.path("roster.csv");
     const auto chosen = [&](const std::vector<std::string>& words) {
+        sources.only = words;
+        const ClassFolder folder(sources, work.path("out"), {});
         std::vector<std::string> names;
-        for (const std::size_t place : owners.chosen(submissions, words))
-            names.push_back(submissions[place].name.substr(0, 7));
+        for (const std::size_t place : folder.work().chosen)
+            names.push_back(folder.work().items[place].submission.name.substr(0, 7));
         return names;
     };
     for (const char* word :
@@ -168,9 +168,8 @@ TEST(gradebook_memory, nobodys_work_is_told_and_a_list_gives_it_to_somebody) {
     const ChildResult graded = bench.grade({"--roster", "roster.csv"});
     EXPECT_EQ(graded.exit_code, 1);
     EXPECT_THAT(graded.error_output, HasSubstr("roster.csv is not UTF-8; it was read as Latin-1"));
-    EXPECT_THAT(graded.output,
-                AllOf(HasSubstr("\"my work\" belongs to nobody in the roster: it fits no group"),
-                      HasSubstr("\"group-2\" is the same, byte for byte, as \"Ben Lee\" of somebody else")));
+    EXPECT_THAT(graded.output, AllOf(HasSubstr("\"my work\" belongs to nobody in the roster: it fits no group"),
+                                     HasSubstr("\"Ben Lee\" and \"group-2\" are the same, byte for byte")));
     EXPECT_THAT(work.read("out/gradebook.csv"),
                 AllOf(HasSubstr("1,José García,,nothing handed in"), HasSubstr("2,Zoë Ade,group-2,graded,0,")));
     work.write("roster.csv", "id,name,group\n1,José García,group-1\n2,Zoë Ade,group-2\n3,Ben Lee,group-3\n");

@@ -13,7 +13,7 @@ using ::testing::Not;
 class graded_work : public ::testing::Test {
   protected:
     graded_work() : bench_(4, 1) {
-        CourseBench::expect_done(bench_.course({"assignment", "add", "talk", "--kind", "presentation", "--first",
+        CourseBench::expect_done(bench_.course({"assignment", "add", "talk", "--kind", "talk", "--first",
                                                 "2026-04-01 12:00", "--criteria", "clarity:5,script:10"}));
         const Workbench& work = bench_.bench();
         work.write("home/lessons/99_small/lesson.lua",
@@ -31,7 +31,7 @@ class graded_work : public ::testing::Test {
 };
 
 // oracle: the newest script of each group by hand, and 10 points of the criterion for 4 of the checks
-TEST_F(graded_work, of_a_presentation_becomes_scores_of_a_criterion) {
+TEST_F(graded_work, of_a_talk_becomes_scores_of_a_criterion) {
     const Workbench& work = bench_.bench();
     receive("group-01.lua", "answer('x', 1)\n", "2026-03-30 10:00");
     receive("group-02.lua", "answer('x', 42)\n", "2026-03-30 10:00");

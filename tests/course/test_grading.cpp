@@ -110,13 +110,13 @@ TEST(grading, goes_on_where_it_was_and_keeps_manual_marks) {
     bench.hand_in("b", "answer('x', 1)\n");
     ASSERT_EQ(bench.grade().exit_code, 0);
     EXPECT_THAT(bench.grade().output, HasSubstr("0 graded now, 2 unchanged"));
-    bench.bench().write("out/manual.csv", "submission,check,points,reason\nb,x,1.5,\"good idea, wrong number\"\n");
+    bench.bench().write("out/marks.csv", "who,check,points,reason\nb,x,1.5,\"good idea, wrong number\"\n");
     EXPECT_THAT(bench.grade().output, HasSubstr("0 graded now, 2 unchanged"));
     EXPECT_EQ(points(bench.result("b")), (std::vector<double>{1.5, 0}));
     EXPECT_EQ(message(bench.result("b"), 0), "good idea, wrong number\nSix times seven.");
     EXPECT_THAT(bench.grade({"--regrade"}).output, HasSubstr("2 graded now, 0 unchanged"));
     EXPECT_EQ(points(bench.result("b")), (std::vector<double>{1.5, 0}));
-    bench.bench().write("out/manual.csv", "submission,check,points,reason\n");
+    bench.bench().write("out/marks.csv", "who,check,points,reason\n");
     bench.grade();
     EXPECT_EQ(points(bench.result("b")), (std::vector<double>{0, 0}));
     bench.hand_in("b", kSolution);

@@ -58,7 +58,7 @@ TEST(handing_back, gives_platforms_what_they_import) {
     EXPECT_THAT(mail, HasSubstr("1,Anna Lovelace,,anna@u.example,results/Anna Lovelace_900001_assignsubmission_file_/"
                                 "feedback.md,yes,2,2,"));
     // A second time only what changed is new.
-    work.write("out/manual.csv", "submission,check,points,reason\nZoë_K_900002_assignsubmission_file_,x,1,half\n");
+    work.write("out/marks.csv", "who,check,points,reason\nZoë_K_900002_assignsubmission_file_,x,1,half\n");
     bench.grade({"--roster", "roster.csv"});
     work.dynlab({"hand-back", "out", "--roster", "roster.csv"});
     const std::string again = work.read("out/handed_back/mail.csv");
@@ -102,7 +102,7 @@ TEST(handing_back, comments_are_in_the_language_of_the_feedback) {
     bench.hand_in("Anna_L_900003_assignsubmission_file_", "answer('x', 1)\n");
     work.write("roster.csv", "id,name,moodle,language\n2,Zoé K,900002,fr\n3,Anna L,900003,en\n");
     bench.grade({"--roster", "roster.csv"});
-    work.write("out/manual.csv", "submission,check,points,reason\nZoé_K_900002_assignsubmission_file_,x,1.5,\n");
+    work.write("out/marks.csv", "who,check,points,reason\nZoé_K_900002_assignsubmission_file_,x,1.5,\n");
     bench.grade({"--roster", "roster.csv"});
     work.dynlab({"hand-back", "out", "--roster", "roster.csv"});
     const std::string moodle = work.read("out/handed_back/moodle-grades.csv");

@@ -185,7 +185,7 @@ TEST(feedback_in_french, has_the_authors_sentences_of_the_lesson) {
     check.points = 2;
     grade.checks.push_back(check);
     EXPECT_THAT(feedback_markdown(grade),
-                AllOf(HasSubstr("La fréquence de la charge quand le moteur est au repos** – 0 sur 2"),
+                AllOf(HasSubstr("La pulsation de la charge quand le moteur est au repos** – 0 sur 2"),
                       HasSubstr("L'écart à ce qui était attendu est de 3,25\u202F; on demandait 0,1 au plus. "
                                 "C'est en Hz\u202F; on demande des rad/s."),
                       HasSubstr("Comptez les balancements")));

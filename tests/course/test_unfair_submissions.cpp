@@ -178,7 +178,7 @@ TEST(unfair_submissions, names_that_are_no_text_and_endless_messages_stop_nothin
     EXPECT_EQ(GradingBench::score(bench.result("loop")), 5);
     EXPECT_EQ(GradingBench::score(bench.result("latiné")), 5);
     EXPECT_THAT(GradingBench::trouble(bench.result("sparse")), HasSubstr("too large: at most 2000 files and 200 MB"));
-    EXPECT_THAT(graded.output, HasSubstr("1 needs your eye:\n  \"sparse\" cannot be read"));
+    EXPECT_THAT(graded.output, HasSubstr("1 note needs attention:\n  \"sparse\" cannot be read"));
     EXPECT_LT(read_file(work.path("out/results/talks/results.json")).size(), 20000u);
     EXPECT_TRUE(std::filesystem::exists(work.path("out/summary.pdf")));
     EXPECT_EQ(work.shell("grep -c ',graded,' out/gradebook.csv").output, "4\n");
@@ -208,8 +208,8 @@ TEST(unfair_submissions, the_instructor_is_told_of_slips_and_of_scripts_without_
     const Workbench& work = bench.bench();
     work.write("roster.csv", "id,name,group,moodle\n1,Student One,g1,111\n2,Student Two,g1,112\n");
     work.write("in/Student One_111_assignsubmission_file/analysis.lua", "answer('x', 42)\nwhile true do end\n");
-    work.write("out/manual.csv",
-               "submission,check,points,reason\ng9,x,1,typo\n"
+    work.write("out/marks.csv",
+               "who,check,points,reason\ng9,x,1,typo\n"
                "Student One_111_assignsubmission_file,nosuch,1,typo\n");
     work.write("deadlines.csv", "submission,deadline\n*,2001-01-01 12:00\ng8,2001-01-01 12:00\n");
     const ChildResult graded =

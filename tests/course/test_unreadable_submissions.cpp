@@ -57,7 +57,7 @@ TEST(unreadable_submissions, have_no_marks_and_are_told_by_name) {
     work.shell("mkdir in/movie && cp in/right/analysis.lua in/movie/ && truncate -s 300M in/movie/movie.mp4");
     const ChildResult graded = bench.grade();
     EXPECT_EQ(graded.exit_code, 1);
-    EXPECT_THAT(graded.output, HasSubstr("12 need your eye:\n"));
+    EXPECT_THAT(graded.output, HasSubstr("12 notes need attention:\n"));
     const std::string book = work.read("out/gradebook.csv");
     for (const auto& [name, told] :
          {std::pair("crane", "the script of lesson 03_crane, not of 99_small"), std::pair("pdf", "only \"report.pdf\""),
@@ -85,7 +85,7 @@ TEST(unreadable_submissions, have_no_marks_and_are_told_by_name) {
     EXPECT_THAT(feedback, Not(HasSubstr("submission"))) << "where it lay in the box is nothing to its author";
     EXPECT_THAT(summary, HasSubstr("the mean is 0.67"));  // 2, 0 and 0
     // The instructor may mark them all the same.
-    work.write("out/manual.csv", "submission,check,points,reason\npdf,x,1,from the PDF\n");
+    work.write("out/marks.csv", "who,check,points,reason\npdf,x,1,from the PDF\n");
     bench.grade();
     EXPECT_THAT(work.read("out/gradebook.csv"), HasSubstr(",pdf,graded,1,2,"));
 }
@@ -113,7 +113,7 @@ TEST(unreadable_submissions, scripts_are_found_wherever_they_lie_and_the_newest_
     EXPECT_EQ(GradingBench::score(bench.result("both")), 0);  // archives beside a script are not opened
     EXPECT_THAT(GradingBench::trouble(bench.result("unclear")),
                 AllOf(HasSubstr("several folders"), HasSubstr("\"one\", \"other\"")));
-    EXPECT_THAT(graded.output, HasSubstr("1 needs your eye"));
+    EXPECT_THAT(graded.output, HasSubstr("1 note needs attention"));
     EXPECT_THAT(work.read("out/summary.md"), AllOf(HasSubstr("work_v2.zip"), HasSubstr("was taken as the newest")));
 }
 

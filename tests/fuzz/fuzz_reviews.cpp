@@ -1,7 +1,6 @@
-// Forms of reviews and reports as text on pages: each word of the input is one of a line. Remarks, headings and
-// sentences hold no more than what was there.
-#include "course/review/remarks.h"
-#include "course/review/report_text.h"
+// Reviews and reports as text on pages: each word of the input is one of a line. Words and paragraphs hold no more than
+// the input; a diff leads from one text to the other.
+#include "course/review/word_diff.h"
 #include "fuzz/fuzz_input.h"
 
 using namespace dynlab;
@@ -45,10 +44,14 @@ PdfLayout pages_of(const std::string& text) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::string text = fuzz::text_of(data, size);
     const DocumentText document = text_of_layout(pages_of(text));
-    const ReviewForm form{{"Greatest strength"}, {"Scores"}};
-    for (const Remark& remark : remarks_in(document, form)) fuzz::demand(!remark.text.empty() && remark.page >= 1);
-    for (const ReportText& report : {report_text_of_pdf(document), report_text_of_markdown(text)})
-        for (const ReportSentence& sentence : report.sentences) fuzz::demand(sentence.section < report.sections.size());
-    sentences_of(text);
+    for (const ReviewBlock& block : blocks_of_review(document)) fuzz::demand(!block.text.empty());
+    const std::vector<ReportWord> printed = words_of_pdf(document), source = words_of_markdown(text);
+    const WordDiff diff = word_diff(printed, source);
+    std::size_t before = 0, after = 0;
+    for (const MarkedWords& piece : diff.pieces) {
+        before += piece.mark == '+' ? 0 : piece.words.size();
+        after += piece.mark == '-' ? 0 : piece.words.size();
+    }
+    fuzz::demand(before == printed.size() && after == source.size());
     return 0;
 }

@@ -9,7 +9,6 @@
 #include <set>
 
 #include "script_run.h"
-#include "scripting/conversions/option_words.h"
 #include "scripting/interpreter/catalogue.h"
 #include "scripting/runtime/help.h"
 

@@ -6,11 +6,11 @@
 #include "base/error.h"
 #include "cli/commands.h"
 #include "cli/options/script_options.h"
+#include "cli/say.h"
 #include "course/boxes/told_reason.h"
 #include "course/findings/findings_report.h"
 #include "course/findings/lesson_reader.h"
 #include "course/grading/folder_check.h"
-#include "course/hand_ins/work_language.h"
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
@@ -19,6 +19,7 @@
 #include "platform/terminal/terminal_output.h"
 #include "platform/terminal/terminal_text.h"
 #include "platform/text/small_letters.h"
+#include "workflow/given_script.h"
 #include "workflow/notebooks/notebook.h"
 #include "workflow/script_folder.h"
 
@@ -87,7 +88,7 @@ int check(const CheckArguments& words) {
     if (words.pages > 0) wishes.pages = words.pages;
     wishes.lesson_checks = !words.document_only;
     const auto misuse = [](const Message& sentence) {
-        std::cerr << "dynlab: " << message_text(sentence) << '\n';
+        complain(sentence);
         return kUsage;
     };
     try {
@@ -142,7 +143,7 @@ void add_check(CLI::App& app, Action& action) {
         "JSON: {subject, template, language, pages, passed, checked: [text],\n"
         "       findings: [{id, severity: \"rule\"|\"hint\", page, place, what, remedy}]}; what is not known is null.");
     command->callback([words, &action] {
-        if (ending_of(words->subject) != ".pdf") refuse_other_files(words->subject, "check");
+        if (ending_of(words->subject) != ".pdf") expect_script(words->subject, "check");
         action = [words] { return check(*words); };
     });
 }

@@ -103,9 +103,15 @@ add_move("return", "A group that had dropped out is back", false);
 
 struct AssignmentArguments {
     std::string name, kind = "report", lesson, first, review, final, grace, criteria, costs, reason;
-    std::optional<double> final_weight;
+    std::optional<double> final_weight, weight, reviews_weight;
+    std::string checks, secret, keep;
     int reviews = 2;
 };
+
+/// A path as it is found again from elsewhere; "none" takes it back.
+std::string lasting_path(const std::string& given) {
+    return given == "none" ? "" : fs::absolute(given).lexically_normal().string();
+}
 
 /// Sets what was given.
 void apply(const AssignmentArguments& words, const CourseClock& clock, Assignment& a) {
@@ -125,6 +131,11 @@ void apply(const AssignmentArguments& words, const CourseClock& clock, Assignmen
     }
     if (!words.costs.empty()) a.costs = costs_of(words.costs == "none" ? "" : words.costs);
     if (words.final_weight) a.final_weight = *words.final_weight;
+    if (words.weight) a.weight = *words.weight;
+    if (words.reviews_weight) a.reviews_weight = *words.reviews_weight;
+    if (!words.checks.empty()) a.checks = lasting_path(words.checks);
+    if (!words.secret.empty()) a.secret = lasting_path(words.secret);
+    if (!words.keep.empty()) a.keep = words.keep;
 }
 
 int change_one(const CourseArguments& where, const AssignmentArguments& words) {
@@ -148,6 +159,7 @@ int add_one(const CourseArguments& where, const AssignmentArguments& words) {
     Assignment a;
     a.name = words.name, a.kind = words.kind, a.reviews = words.reviews;
     apply(words, course.clock(), a);
+    if (a.is_lab() && a.lesson.empty()) throw InvalidArgument("a lab is graded by the checks of a lesson: --lesson NN");
     a.criteria = words.criteria.empty() ? usual_criteria(a.kind) : criteria_of(words.criteria);
     std::cout << (add_assignment(course, a) ? "" : "Nothing new. ")
               << terminal_text(course_summary(course, CourseClock::now()));
@@ -167,13 +179,25 @@ CLI::Option* add_settings(CLI::App& command, AssignmentArguments& words) {
         ->type_name("DURATION");
     command
         .add_option("--costs", words.costs,
-                    "Percent points off marks: late-day:10,missing-final:30 off the work, late-review:5,"
-                    "missing-review:25 off the reviews; none at first")
+                    "Percent points off marks: late-day:10 off the work for each day or part of a day, late-most:50 in "
+                    "all, missing-final:30; late-review:5,missing-review:25 off the reviews. Default: none.")
         ->type_name("NAME:POINTS,...");
     command
         .add_option("--final-weight", words.final_weight,
                     "Percent of the work's mark that the final version has once it is scored; 50 at first")
         ->check(CLI::Range(0, 100));
+    command.add_option("--weight", words.weight, "Weight in the course's total. Default: 1.")
+        ->check(CLI::Range(0, 1000));
+    command
+        .add_option("--reviews-weight", words.reviews_weight,
+                    "Percent of a report's mark in the total that the mark of its reviews makes. Default: 20.")
+        ->check(CLI::Range(0, 100));
+    command.add_option("--checks", words.checks, "Of a lab: folder with your own checks (*.lua)")->type_name("FOLDER");
+    command.add_option("--secret", words.secret, "Of a lab: file from which the hidden data are drawn")
+        ->type_name("FILE");
+    command.add_option("--keep", words.keep, "Of a lab: which of several versions counts. Default: best.")
+        ->type_name("best|newest")
+        ->check(CLI::IsMember({"best", "newest"}));
     return first;
 }
 
@@ -183,10 +207,10 @@ void add_assignment_commands(CLI::App& course, CourseArguments& where, Action& a
     auto words = std::make_shared<AssignmentArguments>();
     CLI::App* add = assignment->add_subcommand("add", "Add an assignment, or give more time for one");
     add->add_option("NAME", words->name, "A short word, such as crane")->required();
-    add->add_option("--kind", words->kind, "report: reviewed and improved; presentation: slides and script")
-        ->check(CLI::IsMember({"report", "presentation"}))
+    add->add_option("--kind", words->kind, "lab: script, graded by checks; report: reviewed, improved; talk: slides")
+        ->check(CLI::IsMember({"lab", "report", "talk"}))
         ->capture_default_str();
-    add_settings(*add, *words)->required();
+    add_settings(*add, *words);
     add->add_option("--reviews", words->reviews, "Reviews that each group writes and gets")
         ->check(CLI::Range(1, 20))
         ->capture_default_str();
@@ -274,7 +298,10 @@ void add_course(CLI::App& app, Action& action) {
     add_receive_commands(*course, where, action);
     add_findings_command(*course, where, action);
     add_peer_commands(*course, where, action);
+    add_changes(*course, where, action);
+    add_remind_command(*course, where, action);
     add_mark_commands(*course, where, action);
+    add_course_answers(*course, where, action);
     add_correction_commands(*course, where, action);
     add_status(*course, where, action);
     course->footer(
@@ -286,8 +313,7 @@ void add_course(CLI::App& app, Action& action) {
         "  dynlab course status crane                                 who is late, and what to do\n"
         "  dynlab course findings group-07                            what was found in a group's report\n"
         "  dynlab course peer assign crane                            who reviews whom\n"
-        "  dynlab course final changes --assignment crane             what changed after the reviews, remark by "
-        "remark\n"
+        "  dynlab course changes --assignment crane                   first and final versions, word by word\n"
         "  dynlab course marks crane                                  from the reviewers' scores and your own word\n"
         "  dynlab course export crane --out marks.csv                 for Moodle and Canvas\n"
         "More: dynlab help review_marks (how marks come out of scores), dynlab help names (what is searched for)\n"

@@ -79,6 +79,16 @@ void tell_costs_and_gaps(Course& course, const Assignment& a, const Marks& all) 
                 std::cout << terminal_text(
                     fmt::format("{}: the final version has {:.1f} percent, {:g} percent of the work's mark.\n",
                                 group.name, *mark.final_version, a.final_weight));
+            const auto tell_zeros = [&](const std::string& whose, const std::vector<std::string>& zeros) {
+                if (!zeros.empty())
+                    std::cout << terminal_text(message_text(
+                                     Message("{}: no points for {}, counted as 0.", whose, listed(zeros, Join::kAnd))))
+                              << '\n';
+            };
+            tell_zeros(group.name, mark.zeros);
+            for (const StudentMark& own : mark.students) tell_zeros(group.name + ", " + own.student, own.zeros);
+            if (a.is_report() && mark.scored == 1 && a.reviews > 1)
+                std::cout << terminal_text(message_text(Message("{} rests on one review.", group.name))) << '\n';
             std::vector<std::string> forgotten;
             for (std::size_t c = 0; c < a.criteria.size(); ++c)
                 if (!mark.medians[c]) forgotten.push_back(a.criteria[c].name);
@@ -204,9 +214,11 @@ void add_mark_commands(CLI::App& course, CourseArguments& where, Action& action)
         ->type_name("CRITERION");
     scored.app->footer(
         "A line a review: reviewer,report,data,... with the reviewing group and the report's\n"
-        "pseudonym, as peer show has them; the reviewer \"instructor\" is you. The latest score counts. Scores that "
-        "stand\n"
-        "in a review's pack (dynlab new review) are read when it is received.\n"
+        "pseudonym, as peer show has them; the reviewer \"instructor\" is you. The latest score counts; - takes a "
+        "score\n"
+        "back, an empty cell changes nothing. Scores of a withdrawn review do not count until it is restored. Scores "
+        "in\n"
+        "the pack of a review (dynlab new review) are read when it is received.\n"
         "Examples:\n"
         "  dynlab course scores crane scores.csv\n"
         "  dynlab course scores crane finals.csv --stage final\n"
@@ -220,8 +232,9 @@ void add_mark_commands(CLI::App& course, CourseArguments& where, Action& action)
     marking.app->add_flag("--students", marking.words->sheet.students, "A row a student as well");
     marking.app->add_flag("--drawn", marking.words->sheet.drawn, "In an order drawn by lot, the same each time");
     marking.app->footer(
-        "Points in a student's row are that student's; where it is empty the group's hold, and - takes back what was\n"
-        "given before. Comments are shown by marks and stand in the export.\n"
+        "Points in a student's row are that student's; where a cell is empty, the points of the group count. - takes\n"
+        "points back. A criterion counts 0 for a group without points as soon as any other group has points for it.\n"
+        "Comments are shown by marks and are part of the export.\n"
         "Examples:\n"
         "  dynlab course oral sheet final-talk -o sheet.csv\n"
         "  dynlab course oral sheet final-talk --students --drawn -o sheet.csv");

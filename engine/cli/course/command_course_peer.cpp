@@ -5,7 +5,7 @@
 #include "base/reader.h"
 #include "cli/course/course_commands.h"
 #include "course/anonymity/anonymous_copy.h"
-#include "course/returns/returned_files.h"
+#include "course/export/returned_files.h"
 #include "course/review/peer_review.h"
 #include "platform/program_lookup.h"
 #include "platform/terminal/aligned_table.h"
@@ -40,11 +40,12 @@ int show_pairs(const CourseArguments& where, const PeerArguments& words) {
     const Assignment assignment = assignment_named(course, words.assignment);
     refuse_without_reviews(assignment);
     for (const ReviewPair& pair : review_pairs(course, assignment)) {
-        const char* const state = pair.released  ? "released"
-                                  : pair.written ? "written"
-                                  : pair.ended   ? "taken back"
-                                  : pair.sent    ? "sent"
-                                                 : "allotted";
+        const char* const state = pair.released      ? "released"
+                                  : pair.voluntary() ? "voluntary"
+                                  : pair.written     ? "written"
+                                  : pair.ended       ? "taken back"
+                                  : pair.sent        ? "sent"
+                                                     : "allotted";
         rows.push_back(
             {pair.reviewer_name, pair.report_pseudonym(), pair.author_name, pair.reviewer_pseudonym(), state});
     }
@@ -85,6 +86,10 @@ int send(const CourseArguments& where, const PeerArguments& words, Way way) {
                              done.sent, done.again > 0 ? fmt::format(" ({} in a newer version)", done.again) : "",
                              done.before, done.stopped, done.waiting,
                              done.held > 0 ? fmt::format(", {} held back", done.held) : "", done.folder.string());
+    if (!done.unreviewed.empty())
+        std::cout << terminal_text(message_text(Message("No review: {}.", listed(done.unreviewed)))) << '\n';
+    if (!done.reviewed_once.empty())
+        std::cout << terminal_text(message_text(Message("One review only: {}.", listed(done.reviewed_once)))) << '\n';
     for (const std::string& file : done.removed)
         std::cout << terminal_text(fmt::format("Taken out of the folder: {}\n", file));
     return done.stopped == 0 ? kDone : kFailed;
@@ -116,15 +121,24 @@ int release(const CourseArguments& where, const PeerArguments& words) {
 }
 
 struct ReturnArguments {
-    std::string assignment, out, at;
+    std::string assignment, out, at, worksheet;
     bool moodle = false, all = false;
 };
 
 int give_back(const CourseArguments& where, const ReturnArguments& words) {
     Course course(where.folder);
     const Assignment assignment = assignment_named(course, words.assignment);
-    const ReturnOutcome done =
-        return_files(course, assignment, {words.out, words.moodle, words.all, time_of(course, words.at)});
+    const ReturnOutcome done = return_files(
+        course, assignment,
+        {words.out, words.moodle || !words.worksheet.empty(), words.worksheet, words.all, time_of(course, words.at)});
+    if (done.other_numbers > 0)
+        std::cerr << "dynlab: note: "
+                  << message_text(plural(done.other_numbers,
+                                         "{} participant number in the roster's column moodle is of another "
+                                         "assignment; the one of this assignment is used",
+                                         "{} participant numbers in the roster's column moodle are of another "
+                                         "assignment; those of this assignment are used"))
+                  << '\n';
     for (const auto& [group, files] : done.files)
         std::cout << terminal_text(fmt::format("{}: {}\n", group, fmt::join(files, ", ")));
     std::cout << message_text(done.files.empty() ? Message("Nothing is new for anybody.")
@@ -137,8 +151,8 @@ int give_back(const CourseArguments& where, const ReturnArguments& words) {
                         fmt::join(done.without_mail, ", ")));
     if (!done.without_number.empty())
         std::cerr << terminal_text(
-            fmt::format("dynlab: not in moodle.zip, because their number there is not known: {}; the roster's column "
-                        "moodle has it\n",
+            fmt::format("dynlab: not in moodle.zip, because their number there is not known: {}; give Moodle's grading "
+                        "worksheet with --worksheet\n",
                         fmt::join(done.without_number, ", ")));
     return done.without_number.empty() ? kDone : kFailed;
 }
@@ -151,6 +165,11 @@ void add_return(CLI::App& course, CourseArguments& where, Action& action) {
         ->type_name("DIR")
         ->required();
     command->add_flag("--moodle", words->moodle, "Also moodle.zip, which Moodle takes as feedback files");
+    command
+        ->add_option("--worksheet", words->worksheet,
+                     "Moodle's grading worksheet of this assignment, for the participants' numbers; implies --moodle")
+        ->type_name("CSV")
+        ->check(CLI::ExistingFile);
     command->add_flag("--all", words->all, "Also what was returned before");
     add_time_option(*command, words->at);
     command->footer(

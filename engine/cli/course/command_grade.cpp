@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <iostream>
 #include <memory>
 #include <thread>
@@ -7,13 +8,16 @@
 #include "base/reader.h"
 #include "cli/commands.h"
 #include "cli/course/grading_options.h"
-#include "cli/course/share_options.h"
+#include "cli/course/grading_report.h"
+#include "cli/course/part_options.h"
 #include "cli/document_command.h"
-#include "course/grading/grading.h"
+#include "course/grading/grade_folder.h"
+#include "course/grading/grading_memory.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/program_lookup.h"
 #include "platform/terminal/terminal_text.h"
+#include "platform/text/read_number.h"
 
 namespace dynlab::inline cli {
 namespace {
@@ -21,71 +25,109 @@ namespace {
 namespace fs = std::filesystem;
 
 struct GradeArguments {
-    std::string submissions, lesson, out, checks, secret, roster, owners, deadlines, timezone, on, spool,
-        keep = "best", isolation = "full";
+    std::string submissions, lesson, out, checks, secret, roster, owners, deadlines, times, timezone, keep, isolation;
     std::vector<std::string> only;
-    int jobs = 0, timeout = 60, lease = 30;
-    bool regrade = false, again = false, no_pdf = false, answers = false;
+    PartOptions parts;
+    int jobs = 0, timeout = 0;
+    bool regrade = false, again = false, no_pdf = false, answers = false, force = false, accept_late = false;
 };
 
+constexpr char kNone[] = "none";  // of a file that OUT was made with
+constexpr int kTimeout = 60;
+
 std::optional<fs::path> given(const std::string& path) {
-    return path.empty() ? std::nullopt : std::optional<fs::path>(path);
+    return path.empty() || path == kNone ? std::nullopt : std::optional<fs::path>(path);
 }
 
-std::string eye_text(const GradingOutcome& outcome) {
-    if (outcome.eye.empty()) return "";
-    std::string text =
-        fmt::format("{} your eye:\n", outcome.eye.size() == 1 ? "1 needs" : fmt::format("{} need", outcome.eye.size()));
-    for (const Message& sentence : outcome.eye) text += "  " + terminal_text(message_text(sentence)) + "\n";
-    return text;
+/// What is not given is as it was when OUT was made.
+GradeArguments completed(GradeArguments words) {
+    const RememberedOptions then = remembered_options(words.out).value_or(RememberedOptions{});
+    const auto take = [](std::string& word, const std::string& before, const char* otherwise = "") {
+        if (word.empty()) word = before.empty() ? otherwise : before;
+    };
+    take(words.lesson, then.lesson);
+    take(words.checks, then.checks);
+    take(words.secret, then.secret);
+    take(words.roster, then.roster);
+    take(words.owners, then.owners);
+    take(words.deadlines, then.deadlines);
+    take(words.timezone, then.timezone);
+    take(words.keep, then.keep, "best");
+    take(words.isolation, then.isolation, "full");
+    if (words.timeout == 0) words.timeout = then.timeout > 0 ? then.timeout : kTimeout;
+    return words;
 }
 
-int grade(const GradeArguments& words) {
-    GradingRequest request;
-    request.submissions = words.submissions;
-    request.out = words.out;
-    request.setup.lesson = find_lesson(words.lesson);
-    request.setup.more_checks = given(words.checks);
-    request.setup.isolation = words.isolation == "full" ? Isolation::kFull : Isolation::kProcess;
-    request.setup.time.processor = std::chrono::seconds(words.timeout);
-    request.setup.program = running_program();
-    if (!words.secret.empty()) {
-        request.setup.secret = read_file(words.secret);
-        if (request.setup.secret.empty())
+/// In a task of Slurm the cores that it has; one of a part, as other parts have the others.
+int jobs_for(const GradeArguments& words) {
+    if (words.jobs > 0) return words.jobs;
+    const char* const slurm = std::getenv("SLURM_CPUS_PER_TASK");
+    if (const auto cores = slurm ? read_number<int>(slurm) : std::nullopt; cores && *cores > 0) return *cores;
+    return words.parts.part.empty() ? static_cast<int>(std::max(1u, std::thread::hardware_concurrency())) : 1;
+}
+
+FolderRequest request_of(const GradeArguments& words) {
+    FolderRequest request;
+    GradingOptions& options = request.options;
+    options.out = words.out;
+    options.setup.lesson = find_lesson(words.lesson);
+    options.setup.more_checks = given(words.checks);
+    options.setup.isolation = words.isolation == "full" ? Isolation::kFull : Isolation::kProcess;
+    options.setup.time.processor = std::chrono::seconds(words.timeout);
+    options.setup.program = running_program();
+    if (const auto secret = given(words.secret)) {
+        request.secret = *secret;
+        options.setup.secret = read_file(*secret);
+        if (options.setup.secret.empty())
             throw EnvironmentError("{} is empty: hidden records drawn from it would be no secret", words.secret);
     }
-    request.roster = given(words.roster);
-    request.owners = given(words.owners);
-    request.deadlines = given(words.deadlines);
-    request.newest_counts = words.keep == "newest";
-    request.only = words.only;
-    request.setup.jobs =
-        words.jobs > 0 ? words.jobs : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-    request.timezone = words.timezone;
+    options.setup.jobs = jobs_for(words);
+    options.regrade = words.regrade;
+    options.pdf = !words.no_pdf;
+    options.above_maximum = words.force;
+    ClassSources& sources = request.sources;
+    sources.submissions = words.submissions;
+    sources.roster = given(words.roster);
+    sources.owners = given(words.owners);
+    sources.deadlines = given(words.deadlines);
+    sources.newest_counts = words.keep == "newest";
+    sources.only = words.only;
+    sources.timezone = words.timezone;
+    sources.times = given(words.times);
+    sources.accept_late = words.accept_late;
     request.again = words.again;
-    request.regrade = words.regrade;
-    request.pdf = !words.no_pdf;
-    request.on = words.on;
-    request.spool = given(words.spool);
-    request.lease_seconds = words.lease;
-    if (words.secret.empty())
+    request.part = words.parts.chosen();
+    return request;
+}
+
+int grade_part(const FolderGrading& grading, const Part& part) {
+    const GradingOutcome outcome = grading.grade_part();
+    show_complaints(outcome);
+    std::cout << fmt::format("part {}: {} graded now, {} unchanged, {} could not be graded\n", part.text(),
+                             outcome.made, outcome.kept, outcome.failed);
+    return outcome.failed == 0 ? kDone : kFailed;
+}
+
+int grade(const GradeArguments& given_words) {
+    const GradeArguments words = completed(given_words);
+    const FolderRequest request = request_of(words);
+    const GradingOptions& options = request.options;
+    if (options.setup.secret.empty())
         std::cerr << "dynlab: no --secret FILE: anybody who reads the project can compute the hidden records\n";
-    const GradingOutcome outcome = grade_class(request);
-    for (const Message& note : outcome.notes)
-        std::cerr << "dynlab: note: " << terminal_text(message_text(note)) << '\n';
-    for (const Message& complaint : outcome.complaints)
-        std::cerr << "dynlab: " << terminal_text(message_text(complaint)) << '\n';
-    std::cout << fmt::format("{}: {} graded now, {} unchanged{}; isolation {}\n",
-                             message_text(plural(outcome.submissions, "{} submission", "{} submissions")), outcome.made,
-                             outcome.kept,
-                             outcome.not_whole > 0 ? fmt::format(", {} with ungraded checks", outcome.not_whole) : "",
-                             isolation_name(request.setup.isolation))
-              << eye_text(outcome) << (request.out / "gradebook.csv").string() << '\n'
-              << (request.out / (request.pdf ? "summary.pdf" : "summary.md")).string() << '\n';
-    const fs::path answers = request.out / (request.pdf ? "model_answers.pdf" : "model_answers.md");
-    if (words.answers) make_document(model_answers_of(request.setup.lesson, answers), false);
-    const bool all_is_graded = outcome.not_whole + outcome.unreadable + outcome.unowned == 0;
-    return all_is_graded && outcome.complaints.empty() ? kDone : kFailed;
+    const FolderGrading grading(request);
+    const fs::path parts = options.out / "parts";
+    if (request.part) {
+        note_parts(parts, request.part->count);
+        return grade_part(grading, *request.part);
+    }
+    const auto missing = [&](int count) { return grading.missing(count); };
+    if (!words.parts.on.empty() && !done_on(words.parts.on, parts, missing)) return kDone;
+    if (words.parts.join) refuse_missing_parts(missing(noted_parts(parts)).parts, noted_parts(parts));
+    const GradingOutcome outcome = grading.grade();
+    const int code = show_grading(outcome, options.setup.isolation, options.out, options.pdf);
+    const fs::path answers = options.out / (options.pdf ? "model_answers.pdf" : "model_answers.md");
+    if (words.answers) make_document(model_answers_of(options.setup.lesson, answers), false);
+    return code;
 }
 
 }  // namespace
@@ -97,8 +139,14 @@ void add_grade(CLI::App& app, Action& action) {
         ->add_option("FOLDER", words->submissions,
                      "Submissions: folders, packs, zips, or what Moodle or Canvas exports")
         ->required();
-    command->add_option("--lesson", words->lesson, "The lesson whose checks hold")->type_name("NN")->required();
-    command->add_option("--out", words->out, "Folder for the results; kept and added to")->type_name("OUT")->required();
+    command->add_option("--lesson", words->lesson, "The lesson whose checks are used; required for a new OUT")
+        ->type_name("NN");
+    command
+        ->add_option(
+            "--out", words->out,
+            "Folder for the results; kept and added to. A later call goes on with the options it was made with")
+        ->type_name("OUT")
+        ->required();
     command->add_option("--checks", words->checks, "Folder with your own checks (*.lua), which students never see")
         ->type_name("FOLDER");
     add_secret_option(*command, words->secret);
@@ -106,61 +154,89 @@ void add_grade(CLI::App& app, Action& action) {
         ->add_option("--roster", words->roster,
                      "CSV with the columns id, name, group (also language: en or fr): a row of marks a student")
         ->type_name("CSV")
-        ->check(CLI::ExistingFile);
+        ->check(CLI::ExistingFile | CLI::IsMember({kNone}));
     command
         ->add_option("--owners", words->owners,
                      "CSV with the columns submission and group (or id): whose those are that no name tells")
         ->type_name("CSV")
-        ->check(CLI::ExistingFile);
-    command->add_option("--keep", words->keep, "Which counts where somebody handed in several times")
+        ->check(CLI::ExistingFile | CLI::IsMember({kNone}));
+    command->add_option("--keep", words->keep, "Which of several submissions of one student counts. Default: best")
         ->type_name("best|newest")
-        ->capture_default_str()
         ->check(CLI::IsMember({"best", "newest"}));
     command
         ->add_option("--deadlines", words->deadlines,
                      "CSV with the columns submission (a group, an id, or *), deadline, extra, grace, ...")
         ->type_name("CSV")
+        ->check(CLI::ExistingFile | CLI::IsMember({kNone}));
+    command
+        ->add_option(
+            "--times", words->times,
+            "When each was submitted: Moodle's grading worksheet or another CSV (column id, identifier, group, "
+            "name or mail, and time). Default: the times of the files")
+        ->type_name("CSV")
         ->check(CLI::ExistingFile);
-    command->add_option("--timezone", words->timezone, "Of the times in deadlines, this machine's unless given")
+    command
+        ->add_option("--timezone", words->timezone,
+                     "Time zone of deadlines and of times in zips. Default: this machine's")
         ->type_name("ZONE");
     command
         ->add_option("--only", words->only,
                      "Grade this submission only, by its name, group, id or student; may be repeated")
         ->type_name("NAME");
     command->add_flag("--again", words->again, "Grade all with these inputs where OUT was made with others");
-    command->add_flag("--regrade", words->regrade, "Grade those again that have a result; your own marks stay");
+    words->parts.add_to(*command);
+    CLI::Option* const regrade =
+        command->add_flag("--regrade", words->regrade, "Grade those again that have a result; your own marks stay");
+    for (const char* option : {"--part", "--join", "--on"}) regrade->excludes(command->get_option(option));
     command->add_option("--jobs", words->jobs, "So many at once; as many as there are cores unless given")
         ->type_name("N")
         ->check(CLI::Range(1, 256));
-    add_share_options(*command, words->on, words->spool, words->lease);
-    add_timeout_option(*command, words->timeout);
-    command->add_option("--isolation", words->isolation, "full: file system, network and processes of its own")
+    command
+        ->add_option("--timeout", words->timeout,
+                     "Processor time of each run of a script, in seconds; by the clock a run may take five times as "
+                     "long. Default: 60")
+        ->type_name("S")
+        ->check(CLI::Range(1, 3600));
+    command
+        ->add_option("--isolation", words->isolation,
+                     "full: file system, network and processes of its own. Default: full")
         ->type_name("full|process")
-        ->capture_default_str()
         ->check(CLI::IsMember({"full", "process"}));
     command->add_flag(
         "--answers", words->answers,
         "Model answers for all, OUT/model_answers.pdf: the worked solution's text; dynlab hand-back adds them");
+    command->add_flag("--force", words->force, "Take marks in marks.csv that are above the points of their check");
+    command->add_flag("--accept-late", words->accept_late, "Apply penalties of half the points or more");
     command->add_flag("--no-pdf", words->no_pdf, "Feedback and summary as Markdown only");
     command->footer(
         "Every submission is run and checked alone in a box; what it breaks is its own. A run that was ended goes on\n"
-        "where it was. Your own marks go into OUT/manual.csv (submission,check,points,reason) and survive every "
-        "regrade.\n"
+        "where it was. Your own marks go into OUT/marks.csv (who,check,points,reason) and survive every regrade: who "
+        "is a\n"
+        "group, an id, a name or a submission, check is a check or * for the whole submission. What is to be marked by "
+        "hand\n"
+        "gets rows there; dynlab never takes one away.\n"
         "In OUT: gradebook.csv, summary.pdf, and for each submission results/NAME/results.json (Gradescope),\n"
         "feedback.md and feedback.pdf.\n"
         "Example:  dynlab grade handed-in --lesson 04 --out marks --secret secret.txt --roster roster.csv\n"
-        "OUT remembers the lesson, checks, secret, roster and deadlines it was made with and refuses others unless\n"
-        "--again is given (a roster may be mended, but not left out); what the scripts did is kept, so that --again\n"
-        "with other checks or deadlines takes seconds.\n"
+        "OUT remembers the options it was made with: a later call needs FOLDER and --out only. Other checks, secrets,\n"
+        "deadlines and owners are refused unless --again is given (a roster may be corrected); --roster none, and so\n"
+        "on, goes on without that file. What the scripts did is kept, so --again takes seconds.\n"
         "A script that uses more processor time than --timeout is ended, and one that takes five times as long by the\n"
         "clock; answers that it gave before count.\n"
         "Deadlines: submission, deadline, and where wanted extra (\"2 d\" beyond the deadline of *), received, grace\n"
         "(\"15 min\"), percent_per_day, most_percent; what a row leaves empty is as in the row of *.\n"
+        "A penalty of half the points or more is not applied until --accept-late is given once, or the row received\n"
+        "says when it came.\n"
         "What cannot be read (a PDF alone, a .rar, another lesson's script) is \"unreadable\": it has no marks until "
         "you\n"
-        "give some in manual.csv. It is listed under \"need your eye\", as is what belongs to nobody in the roster.\n"
-        "Exit codes: 0 all is graded, 1 something is left ungraded, unreadable or nobody's, 2 wrong usage.");
-    command->callback([words, &action] { action = [words] { return grade(*words); }; });
+        "give some in marks.csv. What needs attention is listed here and in the summary: that, what belongs to\n"
+        "nobody in the roster, scripts that stop, late submissions with a penalty, several of one student.\n"
+        "Exit codes: 0 all is graded, 1 something is left ungraded, unreadable, unconfirmed or nobody's, 2 wrong "
+        "usage.");
+    command->callback([words, &action] {
+        if (words->lesson.empty() && !remembered_options(words->out)) throw CLI::RequiredError("--lesson");
+        action = [words] { return grade(*words); };
+    });
 }
 
 }  // namespace dynlab::inline cli

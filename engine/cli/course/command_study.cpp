@@ -1,10 +1,12 @@
+#include <iostream>
 #include <memory>
-#include <optional>
 
 #include "cli/commands.h"
-#include "cli/course/share_options.h"
+#include "cli/course/part_options.h"
 #include "cli/options/run_command.h"
-#include "workflow/shares/shared_study.h"
+#include "platform/error.h"
+#include "workflow/notebooks/notebook.h"
+#include "workflow/parts/study_parts.h"
 
 namespace dynlab::inline cli {
 namespace {
@@ -13,64 +15,55 @@ namespace fs = std::filesystem;
 
 struct StudyArguments {
     RunArguments run;
-    std::string on, spool;
-    int lease = 30;
+    PartOptions parts;
 };
 
-/// The queue lies in the folder of the study's figures, which the other machines must see.
-class StudySharing : public RunSharing {
-  public:
-    explicit StudySharing(const StudyArguments& args) : args_(args) {}
-
-    SharedPieces& begin(const fs::path& out, std::uint32_t seed) override {
-        SharedStudy::Request request;
-        request.script = args_.run.file;
-        request.seed = seed;
-        request.on = args_.on;
-        fs::create_directories(out);
-        request.spool = args_.spool.empty() ? out / ".spool" : fs::path(args_.spool);
-        request.key = out / ".spool.key";
-        request.lease_seconds = args_.lease;
-        return study_.emplace(request);
+int study(const StudyArguments& words) {
+    const PercentScript script = read_script_or_notebook(words.run.file);
+    const std::uint32_t seed = words.run.seed.value().value_or(script.header.seed);
+    const fs::path out = words.run.out.empty() ? figures_folder(words.run.file) : fs::path(words.run.out),
+                   folder = out / "parts";
+    const auto missing = [&](int count) { return run_study_part(script, seed, folder, count, {}); };
+    if (const auto part = words.parts.chosen()) {
+        note_parts(folder, part->count);
+        const bool goes_on = !run_study_part(script, seed, folder, part->count, part).parts.empty();
+        std::cout << "part " << part->text()
+                  << (goes_on ? ": done, as far as the other parts are; each call needs all parts of the one before\n"
+                              : ": nothing left to do\n");
+        return kDone;
     }
-    std::vector<std::string> end(bool succeeded) override {
-        if (succeeded) study_->conclude();
-        std::vector<std::string> notes;
-        for (const Message& note : study_->notes()) notes.push_back(message_text(note));
-        return notes;
-    }
-
-  private:
-    const StudyArguments& args_;
-    std::optional<SharedStudy> study_;
-};
+    if (!words.parts.on.empty() && !done_on(words.parts.on, folder, missing)) return kDone;
+    const int count = noted_parts(folder);
+    if (words.parts.join) refuse_missing_parts(missing(count).parts, count);
+    StudyParts joined(folder, script, seed, count, {});
+    return run_and_show(words.run, &joined);
+}
 
 }  // namespace
 
 void add_study(CLI::App& app, Action& action) {
     auto words = std::make_shared<StudyArguments>();
-    CLI::App* command = app.add_subcommand("study", "Run a script whose montecarlo and srivcstruc others share");
+    CLI::App* command = app.add_subcommand("study", "Run a script whose montecarlo is made in parts");
     command->add_option("FILE", words->run.file, "The script")->required()->check(CLI::ExistingFile);
-    add_share_options(*command, words->on, words->spool, words->lease);
-    command->get_option("--on")->required();
+    words->parts.add_to(*command);
     command->add_option("--out", words->run.out, "Folder for figures, saved files and the run's record (record.json)")
         ->type_name("DIR");
     command->add_flag("--force", words->run.force, "Let the script replace files that no run of dynlab wrote");
     words->run.seed.add_to(*command);
     command->footer(
-        "Everything is as with dynlab run, to the last bit, but these calls are made in parts by all workers. Each "
-        "runs\n"
-        "the script up to the call, so that functions of yours are estimators as well as any; what comes before "
-        "should\n"
-        "be quick, and must not ask for the time. A study that was ended goes on with the parts that were made.\n"
+        "Everything is as with dynlab run, to the last bit, but the calls of montecarlo are made in parts. Each part\n"
+        "runs the script up to the call, so functions of yours are estimators as well as any; what comes before it\n"
+        "should be quick and must not ask for the time. A script with two such calls needs its parts twice. Parts\n"
+        "that are there are not made again.\n"
         "Example:  dynlab study bias.lua --on processes:8\n"
-        "Exit codes: 0 done, 1 the script failed, 2 wrong usage.");
+        "Exit codes: 0 done, 1 the script failed or parts are missing, 2 wrong usage.");
     command->callback([words, &action] {
-        refuse_other_files(words->run.file, "study");
-        action = [words] {
-            StudySharing sharing(*words);
-            return run_and_show(words->run, &sharing);
-        };
+        expect_script(words->run.file, "study");
+        if (!words->parts.any())
+            throw CLI::ValidationError("study", "give --part, --join or --on; without parts it is dynlab run");
+        if (words->run.seed.text == "random")
+            throw CLI::ValidationError("--seed", "a random seed differs from part to part; give a number");
+        action = [words] { return study(*words); };
     });
 }
 

@@ -34,17 +34,23 @@ class WorkBar {
     std::unique_ptr<ProgressBar> bar_;
 };
 
-/// final changes: below the command final.
-void add_final_changes(CLI::App& final, CourseArguments& where, Action& action);
+/// changes.
+CLI::App* add_changes(CLI::App& course, CourseArguments& where, Action& action);
 
 /// receive, review receive, final receive, work, verify, key.
 void add_receive_commands(CLI::App& course, CourseArguments& where, Action& action);
+
+/// answers.
+void add_course_answers(CLI::App& course, CourseArguments& where, Action& action);
 
 /// peer assign, peer send, peer show, release.
 void add_peer_commands(CLI::App& course, CourseArguments& where, Action& action);
 
 /// time, withdraw, restore, extend, hold, history.
 void add_correction_commands(CLI::App& course, CourseArguments& where, Action& action);
+
+/// remind.
+void add_remind_command(CLI::App& course, CourseArguments& where, Action& action);
 
 /// findings.
 void add_findings_command(CLI::App& course, CourseArguments& where, Action& action);

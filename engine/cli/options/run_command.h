@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cli/options/script_options.h"
-#include "scripting/memoized_calls/shared_pieces.h"
+#include "scripting/runtime/services.h"
 
 namespace dynlab::inline cli {
 
@@ -17,17 +17,10 @@ struct RunArguments {
     SliderOption sliders;
 };
 
-/// Other machines that make parts of a script's long calls.
-class RunSharing {
-  public:
-    virtual ~RunSharing() = default;
-    /// Called before the script runs, with the folder of its figures and its seed.
-    virtual SharedPieces& begin(const std::filesystem::path& out, std::uint32_t seed) = 0;
-    /// Called after it; returns notes for the user.
-    virtual std::vector<std::string> end(bool succeeded) = 0;
-};
+/// Where a script's files and figures go when no folder is named: NAME_out beside it.
+std::filesystem::path figures_folder(const std::filesystem::path& script);
 
 /// Runs a script, draws its figures and prints what it reports. Returns the exit code; throws what run_script throws.
-int run_and_show(const RunArguments& args, RunSharing* sharing = nullptr);
+int run_and_show(const RunArguments& args, CallsInParts* parts = nullptr);
 
 }  // namespace dynlab::inline cli

@@ -8,6 +8,7 @@
 #include "base/reader.h"
 #include "cli/commands.h"
 #include "data_io/dataset_index.h"
+#include "documents/latex.h"
 #include "numerics/linalg/processor_level.h"
 #include "platform/box.h"
 #include "platform/cache.h"
@@ -46,6 +47,9 @@ constexpr LatexFile kLatexFiles[] = {
     {"pgfmath.sty", "texlive-pictures", "slides", true},
     {"amsmath.sty", "texlive-latex-base", "mathematics", true},
     {"frenchb.ldf", "texlive-lang-french", "documents in French only", false},
+    {"luaotfload.sty", "texlive-luatex", "names in Cyrillic, Greek, Arabic and other scripts in PDFs", false},
+    {"NotoSerif-Regular.ttf", "fonts-noto-core", "their letters", false},
+    {"NotoSerifCJK-Regular.ttc", "fonts-noto-cjk", "Chinese, Japanese and Korean letters", false},
 };
 
 /// Looks for the LaTeX files documents use; returns the packages that are missing.
@@ -55,6 +59,7 @@ std::set<std::string> check_latex() {
     for (const LatexFile& part : kLatexFiles) {
         ChildOptions look_up;
         look_up.command = {"kpsewhich", part.file};
+        look_up.environment = {{"OSFONTDIR", kNotoFolders}};
         const bool there = run_child(look_up, "texlive-latex-base").exit_code == 0;
         if (!there && part.needed) missing.insert(part.package);
         show(part.file,

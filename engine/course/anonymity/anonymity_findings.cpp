@@ -94,7 +94,7 @@ InsideOfPdf read_inside(const fs::path& file, const PdfObjectLimits& limits) {
 }
 
 /// The text of a page in reading order, line by line.
-std::vector<std::string> lines_of(const PdfPage& page) {
+std::vector<std::string> page_lines(const PdfPage& page) {
     std::vector<std::string> lines;
     const PdfWord* last = nullptr;
     for (const PdfWord& word : page.words) {
@@ -178,7 +178,7 @@ class AnonymitySearch {
         std::vector<std::string> before;
         int number = 0;
         for (const PdfPage& page : layout.pages) {
-            const std::vector<std::string> lines = lines_of(page);
+            const std::vector<std::string> lines = page_lines(page);
             ++number;
             search({TextPlace::kText, number, "", joined(lines)}, TextManner::kProse);
             if (static_cast<std::size_t>(number) <= in_content_order.size())

@@ -2,7 +2,7 @@
 #include <filesystem>
 
 #include "course/anonymity/identity_matcher.h"
-#include "course/hand_ins/finding.h"
+#include "course/intake/finding.h"
 #include "documents/pdf/pdf_layout.h"
 #include "documents/pdf/pdf_objects.h"
 

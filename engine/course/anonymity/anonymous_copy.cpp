@@ -7,7 +7,7 @@
 #include "course/anonymity/anonymity_findings.h"
 #include "course/boxes/boxed_work.h"
 #include "course/boxes/told_reason.h"
-#include "course/hand_ins/staging.h"
+#include "course/intake/staging.h"
 #include "documents/pdf/distilled_pdf.h"
 #include "documents/pdf/pdf_layout.h"
 #include "documents/work_file.h"

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "course/anonymity/identity_matcher.h"
-#include "course/hand_ins/finding.h"
+#include "course/intake/finding.h"
 #include "platform/box.h"
 
 namespace dynlab::inline course {

@@ -5,7 +5,7 @@
 
 #include "base/message.h"
 #include "course/anonymity/name_tokens.h"
-#include "course/hand_ins/roster.h"
+#include "course/intake/roster.h"
 
 namespace dynlab::inline course {
 

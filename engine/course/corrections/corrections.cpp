@@ -32,9 +32,7 @@ class WantedFiles {
 
     /// Those that are withdrawn, or those that are not.
     std::vector<Found> all(bool withdrawn) const {
-        const std::string document = wanted_.stage == "review" ? "review"
-                                     : assignment_.is_report() ? "report"
-                                                               : "slides";
+        const std::string document = wanted_.stage == "review" ? "review" : assignment_.document();
         if (!wanted_.part.empty()) return {one(wanted_.part, withdrawn)};
         std::vector<Found> found = {has(document, withdrawn) ? one(document, withdrawn) : one("pack", withdrawn)};
         for (Rows rows = db_.query("SELECT w.id, w.number, w.part FROM arrived w JOIN versions o ON o.id = w.id JOIN "

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "course/hand_ins/finding.h"
+#include "course/intake/finding.h"
 #include "course/anonymity/identity_matcher.h"
 #include "documents/document_rules.h"
 #include "documents/pdf/pdf_layout.h"

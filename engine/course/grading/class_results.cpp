@@ -9,6 +9,7 @@
 #include "base/reader.h"
 #include "course/grading/class_statistics.h"
 #include "course/grading/feedback.h"
+#include "course/grading/manual_marks.h"
 #include "data_io/text_table.h"
 #include "figures/gnuplot_renderer.h"
 #include "figures/histogram.h"
@@ -47,7 +48,7 @@ std::vector<std::string> row_of(const std::string& id, const std::string& name, 
         row.resize(8 + ids.size());
         return row;
     }
-    row.insert(row.end(), {entry->submission.name, state_of(*entry)});
+    row.insert(row.end(), {entry->item->submission.name, state_of(*entry)});
     const Grade empty;
     const Grade& grade = entry->grade ? *entry->grade : empty;
     const bool whole = entry->grade && grade.whole();
@@ -74,27 +75,27 @@ const Entry* counting(const Entry* a, const Entry* b, bool newest_counts) {
         return entry->grade && !entry->grade->without_marks() ? entry->grade->earned() : -1;
     };
     if (a == nullptr) return b;
-    if (newest_counts && points(a) >= 0 && points(b) >= 0) return b->received > a->received ? b : a;
+    if (newest_counts && points(a) >= 0 && points(b) >= 0) return b->item->received > a->item->received ? b : a;
     return points(b) > points(a) ? b : a;
 }
 
 /// For each student.
 std::vector<const Entry*> work_that_counts(const ClassResults& results) {
-    std::vector<const Entry*> work(results.roster->students().size(), nullptr);
+    std::vector<const Entry*> work(results.work->students.size(), nullptr);
     for (const Entry& entry : results.entries)
-        for (const std::size_t owner : entry.owner.students)
-            work[owner] = counting(work[owner], &entry, results.newest_counts);
+        for (const std::size_t owner : entry.item->students)
+            work[owner] = counting(work[owner], &entry, results.work->newest_counts);
     return work;
 }
 
 /// A sentence for each owner with several submissions.
 std::vector<Message> several_of_one(const ClassResults& results) {
-    if (!results.roster) return {};
+    if (!results.work->roster) return {};
     std::map<std::string, std::vector<const Entry*>> by_owner;
     for (const Entry& entry : results.entries)
-        if (!entry.owner.students.empty())
-            by_owner[entry.owner.group.empty() ? results.roster->students()[entry.owner.students.front()].id
-                                               : entry.owner.group]
+        if (!entry.item->students.empty())
+            by_owner[entry.item->group.empty() ? results.work->students[entry.item->students.front()].id
+                                               : entry.item->group]
                 .push_back(&entry);
     std::vector<Message> sentences;
     for (const auto& [owner, entries] : by_owner) {
@@ -102,11 +103,11 @@ std::vector<Message> several_of_one(const ClassResults& results) {
         const Entry* counts = nullptr;
         std::vector<std::string> names;
         for (const Entry* entry : entries) {
-            counts = counting(counts, entry, results.newest_counts);
-            names.push_back(fmt::format("\"{}\"", shown_name(entry->submission)));
+            counts = counting(counts, entry, results.work->newest_counts);
+            names.push_back(fmt::format("\"{}\"", shown_name(entry->item->submission)));
         }
-        const std::string counting_name = shown_name(counts->submission);
-        sentences.push_back(results.newest_counts
+        const std::string counting_name = shown_name(counts->item->submission);
+        sentences.push_back(results.work->newest_counts
                                 ? Message("{} has several submissions, of which the newest one counts, \"{}\": {}",
                                           owner, counting_name, listed(names))
                                 : Message("{} has several submissions, of which the better one counts, \"{}\": {}",
@@ -120,38 +121,41 @@ TextTable gradebook_of(const ClassResults& results) {
     TextTable table;
     table.names = {"id", "name", "submission", "state", "points", "possible", "penalty", "late_hours"};
     table.names.insert(table.names.end(), ids.begin(), ids.end());
-    if (results.deadlines) table.names.push_back("lateness");
+    if (results.work->deadlines) table.names.push_back("lateness");
     const auto row_for = [&](const std::string& id, const std::string& name, const Entry* entry) {
         std::vector<std::string> row = row_of(id, name, entry, ids);
-        if (results.deadlines) row.push_back(entry && entry->grade ? message_text(entry->grade->lateness) : "");
+        if (results.work->deadlines) row.push_back(entry && entry->grade ? message_text(entry->grade->lateness) : "");
         table.rows.push_back(std::move(row));
     };
-    if (!results.roster) {
-        for (const Entry& entry : results.entries) row_for(entry.submission.lms_id, entry.submission.person, &entry);
+    if (!results.work->roster) {
+        for (const Entry& entry : results.entries)
+            row_for(entry.item->submission.lms_id, entry.item->submission.person, &entry);
         return table;
     }
-    const auto& students = results.roster->students();
+    const auto& students = results.work->students;
     const std::vector<const Entry*> work = work_that_counts(results);
     for (std::size_t i = 0; i < students.size(); ++i) row_for(students[i].id, students[i].name, work[i]);
     return table;
 }
 
 bool waits_for_a_hand(const Grade& grade) {
-    return std::ranges::any_of(grade.checks, [](const CheckGrade& check) { return check.by_hand && !check.graded; });
+    return !grade.whole_mark &&
+           std::ranges::any_of(grade.checks, [](const CheckGrade& check) { return check.by_hand && !check.graded; });
 }
 
-/// What is to be marked by hand and is not yet: a table to be filled in and put into manual.csv.
-TextTable open_marks(const ClassResults& results) {
-    TextTable table;
-    table.names = {"submission", "check", "points", "comment", "of", "about", "rubric"};
+/// Adds what is to be marked by hand and is not yet to the instructor's file.
+void ask_for_marks(const ClassResults& results) {
+    std::vector<MarksFile::Row> rows;
+    std::vector<std::vector<std::string>> more;  // of, about, rubric
     for (const Entry& entry : results.entries) {
-        if (!entry.grade || entry.grade->without_marks()) continue;
-        for (const CheckGrade& check : entry.grade->checks)
-            if (check.by_hand && !check.graded)
-                table.rows.push_back({entry.submission.name, check.id, "", "", points_text(check.points),
-                                      message_text(check.about), check.rubric});
+        if (!entry.grade || entry.grade->without_marks() || !waits_for_a_hand(*entry.grade)) continue;
+        for (const CheckGrade& check : entry.grade->checks) {
+            if (!check.by_hand || check.graded) continue;
+            rows.push_back({0, entry.item->submission.name, check.id, {}, ""});
+            more.push_back({points_text(check.points), message_text(check.about), check.rubric});
+        }
     }
-    return table;
+    MarksFile(results.out).add(rows, more);
 }
 
 std::vector<Grade> grades_of(const ClassResults& results) {
@@ -190,11 +194,11 @@ RecordedTable marks_of(const ClassResults& results) {
                               grade && grade->whole() ? points_text(grade->earned()) : "–",
                               grade && grade->penalty > 0 ? points_text(grade->penalty) : "–"});
     };
-    if (!results.roster) {
-        for (const Entry& entry : results.entries) add(shown_name(entry.submission), "–", &entry);
+    if (!results.work->roster) {
+        for (const Entry& entry : results.entries) add(shown_name(entry.item->submission), "–", &entry);
         return table;
     }
-    const auto& students = results.roster->students();
+    const auto& students = results.work->students;
     const std::vector<const Entry*> work = work_that_counts(results);
     for (std::size_t i = 0; i < students.size(); ++i)
         add(students[i].name.empty() ? students[i].id : students[i].name,
@@ -219,20 +223,7 @@ std::string attention_of(const ClassResults& results) {
         attention += "- " + escaped_markdown(message_text(sentence)) + "\n";
     };
     for (const Message& complaint : results.complaints) add(complaint);
-    for (const Message& sentence : what_needs_the_eye(results).sentences) add(sentence);
-    for (const Message& sentence : several_of_one(results)) add(sentence);
-    for (const Entry& entry : results.entries) {
-        if (!entry.grade || entry.grade->without_marks()) continue;
-        const std::string name = shown_name(entry.submission);
-        if (!entry.grade->remark.empty()) add(Message("\"{}\": {}", name, entry.grade->remark));
-        if (!entry.grade->trouble.empty())
-            add(entry.grade->began
-                    ? Message("the script of \"{}\" did not run to its end: {}", name, entry.grade->trouble)
-                    : Message("the script of \"{}\" could not be begun: {}", name, entry.grade->trouble));
-        if (entry.grade->penalty > 0)
-            add(Message("\"{}\" was late, which costs {} points: {}", name, points_text(entry.grade->penalty),
-                        entry.grade->lateness));
-    }
+    for (const Message& sentence : what_needs_attention(results).sentences) add(sentence);
     return attention.empty() ? "Nothing.\n" : attention;
 }
 
@@ -281,64 +272,72 @@ RecordedFigure histogram_of(const Vector& points, double possible) {
 
 }  // namespace
 
-NeedsTheEye what_needs_the_eye(const ClassResults& results) {
-    NeedsTheEye eye;
-    // A broken check is complained of once; it is not the fault of any submission.
-    const auto whole = [](const Entry& entry) {
-        return !entry.grade || entry.grade->unreadable || entry.grade->whole();
-    };
+Attention what_needs_attention(const ClassResults& results) {
+    Attention attention;
+    const auto add = [&](Message sentence) { attention.sentences.push_back(std::move(sentence)); };
+    // A broken check is reported once; it is not the fault of any submission.
+    const auto whole = [](const Grade& grade) { return grade.unreadable || grade.whole(); };
     const bool some_whole =
-        std::ranges::any_of(results.entries, [&](const Entry& entry) { return entry.grade && whole(entry); });
-    std::map<std::string, const Entry*> by_content;
+        std::ranges::any_of(results.entries, [&](const Entry& entry) { return entry.grade && whole(*entry.grade); });
+    std::map<std::string, std::vector<const Entry*>> by_content;
     for (const Entry& entry : results.entries) {
-        const std::string name = shown_name(entry.submission);
-        const auto add = [&](Message sentence) { eye.sentences.push_back(std::move(sentence)); };
-        if (results.roster && !entry.owner.anybody()) {
+        const std::string name = shown_name(entry.item->submission);
+        if (results.work->roster && !entry.item->unmatched.empty()) {
             add(Message("\"{}\" belongs to nobody in the roster: {}; write it into a list for --owners", name,
-                        entry.owner.trouble));
-            ++eye.unowned;
+                        entry.item->unmatched));
+            ++attention.unowned;
         }
         if (!entry.grade) continue;
-        if (entry.grade->without_marks()) {
-            add(Message("\"{}\" cannot be read: {}", name, entry.grade->trouble));
-            ++eye.unreadable;
-        } else if (waits_for_a_hand(*entry.grade)) {
-            add(Message("\"{}\" is to be marked by hand: by_hand.csv", name));
-        } else if (!whole(entry) && some_whole) {
-            add(Message("\"{}\" is not graded completely", name));
-        } else if (entry.grade->silent && entry.grade->trouble.empty()) {
-            add(Message("\"{}\" ran to its end but gave no answer", name));
+        const Grade& grade = *entry.grade;
+        if (grade.without_marks()) {
+            add(Message("\"{}\" cannot be read: {}", name, grade.trouble));
+            ++attention.unreadable;
+        } else {
+            if (waits_for_a_hand(grade))
+                add(Message("\"{}\" is to be marked by hand: marks.csv", name));
+            else if (!whole(grade) && some_whole)
+                add(Message("\"{}\" is not graded completely", name));
+            if (grade.trouble.empty() && grade.silent) add(Message("\"{}\" ran to its end but gave no answer", name));
+            if (!grade.trouble.empty())
+                add(grade.began ? Message("the script of \"{}\" did not run to its end: {}", name, grade.trouble)
+                                : Message("the script of \"{}\" could not be begun: {}", name, grade.trouble));
+            if (!grade.remark.empty()) add(Message("\"{}\": {}", name, grade.remark));
+            if (grade.penalty > 0)
+                add(Message("\"{}\" was late, which costs {} points: {}", name, points_text(grade.penalty),
+                            grade.lateness));
         }
         if (entry.content.empty()) continue;
-        const auto [same, fresh] = by_content.emplace(entry.content, &entry);
-        const bool others = !fresh && results.roster && same->second->owner.students != entry.owner.students;
-        if (others)
-            add(Message("\"{}\" is the same, byte for byte, as \"{}\" of somebody else", name,
-                        shown_name(same->second->submission)));
+        by_content[entry.content].push_back(&entry);
     }
-    return eye;
+    for (const auto& [content, entries] : by_content) {
+        const auto of_others = [&](const Entry* entry) {
+            return entry->item->students != entries.front()->item->students;
+        };
+        if (!results.work->roster || std::ranges::none_of(entries, of_others)) continue;
+        std::vector<std::string> names;
+        for (const Entry* entry : entries) names.push_back(fmt::format("\"{}\"", shown_name(entry->item->submission)));
+        add(Message("{} are the same, byte for byte", listed(names, Join::kAnd)));
+    }
+    for (Message& sentence : several_of_one(results)) add(std::move(sentence));
+    return attention;
 }
 
 std::vector<std::string> counted_instead(const ClassResults& results) {
     std::vector<std::string> names(results.entries.size());
-    if (!results.roster) return names;
+    if (!results.work->roster) return names;
     const std::vector<const Entry*> work = work_that_counts(results);
     for (std::size_t i = 0; i < names.size(); ++i) {
         const Entry& entry = results.entries[i];
-        const auto& owners = entry.owner.students;
+        const auto& owners = entry.item->students;
         if (std::ranges::any_of(owners, [&](std::size_t owner) { return work[owner] == &entry; })) continue;
-        if (!owners.empty()) names[i] = shown_name(work[owners.front()]->submission);
+        if (!owners.empty()) names[i] = shown_name(work[owners.front()]->item->submission);
     }
     return names;
 }
 
 void write_class_results(const ClassResults& results) {
     write_file_atomically(results.out / "gradebook.csv", csv_text(gradebook_of(results)));
-    const TextTable open = open_marks(results);
-    if (open.rows.empty())
-        std::filesystem::remove(results.out / "by_hand.csv");
-    else
-        write_file_atomically(results.out / "by_hand.csv", csv_text(open));
+    ask_for_marks(results);
     double possible = 0;
     for (const Entry& entry : results.entries)
         if (entry.grade) possible = std::max(possible, entry.grade->possible());

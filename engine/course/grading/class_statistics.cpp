@@ -46,7 +46,7 @@ double correlation(const std::vector<double>& x, const std::vector<double>& y) {
 double discrimination(const std::vector<Grade>& grades, const std::string& id) {
     std::vector<double> own, others;
     for (const Grade& grade : grades) {
-        if (!grade.whole()) continue;
+        if (!grade.whole() || grade.silent) continue;
         double mine = 0, rest = 0;
         for (const CheckGrade& check : grade.checks) (check.id == id ? mine : rest) += check.earned;
         own.push_back(mine);

@@ -13,8 +13,9 @@ struct CheckStatistics {
     double points = 0;
     int graded = 0, passed = 0;
     double mean_share = 0;  ///< of the points, over those graded; 0 to 1
-    /// Correlation of the points in this check with those in all others, over works graded completely (the corrected
-    /// item-total correlation): about 0 or less where those who are good fail it as often. NaN where it is not defined:
+    /// Correlation of the points in this check with those in all others, over works graded completely that gave an
+    /// answer (the corrected item-total correlation; work that failed to start fails all checks, which says nothing
+    /// of one): about 0 or less where those who are good fail it as often. NaN where it is not defined:
     /// fewer than five works, or all with the same points.
     double discrimination = 0;
     /// What was said where points are missing, and how often; the most frequent first. Numbers of

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <ctime>
 #include <set>
 
-#include "course/hand_ins/course_clock.h"
-#include "course/hand_ins/owners.h"
+#include "course/intake/course_clock.h"
+#include "course/intake/lateness.h"
+#include "course/intake/owners.h"
 #include "data_io/text_table.h"
 #include "platform/error.h"
 
@@ -19,7 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr char kForAll[] = "*";
-constexpr double kSecondsOfADay = 86400;
 
 std::string shown_instant(long instant) {
     const std::time_t seconds = instant;
@@ -101,7 +100,27 @@ class DeadlineTable {
     TextTable table_;
 };
 
+/// "received 2026-03-01 18:20 CET, 20 min after the deadline of 2026-03-01 18:00 CET; each begun day costs 10 % of the
+/// points"
+Message reason_of(const LatePolicy& policy, std::int64_t received) {
+    const std::string came = shown_instant(received), due = shown_instant(policy.deadline);
+    const Message duration = duration_message(received - policy.deadline);
+    if (policy.most_percent < 100)
+        return Message(
+            "received {}, {} after the deadline of {}; each begun day costs {} % of the points, at most {} %", came,
+            duration, due, significant(policy.percent_per_day, 4), significant(policy.most_percent, 4));
+    return Message("received {}, {} after the deadline of {}; each begun day costs {} % of the points", came, duration,
+                   due, significant(policy.percent_per_day, 4));
+}
+
 }  // namespace
+
+Lateness lateness_of(const LatePolicy& policy, std::int64_t received) {
+    const std::int64_t late = received - policy.deadline;
+    if (late <= policy.grace) return {};
+    return {static_cast<double>(late) / 3600, late_percent(policy.percent_per_day, policy.most_percent, late),
+            reason_of(policy, received), late};
+}
 
 Deadlines::Deadlines(const fs::path& file) {
     const DeadlineTable table(file);
@@ -116,8 +135,7 @@ Deadlines::Deadlines(const fs::path& file) {
         Rule rule = all != rules_.end() ? all->second : Rule{};
         if (who != kForAll) rule.received.reset();
         const std::optional<long> deadline = table.time(row, "deadline"), extra = table.duration(row, "extra");
-        if (!deadline && (!extra || all == rules_.end()))
-            table.fail(row, "deadline", Message("a time such as 2026-03-01 18:00"));
+        if (!deadline && all == rules_.end()) table.fail(row, "deadline", Message("a time such as 2026-03-01 18:00"));
         rule.deadline = deadline.value_or(rule.deadline) + extra.value_or(0);
         if (const auto received = table.time(row, "received")) rule.received = received;
         rule.grace = table.duration(row, "grace").value_or(rule.grace);
@@ -145,36 +163,19 @@ const Deadlines::Rule* Deadlines::rule_for(const Submission& submission, const s
 long Deadlines::received(const Submission& submission, const std::vector<std::string>& also) const {
     const Rule* const rule = rule_for(submission, also);
     if (rule != nullptr && rule->received) return *rule->received;
+    if (const auto time = times_.of(submission, also)) return static_cast<long>(*time);
     if (submission.loose.empty()) return written(submission.path);
     long newest = 0;
     for (const LooseFile& file : submission.loose) newest = std::max(newest, written(file.path));
     return newest;
 }
 
-Deadlines::Lateness Deadlines::of(const Submission& submission, const std::vector<std::string>& also) const {
+Lateness Deadlines::of(const Submission& submission, const std::vector<std::string>& also) const {
     const Rule* const rule = rule_for(submission, also);
     if (rule == nullptr) return {};
-    const long came = received(submission, also), late = came - rule->deadline;
-    if (late <= rule->grace) return {};
-    const double days = std::ceil(static_cast<double>(late) / kSecondsOfADay);
-    return {static_cast<double>(late) / 3600,
-            std::min(rule->most_percent, days * rule->percent_per_day),
-            came,
-            rule->deadline,
-            rule->percent_per_day,
-            rule->most_percent};
-}
-
-Message Deadlines::Lateness::reason() const {
-    if (percent == 0 && hours == 0) return {};
-    const std::string received = shown_instant(came), due = shown_instant(deadline);
-    const Message duration = duration_message(came - deadline);
-    if (most_percent < 100)
-        return Message(
-            "received {}, {} after the deadline of {}; each begun day costs {} % of the points, at most {} %", received,
-            duration, due, significant(percent_per_day, 4), significant(most_percent, 4));
-    return Message("received {}, {} after the deadline of {}; each begun day costs {} % of the points", received,
-                   duration, due, significant(percent_per_day, 4));
+    Lateness lateness = lateness_of(*rule, received(submission, also));
+    lateness.typed = rule->received.has_value();
+    return lateness;
 }
 
 std::vector<std::string> Deadlines::strays(const std::vector<Submission>& submissions,

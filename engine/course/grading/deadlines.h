@@ -5,9 +5,18 @@
 #include <string>
 #include <vector>
 
-#include "course/hand_ins/submission.h"
+#include "course/grading/work_item.h"
+#include "course/intake/arrival_times.h"
 
 namespace dynlab::inline course {
+
+/// A deadline, and what missing it costs.
+struct LatePolicy {
+    std::int64_t deadline = 0, grace = 0;
+    double percent_per_day = 10, most_percent = 100;
+};
+/// Of what was received then; times are shown in the process's time zone.
+Lateness lateness_of(const LatePolicy& policy, std::int64_t received);
 
 /// What lateness costs. The table has the columns `submission` (a submission's name, an LMS number, a group, a
 /// student's id or name, or * for all), `deadline` (2026-03-01 18:00, local time, seconds optional), and optionally
@@ -20,14 +29,9 @@ class Deadlines {
     /// Times are in the process's time zone. Throws EnvironmentError with file, line and column.
     explicit Deadlines(const std::filesystem::path& file);
 
-    struct Lateness {
-        double hours = 0, percent = 0;  ///< of the points earned; 0 in time
-        long came = 0, deadline = 0;    ///< seconds since 1970
-        double percent_per_day = 0, most_percent = 100;
-        /// "received 2026-03-01 18:20 CET, 20 min after the deadline of 2026-03-01 18:00 CET; each begun day costs 10 %
-        /// of the points"; empty in time
-        Message reason() const;
-    };
+    /// When submissions were received as the platform says: goes before the times of files.
+    void set_times(ArrivalTimes times) { times_ = std::move(times); }
+
     /// `also`: by what else the submission may be named in the table: its owners' group, ids and names. A row of its
     /// own name goes first; of several others the one with the latest deadline holds.
     Lateness of(const Submission& submission, const std::vector<std::string>& also) const;
@@ -39,15 +43,13 @@ class Deadlines {
                                     const std::vector<std::string>& known) const;
 
   private:
-    struct Rule {
-        long deadline = 0;
+    struct Rule : LatePolicy {
         std::optional<long> received;
-        long grace = 0;
-        double percent_per_day = 10, most_percent = 100;
     };
     const Rule* rule_for(const Submission& submission, const std::vector<std::string>& also) const;
 
     std::map<std::string, Rule> rules_;
+    ArrivalTimes times_;
 };
 
 }  // namespace dynlab::inline course

@@ -38,8 +38,12 @@ class FeedbackText {
     std::string checks_heading() const { return words(Message("Checks")); }
 
     std::string result() const {
+        if (grade_.without_marks()) return words(Message("Lesson {}: **no marks yet.**", escape_(grade_.lesson)));
         std::string text = words(Message("Lesson {}: **{} of {} points.**", escape_(grade_.lesson),
                                          points_number(grade_.earned()), points_number(grade_.possible())));
+        if (grade_.whole_mark)
+            text +=
+                " " + words(Message("Marked as a whole by your instructor: {}", escaped(words(grade_.whole_reason))));
         if (grade_.penalty > 0)
             text += " " + words(Message("It was late, which costs {} points: {}.", points_number(grade_.penalty),
                                         grade_.lateness));
@@ -60,6 +64,8 @@ class FeedbackText {
             return words(grade_.silent ? Message("Your script ran to its end but gave no answer.")
                                        : Message("Your script ran to its end."));
         const std::string why = shown_trouble();
+        if (grade_.unreadable && grade_.whole())
+            return words(Message("**Your work could not be read by the program and was marked by hand:** {}", why));
         return words(grade_.unreadable ? Message("**Your work could not be read, so it has no marks yet:** {}", why)
                      : grade_.began    ? Message("**Your script did not run to its end:** {}", why)
                                        : Message("**Your script could not be begun:** {}", why));

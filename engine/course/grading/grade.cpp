@@ -52,6 +52,7 @@ auto read_results(const std::string& text, const Read& read) {
 }  // namespace
 
 double Grade::earned() const {
+    if (whole_mark) return rounded(*whole_mark);
     double sum = -penalty;
     for (const CheckGrade& check : checks) sum += check.graded ? check.earned : 0;
     return rounded(std::max(0.0, sum));
@@ -59,11 +60,12 @@ double Grade::earned() const {
 
 double Grade::possible() const {
     double sum = 0;
-    for (const CheckGrade& check : checks) sum += check.graded ? check.points : 0;
+    for (const CheckGrade& check : checks) sum += check.graded || whole_mark ? check.points : 0;
     return sum;
 }
 
 bool Grade::whole() const {
+    if (whole_mark) return true;
     return !checks.empty() && std::all_of(checks.begin(), checks.end(), [](const CheckGrade& c) { return c.graded; });
 }
 
@@ -84,6 +86,7 @@ std::string to_results_json(const Grade& grade, const Grade& marked) {
     if (costs)
         output.items.push_back(
             Message("Late, which costs {} points: {}.", decimals(marked.penalty, 2), grade.lateness));
+    if (marked.whole_mark) output.items.push_back(Message("Marked as a whole: {}", marked.whole_reason));
     json j = {{"output", message_text(Message("{}", output))},
               {"stdout_visibility", "hidden"},
               {"tests", std::move(tests)},

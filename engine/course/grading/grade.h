@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,7 @@ struct CheckGrade {
     double points = 0, earned = 0;
     bool visible = true;   ///< the student may see the message
     bool graded = true;    ///< false: the check itself is broken, or could not be run
-    bool by_hand = false;  ///< the instructor marks it, in manual.csv, by the rubric
+    bool by_hand = false;  ///< the instructor marks it, in marks.csv, by the rubric
     std::string rubric = {};
     Message for_instructor = {};  ///< what the message must not say of secret records; not part of the result
 };
@@ -36,11 +37,14 @@ struct Grade {
     std::string language;                ///< of the feedback; English where it has no catalog
     std::string counts_instead;          ///< the hand-in of the same owner that counts; empty where this one does
     bool newest_counts = false;          ///< ... as it is the newest; else as it is the better one
+    std::optional<double> whole_mark;    ///< the instructor's mark for the whole submission: it replaces all points
+    Message whole_reason;                ///< of that mark, for the student
     std::string log;                     ///< what was run and how long it took; not part of the result
 
-    double earned() const;                                         ///< of graded checks, less the penalty, not below 0
-    double possible() const;                                       ///< of graded checks
-    bool whole() const;                                            ///< every check is graded
+    /// Of graded checks, less the penalty, not below 0; or the mark for the whole, from which nothing is taken off.
+    double earned() const;
+    double possible() const;  ///< of graded checks; of all where the whole is marked
+    bool whole() const;       ///< every check is graded, or the whole is marked
     bool without_marks() const { return unreadable && !whole(); }  ///< until the instructor gives them by hand
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 #include "course/grading/grade.h"
-#include "course/hand_ins/text_with_message.h"
+#include "course/intake/text_with_message.h"
 #include "data_io/values/described.h"
 
 namespace dynlab::inline course {
@@ -21,7 +21,8 @@ void describe(T& object, V& member) {
 template <Is<Grade> T, class V>
 void describe(T& object, V& member) {
     auto& [submission, lesson, isolation, fingerprint, trouble, unreadable, began, silent, remark, printed, checks,
-           late_hours, penalty, lateness, title, language, counts_instead, newest_counts, log] = object;
+           late_hours, penalty, lateness, title, language, counts_instead, newest_counts, whole_mark, whole_reason,
+           log] = object;
     member("submission", submission), member("lesson", lesson), member("isolation", isolation);
     member("fingerprint", fingerprint), member("unreadable", unreadable);
     store_text_with_message(member, "trouble", "stored_trouble", trouble);

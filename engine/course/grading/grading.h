@@ -2,43 +2,82 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <vector>
 
+#include "course/boxes/boxed_document.h"
 #include "course/grading/grading_rules.h"
+#include "course/grading/kept_stages.h"
+#include "course/grading/manual_marks.h"
+#include "course/grading/work_item.h"
 
 namespace dynlab::inline course {
 
-struct GradingRequest {
+struct GradingOptions {
     GradingSetup setup;
-    std::filesystem::path submissions, out;
-    std::optional<std::filesystem::path> roster, deadlines, owners;
-    std::vector<std::string> only;  ///< submissions, by name, group, id or student; all when empty
-    bool newest_counts = false;     ///< of several hand-ins of one student; else the better one
-    std::string timezone;           ///< of deadlines: "Europe/Paris"; empty: this machine's
-    bool again = false;             ///< all anew where `out` was made with other checks or options
-    bool regrade = false;           ///< also those that have a result already
-    bool pdf = true;                ///< feedback and summary as PDF, besides Markdown
-    /// Who runs and judges: "processes:4", "parallel:HOSTS", "slurm:OPTIONS" (workflow/shares); this process when
-    /// empty.
-    std::string on = {};
-    std::optional<std::filesystem::path> spool = {};  ///< folder through which they work; else in `out`
-    int lease_seconds = 30;  ///< without a sign of life, after which a worker's job is given to another
+    std::filesystem::path out;   ///< folder of results
+    bool regrade = false;        ///< also what has a result already
+    bool pdf = true;             ///< feedback and summary as PDF, besides Markdown
+    bool above_maximum = false;  ///< marks of the instructor may exceed the points of their checks
 };
 
-struct GradingOutcome {
-    int submissions = 0, made = 0, kept = 0, not_whole = 0;  ///< not_whole: a check is left ungraded
-    int unowned = 0, unreadable = 0;
-    std::vector<Message> complaints;  ///< whole sentences for the instructor
-    std::vector<Message> notes;       ///< of the time that is given, and of machines that did not work along
-    std::vector<Message> eye;         ///< submissions that need the instructor's eye, a sentence each
-};
+/// What happens to one submission, a stage after the other:
+///
+///   submission -> staged -> runs -> check results -> grade -> feedback
+///
+/// Each stage depends on what the one before it gave and on the rules; what it gave is kept under a key of all that,
+/// so that equal inputs are not computed again. Threads may share a pipeline.
+class GradingPipeline {
+  public:
+    GradingPipeline(const GradingRules& rules, const GradingOptions& options, const ClassWork& work);
 
-/// Grades a class. In `out`: results/NAME/ with results.json and feedback.md and .pdf for each submission,
-/// logs/NAME/log.txt, which may quote hidden records, gradebook.csv, summary.md or .pdf, manual.csv. Each submission is
-/// graded alone, in boxes; a result whose inputs are unchanged is kept, so that a run that was ended goes on where it
-/// was. Marks depend on neither the order nor `setup.jobs`. Throws EnvironmentError for what must be mended first,
-/// Interrupted after Ctrl-C. `out` remembers what it was made with: where that differs, the run is refused unless
-/// `again` is set. One run at a time may work in it.
-GradingOutcome grade_class(const GradingRequest& request);
+    /// What a grade depends on.
+    struct Keys {
+        std::string content, grade;  ///< of what was submitted; of that and of the rules
+    };
+    Keys keys_of(const WorkItem& item) const;
+
+    /// The grade that an earlier run made under this key; nothing where there is none, or to be made again.
+    std::optional<Grade> kept_grade(const WorkItem& item, const Keys& keys) const;
+    /// Staged and run. Throws SubmissionError where there is nothing to run.
+    struct Run {
+        KeptRuns runs;
+        std::string log;
+    };
+    Run run(const WorkItem& item, const Keys& keys) const;
+    /// Checked: the grades of several, which share one box, in their order.
+    struct ToCheck {
+        const WorkItem* item = nullptr;
+        Keys keys;
+        Run run;
+    };
+    std::vector<Grade> check(std::vector<ToCheck> submissions) const;
+    Grade unreadable(const WorkItem& item, const Keys& keys, const Message& why) const;
+
+    /// Marked, with the penalty and what the instructor marked, and its files written; `trouble`: why there is no PDF.
+    struct Finished {
+        Grade marked;
+        Message trouble;
+    };
+    Finished finish(const WorkItem& item, Grade grade) const;
+    /// The same once it is known which submission of the same student counts; empty where it is this one. Nothing where
+    /// the files say so already.
+    std::optional<Finished> finish_as_counted(const WorkItem& item, const Grade& now, const std::string& instead) const;
+
+    std::filesystem::path results_of(const WorkItem& item) const {
+        return options_.out / "results" / item.submission.name;
+    }
+    const GradingRules& rules() const { return rules_; }
+    const ManualMarks& manual() const { return manual_; }
+    const BoxedDocuments& documents() const { return documents_; }
+
+  private:
+    std::filesystem::path kept_in(const WorkItem& item) const { return options_.out / "runs" / item.submission.name; }
+    Message write_files(const WorkItem& item, const Grade& grade, const Grade& marked) const;
+
+    const GradingRules& rules_;
+    const GradingOptions& options_;
+    bool newest_counts_;
+    ManualMarks manual_;
+    BoxedDocuments documents_;
+};
 
 }  // namespace dynlab::inline course

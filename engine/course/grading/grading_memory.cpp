@@ -1,58 +1,42 @@
 #include "course/grading/grading_memory.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <vector>
 
-#include "course/checks/check_descriptions.h"
-#include "course/grading/grading.h"
-#include "data_io/values/cbor_values.h"
+#include "course/grading/grade_folder.h"
+#include "course/grading/kept_stages.h"
 #include "data_io/values/json_values.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/hash.h"
 
 namespace dynlab::inline course {
-
-DYNLAB_DESCRIBE(KeptRuns, fingerprint, work, remark, language)
-
 namespace {
 
 namespace fs = std::filesystem;
 
 constexpr char kMemoryFile[] = "grading.json";
 
-/// An input that marks depend on: as it was named, and a hash of what stood there; both empty where it was not given.
+/// An input that marks depend on: as it was named, a hash of its content, and where it is; empty where it was not
+/// given.
 struct RememberedInput {
-    std::string name, hash;
+    std::string name, hash, path;
 };
 
 /// What a folder of results was made with.
 struct GradingMemory {
     std::string lesson;
     RememberedInput lesson_checks, checks, secret, roster, owners, deadlines;
-    std::string keep, timezone;
+    std::string keep, timezone, isolation;
+    int timeout = 0;
 };
 
-DYNLAB_DESCRIBE(RememberedInput, name, hash)
-DYNLAB_DESCRIBE(GradingMemory, lesson, lesson_checks, checks, secret, roster, owners, deadlines, keep, timezone)
-
-void add_named(Sha256& hash, const std::string& name, const fs::path& file) {
-    hash.add(fmt::format("{}:{}:{}:", name.size(), name, fs::file_size(file))).add_file(file);
-}
-
-/// Their names in `folder` and their contents, in the order of their names.
-std::string hash_of_files(std::vector<fs::path> files, const fs::path& folder) {
-    std::sort(files.begin(), files.end());
-    Sha256 hash;
-    for (const fs::path& file : files) add_named(hash, file.lexically_relative(folder).string(), file);
-    return hash.hex();
-}
+DYNLAB_DESCRIBE(RememberedInput, name, hash, path)
+DYNLAB_DESCRIBE(GradingMemory, lesson, lesson_checks, checks, secret, roster, owners, deadlines, keep, timezone,
+                isolation, timeout)
 
 RememberedInput remembered_file(const std::optional<fs::path>& file) {
     if (!file) return {};
-    return {file->string(), sha256_of_file(*file)};
+    return {file->string(), sha256_of_file(*file), fs::absolute(*file).lexically_normal().string()};
 }
 
 /// Of all files in a folder and below it.
@@ -61,11 +45,14 @@ RememberedInput remembered_folder(const std::optional<fs::path>& folder) {
     std::vector<fs::path> files;
     for (const auto& entry : fs::recursive_directory_iterator(*folder))
         if (entry.is_regular_file()) files.push_back(entry.path());
-    return {folder->string(), hash_of_files(std::move(files), *folder)};
+    return {folder->string(), hash_of_files(std::move(files), *folder),
+            fs::absolute(*folder).lexically_normal().string()};
 }
 
-RememberedInput remembered_text(const std::string& name, const std::string& text) {
-    return text.empty() ? RememberedInput{} : RememberedInput{name, sha256_of("dynlab grade:" + text)};
+/// Its file's own hash would help to guess it.
+RememberedInput remembered_secret(const fs::path& file, const std::string& text) {
+    if (text.empty()) return {};
+    return {"--secret", sha256_of("dynlab grade:" + text), fs::absolute(file).lexically_normal().string()};
 }
 
 /// Nothing where there is none, or where it cannot be read.
@@ -114,102 +101,63 @@ std::vector<Message> differences_of(const GradingMemory& then, const GradingMemo
     return clauses;
 }
 
+/// Seen from here.
+std::string path_from_here(const RememberedInput& input) {
+    return input.path.empty() ? std::string() : fs::proximate(input.path).string();
+}
+
 }  // namespace
 
-std::string hash_of_content(const Submission& submission) {
-    const SubmissionLimits limits;
-    const auto too_large = [](std::uintmax_t bytes) { return fmt::format("too large: {}", bytes); };
-    if (!submission.loose.empty()) {
-        Sha256 hash;
-        for (const LooseFile& file : submission.loose) {
-            const std::uintmax_t bytes = fs::file_size(file.path);
-            if (bytes > limits.bytes) return too_large(bytes);
-            add_named(hash, file.name, file.path);
-        }
-        return hash.hex();
-    }
-    if (submission.archive) {
-        const std::uintmax_t bytes = fs::file_size(submission.path);
-        return bytes > limits.bytes ? too_large(bytes) : sha256_of_file(submission.path);
-    }
-    std::vector<fs::path> files;
-    std::uintmax_t bytes = 0;
-    for (const auto& entry : fs::recursive_directory_iterator(submission.path))
-        if (entry.symlink_status().type() == fs::file_type::regular) {
-            files.push_back(entry.path());
-            bytes += entry.file_size();
-        }
-    return bytes > limits.bytes ? too_large(bytes) : hash_of_files(std::move(files), submission.path);
+std::optional<RememberedOptions> remembered_options(const fs::path& out) {
+    const std::optional<GradingMemory> then = read_memory(out);
+    if (!then) return {};
+    return RememberedOptions{then->lesson,
+                             path_from_here(then->checks),
+                             path_from_here(then->secret),
+                             path_from_here(then->roster),
+                             path_from_here(then->owners),
+                             path_from_here(then->deadlines),
+                             then->keep,
+                             then->timezone,
+                             then->isolation,
+                             then->timeout};
 }
 
-std::optional<Grade> earlier_grade(const fs::path& folder) {
-    const fs::path file = folder / "results.json";
-    if (!fs::exists(file)) return {};
-    try {
-        return from_results_json(read_file(file));
-    } catch (const EnvironmentError&) {
-        return {};
-    }
-}
-
-void refuse_other_lessons(const GradingRequest& request) {
-    const fs::path results = request.out / "results";
-    fs::create_directories(results);
-    for (const auto& entry : fs::directory_iterator(results)) {
-        const std::optional<Grade> grade = earlier_grade(entry.path());
-        if (!grade) continue;
-        if (grade->lesson == request.setup.lesson.slug) return;  // as are all others, which were put beside it
-        throw EnvironmentError("{} holds the results of lesson {}; name another folder with --out",
-                               request.out.string(), grade->lesson);
-    }
-}
-
-void remember_inputs(const GradingRequest& request) {
+void remember_inputs(const FolderRequest& request) {
     GradingMemory now;
-    now.lesson = request.setup.lesson.slug;
-    now.lesson_checks = remembered_file(request.setup.lesson.folder / "checks.lua");
-    now.lesson_checks.name = request.setup.lesson.slug + "/checks.lua";  // wherever it is installed
-    now.checks = remembered_folder(request.setup.more_checks);
-    now.secret = remembered_text("--secret", request.setup.secret);
-    now.roster = remembered_file(request.roster);
-    now.owners = remembered_file(request.owners);
-    now.deadlines = remembered_file(request.deadlines);
-    now.keep = request.newest_counts ? "newest" : "best";
-    now.timezone = request.timezone;
-    const std::optional<GradingMemory> then = read_memory(request.out);
-    if (request.again && !request.only.empty())
-        throw EnvironmentError("--again grades all of the class anew; leave --only out");
+    now.lesson = request.options.setup.lesson.slug;
+    now.lesson_checks = remembered_file(request.options.setup.lesson.folder / "checks.lua");
+    now.lesson_checks.name = request.options.setup.lesson.slug + "/checks.lua";  // wherever it is installed
+    now.checks = remembered_folder(request.options.setup.more_checks);
+    now.secret = remembered_secret(request.secret, request.options.setup.secret);
+    now.roster = remembered_file(request.sources.roster);
+    now.owners = remembered_file(request.sources.owners);
+    now.deadlines = remembered_file(request.sources.deadlines);
+    now.keep = request.sources.newest_counts ? "newest" : "best";
+    now.timezone = request.sources.timezone;
+    now.isolation = isolation_name(request.options.setup.isolation);
+    now.timeout = static_cast<int>(
+        std::chrono::duration_cast<std::chrono::seconds>(request.options.setup.time.processor).count());
+    const std::optional<GradingMemory> then = read_memory(request.options.out);
+    if (request.again && !request.sources.only.empty())
+        throw EnvironmentError("--again grades all of the class again; leave --only out");
     if (then && !request.again)
-        if (auto differences = differences_of(*then, now, request.only.empty()); !differences.empty()) {
+        if (auto differences = differences_of(*then, now, request.sources.only.empty()); !differences.empty()) {
             const MessageList all{std::move(differences)};
-            if (request.only.empty())
+            if (request.sources.only.empty())
                 throw EnvironmentError(
-                    "the marks in {} were made with other inputs: {}. Give the same again, or --again to grade all "
-                    "with "
-                    "these, or another --out",
-                    request.out.string(), all);
+                    "the marks in {} were made with other inputs: {}. Leave them out to go on with those, or give "
+                    "--again "
+                    "to grade all with these, or another --out",
+                    request.options.out.string(), all);
             throw EnvironmentError(
-                "the marks in {} were made with other inputs: {}. Give the same again, or another --out",
-                request.out.string(), all);
+                "the marks in {} were made with other inputs: {}. Leave them out to go on with those, or give another "
+                "--out",
+                request.options.out.string(), all);
         }
-    write_file_atomically(request.out / kMemoryFile, json_of(now, 2) + "\n");
-}
-
-std::optional<KeptRuns> read_kept_runs(const fs::path& file, const std::string& fingerprint) {
-    if (!fs::exists(file)) return {};
-    try {
-        auto runs = from_cbor<KeptRuns>(read_file(file));
-        if (runs.fingerprint == fingerprint) return runs;
-    } catch (const EnvironmentError&) {
-    }
-    return {};
-}
-
-void write_kept_runs(const fs::path& file, KeptRuns runs, KeptTimes times) {
-    if (times == KeptTimes::kNo)
-        for (auto& [name, run] : runs.work.runs) run.seconds = 0;
-    fs::create_directories(file.parent_path());
-    write_file_atomically(file, cbor_of(runs));
+    const fs::path file = request.options.out / kMemoryFile;
+    const std::string text = json_of(now, 2) + "\n";
+    if (!fs::exists(file) || read_file(file) != text) write_file_atomically(file, text);
 }
 
 }  // namespace dynlab::inline course

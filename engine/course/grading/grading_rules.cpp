@@ -11,7 +11,7 @@
 #include "course/checks/check_descriptions.h"
 #include "course/findings/document_findings.h"
 #include "course/findings/findings_report.h"
-#include "course/grading/grading_memory.h"
+#include "course/grading/kept_stages.h"
 #include "data_io/values/json_values.h"
 #include "numerics/rigs/catalogue.h"
 #include "platform/atomic_file.h"

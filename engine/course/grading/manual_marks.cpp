@@ -1,62 +1,240 @@
 #include "course/grading/manual_marks.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <set>
+
+#include "course/checks/check_run.h"
 #include "course/grading/feedback.h"
-#include "data_io/text_table.h"
-#include "documents/text_lines.h"
+#include "course/intake/owners.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
-#include "platform/text/read_number.h"
 
 namespace dynlab::inline course {
+namespace {
 
-ManualMarks::ManualMarks(const std::filesystem::path& file) {
-    if (!std::filesystem::exists(file))
-        write_file_atomically(file, csv_text({{"submission", "check", "points", "reason"}, {}, {}}));
-    const TextTable table = read_text_table(file);
-    const auto submission = table.column("submission"), check = table.column("check"), points = table.column("points"),
-               reason = table.column("reason") ? table.column("reason") : table.column("comment");
-    if (!submission || !check || !points)
-        throw EnvironmentError("{}: the columns submission, check and points are needed", file.string());
+namespace fs = std::filesystem;
+
+constexpr double kMaxPoints = 1000;
+
+/// The first of these columns that the table has.
+std::optional<std::size_t> first_column(const TextTable& table, std::initializer_list<const char*> names) {
+    for (const char* name : names)
+        if (const auto column = table.column(name)) return column;
+    return {};
+}
+
+/// Under a name that is not taken: nothing that an instructor wrote is lost.
+void put_aside(const fs::path& file) {
+    fs::path aside = file.string() + ".imported";
+    for (int i = 2; fs::exists(aside); ++i) aside = fmt::format("{}.imported-{}", file.string(), i);
+    std::error_code ignored;  // another part of the class may have done it
+    fs::rename(file, aside, ignored);
+}
+
+/// Finds what a row is about.
+class MarkedItems {
+  public:
+    explicit MarkedItems(const ClassWork& work) : work_(work), owners_(work.students) {}
+
+    struct Found {
+        std::vector<const WorkItem*> items;
+        Message trouble;  ///< a clause, where there are none
+    };
+    Found find(const std::string& who) const {
+        Found found;
+        const auto take = [&](const auto& fits) {
+            for (const WorkItem& item : work_.items)
+                if (fits(item)) found.items.push_back(&item);
+        };
+        take([&](const WorkItem& item) {
+            return item.submission.name == who || item.submission.path.filename() == who;
+        });
+        if (!found.items.empty()) return found;
+        const Owners::Found owner = owners_.called(who);
+        take([&](const WorkItem& item) {
+            return item.submission.lms_id == who || item.submission.person == who ||
+                   (owner.anybody() &&
+                    (item.students == owner.students || (!owner.group.empty() && item.group == owner.group)));
+        });
+        std::set<std::string> owners;  // a number of a platform may be the id of somebody else
+        for (const WorkItem* item : found.items) owners.insert(owner_of(*item));
+        if (owners.size() > 1 || owner.doubtful) {
+            const std::vector<std::string> names(owners.begin(), owners.end());
+            found.trouble = owner.doubtful ? Message("\"{}\" could mean several: {}", who, owner.trouble)
+                                           : Message("\"{}\" could mean several: {}", who, base::listed(names));
+            found.items.clear();
+        } else if (found.items.empty()) {
+            found.trouble =
+                owner.anybody()
+                    ? Message("\"{}\" has submitted nothing", who)
+                    : Message("there is no submission \"{}\", nor one of a group or student of that name", who);
+        }
+        return found;
+    }
+
+  private:
+    static std::string owner_of(const WorkItem& item) {
+        if (!item.addressee.empty() && !item.students.empty()) return item.addressee;
+        return item.submission.person.empty() ? item.submission.name
+                                              : item.submission.person + " (" + item.submission.lms_id + ")";
+    }
+
+    const ClassWork& work_;
+    Owners owners_;
+};
+
+}  // namespace
+
+MarksFile::MarksFile(const fs::path& results) : file_(results / kMarksFile) {
+    if (!fs::exists(file_)) write_file_atomically(file_, csv_text({{"who", "check", "points", "reason"}, {}, {}}));
+    read();
+    take_in(results / "manual.csv");
+    take_in(results / "by_hand.csv");
+}
+
+void MarksFile::read() {
+    table_ = read_text_table(file_);
+    const auto who = first_column(table_, {"who", "submission", "group", "id", "student", "name"}),
+               check = table_.column("check"), points = table_.column("points");
+    if (!who || !check || !points)
+        throw EnvironmentError("{}: the columns who, check and points are needed; there are {}", file_.string(),
+                               listed(table_.names));
+    if (!first_column(table_, {"reason", "comment"})) {
+        table_.names.emplace_back("reason");
+        for (auto& row : table_.rows) row.emplace_back();
+    }
+    who_ = *who, check_ = *check, points_ = *points, reason_ = *first_column(table_, {"reason", "comment"});
+    rows_.clear();
+    for (std::size_t i = 0; i < table_.rows.size(); ++i) {
+        const auto& cells = table_.rows[i];
+        if (cells[who_].empty() && cells[points_].empty()) continue;
+        Row row{
+            table_.lines[i], cells[who_], cells[check_].empty() ? kWholeSubmission : cells[check_], {}, cells[reason_]};
+        if (!cells[points_].empty()) {
+            row.points = number_in_cell(cells[points_]);
+            if (!row.points || !(*row.points >= 0 && *row.points <= kMaxPoints))
+                throw EnvironmentError("{}, line {}: points must be a number from 0 to {}, but \"{}\" was given",
+                                       file_.string(), row.line, kMaxPoints, cells[points_]);
+        }
+        rows_.push_back(std::move(row));
+    }
+}
+
+/// Marks of a file that earlier versions read; a mark that is here already stays.
+void MarksFile::take_in(const fs::path& former) {
+    if (!fs::exists(former)) return;
+    const TextTable table = read_text_table(former);
+    const auto who = first_column(table, {"submission", "who"}), check = table.column("check"),
+               points = table.column("points"), reason = first_column(table, {"reason", "comment"});
+    if (!who || !check || !points)
+        throw EnvironmentError("{}: the columns submission, check and points are needed; there are {}", former.string(),
+                               listed(table.names));
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
-        const auto& row = table.rows[i];
-        // A decimal comma, as a spreadsheet writes it in much of Europe.
-        const std::string text = replaced(row[*points], ",", ".");
-        if (text.empty()) continue;  // not marked yet
-        const auto given = read_number<double>(text);
-        if (!given || !(*given >= 0 && *given <= 1000))
-            throw EnvironmentError("{}, line {}: points must be a number from 0 to 1000, but \"{}\" was given",
-                                   file.string(), table.lines[i], text);
-        marks_[{row[*submission], row[*check]}] = {*given, reason ? row[*reason] : ""};
+        const auto& cells = table.rows[i];
+        if (cells[*points].empty()) continue;
+        const auto value = number_in_cell(cells[*points]);
+        if (!value || !(*value >= 0 && *value <= kMaxPoints))
+            throw EnvironmentError("{}, line {}: points must be a number from 0 to {}, but \"{}\" was given",
+                                   former.string(), table.lines[i], kMaxPoints, cells[*points]);
+        const auto known = std::ranges::find_if(
+            rows_, [&](const Row& row) { return row.who == cells[*who] && row.check == cells[*check]; });
+        const std::string why = reason ? cells[*reason] : "";
+        if (known == rows_.end())
+            add({{0, cells[*who], cells[*check], value, why}});
+        else if (!known->points)
+            fill(cells[*who], cells[*check], value, why);
+    }
+    put_aside(former);
+}
+
+void MarksFile::add(const std::vector<Row>& rows, const std::vector<std::vector<std::string>>& more) {
+    bool added = false;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const Row& row = rows[i];
+        if (std::ranges::any_of(rows_, [&](const Row& r) { return r.who == row.who && r.check == row.check; }))
+            continue;
+        std::vector<std::string> cells(table_.names.size());
+        cells[who_] = row.who, cells[check_] = row.check, cells[reason_] = row.reason;
+        if (row.points) cells[points_] = points_text(*row.points);
+        for (std::size_t c = 0; i < more.size() && c < more[i].size(); ++c) {
+            static constexpr const char* kMore[] = {"of", "about", "rubric"};
+            if (c >= std::size(kMore)) break;
+            auto column = table_.column(kMore[c]);
+            if (!column) {
+                table_.names.emplace_back(kMore[c]);
+                for (auto& other : table_.rows) other.emplace_back();
+                cells.emplace_back();
+                column = cells.size() - 1;
+            }
+            cells[*column] = more[i][c];
+        }
+        table_.rows.push_back(std::move(cells));
+        rows_.push_back(row);
+        added = true;
+    }
+    if (added) write();
+}
+
+void MarksFile::fill(const std::string& who, const std::string& check, std::optional<double> points,
+                     const std::string& reason) {
+    for (auto& cells : table_.rows) {
+        if (cells[who_] != who || (cells[check_].empty() ? kWholeSubmission : cells[check_]) != check) continue;
+        cells[points_] = points ? points_text(*points) : "";
+        cells[reason_] = reason;
+    }
+    write();
+    read();
+}
+
+void MarksFile::write() const {
+    write_file_atomically(file_, csv_text(table_));
+}
+
+ManualMarks::ManualMarks(const fs::path& results, const ClassWork& work, const std::vector<CheckDescription>& checks,
+                         bool above_maximum) {
+    const MarkedItems items(work);
+    std::map<std::string, double> most;  // by check
+    for (const CheckDescription& check : checks) most[check.id] = check.points, most[kWholeSubmission] += check.points;
+    for (const MarksFile::Row& row : MarksFile(results).rows()) {
+        if (!row.points) continue;
+        const auto complain = [&](const Message& what) {
+            complaints_.push_back(Message("{}, line {}: {}", kMarksFile, row.line, what));
+        };
+        const MarkedItems::Found found = items.find(row.who);
+        const auto check = most.find(row.check);
+        if (found.items.empty())
+            complain(found.trouble);
+        else if (check == most.end())
+            complain(Message("there is no check \"{}\" (for \"{}\"); * is the whole submission", row.check, row.who));
+        else if (*row.points > check->second && !above_maximum)
+            complain(Message("\"{}\" gets {} points for the check \"{}\", which has {}; correct it, or give --force",
+                             row.who, points_text(*row.points), row.check, points_text(check->second)));
+        else
+            for (const WorkItem* item : found.items)
+                marks_[{item->submission.name, row.check}] = {*row.points, row.reason};
     }
 }
 
 Grade ManualMarks::applied(Grade grade) const {
+    const auto said = [](const Mark& mark) {
+        return mark.reason.empty() ? Message("Marked by the instructor.") : Message::verbatim(mark.reason);
+    };
     for (CheckGrade& check : grade.checks) {
         const auto found = marks_.find({grade.submission, check.id});
         if (found == marks_.end()) continue;
         check.earned = found->second.points;
         check.graded = true;
-        check.message = found->second.reason.empty() ? Message("Marked by the instructor.")
-                                                     : Message::verbatim(found->second.reason);
+        check.message = said(found->second);
         check.visible = true;
     }
-    return grade;
-}
-
-std::vector<Message> ManualMarks::strays(const std::set<std::string>& submissions,
-                                         const std::map<std::string, double>& checks) const {
-    std::vector<Message> sentences;
-    for (const auto& [key, mark] : marks_) {
-        const auto& [submission, check] = key;
-        if (!submissions.contains(submission))
-            sentences.push_back(Message("manual.csv: there is no submission \"{}\"", submission));
-        else if (!checks.contains(check))
-            sentences.push_back(Message("manual.csv: there is no check \"{}\" (for \"{}\")", check, submission));
-        else if (mark.points > checks.at(check))
-            sentences.push_back(Message("manual.csv: \"{}\" gets {} points for the check \"{}\", which has {}",
-                                        submission, points_text(mark.points), check, points_text(checks.at(check))));
+    if (const auto found = marks_.find({grade.submission, kWholeSubmission}); found != marks_.end()) {
+        grade.whole_mark = found->second.points;
+        grade.whole_reason = said(found->second);
     }
-    return sentences;
+    return grade;
 }
 
 }  // namespace dynlab::inline course

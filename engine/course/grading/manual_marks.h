@@ -1,33 +1,74 @@
 #pragma once
 #include <filesystem>
 #include <map>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "course/grading/grade.h"
+#include "course/grading/work_item.h"
+#include "data_io/text_table.h"
 
 namespace dynlab::inline course {
 
-/// The instructor's own marks, manual.csv in the folder of results: columns submission, check, points, reason (or
-/// comment), which the student reads. They replace what the check gave and survive every regrade. A row without points
-/// is not marked yet.
+struct CheckDescription;
+
+/// The file of the instructor's own marks in a folder of results.
+inline constexpr char kMarksFile[] = "marks.csv";
+/// Instead of a check: the mark is of the whole submission.
+inline constexpr char kWholeSubmission[] = "*";
+
+/// The rows of that file: who (a group in any spelling, a student's name or id, or a submission's name), check (or *
+/// for the whole submission), points and reason, which the student reads. dynlab adds rows that are to be filled in and
+/// never takes one away or changes one that is filled. manual.csv and by_hand.csv of earlier versions are taken in
+/// once.
+class MarksFile {
+  public:
+    struct Row {
+        int line = 0;
+        std::string who, check;
+        std::optional<double> points;  ///< nothing: not marked yet
+        std::string reason;
+    };
+    /// Writes an empty table with its header where there is none. Throws EnvironmentError with file and line.
+    explicit MarksFile(const std::filesystem::path& results);
+
+    const std::vector<Row>& rows() const { return rows_; }
+    /// Rows whose who and check the file does not have yet; of others the cells after `points` are left as they are.
+    void add(const std::vector<Row>& rows, const std::vector<std::vector<std::string>>& more = {});
+    /// Fills in the rows of this who and check.
+    void fill(const std::string& who, const std::string& check, std::optional<double> points,
+              const std::string& reason);
+
+  private:
+    void take_in(const std::filesystem::path& former);
+    void read();
+    void write() const;
+
+    std::filesystem::path file_;
+    TextTable table_;
+    std::size_t who_ = 0, check_ = 0, points_ = 0, reason_ = 0;
+    std::vector<Row> rows_;
+};
+
+/// What these rows say of the submissions of a class. They replace what the checks gave and survive every regrade.
 class ManualMarks {
   public:
-    /// Writes an empty table with its header where there is none. Throws EnvironmentError with file and line.
-    explicit ManualMarks(const std::filesystem::path& file);
+    /// A mark above the points of its check is taken only with `above_maximum`.
+    ManualMarks(const std::filesystem::path& results, const ClassWork& work,
+                const std::vector<CheckDescription>& checks, bool above_maximum);
+
     Grade applied(Grade grade) const;
-    /// A sentence for each mark whose submission or check is not among these, or that is above the check's points.
-    std::vector<Message> strays(const std::set<std::string>& submissions,
-                                const std::map<std::string, double>& checks) const;
+    /// A sentence for each row that matches no submission or no check, matches several, or is above the maximum.
+    const std::vector<Message>& complaints() const { return complaints_; }
 
   private:
     struct Mark {
         double points;
         std::string reason;
     };
-    std::map<std::pair<std::string, std::string>, Mark> marks_;
+    std::map<std::pair<std::string, std::string>, Mark> marks_;  ///< by submission and check
+    std::vector<Message> complaints_;
 };
 
 }  // namespace dynlab::inline course

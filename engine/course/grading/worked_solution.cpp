@@ -2,8 +2,8 @@
 #include <algorithm>
 
 #include "course/boxes/told_reason.h"
-#include "course/grading/grading_memory.h"
 #include "course/grading/grading_rules.h"
+#include "course/grading/kept_stages.h"
 #include "platform/hash.h"
 #include "platform/temporary_folder.h"
 

@@ -30,14 +30,17 @@ std::string percent_text(const std::optional<double>& value) {
     return value ? fmt::format("{:.4g}", *value) : "";
 }
 
-/// When the newest version was received, and how late, or which earlier one was in time.
+std::string hours_text(std::int64_t seconds) {
+    return fmt::format("{:.4g}", static_cast<double>(seconds) / 3600);
+}
+
+/// When the newest version was received, as spreadsheets read it, and how many hours late it counts.
 std::pair<std::string, std::string> arrival(Course& course, const HandedInParts& parts, const char* part) {
     const auto found = parts.find(part);
     if (found == parts.end()) return {"missing", ""};
     const HandedIn& h = found->second;
-    return {course.clock().show_exactly(h.received_at), h.is_late()  ? duration_text(h.late)
-                                                        : h.late > 0 ? fmt::format("v{} in time", h.in_time)
-                                                                     : ""};
+    return {course.clock().show_exactly(h.received_at).substr(0, std::string_view("2026-03-01 15:00").size()),
+            hours_text(h.is_late() ? h.late : 0)};
 }
 
 std::map<std::int64_t, std::string> remarks_by_reviewer(Course& course, const Assignment& a, const Marks& marks) {
@@ -158,7 +161,10 @@ void fill_imported(const fs::path& folder, const fs::path& from, std::map<std::s
     for (const std::string& table : course_tables()) {
         if (older && !all.tables.contains(table)) continue;  // one that a later version brought
         for (StoredRow& row : all.tables[table]) {
-            if (older) row.erase("seed");  // from which earlier versions drew pairs and pseudonyms
+            if (older && table != "students")
+                row.erase("seed");  // from which earlier versions drew pairs and pseudonyms
+            if (older && table == "assignments")
+                if (auto& kind = row["kind"]; kind.value == StoredCell{"presentation"}.value) kind.value = "talk";
             insert_row(db, table, row);
         }
     }
@@ -184,52 +190,58 @@ std::string marks_csv(Course& course, const Assignment& a) {
                    "canvas",
                    "group",
                    "first version",
-                   "late",
-                   "final",
-                   "final late",
+                   "first late (h)",
+                   "reviews written",
+                   "reviews late (h)",
+                   "final version",
+                   "final late (h)",
                    "work percent",
                    "work reason",
-                   "reviews written",
-                   "reviews_late",
                    "reviews percent",
                    "reviews reason",
                    "remarks"};
     const Marks marks = course_marks(course, a);
-    const auto remarks = remarks_by_reviewer(course, a, marks);
+    const auto of_reviewers = remarks_by_reviewer(course, a, marks);
     const std::vector<ReviewPair> pairs = review_pairs(course, a);
+    const auto authors = groups_at_submission(course, a.id);
+    const char* const part = a.document();
     auto versions = newest_versions(course, a);
     OralComments said = oral_comments(course, a);
-    std::map<std::string, Group> by_name;
-    for (const Group& group : groups_of(course)) by_name[group.name] = group;
+    std::map<std::int64_t, Group> groups;
+    for (const Group& group : groups_of(course)) groups[group.id] = group;
     for (const Student& s : students_of(course)) {
         std::vector<std::string> row = {s.id, s.name, s.mail, s.moodle, s.canvas, s.group};
-        const auto group = by_name.find(s.group);
-        if (group != by_name.end()) {
-            const std::int64_t id = group->second.id;
-            const char* const part = a.is_report() ? "report" : "slides";
+        const auto author = authors.find(s.id);
+        const auto mark = author == authors.end() ? marks.groups.end()
+                                                  : std::ranges::find(marks.groups, author->second, &GroupMark::group);
+        if (mark != marks.groups.end()) {
+            const std::int64_t id = author->second;
             const auto first = arrival(course, versions[id]["first"], part),
                        last = arrival(course, versions[id]["final"], part);
-            row.insert(row.end(), {first.first, first.second, a.is_report() ? last.first : "", last.second});
-            int written = 0, late = 0, all = 0;
+            int written = 0, all = 0;
+            std::int64_t late = 0;
             for (const ReviewPair& pair : pairs)
-                if (pair.reviewer == id && !pair.ended) ++all, written += pair.written, late += pair.late;
-            for (const GroupMark& mark : marks.groups)
-                if (mark.group == id)
-                    row.insert(row.end(), {percent_text(mark.work_mark_of(s.id)), mark.work_reason,
-                                           all > 0 ? fmt::format("{} of {}", written, all) : "",
-                                           all > 0 ? fmt::format("{}", late) : "", percent_text(mark.reviews_mark()),
-                                           mark.reviews_reason});
-            std::string remark = group->second.dropped_out ? "dropped out" : "";
-            if (const auto own = remarks.find(id); own != remarks.end())
-                remark += (remark.empty() ? "" : "; ") + own->second;
-            for (const GroupMark& mark : marks.groups)
-                if (mark.group == id)
-                    for (const Message& cost : mark.costs) remark += (remark.empty() ? "" : "; ") + message_text(cost);
-            const auto say = [&](const std::string& comment) {
-                if (!comment.empty()) remark += (remark.empty() ? "" : "; ") + comment;
-            };
-            say(said.groups[id]), say(said.students[s.id]);
-            row.push_back(remark);
+                if (pair.reviewer == id && !pair.ended)
+                    ++all, written += pair.written, late = std::max(late, pair.late);
+            row.insert(row.end(), {first.first, first.second, all > 0 ? fmt::format("{} of {}", written, all) : "",
+                                   all > 0 ? hours_text(late) : "", a.is_report() ? last.first : "", last.second,
+                                   percent_text(mark->work_mark_of(s.id)), mark->work_reason,
+                                   percent_text(mark->reviews_mark()), mark->reviews_reason});
+            std::vector<std::string> remarks;
+            const Group& group = groups.at(id);
+            if (group.name != s.group) remarks.push_back("marks of " + group.name + ", the group at the submission");
+            if (group.dropped_out) remarks.emplace_back("dropped out");
+            if (const auto own = of_reviewers.find(id); own != of_reviewers.end()) remarks.push_back(own->second);
+            if (a.is_report() && mark->scored == 0 && versions[id]["first"].contains(part))
+                remarks.emplace_back("no scored review");
+            if (a.is_report() && mark->scored == 1 && a.reviews > 1) remarks.emplace_back("rests on one review");
+            for (const Message& cost : mark->costs) remarks.push_back(message_text(cost));
+            const StudentMark* const own = mark->own_points_of(s.id);
+            for (const std::string& criterion : own ? own->zeros : mark->zeros)
+                remarks.push_back("no points for " + criterion + ", counted as 0");
+            remarks.push_back(said.groups[id]), remarks.push_back(said.students[s.id]);
+            std::erase(remarks, "");
+            row.push_back(fmt::format("{}", fmt::join(remarks, "; ")));
         }
         row.resize(table.names.size());
         table.rows.push_back(std::move(row));

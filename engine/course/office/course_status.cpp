@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "base/reader.h"
+#include "course/office/recognised_file.h"
 #include "course/review/review_pairs.h"
 #include "course/store/exceptions.h"
 #include "course/store/groups.h"
@@ -23,6 +25,8 @@ std::string when(const CourseClock& clock, Instant due, Instant now) {
 /// "v2", "v1 late 2 h 5 min", "v2 (v1 in time)", "v1, 3 rules broken", "v1 damaged", "-".
 std::string cell_of(const HandedInParts& parts, const std::string& main) {
     const auto found = parts.find(main);
+    if (const auto unread = parts.find(kUnreadable); found == parts.end() && unread != parts.end())
+        return fmt::format("came, cannot be read ({})", unread->second.trouble);
     if (found == parts.end()) return parts.empty() ? "-" : fmt::format("only the {}", parts.begin()->first);
     const HandedIn& h = found->second;
     std::string cell = fmt::format("v{}", h.version);
@@ -59,10 +63,12 @@ class Status {
         : course_(course),
           assignment_(assignment),
           now_(now),
-          main_(assignment.is_report() ? "report" : "slides"),
+          main_(assignment.document()),
           versions_(newest_versions(course, assignment)),
           pairs_(review_pairs(course, assignment)),
-          twins_(groups_with_the_same_file(course, assignment)) {}
+          twins_(groups_with_the_same_file(course, assignment)) {
+        for (const auto& pair : kindred_groups(course)) kindred_.insert(pair);
+    }
 
     std::string text() {
         for (const Group& group : groups_of(course_)) add(group);
@@ -122,10 +128,11 @@ class Status {
             count(group, first, last);
             return;
         }
-        int to_write = 0, written = 0, late = 0, to_get = 0, got = 0;
+        int to_write = 0, written = 0, late = 0, to_get = 0, got = 0, voluntary = 0;
         for (const ReviewPair& pair : pairs_) {
+            voluntary += pair.reviewer == group.id && pair.voluntary();
             if (pair.ended) continue;
-            if (pair.reviewer == group.id) ++to_write, written += pair.written, late += pair.late;
+            if (pair.reviewer == group.id) ++to_write, written += pair.written, late += pair.late > 0;
             if (pair.author == group.id) ++to_get, got += pair.written;
         }
         const auto share = [](int part, int whole) {
@@ -133,7 +140,8 @@ class Status {
         };
         open_reviews_ += group.dropped_out ? 0 : to_write - written;
         rows_.push_back({group.name, members, cell_of(first, main_),
-                         share(written, to_write) + (late > 0 ? fmt::format(", {} late", late) : ""),
+                         share(written, to_write) + (late > 0 ? fmt::format(", {} late", late) : "") +
+                             (voluntary > 0 ? fmt::format(", {} voluntary", voluntary) : ""),
                          share(got, to_get), cell_of(last, main_), to_do(group, first, last)});
         count(group, first, last);
     }
@@ -142,7 +150,7 @@ class Status {
         if (group.dropped_out) return;
         const auto found = first.find(main_);
         if (found == first.end()) {
-            ++missing_;
+            ++(first.contains(kUnreadable) ? unreadable_ : missing_);
         } else {
             ++present_;
             if (found->second.is_late()) ++late_;
@@ -174,6 +182,14 @@ class Status {
             if (parts.contains("pack") && !parts.contains(main_))
                 things.push_back(fmt::format("no PDF in the pack{}: ask for one", of));
         };
+        const auto unread = [&](const HandedInParts& parts, const char* what) {
+            const auto there = parts.find(kUnreadable), readable = parts.find(main_);
+            if (there != parts.end() &&
+                (readable == parts.end() || readable->second.received_at < there->second.received_at))
+                things.push_back(fmt::format("ask for a readable {} ({})", what, there->second.trouble));
+        };
+        unread(first, assignment_.is_report() ? "first version" : "file");
+        unread(last, "final version");
         if (found == first.end()) {
             only_pack(first, "");
             if (things.empty() && due_over("first"))
@@ -195,6 +211,11 @@ class Status {
         const auto id = group.id;
         if (const auto twin = twins_.find(id); twin != twins_.end())
             things.push_back(fmt::format("handed in the same file as {}", twin->second));
+        if (any_pair([&](const ReviewPair& p) {
+                return p.reviewer == id &&
+                       kindred_.contains(std::pair(std::min(p.reviewer, p.author), std::max(p.reviewer, p.author)));
+            }))
+            things.push_back("reviews a report of a present or former member: peer assign");
         if (is_held(course_, assignment_, id, {})) things.push_back("its report is held back");
         if (any_pair([id](const ReviewPair& p) { return p.author == id && p.newer_report; }) &&
             !is_held(course_, assignment_, id, {}))
@@ -256,11 +277,12 @@ class Status {
         if (now_ <= assignment_.first_due + assignment_.grace) return {};
         if (pairs_.empty() || unassigned_ > 0) return command("peer assign");
         if (any_pair([this](const ReviewPair& p) {
-                return ((!p.sent && !p.written) || p.newer_report) && !is_held(course_, assignment_, p.author, {});
+                return ((!p.sent && !p.written) || p.newer_report) && !p.stopped_report &&
+                       !is_held(course_, assignment_, p.author, {});
             }))
             return command("peer send");
         if (any_pair([this](const ReviewPair& p) {
-                return ((p.written && !p.released) || p.newer_review) &&
+                return ((p.written && !p.released) || p.newer_review) && !p.stopped_review &&
                        !is_held(course_, assignment_, p.reviewer, p.id);
             }) &&
             now_ > *assignment_.review_due + assignment_.grace)
@@ -270,7 +292,7 @@ class Status {
             return fmt::format("wait for reviews, dynlab course review receive FILE... --assignment {}",
                                assignment_.name);
         if (now_ > *assignment_.final_due)
-            return (finals_ > 0 ? command("final changes --assignment") + ", then " : "") + command("export");
+            return (finals_ > 0 ? command("changes --assignment") + ", then " : "") + command("export");
         return command("scores") + " FILE.csv, then " + command("marks");
     }
 
@@ -281,6 +303,7 @@ class Status {
     std::map<std::int64_t, std::map<std::string, HandedInParts>> versions_;
     std::vector<ReviewPair> pairs_;
     std::map<std::int64_t, std::string> twins_;
+    std::set<std::pair<std::int64_t, std::int64_t>> kindred_;  ///< groups with a common member, now or before
     std::vector<std::vector<std::string>> rows_;
     int groups_ = 0, present_ = 0, late_ = 0, unreadable_ = 0, missing_ = 0, unassigned_ = 0, open_reviews_ = 0,
         finals_ = 0;

@@ -4,15 +4,12 @@
 
 #include <algorithm>
 
-#include "course/store/groups.h"
+#include "course/store/newest_versions.h"
 #include "numerics/error.h"
 #include "platform/hash.h"
-#include "platform/spelling.h"
 
 namespace dynlab::inline course {
 namespace {
-
-constexpr char kTakenBack[] = "-";
 
 /// Whose a row of the sheet is: a group's, or a student's.
 struct RowOwner {
@@ -36,12 +33,12 @@ std::map<std::string, CriterionPoints> student_points(Course& course, const Assi
 /// Finds whose rows are.
 class RowOwners {
   public:
-    explicit RowOwners(Course& course) : course_(course), students_(students_of(course)) {}
+    explicit RowOwners(Course& course) : course_(course) {}
 
     /// Throws InvalidArgument.
     RowOwner find(const std::string& group, const std::string& student) const {
         if (student.empty()) return {group_named(course_, group).id, ""};
-        const Student& found = student_called(student);
+        const Student found = student_named(course_, student);
         if (found.group.empty()) throw InvalidArgument("{} is in no group", found.id);
         const Group own = group_named(course_, found.group);
         if (!group.empty() && group_named(course_, group).id != own.id)
@@ -50,30 +47,14 @@ class RowOwners {
     }
 
   private:
-    const Student& student_called(const std::string& words) const {
-        std::vector<const Student*> named;
-        std::vector<std::string> known;
-        for (const Student& s : students_) {
-            if (s.id == words) return s;
-            if (s.name == words) named.push_back(&s);
-            known.push_back(s.id), known.push_back(s.name);
-        }
-        if (named.size() == 1) return *named.front();
-        if (!named.empty()) throw InvalidArgument("several students are called {}: give the id", words);
-        const auto near = nearest_word(words, known);
-        throw near ? InvalidArgument("there is no student \"{}\"; did you mean {}?", words, *near)
-                   : InvalidArgument("there is no student \"{}\"", words);
-    }
-
     Course& course_;
-    std::vector<Student> students_;
 };
 
 /// Reads a sheet into the store.
 class OralReader {
   public:
     OralReader(Course& course, const Assignment& a, Instant now)
-        : course_(course), a_(a), now_(now), said_(oral_comments(course, a)) {
+        : course_(course), a_(a), now_(now), groups_(groups_of(course)), said_(oral_comments(course, a)) {
         for (const auto& [group, points] : oral_points(course, a)) known_[{group, ""}] = points;
         for (const auto& [student, points] : student_points(course, a)) students_[student] = points;
     }
@@ -82,8 +63,7 @@ class OralReader {
         const RowOwners owners(course_);
         Transaction transaction(course_.database());
         for (std::size_t row = 0; row < sheet.rows(); ++row) {
-            const RowOwner owner =
-                sheet.at(row, [&] { return owners.find(sheet.cell(row, "group"), sheet.cell(row, "student")); });
+            const RowOwner owner = sheet.at(row, [&] { return owner_of(owners, sheet, row); });
             for (std::size_t c = 0; c < a_.criteria.size(); ++c) read_points(sheet, row, c, owner);
             if (const std::string comment = sheet.cell(row, "comment"); !comment.empty()) comment_on(owner, comment);
         }
@@ -93,26 +73,33 @@ class OralReader {
     }
 
   private:
+    RowOwner owner_of(const RowOwners& owners, const ScoreSheet& sheet, std::size_t row) {
+        const RowOwner owner = owners.find(sheet.cell(row, "group"), sheet.cell(row, "student"));
+        if (sheet.has_points(row))
+            for (const Group& group : groups_)
+                if (group.id == owner.group) refuse_dropped_out(group);
+        return owner;
+    }
+
     CriterionPoints& points_of(const RowOwner& owner) {
         if (owner.student.empty()) return known_.try_emplace(owner, a_.criteria.size()).first->second;
         return students_.try_emplace(owner.student, a_.criteria.size()).first->second;
     }
 
     void read_points(const ScoreSheet& sheet, std::size_t row, std::size_t c, const RowOwner& owner) {
-        const bool taken_back = !owner.student.empty() && sheet.points_cell(row, c) == kTakenBack;
-        const std::optional<double> points = taken_back ? std::nullopt : sheet.points(row, c);
+        const ScoreEntry entry = sheet.entry(row, c);
         std::optional<double>& known = points_of(owner)[c];
-        if ((!points && !taken_back) || known == points) return;
+        if (!entry.given || known == entry.points) return;
         const auto criterion = static_cast<std::int64_t>(c);
         if (owner.student.empty())
             course_.database().run(
                 "INSERT INTO oral_scores VALUES (?, ?, ?, ?, ?) ON CONFLICT DO UPDATE SET points = excluded.points",
-                a_.id, owner.group, criterion, now_, *points);
+                a_.id, owner.group, criterion, now_, entry.points);
         else
             course_.database().run(
                 "INSERT INTO student_scores VALUES (?, ?, ?, ?, ?) ON CONFLICT DO UPDATE SET points = excluded.points",
-                a_.id, owner.student, criterion, now_, points);
-        known = points;
+                a_.id, owner.student, criterion, now_, entry.points);
+        known = entry.points;
         ++fresh_;
     }
 
@@ -131,6 +118,7 @@ class OralReader {
     Course& course_;
     const Assignment& a_;
     Instant now_;
+    std::vector<Group> groups_;
     OralComments said_;
     std::map<RowOwner, CriterionPoints> known_;
     std::map<std::string, CriterionPoints> students_;
@@ -161,7 +149,7 @@ std::map<std::int64_t, CriterionPoints> oral_points(Course& course, const Assign
          rows.next();) {
         CriterionPoints& own = points.try_emplace(rows.integer(0), a.criteria.size()).first->second;
         const auto c = static_cast<std::size_t>(rows.integer(1));
-        if (c < own.size()) own[c] = rows.number(2);
+        if (c < own.size()) own[c] = rows.isColumnNull(2) ? std::nullopt : std::optional(rows.number(2));
     }
     return points;
 }
@@ -214,21 +202,46 @@ std::string oral_sheet(Course& course, const Assignment& a, const OralSheetWishe
     return csv_text(table);
 }
 
+void count_missing_points(const Assignment& a, const std::vector<bool>& graded, CriterionPoints& points,
+                          std::vector<std::string>& zeros) {
+    for (std::size_t c = 0; c < points.size(); ++c) {
+        if (points[c] || !graded[c]) continue;
+        points[c] = 0;
+        zeros.push_back(a.criteria[c].name);
+    }
+}
+
+bool has_points(const CriterionPoints& points) {
+    return std::ranges::any_of(points, [](const auto& p) { return p.has_value(); });
+}
+
+std::vector<bool> graded_criteria(Course& course, const Assignment& a) {
+    std::vector<bool> graded(a.criteria.size());
+    const auto see = [&](const auto& all) {
+        for (const auto& [owner, points] : all)
+            for (std::size_t c = 0; c < graded.size(); ++c) graded[c] = graded[c] || points[c];
+    };
+    see(oral_points(course, a)), see(student_points(course, a));
+    return graded;
+}
+
 void add_student_marks(Course& course, const Assignment& a, std::vector<GroupMark>& marks) {
+    const std::vector<bool> graded = graded_criteria(course, a);
     const auto own_points = student_points(course, a);
-    std::map<std::int64_t, std::vector<std::string>> members;
-    for (const Group& group : groups_of(course)) members[group.id] = group.members;
-    for (GroupMark& mark : marks)
-        for (const std::string& id : members[mark.group]) {
-            const CriterionPoints* const own = given_for(own_points, id);
-            if (!own || std::ranges::none_of(*own, [](const auto& p) { return p.has_value(); })) continue;
-            StudentMark student{id, mark.medians, {}};
+    for (const auto& [id, group] : groups_at_submission(course, a.id)) {
+        const CriterionPoints* const own = given_for(own_points, id);
+        if (!own || !has_points(*own)) continue;
+        for (GroupMark& mark : marks) {
+            if (mark.group != group) continue;
+            StudentMark student{id, mark.medians, {}, {}};
             for (std::size_t c = 0; c < own->size(); ++c)
                 if ((*own)[c]) student.points[c] = (*own)[c];
+            count_missing_points(a, graded, student.points, student.zeros);
             student.work = percent_of(a.criteria, student.points);
             if (student.work) student.work = std::max(0.0, *student.work - mark.work_costs);
             mark.students.push_back(std::move(student));
         }
+    }
 }
 
 }  // namespace dynlab::inline course

@@ -15,8 +15,8 @@ struct OralComments {
 
 /// Reads a filled sheet, whole or not at all. Columns: group, or student (an id, or a name that one student has), or
 /// both; the criteria; comment. A row without a student is of the whole group. What a student has no points for has the
-/// group's; "-" in a student's cell takes points back that were given before, so that the group's hold again. Empty
-/// cells say nothing. Returns how many scores and comments are new. Throws EnvironmentError with file, line and column.
+/// group's; "-" takes points back that were given before. Empty cells change nothing. Points for a group that dropped
+/// out are refused. Returns how many scores and comments are new. Throws EnvironmentError with file, line and column.
 int import_oral_scores(Course& course, const Assignment& assignment, const std::filesystem::path& file, Instant now);
 
 struct OralSheetWishes {
@@ -29,6 +29,13 @@ std::string oral_sheet(Course& course, const Assignment& assignment, const OralS
 
 std::map<std::int64_t, CriterionPoints> oral_points(Course& course, const Assignment& assignment);  ///< by group
 OralComments oral_comments(Course& course, const Assignment& assignment);                           ///< the newest
+
+/// The criteria for which any group or student has points: an empty cell of another one that has points counts 0 there.
+std::vector<bool> graded_criteria(Course& course, const Assignment& assignment);
+/// Sets the missing points of graded criteria to 0 and names these criteria.
+void count_missing_points(const Assignment& assignment, const std::vector<bool>& graded, CriterionPoints& points,
+                          std::vector<std::string>& zeros);
+bool has_points(const CriterionPoints& points);  ///< for any criterion
 
 /// Puts the marks of those members in who have points of their own. What `mark.work_costs` takes off the group's comes
 /// off theirs, too.

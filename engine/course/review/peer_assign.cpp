@@ -8,6 +8,7 @@
 #include "course/review/allocation.h"
 #include "course/review/peer_review.h"
 #include "course/store/exceptions.h"
+#include "course/store/newest_versions.h"
 #include "numerics/error.h"
 
 namespace dynlab::inline course {
@@ -53,6 +54,11 @@ class ReviewAssigner {
             const bool both = problem_.active[static_cast<std::size_t>(edge.first)] &&
                               problem_.active[static_cast<std::size_t>(edge.second)];
             known_[edge] = pair;
+            if (pair.written && refused_.contains(edge))
+                outcome_.remarks.push_back(Message(
+                    "{} has reviewed {}, but they share a member now or did, or are kept apart: withdraw the review if "
+                    "it must not count.",
+                    pair.reviewer_name, pair.author_name));
             if (!pair.written && refused_.contains(edge)) continue;
             (pair.written || (pair.sent && both) ? problem_.fixed : problem_.loose).push_back(edge);
         }
@@ -174,6 +180,9 @@ void wish_pair(Course& course, const Assignment& assignment, const std::string& 
         for (const auto& [a, b] : kindred_groups(course))
             if ((a == reads.id && b == writes.id) || (a == writes.id && b == reads.id))
                 throw InvalidArgument("{} and {} share a member, or did", reads.name, writes.name);
+    if (wish == "set" && !newest_file(course, assignment, writes.id, "first", "report"))
+        throw InvalidArgument("{} has submitted no report for {}: there is nothing to review", writes.name,
+                              assignment.name);
     const auto enter = [&](const Group& one, const Group& other, const std::string& what) {
         course.database().run(
             "INSERT INTO pair_wishes (assignment, reviewer, author, wish, reason, made_at) VALUES (?, ?, ?, ?, ?, ?)",

@@ -15,7 +15,7 @@ struct AssignOutcome {
 };
 /// Allots the reviews of an assignment, or mends the allotment after late-comers and drop-outs: what is written stays,
 /// and what is sent as long as both are in the course and nobody reviews work of their own. Repeating it changes
-/// nothing. Throws InvalidArgument before the deadline of the first version (unless `early`), for a presentation, and
+/// nothing. Throws InvalidArgument before the deadline of the first version (unless `early`), for a talk, and
 /// where there are too few groups.
 AssignOutcome assign_reviews(Course& course, const Assignment& assignment, Instant now, bool early);
 
@@ -34,7 +34,7 @@ void wish_pair(Course& course, const Assignment& assignment, const std::string& 
 /// so that only the PDF made from them is searched for names.
 struct CopyRequest {
     std::filesystem::path pdf;    ///< as it was handed in
-    std::filesystem::path pack;   ///< its source, where the group handed one in; else empty
+    std::filesystem::path pack;   ///< its source, where one was submitted with it or later; else empty
     std::filesystem::path copy;   ///< where the clean copy is to be written
     std::vector<Student> people;  ///< all of the course, with group, name, id and mail address
     std::string group = {};       ///< whose it is
@@ -63,6 +63,7 @@ struct SendOutcome {
     int sent = 0, before = 0, stopped = 0, waiting = 0;  ///< copies: now; earlier; with hits; of what has not come
     int again = 0;                                       ///< of those now: newer versions of what had been sent before
     int held = 0;                                        ///< that the instructor holds back
+    std::vector<std::string> unreviewed, reviewed_once;  ///< of reviews: groups whose report has no or one review
     std::vector<std::string> removed;  ///< files of the outbox that nobody is to get any more: taken back, withdrawn
     std::vector<Message> hits;         ///< a line for each document that was stopped
     std::vector<Message> hints;        ///< a line for each that was sent and may name somebody
@@ -71,7 +72,7 @@ struct SendOutcome {
 /// Makes the copies that have not been made yet, or of which a newer version stands (of a report as long as its review
 /// is not written), and puts them into outbox/ASSIGNMENT/WAY/GROUP/. A hit stops that copy only. What is held back is
 /// not sent; what nobody is to get any more is taken out of the outbox. Copies are kept in the store like all that is
-/// handed in. The history records which hits were accepted and why. Throws InvalidArgument for a presentation, for
+/// handed in. The history records which hits were accepted and why. Throws InvalidArgument for a talk, for
 /// reviews that may still come (unless `early`), and for `accepted` with an unknown group or without a reason;
 /// EnvironmentError for a copy that the store does not hold as it was made.
 SendOutcome send_copies(Course& course, const Assignment& assignment, Way way, Instant now,

@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "course/review/peer_review.h"
 #include "course/store/exceptions.h"
+#include "course/store/newest_versions.h"
 #include "numerics/error.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
@@ -15,21 +17,6 @@ namespace dynlab::inline course {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Version {
-    std::int64_t id = 0;
-    std::string hash, name;
-};
-
-std::optional<Version> newest(Course& course, const Assignment& assignment, std::int64_t group, const char* stage,
-                              std::int64_t pair, const char* part) {
-    Rows rows = course.database().query(
-        "SELECT id, hash, name FROM standing WHERE assignment = ? AND group_id = ? AND stage = ? AND ifnull(pair, 0) = "
-        "? AND part = ? ORDER BY number DESC LIMIT 1",
-        assignment.id, group, stage, pair, part);
-    if (!rows.next()) return {};
-    return Version{rows.integer(0), rows.text(1), rows.text(2)};
-}
 
 class CopySender {
   public:
@@ -52,6 +39,7 @@ class CopySender {
         for (const ReviewPair& pair : review_pairs(course_, assignment_))
             if (!pair.ended) send(pair);
         empty_outbox_of_others();
+        if (!to_reviewers()) count_reviews();
         return std::move(outcome_);
     }
 
@@ -92,6 +80,18 @@ class CopySender {
         std::sort(outcome_.removed.begin(), outcome_.removed.end());
     }
 
+    /// Reports whose mark would rest on one review, or on none.
+    void count_reviews() {
+        std::map<std::int64_t, int> written;
+        for (const ReviewPair& pair : review_pairs(course_, assignment_))
+            written[pair.author] += pair.written && !pair.ended;
+        for (const Group& group : groups_of(course_)) {
+            if (group.dropped_out || !newest_file(course_, assignment_, group.id, "first", "report")) continue;
+            if (written[group.id] == 0) outcome_.unreviewed.push_back(group.name);
+            if (written[group.id] == 1 && assignment_.reviews > 1) outcome_.reviewed_once.push_back(group.name);
+        }
+    }
+
     std::optional<std::string> sent_before(const ReviewPair& pair) const {
         Rows rows = course_.database().query("SELECT hash FROM sendings WHERE pair = ? AND way = ? ORDER BY id DESC",
                                              pair.id, way_name());
@@ -114,25 +114,25 @@ class CopySender {
         const std::int64_t group = to_reviewers() ? pair.author : pair.reviewer;
         const char *const stage = to_reviewers() ? "first" : "review", *const part =
                                                                            to_reviewers() ? "report" : "review";
-        const auto version = newest(course_, assignment_, group, stage, to_reviewers() ? 0 : pair.id, part);
+        const auto version = newest_file(course_, assignment_, group, stage, part, to_reviewers() ? 0 : pair.id);
         if (!version) {
             ++outcome_.waiting;
             return;
         }
         if (stopped_.contains(version->id)) {  // for another reviewer
             ++outcome_.stopped;
+            record_stop(pair, version->id);
             return;
         }
         const std::string& author = to_reviewers() ? pair.author_name : pair.reviewer_name;
         const TemporaryFolder scratch;
-        const auto under_its_name = [&](const Version& v) {  // the store's own names tell no kind
+        const auto under_its_name = [&](const StandingFile& v) {  // the store's own names tell no kind
             const fs::path file = scratch.path() / fs::path(v.name).filename();
             fs::copy_file(course_.file(v.hash), file);
             return file;
         };
         CopyRequest request{under_its_name(*version), {}, scratch.path() / ".copy" / "copy.pdf", people_, author};
-        if (const auto pack = newest(course_, assignment_, group, stage, to_reviewers() ? 0 : pair.id, "pack"))
-            request.pack = under_its_name(*pack);
+        if (const auto pack = pack_of_document(course_, version->id)) request.pack = under_its_name(*pack);
         fs::create_directories(request.copy.parent_path());
         request.accept = accepted_.contains(author);
         const CopyOutcome copy = copier_(request);
@@ -140,6 +140,7 @@ class CopySender {
         if (!copy.made) {
             stopped_.insert(version->id);
             ++outcome_.stopped;
+            record_stop(pair, version->id);
             outcome_.hits.push_back(Message("{} of {} was not sent: {}", document, author, sentences(copy.hits)));
             return;
         }
@@ -152,8 +153,17 @@ class CopySender {
         record(pair, *version, read_file(request.copy), copy.hits.empty() ? "" : author);
     }
 
+    /// So that the status stops asking for what cannot be sent.
+    void record_stop(const ReviewPair& pair, std::int64_t version) {
+        if (to_reviewers() ? pair.stopped_report : pair.stopped_review) return;
+        Transaction transaction(course_.database());
+        course_.database().run("INSERT INTO stops VALUES (?, ?, ?, ?) ON CONFLICT DO NOTHING", pair.id, way_name(),
+                               version, now_);
+        transaction.commit();
+    }
+
     /// `accepted`: the group whose hits were accepted; else empty.
-    void record(const ReviewPair& pair, const Version& version, const std::string& content,
+    void record(const ReviewPair& pair, const StandingFile& version, const std::string& content,
                 const std::string& accepted) {
         const std::string hash = course_.keep(content);
         course_.settle({hash});

@@ -98,11 +98,14 @@ class ReviewMarker {
 
 }  // namespace
 
+const StudentMark* GroupMark::own_points_of(const std::string& student) const {
+    const auto own = std::ranges::find(students, student, &StudentMark::student);
+    return own == students.end() ? nullptr : &*own;
+}
+
 std::optional<double> GroupMark::work_mark_of(const std::string& student) const {
-    if (!work_override)
-        for (const StudentMark& own : students)
-            if (own.student == student) return own.work;
-    return work_mark();
+    const StudentMark* const own = work_override ? nullptr : own_points_of(student);
+    return own ? own->work : work_mark();
 }
 
 Marks marks_of(const std::vector<Criterion>& criteria, const std::vector<ScoredReview>& reviews,

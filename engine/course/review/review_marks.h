@@ -27,6 +27,7 @@ struct StudentMark {
     std::string student;                        ///< id
     std::vector<std::optional<double>> points;  ///< a criterion; the group's where the student has none
     std::optional<double> work;                 ///< percent, costs taken off
+    std::vector<std::string> zeros;             ///< criteria without points, which count 0
 };
 
 struct GroupMark {
@@ -36,10 +37,13 @@ struct GroupMark {
     std::optional<double> final_version;         ///< percent, from the instructor's scores of it; within `work`
     std::vector<Message> costs;                  ///< what was taken off
     double work_costs = 0;                       ///< what was taken off the work, in percent points
+    int scored = 0;                              ///< scored reviews of its report, the instructor's included
+    std::vector<std::string> zeros;              ///< criteria of an oral without points, which count 0
     std::vector<StudentMark> students;           ///< those whose points differ from the group's
     std::optional<double> work_override, reviews_override;
     std::string work_reason, reviews_reason;
     std::optional<double> work_mark() const { return work_override ? work_override : work; }
+    const StudentMark* own_points_of(const std::string& student) const;  ///< null where the group's points count
     /// Of one member: the instructor's word for the group holds for all of it.
     std::optional<double> work_mark_of(const std::string& student) const;
     std::optional<double> reviews_mark() const { return reviews_override ? reviews_override : reviews; }
@@ -58,16 +62,19 @@ Marks marks_of(const std::vector<Criterion>& criteria, const std::vector<ScoredR
                const std::vector<std::int64_t>& groups);
 
 /// The same from the store: the newest scores and overrides, final versions with their weight, costs of what is late or
-/// missing at `now`. Oral scores mark a presentation's work.
+/// missing at `now`. Oral scores mark a talk's work.
 Marks course_marks(Course& course, const Assignment& assignment, Instant now = CourseClock::now());
 
 /// Reads scores, whole or not at all. Columns: reviewer (a group), report (report-NN; may miss where the group has one)
 /// and the criteria; the reviewer "instructor" is the instructor, whose report is a pseudonym or a group. Of final
-/// versions by the instructor: group and the criteria. Empty cells are no scores. Returns how many are new. Throws
-/// EnvironmentError with file, line and column. Those of an oral: oral_marks.h.
+/// versions by the instructor: group and the criteria. Empty cells change nothing; "-" takes a score back. Points for a
+/// group that dropped out or submitted nothing, or of a withdrawn review, are refused. Returns the number of changes.
+/// Throws EnvironmentError with file, line and column. Those of an oral: oral_marks.h.
 int import_review_scores(Course& course, const Assignment& assignment, const std::filesystem::path& file, Instant now);
-/// Within a transaction: the points of one criterion (counted from 0) of one review.
-void add_review_score(Course& course, std::int64_t pair, std::int64_t criterion, double points, Instant now);
+/// Within a transaction: the points of one criterion (counted from 0) of one review; without points the score before is
+/// taken back.
+void add_review_score(Course& course, std::int64_t pair, std::int64_t criterion, std::optional<double> points,
+                      Instant now);
 int import_final_scores(Course& course, const Assignment& assignment, const std::filesystem::path& file, Instant now);
 
 /// The instructor's word, which always wins; the newest holds. `what`: "work" or "reviews"; up to 200 percent, for what

@@ -37,12 +37,14 @@ std::vector<ReviewPair> review_pairs(Course& course, const Assignment& assignmen
              "SELECT p.id, p.reviewer, p.author, r.name, w.name, pw.number, pr.number, p.ended_at IS NOT NULL, EXISTS "
              "(SELECT 1 FROM sendings WHERE pair = p.id AND way = 'to reviewer'), EXISTS (SELECT 1 FROM standing WHERE "
              "pair = p.id AND part = 'review'), EXISTS (SELECT 1 FROM sendings WHERE pair = p.id AND way = 'to "
-             "author'), EXISTS (SELECT 1 FROM standing WHERE pair = p.id AND part = 'review' AND late = 0), (SELECT id "
+             "author'), (SELECT min(late) FROM standing WHERE pair = p.id AND part = 'review'), (SELECT id "
              "FROM standing WHERE pair = p.id AND part = 'review' ORDER BY number DESC LIMIT 1), (SELECT version FROM "
              "sendings WHERE pair = p.id AND way = 'to author' ORDER BY id DESC LIMIT 1), (SELECT id FROM standing v "
              "WHERE v.assignment = p.assignment AND v.group_id = p.author AND v.stage = 'first' AND v.part = 'report' "
              "ORDER BY number DESC LIMIT 1), (SELECT version FROM sendings WHERE pair = p.id AND way = 'to reviewer' "
-             "ORDER BY id DESC LIMIT 1), EXISTS (SELECT 1 FROM standing WHERE pair = p.id AND part = 'pack') FROM "
+             "ORDER BY id DESC LIMIT 1), EXISTS (SELECT 1 FROM standing WHERE pair = p.id AND part = 'pack'), EXISTS "
+             "(SELECT 1 FROM versions WHERE pair = p.id), (SELECT max(version) FROM stops WHERE pair = p.id AND way = "
+             "'to reviewer'), (SELECT max(version) FROM stops WHERE pair = p.id AND way = 'to author') FROM "
              "pairs p JOIN groups r ON r.id = p.reviewer JOIN groups w ON w.id = p.author JOIN pseudonyms pw ON "
              "pw.assignment = p.assignment AND pw.group_id = p.author AND pw.role = 'author' JOIN pseudonyms pr ON "
              "pr.assignment = p.assignment AND pr.group_id = p.reviewer AND pr.role = 'reviewer' WHERE p.assignment = "
@@ -56,7 +58,10 @@ std::vector<ReviewPair> review_pairs(Course& course, const Assignment& assignmen
         pair.ended = rows.integer(7) != 0, pair.sent = rows.integer(8) != 0;
         pair.written = rows.integer(9) != 0, pair.released = rows.integer(10) != 0;
         pair.only_pack = !pair.written && rows.integer(16) != 0;
-        pair.late = pair.written && rows.integer(11) == 0;
+        pair.withdrawn = !pair.written && !pair.only_pack && rows.integer(17) != 0;
+        pair.late = pair.written ? rows.integer(11) : 0;
+        pair.stopped_report = !rows.isColumnNull(18) && rows.integer(18) == rows.integer(14);
+        pair.stopped_review = !rows.isColumnNull(19) && rows.integer(19) == rows.integer(12);
         pair.newer_review = pair.released && pair.written && rows.integer(12) != rows.integer(13);
         pair.newer_report = pair.sent && !pair.written && !pair.released && !rows.isColumnNull(14) &&
                             rows.integer(14) != rows.integer(15);
@@ -66,19 +71,21 @@ std::vector<ReviewPair> review_pairs(Course& course, const Assignment& assignmen
 }
 
 ReviewPair reviewed_pair(const std::vector<ReviewPair>& pairs, const Group& reviewer, const std::string& name) {
-    std::vector<const ReviewPair*> given;
-    std::vector<std::string> reports;
+    std::vector<const ReviewPair*> given, taken_back;
     for (const ReviewPair& pair : pairs) {
-        if (pair.reviewer != reviewer.id || pair.ended) continue;
-        given.push_back(&pair);
-        reports.push_back(pair.report_pseudonym());
+        if (pair.reviewer != reviewer.id || (pair.ended && !pair.sent)) continue;
+        (pair.ended ? taken_back : given).push_back(&pair);
     }
-    if (given.empty())
+    if (given.empty() && taken_back.empty())
         throw EnvironmentError("{} was given no report to review; see dynlab course peer assign", reviewer.name);
     const std::vector<std::int64_t> named = report_numbers(name);
-    for (const ReviewPair* pair : given)
-        if (std::find(named.begin(), named.end(), pair->report_number) != named.end()) return *pair;
-    if (given.size() == 1 && named.empty()) return *given.front();
+    for (const auto* list : {&given, &taken_back})
+        for (const ReviewPair* pair : *list)
+            if (std::find(named.begin(), named.end(), pair->report_number) != named.end()) return *pair;
+    const auto& open = given.empty() ? taken_back : given;
+    if (open.size() == 1 && named.empty()) return *open.front();
+    std::vector<std::string> reports;
+    for (const ReviewPair* pair : open) reports.push_back(pair->report_pseudonym());
     if (!named.empty())
         throw EnvironmentError("it is of {}, which {} was not given; it was given {}",
                                fmt::format("report-{:02}", named.front()), reviewer.name, listed(reports, Join::kAnd));

@@ -13,11 +13,16 @@ struct ReviewPair {
     std::string reviewer_name, author_name;               ///< of the groups: for the instructor only
     std::int64_t report_number = 0, reviewer_number = 0;  ///< pseudonyms in this assignment
     bool ended = false;                                   ///< taken back before the review was written
+    bool withdrawn = false;  ///< its review was submitted and withdrawn: its scores do not count
     bool sent = false, written = false, released = false;
     bool only_pack = false;     ///< a pack came for it, but no document that somebody could read
-    bool late = false;          ///< written, but no version of it was in time
+    std::int64_t late = 0;      ///< seconds that the least late version of its review is late
     bool newer_report = false;  ///< sent, but another version of the report stands since, and no review is written
     bool newer_review = false;  ///< released, but another version of the review stands since
+
+    bool stopped_report = false, stopped_review = false;  ///< the newest version names somebody: no copy can be sent
+    /// A review that came although the pair had been taken back: kept, without marks.
+    bool voluntary() const { return ended && written; }
 
     std::string report_pseudonym() const;    ///< "report-17": what the reviewer sees
     std::string reviewer_pseudonym() const;  ///< "reviewer-05": what the authors see
@@ -26,8 +31,8 @@ struct ReviewPair {
 /// All pairs of an assignment, ended ones too, by reviewer and author.
 std::vector<ReviewPair> review_pairs(Course& course, const Assignment& assignment);
 
-/// The pair of this reviewer whose report's pseudonym stands in `name`; the only one where none does. Throws
-/// EnvironmentError that tells which reports the group was given.
+/// The pair of this reviewer whose report's pseudonym is in `name`; the only one where `name` has none. Pairs that were
+/// taken back after they were sent come last. Throws EnvironmentError that names the reports of the group.
 ReviewPair reviewed_pair(const std::vector<ReviewPair>& pairs, const Group& reviewer, const std::string& name);
 
 }  // namespace dynlab::inline course

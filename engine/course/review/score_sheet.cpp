@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "numerics/error.h"
+
 namespace dynlab::inline course {
 std::optional<double> percent_of(const std::vector<Criterion>& criteria, const CriterionPoints& points) {
     double sum = 0, most = 0;
@@ -37,19 +39,26 @@ std::string ScoreSheet::cell(std::size_t row, const std::string& name) const {
     return index ? table_.rows[row][*index] : "";
 }
 
-std::string ScoreSheet::points_cell(std::size_t row, std::size_t criterion) const {
-    return cell(row, in_small_letters(assignment_.criteria[criterion].name));
-}
-
-std::optional<double> ScoreSheet::points(std::size_t row, std::size_t criterion) const {
+ScoreEntry ScoreSheet::entry(std::size_t row, std::size_t criterion) const {
     const Criterion& c = assignment_.criteria[criterion];
-    const std::string text = points_cell(row, criterion);
+    const std::string text = cell(row, in_small_letters(c.name));
     if (text.empty()) return {};
+    if (text == "-") return {true, {}};
     const std::optional<double> value = number_in_cell(text);
     if (!value || !(*value >= 0 && *value <= c.most))
         fail(table_.lines[row],
              Message("{} must be a number from 0 to {}, but \"{}\" was given", c.name, c.most, text));
-    return value;
+    return {true, value};
+}
+
+bool ScoreSheet::has_points(std::size_t row) const {
+    for (std::size_t c = 0; c < assignment_.criteria.size(); ++c)
+        if (entry(row, c).points) return true;
+    return false;
+}
+
+void refuse_dropped_out(const Group& group) {
+    if (group.dropped_out) throw InvalidArgument("{} dropped out: it has no scores", group.name);
 }
 
 void ScoreSheet::fail(int line, const Message& what) const {

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "course/store/assignments.h"
+#include "course/store/groups.h"
 #include "data_io/text_table.h"
 #include "platform/error.h"
 
@@ -19,6 +20,15 @@ using CriterionPoints = std::vector<std::optional<double>>;
 /// 100 sum of points / sum of most, over what was scored.
 std::optional<double> percent_of(const std::vector<Criterion>& criteria, const CriterionPoints& points);
 
+/// Throws InvalidArgument for a group that dropped out.
+void refuse_dropped_out(const Group& group);
+
+/// A cell of a score sheet.
+struct ScoreEntry {
+    bool given = false;            ///< false: the cell is empty, and the score before stays
+    std::optional<double> points;  ///< given without points ("-"): the score before is taken back
+};
+
 /// A table of scores as it is typed in: each row has an owner and points.
 class ScoreSheet {
   public:
@@ -29,9 +39,9 @@ class ScoreSheet {
 
     std::size_t rows() const { return table_.rows.size(); }
     std::string cell(std::size_t row, const std::string& name) const;  ///< empty without such a column
-    std::string points_cell(std::size_t row, std::size_t criterion) const;
-    /// Nothing for an empty cell. Throws EnvironmentError for what is no number from 0 to the criterion's most.
-    std::optional<double> points(std::size_t row, std::size_t criterion) const;
+    /// Throws EnvironmentError for a cell that is neither empty nor "-" nor a number from 0 to the criterion's most.
+    ScoreEntry entry(std::size_t row, std::size_t criterion) const;
+    bool has_points(std::size_t row) const;
 
     /// What `work` throws about a row gets its place.
     template <class Work>

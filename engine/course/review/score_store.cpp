@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "base/reader.h"
@@ -15,7 +16,6 @@ namespace dynlab::inline course {
 namespace {
 
 constexpr double kMostPercent = 200;
-constexpr std::int64_t kDay = 86400;
 constexpr char kInstructor[] = "instructor";
 
 /// The newest points by owner: a pair, or a group.
@@ -24,16 +24,21 @@ std::map<std::int64_t, CriterionPoints> newest_points(Rows rows, std::size_t cri
     while (rows.next()) {
         CriterionPoints& own = points.try_emplace(rows.integer(0), criteria).first->second;
         const auto c = static_cast<std::size_t>(rows.integer(1));
-        if (c < criteria) own[c] = rows.number(2);
+        if (c < criteria) own[c] = rows.isColumnNull(2) ? std::nullopt : std::optional(rows.number(2));
     }
     return points;
 }
 
+/// Without the scores of reviews that are withdrawn now: those that were given while such a review was the newest.
 std::map<std::int64_t, CriterionPoints> review_points(Course& course, const Assignment& a) {
     return newest_points(
-        course.database().query("SELECT s.pair, s.criterion, s.points FROM scores s JOIN pairs p ON p.id = s.pair "
-                                "WHERE p.assignment = ? ORDER BY s.given_at",
-                                a.id),
+        course.database().query(
+            "SELECT s.pair, s.criterion, s.points FROM scores s JOIN pairs p ON p.id = s.pair WHERE p.assignment = ? "
+            "AND NOT EXISTS (SELECT 1 FROM arrived v WHERE v.withdrawn AND v.id = (SELECT w.id FROM versions w WHERE "
+            "w.pair = s.pair AND w.part IN ('review', 'pack') AND w.received_at <= s.given_at AND NOT ifnull((SELECT "
+            "x.withdrawn FROM withdrawals x WHERE x.version = w.id AND x.made_at < s.given_at ORDER BY x.id DESC LIMIT "
+            "1), 0) ORDER BY w.part = 'review' DESC, w.number DESC LIMIT 1)) ORDER BY s.given_at",
+            a.id),
         a.criteria.size());
 }
 
@@ -45,7 +50,8 @@ std::map<std::int64_t, CriterionPoints> instructor_points(Course& course, const 
                          a.criteria.size());
 }
 
-/// Writes what differs from what is known; `owner_of` gives the row's owner, `insert` writes one score.
+/// Writes the scores that differ from the known ones. `owner_of` gives the owner of a row and refuses one that cannot
+/// have points; `insert` writes one score.
 template <class Owner, class Insert>
 int import_scores(Course& course, const Assignment& a, const ScoreSheet& sheet,
                   std::map<std::int64_t, CriterionPoints> known, const Owner& owner_of, const Insert& insert) {
@@ -55,10 +61,10 @@ int import_scores(Course& course, const Assignment& a, const ScoreSheet& sheet,
         const std::int64_t owner = sheet.at(row, [&] { return owner_of(row); });
         CriterionPoints& own = known.try_emplace(owner, a.criteria.size()).first->second;
         for (std::size_t c = 0; c < a.criteria.size(); ++c) {
-            const auto points = sheet.points(row, c);
-            if (!points || own[c] == points) continue;
-            insert(owner, static_cast<std::int64_t>(c), *points);
-            own[c] = points;
+            const ScoreEntry entry = sheet.entry(row, c);
+            if (!entry.given || own[c] == entry.points) continue;
+            insert(owner, static_cast<std::int64_t>(c), entry.points);
+            own[c] = entry.points;
             ++fresh;
         }
     }
@@ -69,14 +75,23 @@ int import_scores(Course& course, const Assignment& a, const ScoreSheet& sheet,
 }
 
 /// The group whose report is called so, by its pseudonym or its own name.
-std::int64_t author_called(Course& course, const std::vector<ReviewPair>& pairs, const std::string& report) {
+Group author_called(Course& course, const std::vector<ReviewPair>& pairs, const std::string& report) {
     for (const ReviewPair& pair : pairs)
-        if (pair.report_pseudonym() == report) return pair.author;
-    return group_named(course, report).id;
+        if (pair.report_pseudonym() == report) return group_named(course, pair.author_name);
+    return group_named(course, report);
+}
+
+/// Throws InvalidArgument for a group that cannot have scores for its report of this stage.
+void refuse_without_report(Course& course, const Assignment& a, const Group& group, const char* stage) {
+    refuse_dropped_out(group);
+    if (newest_file(course, a, group.id, stage, "report") || newest_file(course, a, group.id, stage, "pack")) return;
+    throw std::string_view(stage) == "first"
+        ? InvalidArgument("{} has submitted no first version of {}: there is nothing to score", group.name, a.name)
+        : InvalidArgument("{} has submitted no final version of {}: there is nothing to score", group.name, a.name);
 }
 
 void add_instructor_score(Course& course, const Assignment& a, std::int64_t group, const char* stage,
-                          std::int64_t criterion, double points, Instant now) {
+                          std::int64_t criterion, std::optional<double> points, Instant now) {
     course.database().run(
         "INSERT INTO instructor_scores VALUES (?, ?, ?, ?, ?, ?) ON CONFLICT DO UPDATE SET points = excluded.points",
         a.id, group, stage, criterion, now, points);
@@ -107,13 +122,12 @@ class CostTaker {
     }
 
     void take_off_work(GroupMark& mark) {
-        const char* const part = a_.is_report() ? "report" : "slides";
+        const char* const part = a_.document();
         for (const char* stage : {"first", "final"}) {
             const HandedInParts& parts = versions_[mark.group][stage];
             const auto found = parts.find(part);
             if (found == parts.end() || !found->second.is_late()) continue;
-            const std::int64_t days = (found->second.late + kDay - 1) / kDay;
-            take(mark, mark.work, a_.costs.late_day * static_cast<double>(days),
+            take(mark, mark.work, late_percent(a_.costs, found->second.late),
                  std::string_view(stage) == "first"
                      ? Message("a first version late by {}", duration_message(found->second.late))
                      : Message("a final version late by {}", duration_message(found->second.late)));
@@ -126,7 +140,7 @@ class CostTaker {
         int missing = 0, late = 0, written = 0;
         for (const ReviewPair& pair : pairs_) {
             if (pair.reviewer != mark.group || pair.ended) continue;
-            written += pair.written, late += pair.late, missing += !pair.written && over(mark, "review");
+            written += pair.written, late += pair.late > 0, missing += !pair.written && over(mark, "review");
         }
         if (missing > 0 && written == 0 && a_.costs.missing_review > 0 && !mark.reviews) mark.reviews = 0;
         take(mark, mark.reviews, a_.costs.missing_review * missing,
@@ -152,11 +166,22 @@ int import_review_scores(Course& course, const Assignment& a, const std::filesys
     return import_scores(
         course, a, sheet, known,
         [&](std::size_t row) {
-            if (sheet.cell(row, "reviewer") == kInstructor)
-                return -author_called(course, pairs, sheet.cell(row, "report"));
-            return reviewed_pair(pairs, group_named(course, sheet.cell(row, "reviewer")), sheet.cell(row, "report")).id;
+            const bool points = sheet.has_points(row);
+            if (sheet.cell(row, "reviewer") == kInstructor) {
+                const Group author = author_called(course, pairs, sheet.cell(row, "report"));
+                if (points) refuse_without_report(course, a, author, "first");
+                return -author.id;
+            }
+            const ReviewPair pair =
+                reviewed_pair(pairs, group_named(course, sheet.cell(row, "reviewer")), sheet.cell(row, "report"));
+            if (points && pair.withdrawn)
+                throw InvalidArgument(
+                    "the review of {} by {} is withdrawn: its scores do not count; dynlab course restore takes that "
+                    "back",
+                    pair.report_pseudonym(), pair.reviewer_name);
+            return pair.id;
         },
-        [&](std::int64_t owner, std::int64_t c, double points) {
+        [&](std::int64_t owner, std::int64_t c, std::optional<double> points) {
             if (owner < 0)
                 add_instructor_score(course, a, -owner, "first", c, points, now);
             else
@@ -164,7 +189,8 @@ int import_review_scores(Course& course, const Assignment& a, const std::filesys
         });
 }
 
-void add_review_score(Course& course, std::int64_t pair, std::int64_t criterion, double points, Instant now) {
+void add_review_score(Course& course, std::int64_t pair, std::int64_t criterion, std::optional<double> points,
+                      Instant now) {
     course.database().run("INSERT INTO scores VALUES (?, ?, ?, ?) ON CONFLICT DO UPDATE SET points = excluded.points",
                           pair, criterion, now, points);
 }
@@ -174,8 +200,12 @@ int import_final_scores(Course& course, const Assignment& a, const std::filesyst
     const ScoreSheet sheet(a, file, {"group"});
     return import_scores(
         course, a, sheet, instructor_points(course, a, "final"),
-        [&](std::size_t row) { return group_named(course, sheet.cell(row, "group")).id; },
-        [&](std::int64_t group, std::int64_t c, double points) {
+        [&](std::size_t row) {
+            const Group group = group_named(course, sheet.cell(row, "group"));
+            if (sheet.has_points(row)) refuse_without_report(course, a, group, "final");
+            return group.id;
+        },
+        [&](std::int64_t group, std::int64_t c, std::optional<double> points) {
             add_instructor_score(course, a, group, "final", c, points, now);
         });
 }
@@ -215,14 +245,20 @@ void take_back_override(Course& course, const Assignment& a, const std::string& 
 
 Marks course_marks(Course& course, const Assignment& a, Instant now) {
     std::vector<ScoredReview> reviews;
+    std::map<std::int64_t, std::vector<std::string>> zeros;  // by group
     if (a.is_report()) {
         const auto points = review_points(course, a);
         for (const ReviewPair& pair : review_pairs(course, a))
-            if (const auto own = points.find(pair.id); own != points.end())
+            if (const auto own = points.find(pair.id); own != points.end() && !pair.ended && !pair.withdrawn)
                 reviews.push_back({pair.id, pair.reviewer, pair.author, own->second});
         for (const auto& [group, own] : instructor_points(course, a, "first")) reviews.push_back({0, 0, group, own});
     } else {
-        for (const auto& [group, own] : oral_points(course, a)) reviews.push_back({0, 0, group, own});
+        const std::vector<bool> graded = graded_criteria(course, a);
+        for (auto& [group, own] : oral_points(course, a)) {
+            if (!has_points(own)) continue;
+            count_missing_points(a, graded, own, zeros[group]);
+            reviews.push_back({0, 0, group, own});
+        }
     }
     std::vector<std::int64_t> ids;
     for (const Group& group : groups_of(course)) ids.push_back(group.id);
@@ -230,6 +266,9 @@ Marks course_marks(Course& course, const Assignment& a, Instant now) {
     const auto finals = instructor_points(course, a, "final");
     CostTaker costs(course, a, now);
     for (GroupMark& mark : marks.groups) {
+        mark.zeros = zeros[mark.group];
+        mark.scored = static_cast<int>(std::ranges::count_if(
+            reviews, [&](const ScoredReview& r) { return r.author == mark.group && has_points(r.points); }));
         if (const auto own = finals.find(mark.group); own != finals.end())
             mark.final_version = percent_of(a.criteria, own->second);
         if (mark.final_version) {

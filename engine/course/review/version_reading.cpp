@@ -3,9 +3,8 @@
 #include "base/error.h"
 #include "course/boxes/boxed_work.h"
 #include "course/boxes/told_reason.h"
-#include "course/hand_ins/staging.h"
+#include "course/intake/staging.h"
 #include "course/review/version_description.h"
-#include "documents/text_lines.h"
 #include "documents/work_file.h"
 #include "figures/gnuplot_renderer.h"
 #include "platform/program_lookup.h"
@@ -19,92 +18,51 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr auto kReadingTime = std::chrono::seconds(120);
-constexpr std::uintmax_t kMostText = 4u << 20;
+constexpr std::uintmax_t kMaxSourceBytes = 16u << 20;
 
 std::string first_line(const std::string& text) {
     return text.substr(0, text.find('\n'));
 }
 
-/// A small ordinary file, or nothing.
+/// Only a regular file: a pack may hold links.
 std::optional<std::string> text_of_file(const fs::path& file) {
     std::error_code error;
     if (fs::symlink_status(file, error).type() != fs::file_type::regular) return {};
-    if (fs::file_size(file, error) > kMostText || error) return {};
+    if (fs::file_size(file, error) > kMaxSourceBytes || error) return {};
     return read_work_file(file);
 }
 
-std::optional<ShownRecord> record_in(const fs::path& file) {
-    const auto text = text_of_file(file);
-    return text ? shown_record(*text) : std::nullopt;
-}
-
-class VersionReader {
-  public:
-    VersionReader(const VersionFiles& files, Isolation level, const fs::path& program)
-        : files_(files), level_(level), program_(program) {}
-
-    ReadVersion run() {
-        if (files_.pack) read_pack();
-        if (files_.pdf) read_pdf(*files_.pdf, Message("The PDF"));
-        return std::move(version_);
-    }
-
-  private:
-    void read_pack() {
-        Submission submission;
-        submission.path = *files_.pack;
-        submission.archive = true;
-        const fs::path staged = work_.path() / "staged", made = work_.path() / "made";
-        fs::create_directories(staged);
-        fs::create_directories(made);
-        try {
-            const fs::path folder = stage_submission(submission, staged, level_, program_).folder;
-            const Message reason = make_version_in_box(folder, made, !files_.pdf, level_, program_);
-            if (!reason.empty())
-                version_.troubles.push_back(Message("The pack's report could not be made again: {}.", reason));
-            read_made(folder, made);
-        } catch (const SubmissionError& error) {
-            version_.troubles.push_back(Message("The pack: {}", error.message()));
-        }
-    }
-
-    void read_made(const fs::path& folder, const fs::path& made) {
-        version_.record = record_in(made / "record.json");
-        if (!version_.record || version_.record->failed) {
-            if (auto own = record_in(folder / "record.json")) {
-                version_.record = std::move(own);
-                version_.record_found = true;
-            }
-        }
-        if (const auto text = text_of_file(made / "report.md")) version_.source = report_text_of_markdown(*text);
-        if (files_.pdf) return;
-        for (const fs::path& pdf : {made / "report.pdf", folder / "report.pdf"}) {
-            if (fs::symlink_status(pdf).type() != fs::file_type::regular) continue;
-            read_pdf(pdf, Message("The pack's PDF"));
+void read_pack(const fs::path& pack, Isolation level, const fs::path& program, ReadVersion& version) {
+    const TemporaryFolder staged, made;
+    Submission submission;
+    submission.path = pack;
+    submission.archive = true;
+    try {
+        const fs::path folder = stage_submission(submission, staged.path(), level, program).folder;
+        const Message reason = make_version_in_box(folder, made.path(), false, level, program);
+        if (!reason.empty()) {
+            version.problems.push_back(Message("The pack's analysis cannot be run: {}.", reason));
             return;
         }
+        if (const auto text = text_of_file(made.path() / "report.md")) version.source = words_of_markdown(*text);
+        if (const auto text = text_of_file(made.path() / "record.json")) version.record = record_from_json(*text);
+    } catch (const SubmissionError& error) {
+        version.problems.push_back(Message("The pack: {}", error.message()));
+    } catch (const ValueError&) {
+        version.problems.push_back(Message("The pack's run results cannot be read."));
     }
+}
 
-    void read_pdf(const fs::path& file, const Message& what) {
-        try {
-            const PdfLayout layout = read_pdf_layout(file);
-            version_.pages = static_cast<int>(layout.pages.size());
-            ReportText text = report_text_of_pdf(text_of_layout(layout));
-            if (text.sentences.empty())
-                version_.troubles.push_back(Message("{} holds no text that can be read.", what));
-            else
-                version_.printed = std::move(text);
-        } catch (const PdfRefusal& refusal) {
-            version_.troubles.push_back(Message("{} cannot be read: {}", what, refusal.message()));
-        }
+void read_pdf(const fs::path& pdf, ReadVersion& version) {
+    try {
+        const PdfLayout layout = read_pdf_layout(pdf);
+        version.pages = static_cast<int>(layout.pages.size());
+        version.printed = words_of_pdf(text_of_layout(layout));
+        if (version.printed->empty()) version.problems.push_back(Message("The PDF holds no text that can be read."));
+    } catch (const PdfRefusal& refusal) {
+        version.problems.push_back(Message("The PDF cannot be read: {}", refusal.message()));
     }
-
-    const VersionFiles& files_;
-    Isolation level_;
-    const fs::path& program_;
-    TemporaryFolder work_;
-    ReadVersion version_;
-};
+}
 
 void make_document(const ReportRequest& request, RunRecord record, const fs::path& output, FigureFormat figures) {
     GnuplotRenderer renderer;
@@ -157,7 +115,10 @@ Message make_version_in_box(const fs::path& folder, const fs::path& made, bool p
 }
 
 ReadVersion read_version(const VersionFiles& files, Isolation level, const fs::path& program) {
-    return VersionReader(files, level, program).run();
+    ReadVersion version;
+    if (files.pack) read_pack(*files.pack, level, program, version);
+    if (files.pdf) read_pdf(*files.pdf, version);
+    return version;
 }
 
 }  // namespace dynlab::inline course

@@ -5,31 +5,29 @@
 #include <vector>
 
 #include "course/boxes/boxed_document.h"
-#include "course/review/report_text.h"
-#include "course/review/value_changes.h"
+#include "course/review/report_words.h"
+#include "documents/run_record.h"
 #include "platform/box.h"
 
 namespace dynlab::inline course {
 
-/// What a group handed in as one version of its report.
+/// One version of a group's report.
 struct VersionFiles {
     std::optional<std::filesystem::path> pdf;
-    std::optional<std::filesystem::path> pack;  ///< its name ends as archives do
+    std::optional<std::filesystem::path> pack;
 };
 
 /// A version as it can be compared.
 struct ReadVersion {
     std::optional<int> pages;
-    std::optional<ReportText> source;   ///< report.md of the pack, its slots filled by the pack's analysis
-    std::optional<ReportText> printed;  ///< the PDF's text
-    std::optional<ShownRecord> record;  ///< of a run of the pack's analysis
-    bool record_found = false;          ///< it is the pack's own record.json, as the analysis could not be run
-    std::vector<Message> troubles;      ///< sentences: what could not be read, and why
+    std::optional<std::vector<ReportWord>> source;   ///< report.md of the pack, its slots filled by the pack's analysis
+    std::optional<std::vector<ReportWord>> printed;  ///< the text of the PDF
+    std::optional<RunRecord> record;                 ///< of a run of the pack's analysis
+    std::vector<Message> problems;                   ///< sentences: what cannot be read, and why
 };
 
-/// Reads a version: unpacks the pack and runs its analysis in boxes, looks at the PDF in a guarded process. Without a
-/// PDF of its own, the pack's report is made. Never throws for what a group's files are the reason of; throws
-/// MissingProgram.
+/// Reads a version: unpacks the pack and runs its analysis in sandboxes, reads the PDF in a guarded process. What is
+/// wrong with a group's files becomes a problem. Throws MissingProgram.
 ReadVersion read_version(const VersionFiles& files, Isolation level, const std::filesystem::path& program);
 
 /// Runs the analysis in `folder` and makes its record.json, report.md and, if wanted, report.pdf in `made`, an empty

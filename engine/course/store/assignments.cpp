@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "course/intake/lateness.h"
 #include "course/store/exceptions.h"
 #include "numerics/error.h"
 #include "platform/spelling.h"
@@ -24,10 +25,12 @@ void refuse_odd_name(const std::string& what, const std::string& name) {
 void refuse_bad_deadlines(const Assignment& a, const CourseClock& clock) {
     if (!a.is_report()) {
         if (a.review_due || a.final_due)
-            throw InvalidArgument("a presentation has one deadline: leave --review and --final out");
+            throw a.is_talk() ? InvalidArgument("a talk has one deadline: leave --review and --final out")
+                              : InvalidArgument("a lab has one deadline: leave --review and --final out");
+        if (a.is_talk() && a.first_due == kNoDeadline) throw InvalidArgument("a talk needs a deadline: --first");
         return;
     }
-    if (!a.review_due || !a.final_due)
+    if (!a.review_due || !a.final_due || a.first_due == kNoDeadline)
         throw InvalidArgument("a report needs three deadlines: --first, --review and --final");
     const auto in_order = [&](Instant before, Instant after, const char* first, const char* second) {
         if (before < after) return;
@@ -40,6 +43,7 @@ void refuse_bad_deadlines(const Assignment& a, const CourseClock& clock) {
 }
 
 constexpr std::pair<const char*, double Costs::*> kCosts[] = {{"late-day", &Costs::late_day},
+                                                              {"late-most", &Costs::late_most},
                                                               {"missing-final", &Costs::missing_final},
                                                               {"late-review", &Costs::late_review},
                                                               {"missing-review", &Costs::missing_review}};
@@ -47,15 +51,16 @@ constexpr std::pair<const char*, double Costs::*> kCosts[] = {{"late-day", &Cost
 std::string costs_text(const Costs& costs) {
     std::vector<std::string> items;
     for (const auto& [name, cost] : kCosts)
-        if (costs.*cost > 0) items.push_back(fmt::format("{}:{}", name, costs.*cost));
+        if (costs.*cost != Costs().*cost) items.push_back(fmt::format("{}:{}", name, costs.*cost));
     return fmt::format("{}", fmt::join(items, ","));
 }
 
 bool same(const Assignment& a, const Assignment& b) {
     const auto words = [](const Assignment& x) {
         std::string all =
-            fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}", x.kind, x.lesson, x.first_due, x.review_due.value_or(0),
-                        x.final_due.value_or(0), x.grace, x.reviews, costs_text(x.costs), x.final_weight);
+            fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}", x.kind, x.lesson, x.first_due,
+                        x.review_due.value_or(0), x.final_due.value_or(0), x.grace, x.reviews, costs_text(x.costs),
+                        x.final_weight, x.weight, x.reviews_weight, x.checks, x.secret, x.keep);
         for (const Criterion& c : x.criteria) all += fmt::format("|{}:{}", c.name, c.most);
         return all;
     };
@@ -112,9 +117,11 @@ bool add_assignment(Course& course, Assignment wanted) {
                 known.name, known.name);
         db.run(
             "UPDATE assignments SET kind = ?, lesson = ?, first_due = ?, review_due = ?, final_due = ?, grace = ?, "
-            "reviews = ?, costs = ?, final_weight = ? WHERE id = ?",
+            "reviews = ?, costs = ?, final_weight = ?, weight = ?, reviews_weight = ?, checks = ?, secret = ?, keep = "
+            "? WHERE id = ?",
             wanted.kind, wanted.lesson, wanted.first_due, wanted.review_due, wanted.final_due, wanted.grace,
-            wanted.reviews, costs_text(wanted.costs), wanted.final_weight, known.id);
+            wanted.reviews, costs_text(wanted.costs), wanted.final_weight, wanted.weight, wanted.reviews_weight,
+            wanted.checks, wanted.secret, wanted.keep, known.id);
         wanted.id = known.id;
         write_criteria(db, wanted);
         course.note(fmt::format("assignment {} changed", known.name));
@@ -123,9 +130,12 @@ bool add_assignment(Course& course, Assignment wanted) {
     }
     db.run(
         "INSERT INTO assignments (name, kind, lesson, first_due, review_due, final_due, grace, reviews, made_at, "
-        "costs, final_weight) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+        "costs, final_weight, weight, reviews_weight, checks, secret, keep) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, "
+        "?, "
+        "?, ?, ?, ?)",
         wanted.name, wanted.kind, wanted.lesson, wanted.first_due, wanted.review_due, wanted.final_due, wanted.grace,
-        wanted.is_report() ? wanted.reviews : 0, CourseClock::now(), costs_text(wanted.costs), wanted.final_weight);
+        wanted.is_report() ? wanted.reviews : 0, CourseClock::now(), costs_text(wanted.costs), wanted.final_weight,
+        wanted.weight, wanted.reviews_weight, wanted.checks, wanted.secret, wanted.keep);
     wanted.id = db.getLastInsertRowid();
     write_criteria(db, wanted);
     course.note(fmt::format("assignment {} added", wanted.name));
@@ -143,7 +153,7 @@ bool change_assignment(Course& course, const Assignment& wanted, const std::stri
         if (before != now) changes.push_back(fmt::format("{} {} instead of {}", what, now, before));
     };
     const auto time = [&course](std::optional<Instant> due) {
-        return due ? course.clock().show_exactly(*due) : std::string("none");
+        return due && *due != kNoDeadline ? course.clock().show_exactly(*due) : std::string("none");
     };
     const auto named = [](const std::string& text) { return text.empty() ? std::string("none") : text; };
     compare("lesson", named(known.lesson), named(wanted.lesson));
@@ -153,12 +163,18 @@ bool change_assignment(Course& course, const Assignment& wanted, const std::stri
     compare("grace", duration_text(known.grace), duration_text(wanted.grace));
     compare("costs", named(costs_text(known.costs)), named(costs_text(wanted.costs)));
     compare("final weight", fmt::format("{}", known.final_weight), fmt::format("{}", wanted.final_weight));
+    const auto number = [](double value) { return fmt::format("{}", value); };
+    compare("weight", number(known.weight), number(wanted.weight));
+    compare("reviews weight", number(known.reviews_weight), number(wanted.reviews_weight));
+    compare("checks", named(known.checks), named(wanted.checks));
+    compare("secret", named(known.secret), named(wanted.secret));
+    compare("keep", known.keep, wanted.keep);
     if (changes.empty()) return false;
     course.database().run(
         "UPDATE assignments SET lesson = ?, first_due = ?, review_due = ?, final_due = ?, grace = ?, costs = ?, "
-        "final_weight = ? WHERE id = ?",
+        "final_weight = ?, weight = ?, reviews_weight = ?, checks = ?, secret = ?, keep = ? WHERE id = ?",
         wanted.lesson, wanted.first_due, wanted.review_due, wanted.final_due, wanted.grace, costs_text(wanted.costs),
-        wanted.final_weight, known.id);
+        wanted.final_weight, wanted.weight, wanted.reviews_weight, wanted.checks, wanted.secret, wanted.keep, known.id);
     course.note(fmt::format("assignment {} changed: {}; reason: {}", known.name, fmt::join(changes, ", "), reason));
     transaction.commit();
     return true;
@@ -169,11 +185,11 @@ void remove_assignment(Course& course, const Assignment& assignment, const std::
     Database& db = course.database();
     Transaction transaction(db);
     for (const char* table : {"versions", "pairs", "oral_scores", "student_scores", "oral_comments",
-                              "instructor_scores", "overrides", "extensions"})
+                              "instructor_scores", "overrides", "extensions", "marks"})
         if (db.query(fmt::format("SELECT 1 FROM {} WHERE assignment = ?", table), assignment.id).next())
             throw InvalidArgument("{} cannot be removed: something hangs on it (its {}); nothing was changed",
                                   assignment.name, table);
-    for (const char* table : {"criteria", "pair_wishes", "holds", "pseudonyms", "allocations"})
+    for (const char* table : {"criteria", "pair_wishes", "holds", "pseudonyms", "allocations", "refusals"})
         db.run(fmt::format("DELETE FROM {} WHERE assignment = ?", table), assignment.id);
     db.run("DELETE FROM assignments WHERE id = ?", assignment.id);
     course.note(
@@ -185,13 +201,15 @@ std::vector<Assignment> assignments_of(Course& course) {
     std::vector<Assignment> all;
     for (Rows rows = course.database().query(
              "SELECT id, name, kind, lesson, first_due, review_due, final_due, grace, reviews, costs, "
-             "final_weight FROM assignments ORDER BY first_due, name");
+             "final_weight, weight, reviews_weight, checks, secret, keep FROM assignments ORDER BY first_due, name");
          rows.next();) {
         Assignment a;
         a.id = rows.integer(0), a.name = rows.text(1), a.kind = rows.text(2), a.lesson = rows.text(3);
         a.first_due = rows.integer(4), a.review_due = rows.optional_integer(5), a.final_due = rows.optional_integer(6);
         a.grace = rows.integer(7), a.reviews = static_cast<int>(rows.integer(8));
         a.costs = costs_of(rows.text(9)), a.final_weight = rows.number(10);
+        a.weight = rows.number(11), a.reviews_weight = rows.number(12);
+        a.checks = rows.text(13), a.secret = rows.text(14), a.keep = rows.text(15);
         for (Rows criteria =
                  course.database().query("SELECT name, most FROM criteria WHERE assignment = ? ORDER BY place", a.id);
              criteria.next();)
@@ -222,7 +240,8 @@ Assignment assignment_named(Course& course, const std::string& name) {
 }
 
 void refuse_without_reviews(const Assignment& assignment) {
-    if (!assignment.is_report()) throw InvalidArgument("{} is a presentation: it has no reviews", assignment.name);
+    if (assignment.is_talk()) throw InvalidArgument("{} is a talk: it has no reviews", assignment.name);
+    if (assignment.is_lab()) throw InvalidArgument("{} is a lab: it has no reviews", assignment.name);
 }
 
 std::vector<Criterion> criteria_of(const std::string& text) {
@@ -243,8 +262,9 @@ std::vector<Criterion> criteria_of(const std::string& text) {
 }
 
 std::vector<Criterion> usual_criteria(const std::string& kind) {
-    return criteria_of(kind == "presentation" ? "content:5,slides:5,delivery:5,answers:5"
-                                              : "data:5,steps:5,conclusions:5,strength:5,suggestions:5");
+    if (kind == "lab") return {};
+    return criteria_of(kind == "talk" ? "content:5,slides:5,delivery:5,answers:5"
+                                      : "data:5,steps:5,conclusions:5,strength:5,suggestions:5");
 }
 
 Costs costs_of(const std::string& text) {
@@ -255,12 +275,17 @@ Costs costs_of(const std::string& text) {
         const auto value = read_number<double>(points);
         if (known == std::end(kCosts) || !value || !(*value >= 0 && *value <= 100))
             throw InvalidArgument(
-                "costs are late-day, missing-final, late-review and missing-review with percent points from 0 to 100, "
+                "costs are late-day, late-most, missing-final, late-review and missing-review with percent points from "
+                "0 to 100, "
                 "such as late-day:10,missing-review:25, but \"{}:{}\" was given",
                 name, points);
         costs.*(known->second) = *value;
     }
     return costs;
+}
+
+double late_percent(const Costs& costs, std::int64_t late) {
+    return late_percent(costs.late_day, costs.late_most, late);
 }
 
 }  // namespace dynlab::inline course

@@ -131,6 +131,77 @@ CREATE VIEW standing AS SELECT *,
     R"(
 ALTER TABLE assignments DROP COLUMN seed;
 ALTER TABLE allocations DROP COLUMN seed;
+)",
+    // Labs are assignments like reports and talks. An assignment has a weight in the total, a lab what it is graded
+    // with, a student what a group's own data are drawn from. `results` is what the checks gave a version, `marks` what
+    // the instructor gave instead (item: a check, or * for the whole; null takes back), `refusals` the files that were
+    // not taken.
+    R"(
+DROP VIEW standing;
+DROP VIEW arrived;
+CREATE TABLE new_assignments (id INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE COLLATE NOCASE,
+  kind TEXT NOT NULL CHECK (kind IN ('lab', 'report', 'talk')), lesson TEXT NOT NULL, first_due INTEGER NOT NULL,
+  review_due INTEGER, final_due INTEGER, grace INTEGER NOT NULL CHECK (grace >= 0),
+  reviews INTEGER NOT NULL CHECK (reviews >= 0), made_at INTEGER NOT NULL, costs TEXT NOT NULL DEFAULT '',
+  final_weight REAL NOT NULL DEFAULT 50, weight REAL NOT NULL DEFAULT 1 CHECK (weight >= 0),
+  reviews_weight REAL NOT NULL DEFAULT 20 CHECK (reviews_weight BETWEEN 0 AND 100), checks TEXT NOT NULL DEFAULT '',
+  secret TEXT NOT NULL DEFAULT '', keep TEXT NOT NULL DEFAULT 'best' CHECK (keep IN ('best', 'newest')));
+INSERT INTO new_assignments (id, name, kind, lesson, first_due, review_due, final_due, grace, reviews, made_at, costs,
+  final_weight) SELECT id, name, replace(kind, 'presentation', 'talk'), lesson, first_due, review_due, final_due, grace,
+  reviews, made_at, costs, final_weight FROM assignments;
+DROP TABLE assignments;
+ALTER TABLE new_assignments RENAME TO assignments;
+ALTER TABLE students ADD COLUMN language TEXT NOT NULL DEFAULT '';
+ALTER TABLE students ADD COLUMN own_data INTEGER;
+CREATE TABLE results (id INTEGER PRIMARY KEY, version INTEGER NOT NULL REFERENCES versions, earned REAL,
+  possible REAL NOT NULL, checks TEXT NOT NULL, fingerprint TEXT NOT NULL, made_at INTEGER NOT NULL);
+CREATE INDEX results_of_version ON results (version);
+CREATE TABLE marks (id INTEGER PRIMARY KEY, assignment INTEGER NOT NULL REFERENCES assignments,
+  group_id INTEGER NOT NULL REFERENCES groups, student TEXT REFERENCES students, item TEXT NOT NULL,
+  points REAL CHECK (points >= 0), reason TEXT NOT NULL, made_at INTEGER NOT NULL);
+CREATE INDEX marks_of_group ON marks (assignment, group_id);
+CREATE TABLE refusals (id INTEGER PRIMARY KEY, assignment INTEGER NOT NULL REFERENCES assignments,
+  group_id INTEGER REFERENCES groups, stage TEXT NOT NULL, name TEXT NOT NULL, hash TEXT REFERENCES files,
+  reason TEXT NOT NULL, received_at INTEGER NOT NULL);
+CREATE VIEW arrived AS SELECT v.id, v.assignment, v.group_id, v.stage, v.pair, v.part, v.number, v.hash, v.name,
+  v.findings, a.grace,
+  ifnull((SELECT c.received_at FROM arrivals c WHERE c.version = v.id ORDER BY c.id DESC LIMIT 1), v.received_at)
+    AS received_at,
+  ifnull((SELECT e.due_at FROM extensions e WHERE e.assignment = v.assignment AND e.group_id = v.group_id AND
+    e.stage = v.stage ORDER BY e.id DESC LIMIT 1),
+    CASE v.stage WHEN 'first' THEN a.first_due WHEN 'review' THEN a.review_due ELSE a.final_due END) AS due_at,
+  ifnull((SELECT w.withdrawn FROM withdrawals w WHERE w.version = v.id ORDER BY w.id DESC LIMIT 1), 0) AS withdrawn
+  FROM versions v JOIN assignments a ON a.id = v.assignment;
+CREATE VIEW standing AS SELECT *,
+  CASE WHEN first_at > due_at + grace THEN first_at - due_at ELSE 0 END AS late
+  FROM (SELECT w.*, (SELECT min(e.received_at) FROM arrived e WHERE e.hash = w.hash AND e.number <= w.number AND
+    NOT e.withdrawn AND e.assignment = w.assignment AND e.group_id = w.group_id AND e.stage = w.stage AND
+    ifnull(e.pair, 0) = ifnull(w.pair, 0) AND e.part = w.part) AS first_at
+    FROM arrived w WHERE NOT w.withdrawn);
+)",
+    // Every score can be taken back: null points. `stops`: copies that a name stopped.
+    R"(
+ALTER TABLE scores RENAME TO former_scores;
+CREATE TABLE scores (pair INTEGER NOT NULL REFERENCES pairs, criterion INTEGER NOT NULL, given_at INTEGER NOT NULL,
+  points REAL CHECK (points >= 0), PRIMARY KEY (pair, criterion, given_at)) WITHOUT ROWID;
+INSERT INTO scores SELECT pair, criterion, given_at, points FROM former_scores;
+DROP TABLE former_scores;
+ALTER TABLE oral_scores RENAME TO former_scores;
+CREATE TABLE oral_scores (assignment INTEGER NOT NULL REFERENCES assignments,
+  group_id INTEGER NOT NULL REFERENCES groups, criterion INTEGER NOT NULL, given_at INTEGER NOT NULL,
+  points REAL CHECK (points >= 0), PRIMARY KEY (assignment, group_id, criterion, given_at)) WITHOUT ROWID;
+INSERT INTO oral_scores SELECT assignment, group_id, criterion, given_at, points FROM former_scores;
+DROP TABLE former_scores;
+ALTER TABLE instructor_scores RENAME TO former_scores;
+CREATE TABLE instructor_scores (assignment INTEGER NOT NULL REFERENCES assignments,
+  group_id INTEGER NOT NULL REFERENCES groups, stage TEXT NOT NULL CHECK (stage IN ('first', 'final')),
+  criterion INTEGER NOT NULL, given_at INTEGER NOT NULL, points REAL CHECK (points >= 0),
+  PRIMARY KEY (assignment, group_id, stage, criterion, given_at)) WITHOUT ROWID;
+INSERT INTO instructor_scores SELECT assignment, group_id, stage, criterion, given_at, points FROM former_scores;
+DROP TABLE former_scores;
+CREATE TABLE stops (pair INTEGER NOT NULL REFERENCES pairs,
+  way TEXT NOT NULL CHECK (way IN ('to reviewer', 'to author')), version INTEGER NOT NULL REFERENCES versions,
+  made_at INTEGER NOT NULL, PRIMARY KEY (pair, way, version)) WITHOUT ROWID;
 )"};
 
 std::int64_t pragma(Database& database, const char* name) {
@@ -147,12 +218,27 @@ const std::vector<std::string>& course_tables() {
         "files",          "pseudonyms",    "allocations", "pairs",       "versions",          "sendings",
         "scores",         "oral_scores",   "overrides",   "journal",     "former_names",      "arrivals",
         "extensions",     "withdrawals",   "holds",       "pair_wishes", "instructor_scores", "returns",
-        "student_scores", "oral_comments", "seals"};
+        "student_scores", "oral_comments", "results",     "marks",       "refusals",          "seals",
+        "stops"};
     return tables;
 }
 
 const std::vector<const char*>& course_steps() {
     return kSteps;
+}
+
+void keep_before_migration(Database& database, const std::filesystem::path& file) {
+    namespace fs = std::filesystem;
+    const std::int64_t version = pragma(database, "user_version");
+    const auto newest = static_cast<std::int64_t>(kSteps.size());
+    if (pragma(database, "application_id") != kApplicationId || version >= newest) return;
+    const fs::path kept = fmt::format("{}.before-version-{}", file.string(), newest);
+    if (fs::exists(kept)) return;
+    const fs::path growing = kept.string() + ".unfinished";
+    fs::remove(growing);
+    database.run("VACUUM INTO ?", growing.string());
+    fs::permissions(growing, fs::perms::owner_read | fs::perms::owner_write);
+    fs::rename(growing, kept);
 }
 
 bool migrate_course(Database& database, Database::Opening opening, const std::string& file,
@@ -170,13 +256,19 @@ bool migrate_course(Database& database, Database::Opening opening, const std::st
                 file, version, newest);
         return version;
     };
-    if (version_of() == newest) return false;
+    const std::int64_t before = version_of();
+    if (before == newest) return false;
     if (opening == Database::Opening::kNew) database.execute("PRAGMA journal_mode = WAL");
+    // A table that others refer to can only be made again while nobody asks for what they refer to.
+    database.execute("PRAGMA foreign_keys = OFF");
     Transaction transaction(database);
     for (std::int64_t version = version_of(); version < newest; ++version)  // another may have done it meanwhile
         database.execute(steps[static_cast<std::size_t>(version)]);
+    if (database.query("PRAGMA foreign_key_check").next())
+        throw EnvironmentError("{}: a row refers to one that is not there; nothing was changed, take a backup", file);
     database.execute(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}", kApplicationId, newest));
     transaction.commit();
+    database.execute("PRAGMA foreign_keys = ON");
     return true;
 }
 

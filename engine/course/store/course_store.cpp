@@ -97,6 +97,12 @@ std::vector<fs::path> remove_leftovers_of(const fs::path& course) {
     return removed;
 }
 
+/// Brings it to the newest tables; the database as it was is kept beside it. Returns whether it was of earlier ones.
+bool converted(Database& database, const fs::path& file) {
+    keep_before_migration(database, file);
+    return migrate_course(database, Database::Opening::kExisting, file.string());
+}
+
 void seal_commits(Database& database, const SigningKey& key) {
     database.before_commits([key](Database& changed) { seal_store(changed, key, CourseClock::now()); });
 }
@@ -131,7 +137,7 @@ Course::Course(const fs::path& folder)
     : folder_(course_folder(folder)),
       leftovers_(remove_leftovers_of(folder_)),
       database_(folder_ / kDatabase, Database::Opening::kExisting),
-      migrated_(migrate_course(database_, Database::Opening::kExisting, (folder_ / kDatabase).string())),
+      migrated_(converted(database_, folder_ / kDatabase)),
       name_(setting("name")),
       clock_(setting("zone")),
       key_(read_key(folder_ / kKey)),

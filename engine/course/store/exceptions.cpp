@@ -12,9 +12,11 @@ Instant due_for(Course& course, const Assignment& a, std::int64_t group, const s
     const std::optional<Instant> common = stage == "first"    ? std::optional(a.first_due)
                                           : stage == "review" ? a.review_due
                                                               : a.final_due;
-    if (!common)
-        throw stage == "review" ? InvalidArgument("{} is a presentation: it has no reviews", a.name)
-                                : InvalidArgument("{} is a presentation: it has no final version", a.name);
+    if (!common) {
+        if (stage == "review") refuse_without_reviews(a);
+        throw a.is_talk() ? InvalidArgument("{} is a talk: it has no final version", a.name)
+                          : InvalidArgument("{} is a lab: it has no final version", a.name);
+    }
     Rows own = course.database().query(
         "SELECT due_at FROM extensions WHERE assignment = ? AND group_id = ? AND stage = ? ORDER BY id DESC LIMIT 1",
         a.id, group, stage);

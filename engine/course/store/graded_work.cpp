@@ -8,7 +8,7 @@
 #include <map>
 #include <set>
 
-#include "course/hand_ins/submission.h"
+#include "course/intake/submission.h"
 #include "course/store/groups.h"
 #include "data_io/text_table.h"
 #include "numerics/error.h"

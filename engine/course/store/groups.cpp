@@ -7,10 +7,12 @@
 #include <set>
 
 #include "course/anonymity/name_patterns.h"
+#include "course/intake/owners.h"
 #include "numerics/error.h"
 #include "platform/error.h"
 #include "platform/spelling.h"
 #include "platform/terminal/terminal_text.h"
+#include "platform/text/small_letters.h"
 
 namespace dynlab::inline course {
 namespace {
@@ -26,6 +28,13 @@ std::set<std::string> names_in(const std::string& cell) {
         at = end + 1;
     }
     return names;
+}
+
+/// The same words in any order: platforms write the family's name first, or last.
+bool same_name(const std::string& a, const std::string& b) {
+    std::vector<std::string> words = words_of_name(a), others = words_of_name(b);
+    std::ranges::sort(words), std::ranges::sort(others);
+    return words == others;
 }
 
 /// Names of groups become names of folders and files: of receipts, and of what is returned.
@@ -48,6 +57,9 @@ class Import {
 
     RosterChange run() {
         Transaction transaction(db_);
+        for (Rows rows = db_.query("SELECT name FROM groups"); rows.next();) groups_before_.push_back(rows.text(0));
+        for (const Student& student : roster_.students())
+            for (const std::string& name : names_in(student.group)) in_file_.insert(in_small_letters(name));
         std::set<std::string> present;
         for (const Student& student : roster_.students()) {
             present.insert(student.id);
@@ -67,30 +79,50 @@ class Import {
 
   private:
     void take(const Student& s) {
-        Rows rows = db_.query("SELECT name, mail, moodle, canvas FROM students WHERE id = ?", s.id);
+        Rows rows = db_.query("SELECT name, mail, moodle, canvas, language, own_data FROM students WHERE id = ?", s.id);
+        std::optional<std::int64_t> seed;
+        if (s.seed) seed = *s.seed;
         if (!rows.next()) {
             ++change_.new_students;
-            db_.run("INSERT INTO students VALUES (?, ?, ?, ?, ?)", s.id, s.name, s.mail, s.moodle, s.canvas);
+            db_.run(
+                "INSERT INTO students (id, name, mail, moodle, canvas, language, own_data) VALUES (?, ?, ?, ?, ?, ?, "
+                "?)",
+                s.id, s.name, s.mail, s.moodle, s.canvas, s.language, seed);
             return;
         }
-        const std::vector<std::string> before = {rows.text(0), rows.text(1), rows.text(2), rows.text(3)};
-        const auto kept = [&](const char* column, const std::string& read, std::size_t index) {
-            return roster_.has(column) ? read : before[index];
+        const auto kept = [&](const char* column, const std::string& read, int index) {
+            return roster_.has(column) ? read : rows.text(index);
         };
-        const std::vector<std::string> after = {kept("name", s.name, 0), kept("mail", s.mail, 1),
-                                                kept("moodle", s.moodle, 2), kept("canvas", s.canvas, 3)};
-        if (after == before) return;
+        const std::string name = kept("name", s.name, 0), mail = kept("mail", s.mail, 1),
+                          moodle = kept("moodle", s.moodle, 2), canvas = kept("canvas", s.canvas, 3),
+                          language = kept("language", s.language, 4);
+        const std::string old_name = rows.text(0), old_mail = rows.text(1);
+        if (!roster_.has("seed")) seed = rows.optional_integer(5);
+        if (name == old_name && mail == old_mail && moodle == rows.text(2) && canvas == rows.text(3) &&
+            language == rows.text(4) && seed == rows.optional_integer(5))
+            return;
         ++change_.changed;
-        if ((after[0] != before[0] && !before[0].empty()) || (after[1] != before[1] && !before[1].empty()))
+        if ((!same_name(name, old_name) && !old_name.empty()) || (mail != old_mail && !old_mail.empty()))
             db_.run("INSERT INTO former_names VALUES (?, ?, ?, ?) ON CONFLICT DO UPDATE SET until = excluded.until",
-                    s.id, before[0], before[1], now_);
-        db_.run("UPDATE students SET name = ?, mail = ?, moodle = ?, canvas = ? WHERE id = ?", after[0], after[1],
-                after[2], after[3], s.id);
+                    s.id, old_name, old_mail, now_);
+        db_.run(
+            "UPDATE students SET name = ?, mail = ?, moodle = ?, canvas = ?, language = ?, own_data = ? WHERE id = ?",
+            name, mail, moodle, canvas, language, seed, s.id);
+    }
+
+    /// "Groupe 01" is the group-01 of an earlier roster, unless this one has both: then they are two groups.
+    std::string known_spelling_of(const std::string& name) const {
+        std::vector<std::string> others;
+        for (const std::string& known : groups_before_)
+            if (!in_file_.contains(in_small_letters(known))) others.push_back(known);
+        return Owners({}, others).called(name).group;
     }
 
     std::int64_t group(const std::string& name) {
-        Rows rows = db_.query("SELECT id FROM groups WHERE name = ?", name);
-        if (rows.next()) return rows.integer(0);
+        for (const std::string& spelling : {name, known_spelling_of(name)}) {
+            Rows rows = db_.query("SELECT id FROM groups WHERE name = ?", spelling);
+            if (rows.next()) return rows.integer(0);
+        }
         refuse_odd_group(name);
         ++change_.new_groups;
         db_.run("INSERT INTO groups (name, joined_at) VALUES (?, ?)", name, now_);
@@ -121,6 +153,8 @@ class Import {
     Course& course_;
     Database& db_;
     const Roster& roster_;
+    std::vector<std::string> groups_before_;
+    std::set<std::string> in_file_;  ///< names of groups in lower-case letters
     const Instant now_ = CourseClock::now();
     RosterChange change_;
 };
@@ -146,25 +180,79 @@ std::vector<Group> groups_of(Course& course) {
 }
 
 Group group_named(Course& course, const std::string& name) {
+    const std::vector<Group> groups = groups_of(course);
     std::vector<std::string> names;
-    for (const Group& group : groups_of(course)) {
+    for (const Group& group : groups) {
         if (::strcasecmp(group.name.c_str(), name.c_str()) == 0) return group;
         names.push_back(group.name);
     }
-    const auto near = nearest_word(name, names);
+    const std::vector<Student> students = students_of(course);
+    const Owners owners(students, names);
+    const Owners::Found found = owners.called(name);
+    if (const auto group = std::ranges::find(groups, found.group, &Group::name); group != groups.end()) return *group;
+    if (found.doubtful) throw InvalidArgument("\"{}\" could mean several groups: {}", name, found.trouble);
+    const auto near = nearest_word(name, owners.names());
     throw near ? InvalidArgument("there is no group \"{}\" in this course; did you mean {}?", name, *near)
                : InvalidArgument(
                      "there is no group \"{}\" in this course; see dynlab course status for those there are", name);
 }
 
+Student student_named(Course& course, const std::string& name) {
+    const std::vector<Student> students = students_of(course);
+    const auto by_id = std::ranges::find(students, name, &Student::id);
+    if (by_id != students.end()) return *by_id;
+    std::vector<Student> alone = students;  // each is an owner, also of those who share a group
+    for (Student& student : alone) student.group.clear();
+    const Owners owners(alone);
+    const Owners::Found found = owners.called(name);
+    if (found.anybody()) return students[found.students.front()];
+    if (found.doubtful) throw InvalidArgument("several students are called \"{}\": give the id", name);
+    const auto near = nearest_word(name, owners.names());
+    throw near ? InvalidArgument("there is no student \"{}\"; did you mean {}?", name, *near)
+               : InvalidArgument("there is no student \"{}\"", name);
+}
+
+std::vector<std::string> members_at(Course& course, std::int64_t group, Instant at) {
+    std::vector<std::string> members;
+    for (Rows rows = course.database().query(
+             "SELECT DISTINCT student FROM memberships m WHERE group_id = ?1 AND ifnull(until, ?2 + 1) > ?2 AND "
+             "(since <= ?2 OR since = (SELECT min(since) FROM memberships f WHERE f.student = m.student)) "
+             "ORDER BY student",
+             group, at);
+         rows.next();)
+        members.push_back(rows.text(0));
+    return members;
+}
+
+std::map<std::string, std::int64_t> groups_at_submission(Course& course, std::int64_t assignment) {
+    std::map<std::string, std::int64_t> groups;
+    for (Rows rows = course.database().query(
+             "SELECT group_id, max(received_at) FROM standing WHERE assignment = ? AND stage = 'first' GROUP BY "
+             "group_id ORDER BY 2",
+             assignment);
+         rows.next();)
+        for (const std::string& student : members_at(course, rows.integer(0), rows.integer(1)))
+            groups[student] = rows.integer(0);
+    for (Rows rows = course.database().query(
+             "SELECT student, min(group_id) FROM memberships WHERE until IS NULL GROUP BY student");
+         rows.next();)
+        groups.try_emplace(rows.text(0), rows.integer(1));
+    return groups;
+}
+
 std::vector<Student> students_of(Course& course) {
     std::vector<Student> students;
     for (Rows rows = course.database().query(
-             "SELECT s.id, s.name, coalesce(min(g.name), ''), s.mail, s.moodle, s.canvas FROM students s "
+             "SELECT s.id, s.name, coalesce(min(g.name), ''), s.mail, s.moodle, s.canvas, s.language, s.own_data FROM "
+             "students s "
              "LEFT JOIN memberships m ON m.student = s.id AND m.until IS NULL LEFT JOIN groups g ON g.id = m.group_id "
              "GROUP BY s.id ORDER BY s.id");
-         rows.next();)
-        students.push_back({rows.text(0), rows.text(1), rows.text(2), {}, rows.text(3), rows.text(4), rows.text(5)});
+         rows.next();) {
+        Student student{rows.text(0), rows.text(1), rows.text(2), {}, rows.text(3), rows.text(4), rows.text(5)};
+        student.language = rows.text(6);
+        if (const auto seed = rows.optional_integer(7)) student.seed = static_cast<std::uint32_t>(*seed);
+        students.push_back(std::move(student));
+    }
     std::map<std::string, std::size_t> index;
     for (std::size_t i = 0; i < students.size(); ++i) index[students[i].id] = i;
     for (Rows rows = course.database().query("SELECT student, name, mail FROM former_names ORDER BY student, until");

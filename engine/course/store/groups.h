@@ -1,10 +1,11 @@
 #pragma once
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "base/message.h"
-#include "course/hand_ins/roster.h"
+#include "course/intake/roster.h"
 #include "course/store/course_store.h"
 
 namespace dynlab::inline course {
@@ -19,8 +20,19 @@ struct Group {
 
 /// By name: those with members, and those with work or marks; not what a mistaken roster made and a later one emptied.
 std::vector<Group> groups_of(Course& course);
-/// By its name. Throws InvalidArgument with the nearest name.
+/// The one that `name` means: by its own name in any spelling ("group-08", "Group 8"), or by the name, id or address of
+/// a member, or of a platform's number for one. Throws InvalidArgument with the nearest name where no group is meant,
+/// or several are.
 Group group_named(Course& course, const std::string& name);
+/// The student called so: by id, name or address. Throws InvalidArgument like group_named.
+Student student_named(Course& course, const std::string& name);
+
+/// Ids of those who belonged to a group at an instant, sorted. The first group of a student counts from the beginning,
+/// as a roster is often read after the first work came; later changes count from the moment they were entered.
+std::vector<std::string> members_at(Course& course, std::int64_t group, Instant at);
+/// For each student, by id, the group whose work for an assignment is theirs: the one they belonged to when it handed
+/// in its newest first version that is not withdrawn; of those who belong to none, the group they are in now.
+std::map<std::string, std::int64_t> groups_at_submission(Course& course, std::int64_t assignment);
 
 /// All who ever were in the course, with the names and addresses that they had before; `group` is the one each belongs
 /// to now (the first by name where there are several).

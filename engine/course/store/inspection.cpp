@@ -9,7 +9,8 @@ namespace dynlab::inline course {
 namespace {
 
 Inspection summary_of(const CheckResult& result, const std::string& json_text) {
-    static const std::set<std::string> unreadable = {"not-pdf", "encrypted", "damaged", "too-large", "scanned"};
+    static const std::set<std::string> unreadable = {"not-pdf",        "encrypted",  "damaged", "too-large", "scanned",
+                                                     "closed-archive", "other-kind", "several", "empty"};
     Inspection inspection;
     inspection.json = json_text;
     for (const Finding& finding : result.findings) {

@@ -3,6 +3,17 @@
 #include "course/store/inspection.h"
 
 namespace dynlab::inline course {
+namespace {
+
+constexpr char kStandingFile[] = "SELECT id, number, late, part, hash, name, received_at FROM standing f WHERE ";
+
+std::optional<StandingFile> file_in(Rows rows) {
+    if (!rows.next()) return {};
+    return StandingFile{rows.integer(0), rows.integer(1), rows.integer(2), rows.text(3),
+                        rows.text(4),    rows.text(5),    rows.integer(6)};
+}
+
+}  // namespace
 
 std::map<std::int64_t, std::map<std::string, HandedInParts>> newest_versions(Course& course,
                                                                              const Assignment& assignment) {
@@ -19,6 +30,29 @@ std::map<std::int64_t, std::map<std::string, HandedInParts>> newest_versions(Cou
                   seen.rules_broken, seen.trouble};
     }
     return all;
+}
+
+std::optional<StandingFile> newest_file(Course& course, const Assignment& assignment, std::int64_t group,
+                                        const std::string& stage, const std::string& part, std::int64_t pair) {
+    return file_in(course.database().query(
+        std::string(kStandingFile) + "assignment = ? AND group_id = ? AND stage = ? AND part = ? AND ifnull(pair, 0) = "
+                                     "? ORDER BY number DESC LIMIT 1",
+        assignment.id, group, stage, part, pair));
+}
+
+std::optional<StandingFile> standing_file(Course& course, std::int64_t id) {
+    return file_in(course.database().query(std::string(kStandingFile) + "id = ?", id));
+}
+
+std::optional<StandingFile> pack_of_document(Course& course, std::int64_t document) {
+    return file_in(course.database().query(
+        std::string(kStandingFile) +
+            "part = 'pack' AND EXISTS (SELECT 1 FROM standing d WHERE d.id = ? AND d.assignment = f.assignment AND "
+            "d.group_id = f.group_id AND d.stage = f.stage AND ifnull(d.pair, 0) = ifnull(f.pair, 0) AND f.received_at "
+            ">= d.received_at AND NOT EXISTS (SELECT 1 FROM standing e WHERE e.assignment = d.assignment AND "
+            "e.group_id = d.group_id AND e.stage = d.stage AND ifnull(e.pair, 0) = ifnull(d.pair, 0) AND e.part = "
+            "d.part AND e.number > d.number AND e.received_at <= f.received_at)) ORDER BY number DESC LIMIT 1",
+        document));
 }
 
 }  // namespace dynlab::inline course

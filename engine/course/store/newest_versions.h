@@ -1,5 +1,6 @@
 #pragma once
 #include <map>
+#include <optional>
 #include <string>
 
 #include "course/store/assignments.h"
@@ -20,5 +21,20 @@ using HandedInParts = std::map<std::string, HandedIn>;  ///< by part: report, sl
 /// By group and stage ("first", "final").
 std::map<std::int64_t, std::map<std::string, HandedInParts>> newest_versions(Course& course,
                                                                              const Assignment& assignment);
+
+/// A file of a version that is not withdrawn.
+struct StandingFile {
+    std::int64_t id = 0, number = 0, late = 0;
+    std::string part, hash, name;
+    Instant received_at = 0;
+};
+/// The newest report, slides or review of a group at a stage; `pair`: of a review, else 0.
+std::optional<StandingFile> newest_file(Course& course, const Assignment& assignment, std::int64_t group,
+                                        const std::string& stage, const std::string& part, std::int64_t pair = 0);
+/// The version with this id.
+std::optional<StandingFile> standing_file(Course& course, std::int64_t id);
+/// The newest pack that was submitted with this document or later, but not with a later document: the document's
+/// source.
+std::optional<StandingFile> pack_of_document(Course& course, std::int64_t document);
 
 }  // namespace dynlab::inline course

@@ -51,8 +51,8 @@ void print(const fs::path& file, const fs::path& folder, const DistillSetup& set
     if (!find_program(kGhostscript)) throw MissingProgram(kGhostscript, kPackage);
     Box box(setup.isolation);
     box.add_document_programs();
-    for (const char* folder : {"/etc/ghostscript", "/var/lib/ghostscript"})  // fonts and tables of characters
-        if (fs::exists(folder)) box.add(folder, folder);
+    for (const char* resources : {"/etc/ghostscript", "/var/lib/ghostscript"})  // fonts and tables of characters
+        if (fs::exists(resources)) box.add(resources, resources);
     const fs::path in = box.add(file, "/box/in.pdf"), out = box.add_writable(folder, "/box/out");
     Box::Limits limits;
     limits.time = setup.time;

@@ -307,7 +307,7 @@ MonteCarlo monte_carlo(const MonteCarloStudy& study, const std::vector<MonteCarl
         return runner.take();
     };
     const auto count = static_cast<std::size_t>(study.runs);
-    std::vector<MonteCarloRun> runs = study.elsewhere ? study.elsewhere(count, some) : some(0, count);
+    std::vector<MonteCarloRun> runs = study.in_parts ? study.in_parts(count, some) : some(0, count);
     for (std::size_t j = 0; j < methods.size(); ++j)
         all.results.push_back(result_of(study, methods[j], outcomes_of_method(runs, j), all.sigma));
     return all;

@@ -9,7 +9,6 @@
 #include "numerics/models/transfer_function.h"
 #include "numerics/signals/iddata.h"
 #include "numerics/simulation/closed_loop.h"
-#include "numerics/validation/elsewhere.h"
 
 namespace dynlab::inline numerics {
 
@@ -40,6 +39,9 @@ struct MonteCarloRun {
     std::vector<MonteCarloOutcome> outcomes;
 };
 
+/// Makes the runs `first`, `first` + 1, ..., `count` of them.
+using SomeRuns = std::function<std::vector<MonteCarloRun>(std::size_t first, std::size_t count)>;
+
 /// The same experiment again and again: the noise-free output x of `system` for the input u, plus white noise. Run
 /// k = 0, 1, ... has y = x + sigma randn with the random stream of seed + k (signals/random.h), whatever the threads.
 /// With a controller u is the reference of a loop, whose records hold input, output and reference; the noise goes
@@ -57,7 +59,9 @@ struct MonteCarloStudy {
     std::function<void(std::size_t done)> progress = {};  ///< estimations done; called by one thread at a time
     std::function<bool()> cancel = {};                    ///< asked before every run, by one thread at a time
     std::optional<LoopController> controller = {};        ///< of a closed loop
-    Elsewhere<MonteCarloRun> elsewhere = {};              ///< who has the runs made, where others share them
+    /// Gives all runs in their order, having had some of them made by the function that it is given. A run depends on
+    /// its number alone, so that any parts make the same whole. All are made at once without.
+    std::function<std::vector<MonteCarloRun>(std::size_t runs, const SomeRuns& some)> in_parts = {};
 
     /// Throws InvalidArgument naming the field.
     void validate() const;

@@ -253,29 +253,15 @@ OrderSelection select_order(const IdData& data, const std::vector<TransferStruct
         if (options.progress) options.progress(++done);
     };
     tbb::task_arena arena(thread_count(options.threads));
-    const auto try_some = [&](const std::vector<std::size_t>& level, std::size_t first, std::size_t end) {
+    for (const std::vector<std::size_t>& level : levels_of(candidates))
         arena.execute([&] {
             tbb::parallel_for(
-                tbb::blocked_range<std::size_t>(first, end, 1),
+                tbb::blocked_range<std::size_t>(0, level.size(), 1),
                 [&](const tbb::blocked_range<std::size_t>& range) {
                     for (std::size_t i = range.begin(); i < range.end(); ++i) try_one(level[i]);
                 },
                 tbb::simple_partitioner());
         });
-    };
-    for (const std::vector<std::size_t>& level : levels_of(candidates)) {
-        if (!options.elsewhere) {
-            try_some(level, 0, level.size());
-            continue;
-        }
-        std::vector<OrderCandidate> tried = options.elsewhere(level.size(), [&](std::size_t first, std::size_t count) {
-            try_some(level, first, first + count);
-            std::vector<OrderCandidate> some;
-            for (std::size_t i = first; i < first + count; ++i) some.push_back(selection.candidates[level[i]]);
-            return some;
-        });
-        for (std::size_t i = 0; i < level.size(); ++i) selection.candidates[level[i]] = std::move(tried.at(i));
-    }
     const auto estimated = [](const OrderCandidate& candidate) { return candidate.failure.empty(); };
     if (options.estimation.integration)
         for (OrderCandidate& candidate : selection.candidates)

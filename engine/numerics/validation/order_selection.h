@@ -8,7 +8,6 @@
 
 #include "base/message.h"
 #include "numerics/fit/fit.h"
-#include "numerics/validation/elsewhere.h"
 
 namespace dynlab::inline numerics {
 
@@ -50,8 +49,6 @@ struct OrderSelectionOptions {
     FitOptions estimation = {};                           ///< the same for every structure, an integrator among it
     std::function<void(std::size_t done)> progress = {};  ///< called by one thread at a time
     std::function<bool()> cancel = {};                    ///< asked before every candidate, by one thread at a time
-    /// Who has the structures of one level estimated (as many poles and zeros together), where others share them.
-    Elsewhere<OrderCandidate> elsewhere = {};
 };
 
 /// All structures with poles and zeros from .. to, fewer zeros than poles or with `feedthrough` as many, and each of

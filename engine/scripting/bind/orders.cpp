@@ -13,7 +13,6 @@
 #include "scripting/conversions/localized.h"
 #include "scripting/conversions/table_fields.h"
 #include "scripting/memoized_calls/memoized_call.h"
-#include "scripting/memoized_calls/shared_pieces.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/fit_model.h"
@@ -160,8 +159,6 @@ int try_structures(Call& call) {
     wanted.validation = validation_record(options);
     wanted.cancel = call.cancel();
     wanted.estimation = fit_options(options, Purpose::kModel);
-    wanted.elsewhere = shared_out<OrderCandidate>(call.state(), "srivcstruc");
-    if (wanted.elsewhere) wanted.threads = 1;  // each of those who share it has a core
     ProgressBar bar("order search", structures.size());
     wanted.progress = [&bar](std::size_t done) { bar.advance(done); };
     OrderTable table{select_order(data, structures, wanted), {}};

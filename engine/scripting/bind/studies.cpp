@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "data_io/values/cbor_values.h"
 #include "data_io/values/estimate_descriptions.h"
 #include "numerics/validation/monte_carlo.h"
 #include "platform/terminal/progress.h"
@@ -8,10 +9,10 @@
 #include "scripting/bind/bindings.h"
 #include "scripting/bind/estimation_readers.h"
 #include "scripting/memoized_calls/memoized_call.h"
-#include "scripting/memoized_calls/shared_pieces.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/model.h"
 #include "scripting/objects/study_objects.h"
+#include "scripting/runtime/context.h"
 #include "scripting/runtime/errors.h"
 #include "scripting/runtime/sandbox.h"
 
@@ -221,13 +222,31 @@ MonteCarloStudy study_of(const Options& options) {
     return study;
 }
 
+/// Where the program makes calls in parts; each part has one core.
+void make_in_parts(MonteCarloStudy& study, lua_State* L) {
+    CallsInParts* const parts = context_of(L).services.parts;
+    if (parts == nullptr) return;
+    study.threads = 1;
+    study.in_parts = [L, parts](std::size_t runs, const SomeRuns& some) {
+        const auto bytes_of = [&](std::size_t first, std::size_t count) {
+            const std::vector<MonteCarloRun> made = some(first, count);
+            poll_stop(L);  // a part that was cut off is none
+            return cbor_of(made);
+        };
+        std::vector<MonteCarloRun> all;
+        for (const std::string& part : parts->all(context_of(L).recorder.record().files_read, runs, bytes_of))
+            for (MonteCarloRun& run : from_cbor<std::vector<MonteCarloRun>>(part)) all.push_back(std::move(run));
+        if (all.size() != runs) throw EnvironmentError("the parts of montecarlo are not {} runs together", runs);
+        return all;
+    };
+}
+
 int run_study(Call& call) {
     call.at_most(1);
     const Options options(call, 1, kStudyTables);
     MonteCarloStudy study = study_of(options);
     const std::vector<MonteCarloMethod> methods = methods_of(call, options.push("estimators"));
-    study.elsewhere = shared_out<MonteCarloRun>(call.state(), "montecarlo");
-    if (study.elsewhere) study.threads = 1;  // each of those who share it has a core
+    make_in_parts(study, call.state());
     ProgressBar bar("Monte Carlo", static_cast<std::size_t>(study.runs) * methods.size());
     study.progress = [&bar](std::size_t done) { bar.advance(done); };
     MonteCarlo result = monte_carlo(study, methods);

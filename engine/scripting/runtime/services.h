@@ -1,4 +1,5 @@
 #pragma once
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <string>
@@ -27,15 +28,16 @@ struct ValueListener {
     std::function<void(const std::string& latex)> expect;
 };
 
-/// Of programs whose scripts share their long calls with other machines.
-class SharedPieces {
+/// Of programs that make a script's montecarlo in parts.
+class CallsInParts {
   public:
     using Some = std::function<std::string(std::size_t first, std::size_t count)>;
 
-    virtual ~SharedPieces() = default;
-    /// What `some` gives for the parts that `pieces` are made in, in their order, whoever made them. `what`: the call's
-    /// name.
-    virtual std::vector<std::string> all(const std::string& what, std::size_t pieces, const Some& some) = 0;
+    virtual ~CallsInParts() = default;
+    /// What `some` gives for the pieces of the script's next call, made before or now, in their order. `files`: what
+    /// the script has read so far, on which the call may depend. Throws where pieces are missing that others make.
+    virtual std::vector<std::string> all(const std::vector<std::filesystem::path>& files, std::size_t pieces,
+                                         const Some& some) = 0;
 };
 
 /// What a program gives the scripts of a Runtime, which it must outlive; null for what it does not give.
@@ -44,7 +46,7 @@ struct Services {
     const SliderValues* sliders = nullptr;     ///< every slider has the script's own number without
     const ValueListener* listener = nullptr;
     WrittenFiles* written = nullptr;  ///< refuses to replace files; all may be replaced without
-    SharedPieces* shared = nullptr;   ///< calls are made here without
+    CallsInParts* parts = nullptr;    ///< calls are made whole without
 
     std::string language_code() const { return language != nullptr ? language->code : ReportLanguage().code; }
 };

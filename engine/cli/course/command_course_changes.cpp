@@ -1,0 +1,70 @@
+#include <filesystem>
+#include <iostream>
+
+#include "base/reader.h"
+#include "cli/course/course_commands.h"
+#include "course/review/version_changes.h"
+#include "platform/error.h"
+#include "platform/program_lookup.h"
+#include "platform/terminal/terminal_text.h"
+
+namespace dynlab::inline cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ChangesArguments {
+    std::vector<std::string> groups;
+    std::string assignment, out, isolation = "full";
+};
+
+int changes(const CourseArguments& where, const ChangesArguments& words) {
+    const Isolation level = words.isolation == "full" ? Isolation::kFull : Isolation::kProcess;
+    if (const auto obstacle = obstacle_to(level)) throw EnvironmentError(*obstacle);
+    Course course(where.folder);
+    const Assignment assignment = assignment_named(course, words.assignment);
+    ChangesRequest request;
+    request.groups = words.groups;
+    request.level = level;
+    request.program = running_program();
+    WorkBar comparing("comparing the versions"), writing("writing the documents");
+    request.progress = comparing.progress();
+    const std::vector<GroupChanges> all = version_changes(course, assignment, request);
+    comparing.finish();
+    std::cout << terminal_text(changes_table(assignment, all));
+    if (words.out.empty()) return kDone;
+    const BoxedDocuments documents(request.level, request.program);
+    const std::size_t written = write_changes(all, course, assignment, words.out, documents, writing.progress());
+    writing.finish();
+    std::cout << message_text(plural(static_cast<std::int64_t>(written), "{} document as PDF and Markdown in {}",
+                                     "{} documents as PDF and Markdown in {}", words.out))
+              << '\n';
+    return kDone;
+}
+
+}  // namespace
+
+CLI::App* add_changes(CLI::App& course, CourseArguments& where, Action& action) {
+    auto words = std::make_shared<ChangesArguments>();
+    CLI::App* command = course.add_subcommand("changes", "Compare first and final versions word by word");
+    command->add_option("GROUP", words->groups, "Groups. Default: all groups.");
+    command->add_option("--assignment", words->assignment, "Assignment. Needed when there are several.")
+        ->type_name("NAME");
+    command->add_option("--out", words->out, "Folder for GROUP.pdf and GROUP.md of each final version")
+        ->type_name("DIR");
+    command->add_option("--isolation", words->isolation, "How far the work on the groups' files is kept apart")
+        ->type_name("full|process")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"full", "process"}));
+    command->footer(
+        "Compares each final version with the version that its reviewers read: report.md where both versions have a\n"
+        "pack whose analysis runs, otherwise the text of the PDFs. The documents show deleted and inserted words, the\n"
+        "values, answers and table cells that changed, and the released reviews.\n"
+        "Examples:\n"
+        "  dynlab course changes --assignment crane\n"
+        "  dynlab course changes group-03 group-07 --assignment crane --out changes");
+    command->callback([&where, words, &action] { action = [&where, words] { return changes(where, *words); }; });
+    return command;
+}
+
+}  // namespace dynlab::inline cli

@@ -1,0 +1,60 @@
+#include "cli/course/part_options.h"
+
+#include <iostream>
+
+#include "base/reader.h"
+#include "platform/error.h"
+#include "platform/terminal/terminal_text.h"
+
+namespace dynlab::inline cli {
+
+void PartOptions::add_to(CLI::App& command) {
+    const auto check = [](const std::string& given) -> std::string {
+        return part_in(given) ? std::string() : "wanted a part such as 3/8, not '" + given + "'";
+    };
+    CLI::Option* const one = command.add_option("--part", part, "Do one part of the work only, on whatever machine")
+                                 ->type_name("I/N")
+                                 ->check(CLI::Validator(check, ""));
+    CLI::Option* const all = command.add_flag("--join", join, "Join the parts, all of which are done")->excludes(one);
+    command
+        .add_option("--on", on,
+                    "Have the parts done and joined: slurm[:tasks=N,partition=P,...], hosts:HOST,N/HOST by ssh, or "
+                    "processes:N; dynlab help guide-cluster")
+        ->type_name("WHERE")
+        ->excludes(one)
+        ->excludes(all);
+}
+
+bool done_on(const std::string& on, const std::filesystem::path& folder,
+             const std::function<MissingParts(int parts)>& missing) {
+    const Machines machines = machines_in(on);
+    note_parts(folder, machines.parts);
+    for (MissingParts left = missing(machines.parts), before; !left.parts.empty(); left = missing(machines.parts)) {
+        if (left == before)
+            throw EnvironmentError(
+                "the parts were done, but their results are not in {}: all hosts must see that "
+                "folder under the same name",
+                folder.parent_path().string());
+        if (machines.kind == Machines::Kind::kSlurm) {
+            std::cout << terminal_text(message_text(submit_to_slurm(machines, {folder, left.parts})));
+            return false;
+        }
+        for (const Message& said : do_on_hosts(machines, {folder, left.parts}))
+            std::cerr << "dynlab: note: " << terminal_text(message_text(said)) << '\n';
+        before = left;
+    }
+    return true;
+}
+
+void refuse_missing_parts(const std::set<int>& missing, int parts) {
+    if (missing.empty()) return;
+    std::vector<std::string> commands;
+    for (const int index : missing) commands.push_back(shown_command("--part " + Part{index, parts}.text()));
+    throw EnvironmentError(
+        "{} of {} cannot be joined: not made yet, or made from other files or by another version of dynlab. Make them "
+        "by\n{}",
+        plural(static_cast<std::int64_t>(missing.size()), "{} part", "{} parts"), parts,
+        listed(commands, Join::kLines));
+}
+
+}  // namespace dynlab::inline cli

@@ -1,0 +1,297 @@
+#include "course/grading/grade_class.h"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include "base/error.h"
+#include "base/reader.h"
+#include "course/grading/class_results.h"
+#include "platform/error.h"
+#include "platform/interrupt.h"
+#include "platform/terminal/progress.h"
+
+namespace dynlab::inline course {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Sends the work of a class through the pipeline, by several threads.
+class ClassGrader {
+  public:
+    ClassGrader(const ClassWork& work, const TriedRules& tried, const GradingOptions& options)
+        : work_(work), options_(options), pipeline_(tried.rules, options, work), graded_(work.items.size()) {
+        outcome_.submissions = static_cast<int>(work.items.size());
+        outcome_.complaints = tried.complaints;
+        outcome_.complaints.insert(outcome_.complaints.end(), work.complaints.begin(), work.complaints.end());
+        if (tried.note) outcome_.notes.push_back(*tried.note);
+        if (!work.doubt.empty()) outcome_.notes.push_back(work.doubt);
+        outcome_.late = work.late;
+        outcome_.unconfirmed = static_cast<int>(work.unconfirmed.size());
+    }
+
+    void grade_chosen() {
+        ProgressBar bar("grading", work_.chosen.size());
+        bar_ = &bar;
+        std::vector<std::thread> threads;
+        for (int i = 0; i < std::max(1, options_.setup.jobs); ++i) threads.emplace_back([&] { grade_some(); });
+        for (std::thread& thread : threads) thread.join();
+        bar_ = nullptr;
+        if (failure_) std::rethrow_exception(failure_);
+    }
+
+    /// So far.
+    const GradingOutcome& outcome() const { return outcome_; }
+
+    GradingOutcome conclude() {
+        take_earlier_results();
+        for (const Message& sentence : pipeline_.manual().complaints()) outcome_.complaints.push_back(sentence);
+        say_which_counts();
+        // Threads end in any order.
+        std::ranges::sort(outcome_.complaints, {}, [](const Message& complaint) { return message_text(complaint); });
+        const ClassResults all = results();
+        Attention attention = what_needs_attention(all);
+        outcome_.attention = std::move(attention.sentences);
+        outcome_.attention.insert(outcome_.attention.end(), work_.unconfirmed.begin(), work_.unconfirmed.end());
+        outcome_.unowned = static_cast<int>(attention.unowned);
+        outcome_.unreadable = static_cast<int>(attention.unreadable);
+        write_class_results(all);
+        return std::move(outcome_);
+    }
+
+  private:
+    struct Graded {
+        std::optional<Grade> grade;
+        std::string content;  ///< hash of what was submitted; empty for what was not looked at
+    };
+    using Waiting = std::pair<std::size_t, GradingPipeline::ToCheck>;
+
+    /// How many are checked in one box: enough to forget its start, few enough to keep all threads busy.
+    std::size_t checked_together() const {
+        constexpr std::size_t kMost = 16, kSharesOfAThread = 4;
+        const auto threads = static_cast<std::size_t>(std::max(1, options_.setup.jobs));
+        return std::clamp<std::size_t>(work_.chosen.size() / (kSharesOfAThread * threads), 1, kMost);
+    }
+
+    void grade_some() {
+        try {
+            std::vector<Waiting> waiting;
+            for (std::size_t k = next_++; k < work_.chosen.size() && !stopped_; k = next_++) {
+                throw_if_interrupted();
+                const std::size_t place = work_.chosen[k];
+                guarded(place, [&] {
+                    if (auto to_check = run(place)) waiting.emplace_back(place, *std::move(to_check));
+                });
+                if (waiting.size() >= checked_together()) check(std::exchange(waiting, {}));
+            }
+            check(std::move(waiting));
+        } catch (...) {
+            stopped_ = true;
+            const std::lock_guard lock(mutex_);
+            if (!failure_) failure_ = std::current_exception();
+        }
+    }
+
+    /// What goes wrong with one submission stops no other.
+    void guarded(std::size_t place, const std::function<void()>& action) {
+        try {
+            action();
+        } catch (const Interrupted&) {
+            throw;
+        } catch (const std::exception& error) {
+            leave_ungraded(place, message_of(error));
+        }
+    }
+
+    /// Nothing where its grade is known without its checks: as it was made before, or as it cannot be read.
+    std::optional<GradingPipeline::ToCheck> run(std::size_t place) {
+        const WorkItem& item = work_.items[place];
+        const GradingPipeline::Keys keys = pipeline_.keys_of(item);
+        graded_[place].content = keys.content;
+        if (std::optional<Grade> kept = pipeline_.kept_grade(item, keys)) {
+            finish(place, *std::move(kept), outcome_.kept);
+            return {};
+        }
+        try {
+            return GradingPipeline::ToCheck{&item, keys, pipeline_.run(item, keys)};
+        } catch (const SubmissionError& error) {
+            finish(place, pipeline_.unreadable(item, keys, error.message()), outcome_.made);
+            return {};
+        }
+    }
+
+    void check(std::vector<Waiting> waiting) {
+        if (waiting.empty() || stopped_) return;
+        std::vector<GradingPipeline::ToCheck> submissions;
+        for (const Waiting& one : waiting) submissions.push_back(one.second);
+        std::vector<Grade> grades;
+        try {
+            grades = pipeline_.check(std::move(submissions));
+        } catch (const Interrupted&) {
+            throw;
+        } catch (const std::exception& error) {  // of one of them: the others are checked without it
+            if (waiting.size() == 1) return leave_ungraded(waiting[0].first, message_of(error));
+            for (Waiting& one : waiting) check({std::move(one)});
+            return;
+        }
+        for (std::size_t i = 0; i < waiting.size(); ++i)
+            guarded(waiting[i].first, [&] { finish(waiting[i].first, std::move(grades[i]), outcome_.made); });
+    }
+
+    void finish(std::size_t place, Grade grade, int& count) {
+        keep(place, pipeline_.finish(work_.items[place], std::move(grade)));
+        const std::lock_guard lock(mutex_);
+        ++count;
+        bar_->advance(++done_);
+    }
+
+    void keep(std::size_t place, GradingPipeline::Finished finished) {
+        graded_[place].grade = std::move(finished.marked);
+        if (finished.trouble.empty()) return;
+        const std::lock_guard lock(mutex_);
+        outcome_.complaints.push_back(Message("\"{}\": {}", work_.items[place].submission.name, finished.trouble));
+    }
+
+    /// What the grader itself cannot do costs no points and stops no other submission; nothing is written, so that the
+    /// next run tries again.
+    void leave_ungraded(std::size_t place, const Message& reason) {
+        const std::string& name = work_.items[place].submission.name;
+        Grade grade = pipeline_.rules().unreadable(name, {});
+        grade.unreadable = false;
+        const std::lock_guard lock(mutex_);
+        graded_[place].grade = std::move(grade);
+        outcome_.complaints.push_back(Message("\"{}\" could not be graded: {}", name, reason));
+        ++outcome_.failed;
+        bar_->advance(++done_);
+    }
+
+    /// Those of an earlier run for submissions that are not chosen now.
+    void take_earlier_results() {
+        for (std::size_t i = 0; i < graded_.size(); ++i) {
+            if (graded_[i].grade) continue;
+            const WorkItem& item = work_.items[i];
+            std::optional<Grade> grade = earlier_grade(pipeline_.results_of(item));
+            if (!grade) continue;
+            GradingPipeline::Keys keys;
+            try {
+                keys = pipeline_.keys_of(item);
+            } catch (const fs::filesystem_error&) {  // cannot be looked into, so that its content is none
+            }
+            graded_[i].content = keys.content;
+            if (grade->fingerprint != keys.grade)
+                outcome_.complaints.push_back(
+                    Message("the marks of \"{}\" are from before it, the checks or the program changed; grade it, too",
+                            item.submission.name));
+            graded_[i].grade = pipeline_.manual().applied(*std::move(grade));
+        }
+        for (const Graded& one : graded_)
+            if (one.grade && !one.grade->whole() && !one.grade->unreadable) ++outcome_.not_whole;
+    }
+
+    /// Of several submissions of one student, each that does not count says so: known only when all are graded.
+    void say_which_counts() {
+        const std::vector<std::string> instead = counted_instead(results());
+        for (std::size_t i = 0; i < graded_.size(); ++i) {
+            if (!graded_[i].grade) continue;
+            auto finished = pipeline_.finish_as_counted(work_.items[i], *graded_[i].grade, instead[i]);
+            if (finished) keep(i, *std::move(finished));
+        }
+    }
+
+    ClassResults results() const {
+        ClassResults results;
+        results.work = &work_;
+        results.out = options_.out;
+        results.setup = &options_.setup;
+        results.pdf = options_.pdf, results.documents = &pipeline_.documents();
+        for (std::size_t i = 0; i < graded_.size(); ++i)
+            results.entries.push_back({&work_.items[i], graded_[i].grade, graded_[i].content});
+        results.complaints = outcome_.complaints;
+        return results;
+    }
+
+    const ClassWork& work_;
+    const GradingOptions& options_;
+    GradingOutcome outcome_;
+    GradingPipeline pipeline_;
+    std::vector<Graded> graded_;  ///< as work_.items
+    ProgressBar* bar_ = nullptr;
+    std::atomic<std::size_t> next_{0};
+    std::atomic<bool> stopped_{false};
+    std::size_t done_ = 0;
+    std::mutex mutex_;
+    std::exception_ptr failure_;
+};
+
+void refuse_other_lessons(const GradingOptions& options) {
+    const fs::path results = options.out / "results";
+    fs::create_directories(results);
+    for (const auto& entry : fs::directory_iterator(results)) {
+        const std::optional<Grade> grade = earlier_grade(entry.path());
+        if (!grade) continue;
+        if (grade->lesson == options.setup.lesson.slug) return;  // as are all others, which were put beside it
+        throw EnvironmentError("{} holds the results of lesson {}; name another folder with --out",
+                               options.out.string(), grade->lesson);
+    }
+}
+
+const GradingSetup& isolated(const GradingSetup& setup) {
+    if (const auto obstacle = obstacle_to(setup.isolation)) throw EnvironmentError(*obstacle);
+    return setup;
+}
+
+}  // namespace
+
+FileLock lock_results(const fs::path& out) {
+    fs::create_directories(out);
+    FileLock lock(out / ".lock");
+    if (!lock.held())
+        throw EnvironmentError("another dynlab grade is at work in {}; wait until it is done", out.string());
+    return lock;
+}
+
+TriedRules::TriedRules(const GradingOptions& options) : rules(isolated(options.setup)) {
+    refuse_other_lessons(options);
+    complaints = rules.try_solution(options.out / "runs/.worked_solution.cbor", options.regrade);
+    note = rules.note_on_time();
+}
+
+GradingOutcome grade_class(const ClassWork& work, const TriedRules& tried, const GradingOptions& options) {
+    ClassGrader grader(work, tried, options);
+    grader.grade_chosen();
+    return grader.conclude();
+}
+
+GradingOutcome grade_part_of_class(const ClassWork& work, const Part& part, const TriedRules& tried,
+                                   const GradingOptions& options) {
+    ClassWork own = work;
+    own.chosen.clear();
+    for (std::size_t k = 0; k < work.chosen.size(); ++k)
+        if (part.has(k)) own.chosen.push_back(work.chosen[k]);
+    ClassGrader grader(own, tried, options);
+    grader.grade_chosen();
+    return grader.outcome();
+}
+
+MissingParts ungraded_parts(const ClassWork& work, int parts, const TriedRules& tried, const GradingOptions& options) {
+    const GradingPipeline pipeline(tried.rules, options, work);
+    MissingParts missing;
+    const auto graded = [&](const WorkItem& item) {
+        try {
+            return pipeline.kept_grade(item, pipeline.keys_of(item)).has_value();
+        } catch (const fs::filesystem_error&) {  // cannot be looked into
+            return false;
+        }
+    };
+    for (std::size_t k = 0; k < work.chosen.size(); ++k) {
+        const int part = Part{1, parts}.part_of(k);
+        if (!missing.parts.contains(part) && !graded(work.items[work.chosen[k]])) missing.parts.insert(part);
+    }
+    return missing;
+}
+
+}  // namespace dynlab::inline course

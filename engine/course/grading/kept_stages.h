@@ -1,0 +1,42 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "course/checks/check_run.h"
+#include "course/grading/grade.h"
+#include "course/intake/submission.h"
+
+namespace dynlab::inline course {
+
+/// SHA-256 of all that was submitted, names and contents. Of what is too large to be graded its size alone: reading it
+/// may take for ever. Throws what the file system does where something cannot be looked into.
+std::string hash_of_content(const Submission& submission);
+
+/// Of the files in `folder`: their names there and their contents, in the order of their names.
+std::string hash_of_files(std::vector<std::filesystem::path> files, const std::filesystem::path& folder);
+
+/// What a script did when it was run, kept apart from what the checks say of it: with other checks it need not run
+/// again.
+struct KeptRuns {
+    std::string fingerprint;  ///< of the submission and of all that its runs depend on
+    CheckedSubmission work;
+    Message remark;  ///< see StagedWork
+    std::string language;
+};
+
+std::optional<KeptRuns> read_kept_runs(const std::filesystem::path& file, const std::string& fingerprint);
+/// Without the runs' times equal classes give equal files.
+enum class KeptTimes { kNo, kYes };
+void write_kept_runs(const std::filesystem::path& file, KeptRuns runs, KeptTimes times = KeptTimes::kNo);
+
+/// What `stage` gives: as an earlier run kept it in `file` under this key, unless `again`; else made now, and kept.
+KeptRuns cached(const std::filesystem::path& file, const std::string& key, bool again,
+                const std::function<KeptRuns()>& stage);
+
+/// What an earlier run wrote into a submission's folder of results; nothing where there is none that can be read.
+std::optional<Grade> earlier_grade(const std::filesystem::path& folder);
+
+}  // namespace dynlab::inline course

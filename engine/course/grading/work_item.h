@@ -1,0 +1,48 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "course/intake/roster.h"
+#include "course/intake/submission.h"
+
+namespace dynlab::inline course {
+
+/// What lateness costs a submission.
+struct Lateness {
+    double hours = 0, percent = 0;  ///< of the points earned; 0 in time
+    Message reason;                 ///< "received ..., 20 min after the deadline of ..."; empty in time
+    std::int64_t late = 0;          ///< seconds after the deadline
+    bool typed = false;             ///< the instructor wrote down when it was received
+};
+
+/// A submission that is to be graded, with what a course knows of it.
+struct WorkItem {
+    Submission submission;              ///< its name, which no other in the class has, and its files
+    std::vector<std::size_t> students;  ///< whose it is: places in ClassWork::students
+    std::string group;                  ///< empty for a student without one
+    Message unmatched;                  ///< why it belongs to no student; empty where it does
+    std::string addressee;              ///< whom the feedback is for; the submission's name where empty
+    std::string language;               ///< of the feedback; that of the work where empty
+    std::optional<std::uint32_t> seed;  ///< of the group's own data sets; nothing for the data of all
+    std::int64_t received = 0;          ///< seconds since 1970; needed where the newest counts
+    Lateness lateness;
+};
+
+/// All work of a class on one assignment: what the grading pipeline is given. Where it comes from, a folder with tables
+/// beside it (class_folder.h) or a course, the pipeline does not know.
+struct ClassWork {
+    std::vector<WorkItem> items;
+    bool roster = false;              ///< the students are known: one row of marks for each of them, else for each item
+    std::vector<Student> students;    ///< in the order of the gradebook
+    bool deadlines = false;           ///< there are some: the gradebook has the reason of each penalty
+    bool newest_counts = false;       ///< of several submissions of one student; else the best one
+    std::vector<std::size_t> chosen;  ///< places of the items that are graded now; earlier results count for the others
+    std::vector<Message> complaints;  ///< for the instructor, about rows that match no submission and the like
+    std::vector<Message> late;        ///< a clause for each late submission, with what it costs
+    std::vector<Message> unconfirmed;  ///< penalties that wait for the instructor (late_penalties.h), a sentence each
+    Message doubt;                     ///< about the zone of the times; may be empty
+};
+
+}  // namespace dynlab::inline course

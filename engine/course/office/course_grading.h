@@ -1,0 +1,25 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "course/grading/grade_class.h"
+#include "course/store/assignments.h"
+
+namespace dynlab::inline course {
+
+struct CourseGradingRequest {
+    GradingSetup setup;             ///< lesson, own checks and secret are those of the assignment
+    std::vector<std::string> only;  ///< groups, by any identifier; all when empty
+    bool regrade = false, pdf = true, above_maximum = false;
+};
+
+/// The folder of an assignment's results: COURSE/marks/ASSIGNMENT.
+std::filesystem::path results_folder(const Course& course, const Assignment& assignment);
+
+/// Grades what was submitted for a lab, every version that is not withdrawn. Lateness, extensions, members and marks
+/// are those of the course. What the checks give is recorded in the store; marks that the instructor wrote into
+/// marks.csv in the folder of results are taken in, and those given by command are written there. Throws
+/// InvalidArgument for an assignment that is no lab; EnvironmentError as grade_class does.
+GradingOutcome grade_assignment(Course& course, const Assignment& assignment, const CourseGradingRequest& request);
+
+}  // namespace dynlab::inline course

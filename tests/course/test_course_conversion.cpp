@@ -1,0 +1,129 @@
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "course/course_bench.h"
+#include "course/store/course_schema.h"
+#include "course/store/receipts.h"
+#include "course/store/store_check.h"
+
+namespace dynlab::test {
+namespace test_course_conversion {
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr std::size_t kBefore = 5;  ///< version of the tables of courses with reports and presentations only
+
+std::vector<std::string> columns_of(Database& database, const std::string& table) {
+    std::vector<std::string> columns;
+    for (Rows rows = database.query("SELECT name FROM pragma_table_info(?) ORDER BY cid", table); rows.next();)
+        columns.push_back(rows.text(0));
+    return columns;
+}
+
+/// All rows of all tables of before, in the columns of before.
+std::string content_of(Database& database, const std::map<std::string, std::vector<std::string>>& tables) {
+    std::string text;
+    for (const auto& [table, columns] : tables) {
+        if (table == "seals") continue;
+        text += table + "\n";
+        for (Rows rows =
+                 database.query(fmt::format("SELECT {} FROM {} ORDER BY 1, 2", fmt::join(columns, ", "), table));
+             rows.next();) {
+            for (std::size_t c = 0; c < columns.size(); ++c) text += rows.text(static_cast<int>(c)) + "|";
+            text += "\n";
+        }
+    }
+    return text;
+}
+
+/// Gives the course in `folder` the tables of before, with the same rows; returns what they hold.
+std::map<std::string, std::vector<std::string>> make_old(const std::filesystem::path& folder) {
+    std::map<std::string, std::vector<std::string>> tables;
+    const std::vector<const char*>& steps = course_steps();
+    {
+        Database old(folder / "old.db", Database::Opening::kNew);
+        migrate_course(old, Database::Opening::kNew, "old", {steps.begin(), steps.begin() + kBefore});
+        for (const std::string& table : course_tables())
+            if (auto columns = columns_of(old, table); !columns.empty()) tables[table] = std::move(columns);
+        old.run("ATTACH ? AS now", (folder / "course.db").string());
+        for (const std::string& table : course_tables()) {
+            if (!tables.contains(table)) continue;
+            const std::string columns = fmt::format("{}", fmt::join(tables[table], ", "));
+            std::string read = columns;
+            if (table == "assignments") read.replace(read.find("kind"), 4, "replace(kind, 'talk', 'presentation')");
+            old.execute(fmt::format("INSERT INTO {} ({}) SELECT {} FROM now.{}", table, columns, read, table));
+        }
+        old.execute("DETACH now");
+        old.execute("PRAGMA journal_mode = DELETE");
+    }
+    for (const char* rest : {"course.db-wal", "course.db-shm"}) std::filesystem::remove(folder / rest);
+    std::filesystem::rename(folder / "old.db", folder / "course.db");
+    return tables;
+}
+
+std::int64_t version_of(Database& database) {
+    Rows rows = database.query("PRAGMA user_version");
+    rows.next();
+    return rows.integer(0);
+}
+
+// oracle: the rows of before, all of them, and the store's own check
+TEST(course_conversion, keeps_the_full_history_and_the_old_file) {
+    CourseBench bench(3, 1);
+    const auto done = [&](std::vector<std::string> words) { CourseBench::expect_done(bench.course(std::move(words))); };
+    done({"assignment", "add", "slides", "--kind", "talk", "--first", "2026-04-01 12:00", "--costs", "late-day:10"});
+    for (int i = 1; i <= 3; ++i) {
+        const std::string file = CourseBench::group(i) + ".pdf";
+        CourseBench::expect_done(
+            bench.hand_in(file, small_pdf(file), "2026-02-27 12:00", {"--assignment", "crane", "--no-checks"}));
+    }
+    done({"peer", "assign", "crane", "--at", "2026-03-02 10:00"});
+    done({"extend", "crane", "group-02", "2026-03-20 12:00", "--stage", "final", "--reason", "illness"});
+    done({"override", "crane", "group-03", "work", "60", "--reason", "on paper"});
+    const std::filesystem::path folder = bench.bench().path("k"), kept = folder / "course.db.before-version-6";
+    const auto tables = make_old(folder);
+    std::string before;
+    {
+        Database old(folder / "course.db", Database::Opening::kExisting);
+        ASSERT_EQ(version_of(old), static_cast<std::int64_t>(kBefore));
+        before = content_of(old, tables);
+    }
+    ASSERT_THAT(before, HasSubstr("talk"));
+    ASSERT_THAT(before, HasSubstr("illness"));
+    {
+        Course course(folder);
+        std::string after = content_of(course.database(), tables);
+        const std::size_t kind = after.find("|talk|");
+        ASSERT_NE(kind, std::string::npos);
+        after.replace(kind, 6, "|presentation|");
+        EXPECT_EQ(after, before);
+        EXPECT_THAT(check_store(course).troubles, IsEmpty());
+        EXPECT_TRUE(assignment_named(course, "slides").is_talk());
+        EXPECT_EQ(assignment_named(course, "slides").costs.late_day, 10);
+        EXPECT_EQ(assignment_named(course, "crane").weight, 1);
+    }
+    {
+        Database old(kept, Database::Opening::kExisting);
+        EXPECT_EQ(version_of(old), static_cast<std::int64_t>(kBefore));
+        EXPECT_EQ(content_of(old, tables), before);
+    }
+    // It is kept once: what is done later does not touch it.
+    const auto written = std::filesystem::last_write_time(kept);
+    done({"extend", "crane", "group-01", "2026-03-20 12:00", "--stage", "final", "--reason", "later"});
+    EXPECT_EQ(std::filesystem::last_write_time(kept), written);
+    done({"verify"});
+}
+
+// oracle: nobody else may read the names in a copy of the store
+TEST(course_conversion, old_file_is_its_owners_alone) {
+    CourseBench bench(2, 1);
+    const std::filesystem::path folder = bench.bench().path("k");
+    make_old(folder);
+    Course course(folder);
+    EXPECT_EQ(std::filesystem::status(folder / "course.db.before-version-6").permissions(),
+              std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+}
+
+}  // namespace test_course_conversion
+}  // namespace dynlab::test
