@@ -69,8 +69,8 @@ void add_roster(CLI::App& course, CourseArguments& where, Action& action) {
     if (!change.unknown_columns.empty())
         std::cerr << terminal_text(fmt::format("dynlab: {}: not read: the unknown columns {}\n", *file,
                                                fmt::join(change.unknown_columns, ", ")));
-    if (!change.unsought_ids.empty())
-        std::cerr << terminal_text(fmt::format("dynlab: {}: {}\n", *file, message_text(change.unsought_ids)));
+    if (!change.short_ids.empty())
+        std::cerr << terminal_text(fmt::format("dynlab: {}: {}\n", *file, message_text(change.short_ids)));
     std::cout << fmt::format("{} students: {} new, {} changed, {} moved to another group; {} new groups.\n",
                              change.students, change.new_students, change.changed, change.moved, change.new_groups);
     if (!change.absent.empty())
