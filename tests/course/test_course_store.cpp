@@ -182,7 +182,7 @@ TEST(course_store, a_roster_changes_what_it_has_columns_for) {
     CourseBench::expect_done(graded);
     EXPECT_THAT(graded.error_output, Not(HasSubstr("unknown")));  // dynlab grade reads them
     EXPECT_THAT(graded.error_output,
-                HasSubstr("ids of fewer than 3 letters and digits (2, such as s1) are not looked for"));
+                HasSubstr("documents are not searched for ids of fewer than 3 letters and digits (2, such as s1)"));
     EXPECT_EQ(rows("SELECT * FROM students"), "s1|Ada King|ada@a.example|11|21\ns2|Bo Ek|bo@a.example||\n");
     CourseBench::expect_done(import("id,group,mail\ns1,group-02,king@a.example\n"));
     EXPECT_EQ(rows("SELECT * FROM students"), "s1|Ada King|king@a.example|11|21\ns2|Bo Ek|bo@a.example||\n");

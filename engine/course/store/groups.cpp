@@ -261,7 +261,7 @@ RosterChange import_roster(Course& course, const std::filesystem::path& file, bo
             file.string(), listed(roster.columns()));
     RosterChange change = Import(course, roster).run();
     change.unknown_columns = roster.unknown_columns();
-    change.unsought_ids = numbers_too_short(roster.students());
+    change.short_ids = numbers_too_short(roster.students());
     change.converted = roster.converted();
     return change;
 }
