@@ -48,7 +48,7 @@ void explain(const IncomingFile& file, const Assignment& assignment, RecognisedF
 
 std::string document_part_of(const Assignment& assignment, const std::string& stage) {
     if (stage == "review") return "review";
-    return assignment.is_report() ? "report" : "slides";
+    return assignment.is_report() || assignment.kind == "lab" ? "report" : "slides";
 }
 
 RecognisedFile recognise(const IncomingFile& file, const Assignment& assignment, const std::string& stage) {
