@@ -59,7 +59,7 @@ TEST_F(hand_back_numbers, the_number_in_the_folder_s_name_takes_precedence) {
     const HandedBack back = hand_back(request_);
     EXPECT_THAT(read("moodle-grades.csv"), AllOf(HasSubstr("Participant 99345,Élise Lefèvre,13,17"),
                                                  Not(HasSubstr("12345")), Not(HasSubstr("12346"))));
-    EXPECT_THAT(told(back.notes), HasSubstr("1 participant number in the roster's column moodle is another one"));
+    EXPECT_THAT(told(back.notes), HasSubstr("1 participant number in the roster's column moodle differs"));
     // The partner's number in the roster is of the same other assignment.
     EXPECT_THAT(told(back.complaints), AllOf(HasSubstr("Ravi Rao is missing"), HasSubstr("--worksheet")));
 }

@@ -188,10 +188,10 @@ class Outbox {
         else if (const std::int64_t contradicted = settle_numbers(students_); contradicted > 0)
             result_.notes.push_back(
                 plural(contradicted,
-                       "{} participant number in the roster's column moodle is another one than in the name of the "
-                       "submission, which is used: Moodle numbers participants for each assignment",
-                       "{} participant numbers in the roster's column moodle are others than in the names of the "
-                       "submissions, which are used: Moodle numbers participants for each assignment"));
+                       "{} participant number in the roster's column moodle differs from the one in the submission's "
+                       "name, which is used: Moodle numbers participants for each assignment",
+                       "{} participant numbers in the roster's column moodle differ from those in the submissions' "
+                       "names, which are used: Moodle numbers participants for each assignment"));
         look_for_news();
     }
 
