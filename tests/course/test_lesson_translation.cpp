@@ -21,10 +21,11 @@ constexpr const char* kChecks =
 class lesson_translation : public testing::Test {
   protected:
     lesson_translation() {
-        bench_.write("80_gain/lesson.lua",
-                     "-- ---\n-- title: A gain\n-- lesson: 80_gain\n-- answers:\n--   K: number\n-- ---\n\n"
-                     "-- %% [markdown]\n-- Find the gain.\n--\n-- Twice.\n\n-- %%\n-- BEGIN SOLUTION\n"
-                     "answer('K', 17/2)\n-- END SOLUTION\n\n-- %% [markdown]\n-- The end.\n");
+        bench_.write(
+            "80_gain/lesson.lua",
+            "-- ---\n-- title: A gain\n-- lesson: 80_gain\n-- language: en\n-- answers:\n--   K: number\n-- ---\n\n"
+            "-- %% [markdown]\n-- Find the gain.\n--\n-- Twice.\n\n-- %%\n-- BEGIN SOLUTION\n"
+            "answer('K', 17/2)\n-- END SOLUTION\n\n-- %% [markdown]\n-- The end.\n");
         bench_.write("80_gain/checks.lua", kChecks);
         lesson_ = *lesson_in(bench_.path("80_gain"));
     }
