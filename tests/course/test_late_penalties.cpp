@@ -46,7 +46,10 @@ TEST(late_penalties, what_was_accepted_stays_so_until_it_costs_more) {
     {
         LatePenalties penalties(out.path(), true);
         EXPECT_EQ(penalties.counted("a", late_by(6 * 86400, 60)).percent, 60);
-        penalties.save();
+        GradingOutcome outcome;
+        penalties.conclude(outcome);
+        EXPECT_EQ(outcome.late.size(), 1u);
+        EXPECT_EQ(outcome.unconfirmed, 0);
     }
     LatePenalties penalties(out.path(), false);
     EXPECT_EQ(penalties.counted("a", late_by(6 * 86400, 60)).percent, 60);

@@ -86,20 +86,11 @@ class ClassGrader {
         outcome_.eye = std::move(eye.sentences);
         outcome_.unowned = static_cast<int>(eye.unowned);
         outcome_.unreadable = static_cast<int>(eye.unreadable);
-        tell_of_lateness();
+        late_.conclude(outcome_);
         write_class_results(all);
     }
 
   private:
-    void tell_of_lateness() {
-        outcome_.late = late_.late();
-        const std::vector<Message> waiting = late_.waiting();
-        outcome_.unconfirmed = static_cast<int>(waiting.size());
-        outcome_.eye.insert(outcome_.eye.end(), waiting.begin(), waiting.end());
-        if (Message doubt = late_.doubt(); !doubt.empty()) outcome_.notes.push_back(std::move(doubt));
-        late_.save();
-    }
-
     static FileLock locked(const GradingRequest& request) {
         fs::create_directories(request.out);
         FileLock lock(request.out / ".lock");

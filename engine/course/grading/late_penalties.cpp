@@ -68,7 +68,12 @@ Message LatePenalties::doubt() const {
     return doubt_about_zone(std::move(late), seen_.size());
 }
 
-void LatePenalties::save() const {
+void LatePenalties::conclude(GradingOutcome& outcome) const {
+    outcome.late = late();
+    const std::vector<Message> needs_attention = waiting();
+    outcome.unconfirmed = static_cast<int>(needs_attention.size());
+    outcome.eye.insert(outcome.eye.end(), needs_attention.begin(), needs_attention.end());
+    if (Message question = doubt(); !question.empty()) outcome.notes.push_back(std::move(question));
     if (accepted_.empty()) return;
     TextTable table;
     table.names = {"submission", "percent"};

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "course/grading/deadlines.h"
+#include "course/grading/grading.h"
 
 namespace dynlab::inline course {
 
@@ -28,7 +29,8 @@ class LatePenalties {
     std::vector<Message> late() const;
     std::vector<Message> waiting() const;  ///< sentences: penalties that were not accepted
     Message doubt() const;                 ///< see doubt_about_zone
-    void save() const;
+    /// Adds these to the outcome and remembers what was accepted.
+    void conclude(GradingOutcome& outcome) const;
 
   private:
     struct Seen {
