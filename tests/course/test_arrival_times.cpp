@@ -40,7 +40,7 @@ TEST_F(arrival_times, moodle_s_worksheets_are_read_in_their_language) {
           "Identifiant;Dernière modification (note);Dernière modification (travail remis)\nParticipant 99345;mardi 10 "
           "mars 2026, 17:50;lundi 9 mars 2026, 17:50\n",
           "Identificador;Última modificación (entrega)\nParticipante 99345;lunes, 9 de marzo de 2026, 17:50\n",
-          "id,time\n99345,2026-03-09 17:50\n"}) {
+          "id,time\n99345,2026-03-09 17:50\n", "id,submitted_at\n99345,2026-03-09T16:50:00Z\n"}) {
         const auto time = table(text).of(named("Élise Lefèvre_99345_assignsubmission_file_"));
         ASSERT_TRUE(time) << text;
         EXPECT_EQ(*time, kAfternoon) << text;

@@ -91,7 +91,8 @@ bool is_time_of_submission(const std::string& header) {
 /// Also as Moodle writes times in English: "Friday, 27 February 2026, 5:30 PM", and in other languages: a day, the name
 /// of a month, a year and a time.
 Instant time_in(const std::string& text) {
-    auto read = plain_clock_reading(text);
+    const bool utc = text.ends_with('Z');
+    auto read = plain_clock_reading(utc ? text.substr(0, text.size() - 1) : text, utc);
     if (!read) read = clock_reading(text, {"%A, %d %B %Y, %I:%M %p", "%d %B %Y, %I:%M %p", "%A, %d %B %Y, %H:%M"});
     if (!read) read = clock_reading(with_english_month(text), {"%d %B %Y %H:%M"});
     if (!read) throw InvalidArgument("the time must be one such as \"2026-03-01 18:00\", but \"{}\" was given", text);
