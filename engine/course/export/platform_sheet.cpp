@@ -8,6 +8,7 @@
 
 #include "base/reader.h"
 #include "course/intake/owners.h"
+#include "course/intake/roster.h"
 #include "data_io/tables/number_cell.h"
 #include "data_io/text_table.h"
 #include "platform/atomic_file.h"
@@ -23,16 +24,8 @@ namespace {
 constexpr const char* kGradeHeaders[] = {"grade",         "note",        "bewertung", "calificacion",
                                          "qualificacio",  "valutazione", "voto",      "nota",
                                          "classificacao", "avaliacao",   "cijfer",    "beoordeling"};
-constexpr const char* kIdentifierHeaders[] = {"identifier",     "identifiant",    "identificador",
-                                              "identificatore", "identificativo", "identificatie"};
-constexpr const char* kIdHeaders[] = {"id number",    "idnumber",    "numero d identification",
-                                      "id nummer",    "numero id",   "matrikelnummer",
-                                      "numero de id", "numero d id", "codice identificativo"};
-constexpr const char* kNameHeaders[] = {"full name",     "nom complet",    "vollstandiger name", "nombre completo",
-                                        "nome completo", "volledige naam", "cognome nome"};
 /// Beginnings of a word of the header.
 constexpr const char* kMaximumWords[] = {"maxim", "maximal", "bestwertung", "massim", "maxima"};
-constexpr const char* kMailWords[] = {"mail", "email", "courriel", "correo"};
 constexpr const char* kCommentWords[] = {"comment", "kommentar", "comentari", "opmerking", "retroaliment"};
 
 std::string words_of_header(const std::string& text) {
@@ -157,7 +150,10 @@ void PlatformSheet::recognise_moodle() {
         return !all.empty() &&
                std::ranges::all_of(all, [&](std::size_t row) { return is_participant(value(row, column)); });
     };
-    number_ = first_column(names_, [](const std::string& name) { return is_known_header(name, kIdentifierHeaders); });
+    const auto called = [this](const std::string& ours) {
+        return first_column(names_, [&](const std::string& name) { return our_column(name) == ours; });
+    };
+    number_ = called("moodle");
     for (std::size_t i = 0; i < names_.size() && !number_; ++i)
         if (holds_participants(i)) number_ = i;
     if (!number_)
@@ -174,9 +170,7 @@ void PlatformSheet::recognise_moodle() {
     if (!grade_ || grade_ == number_)
         throw EnvironmentError("{}: the column of grades is not recognised; its columns are {}", file_.string(),
                                listed_columns());
-    id_ = first_column(names_, [](const std::string& name) { return is_known_header(name, kIdHeaders); });
-    mail_ = first_column(names_, [](const std::string& name) { return has_word(name, kMailWords); });
-    name_ = first_column(names_, [](const std::string& name) { return is_known_header(name, kNameHeaders); });
+    id_ = called("id"), mail_ = called("email"), name_ = called("name");
     comment_ = first_column(names_, [](const std::string& name) { return has_word(name, kCommentWords); });
     if (!name_ && *number_ + 1 < names_.size() && grade_ != *number_ + 1) name_ = *number_ + 1;
     if (!comment_)

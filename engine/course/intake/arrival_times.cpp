@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <set>
 
 #include "base/error.h"
 #include "base/reader.h"
 #include "course/intake/owners.h"
+#include "course/intake/roster.h"
 #include "data_io/text_table.h"
 #include "numerics/error.h"
 #include "platform/error.h"
@@ -86,10 +88,9 @@ Instant time_in(const std::string& text) {
 ArrivalTimes::ArrivalTimes(const std::filesystem::path& csv) {
     const TextTable table = read_text_table(csv);
     std::vector<std::size_t> whose;
-    for (const char* name :
-         {"identifier", "identifiant", "identificador", "id", "id number", "group", "name", "full name", "nom complet",
-          "vollständiger name", "nombre completo", "mail", "email", "email address", "adresse de courriel"})
-        if (const auto column = table.column(name)) whose.push_back(*column);
+    static const std::set<std::string> kWhose = {"moodle", "id", "group", "name", "email", "mail"};
+    for (std::size_t i = 0; i < table.names.size(); ++i)
+        if (kWhose.contains(our_column(table.names[i]))) whose.push_back(i);
     std::optional<std::size_t> when;
     for (const char* name : {"time", "received", "submitted_at"})
         if (const auto column = table.column(name); column && !when) when = column;
