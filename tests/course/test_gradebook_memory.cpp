@@ -63,7 +63,16 @@ TEST(gradebook_memory, marks_of_two_kinds_never_stand_side_by_side) {
     expect_refused(bench.grade({"--checks", "own", "--secret", "secret.txt", "--deadlines", "moved.csv"}),
                    "the deadlines (deadlines.csv then, moved.csv now)");
     EXPECT_EQ(work.read("out/gradebook.csv"), whole);
-    ASSERT_EQ(bench.grade(again).exit_code, 0);
+    // A penalty of all points waits until it is accepted, and stays so.
+    const ChildResult waiting = bench.grade(again);
+    EXPECT_EQ(waiting.exit_code, 1);
+    EXPECT_THAT(waiting.output,
+                AllOf(HasSubstr("2 late:\n  \"a\": late by "), HasSubstr("2 need your eye:"),
+                      HasSubstr("a penalty of 100 % is not applied yet: accept it with --accept-late")));
+    EXPECT_THAT(work.read("out/gradebook.csv"), HasSubstr(",a,graded,5,5,0,"));
+    std::vector<std::string> accepted = all;
+    accepted.push_back("--accept-late");
+    ASSERT_EQ(bench.grade(accepted).exit_code, 0);
     EXPECT_THAT(work.read("out/gradebook.csv"), AllOf(HasSubstr(",a,graded,0,5,5,"), HasSubstr(",b,graded,0,5,5,")));
     // Other checks, wanted: all marks anew from the runs of before.
     work.write("own/more.lua", "check{id = 'own', points = 4, test = function(a) return a.x > 50 end}\n");

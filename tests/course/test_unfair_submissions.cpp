@@ -213,7 +213,7 @@ TEST(unfair_submissions, the_instructor_is_told_of_slips_and_of_scripts_without_
                "Student One_111_assignsubmission_file,nosuch,1,typo\n");
     work.write("deadlines.csv", "submission,deadline\n*,2001-01-01 12:00\ng8,2001-01-01 12:00\n");
     const ChildResult graded =
-        bench.grade({"--roster", "roster.csv", "--deadlines", "deadlines.csv", "--timeout", "2"});
+        bench.grade({"--roster", "roster.csv", "--deadlines", "deadlines.csv", "--timeout", "2", "--accept-late"});
     EXPECT_EQ(graded.exit_code, 1);
     for (const char* words : {"no submission \"g9\"", "no check \"nosuch\"", "\"g8\": there is no such submission"})
         EXPECT_THAT(graded.error_output, HasSubstr(words));

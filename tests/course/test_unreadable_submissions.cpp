@@ -47,7 +47,11 @@ TEST(unreadable_submissions, have_no_marks_and_are_told_by_name) {
     bench.hand_in("crane", "-- ---\n-- title: Crane\n-- lesson: 03_crane\n-- ---\nanswer('x', 42)\n");
     bench.hand_in("cannot begin", "-- ---\n-- nonsense\n-- ---\n");
     work.write("in/pdf/report.pdf", "%PDF");
-    work.write("in/renamed/analysis.lua", "%PDF-1.5\n1 0 obj\n");
+    work.write("in/disguised/analysis.lua", "%PDF-1.4 a report");
+    work.write("in/bytes/analysis.lua", std::string("\0\1\2", 3));
+    work.write("in/encoded/my%20analysis.lua", kSolution);
+    work.write("in/two/analysis (1).lua", kSolution);
+    work.write("in/two/analysis (2).lua", kSolution);
     work.write("in/capital/Analysis.lua", kSolution);
     work.write("in/copy/my analysis (2).lua", kSolution);
     work.write("in/text/analysis.lua.txt", kSolution);
@@ -62,9 +66,9 @@ TEST(unreadable_submissions, have_no_marks_and_are_told_by_name) {
     const std::string book = work.read("out/gradebook.csv");
     for (const auto& [name, told] :
          {std::pair("crane", "the script of lesson 03_crane, not of 99_small"), std::pair("pdf", "only \"report.pdf\""),
-          std::pair("renamed", "is a PDF, not a script"),
-          std::pair("capital", "no analysis.lua in it, but \"Analysis.lua\""),
-          std::pair("copy", "but \"my analysis (2).lua\""), std::pair("text", "but \"analysis.lua.txt\""),
+          std::pair("disguised", "Its analysis.lua is a PDF under another name"),
+          std::pair("bytes", "Its analysis.lua is not a text"),
+          std::pair("two", "no analysis.lua in it, but \"analysis (1).lua\", \"analysis (2).lua\""),
           std::pair("seven", ".7z archives cannot be opened here"),
           std::pair("notebook", "this is JSON, but no Jupyter notebook"),
           std::pair("group-9.rar", ".rar archives cannot be opened here"),
@@ -76,6 +80,13 @@ TEST(unreadable_submissions, have_no_marks_and_are_told_by_name) {
         EXPECT_THAT(graded.output, HasSubstr(fmt::format("  \"{}\" cannot be read: ", name)));
         EXPECT_THAT(book, HasSubstr(fmt::format(",{},unreadable,,0,0,", name)));
         EXPECT_THAT(work.read(fmt::format("out/results/{}/feedback.md", name)), HasSubstr("has no marks yet"));
+    }
+    // Names that browsers and systems change are taken, with a notice.
+    for (const auto& [name, file] :
+         {std::pair("capital", "Analysis.lua"), std::pair("copy", "my analysis (2).lua"),
+          std::pair("text", "analysis.lua.txt"), std::pair("encoded", "my%20analysis.lua")}) {
+        EXPECT_EQ(bench.result(name).at("score"), bench.result("right").at("score")) << name;
+        EXPECT_THAT(work.read("out/summary.md"), HasSubstr(fmt::format("\"{}\" was taken as analysis.lua", file)));
     }
     EXPECT_THAT(graded.output, HasSubstr("  \"silent\" ran to its end but gave no answer\n"));
     EXPECT_THAT(graded.output, Not(HasSubstr("right")));

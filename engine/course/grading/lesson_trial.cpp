@@ -225,16 +225,22 @@ void look_at_translated_checks(const Lesson& lesson, const std::string& language
     });
 }
 
+/// Wherever dynlab sheet --lang refuses them.
 void look_at_tasks(const Lesson& lesson, const std::string& language, Faults& faults) {
     const fs::path tasks = lesson.tasks(language);
     if (!fs::exists(tasks)) return;
     faults.attempt(tasks, [&] {
-        lesson_script(lesson, language);
+        const bool fits = lesson_script(lesson, language).header.language == language;
         if (const std::string said = read_percent_script(tasks).header.language; said != language)
             faults.add(tasks, 0,
                        Message("the header says \"language: {}\", but the file's name says {}: dynlab sheet --lang {} "
                                "refuses it",
                                said, language, language));
+        else if (!fits)
+            faults.add(lesson.script(), 0,
+                       Message("the header has no line \"language: en\", so that dynlab sheet --lang {} refuses the "
+                               "translated tasks",
+                               language));
     });
 }
 
