@@ -37,7 +37,7 @@ void shorten(const fs::path& ledger) {
     write_file_atomically(ledger, text);
 }
 
-/// Those of this process, to be told of files that are put in place.
+/// Those of this process, to be notified of files that are put in place.
 struct Watchers {
     std::atomic<int> count = 0;  // most programs have none: they need no lock, and no copy of one inherits it locked
     std::recursive_mutex mutex;  // a ledger is such a file, too

@@ -8,9 +8,9 @@
 namespace dynlab::inline platform {
 
 /// Keeps scripts from writing over what is not theirs: a file may be replaced where a run of dynlab wrote it and nobody
-/// has changed it since. What runs wrote stands in a ledger, a line a file: SHA-256 of its path, and SHA-256 of its
-/// content; "-" and that of content that is about to be put in place (a run that is killed then leaves the one or the
-/// other); or "?" where nothing was written after all.
+/// has changed it since. What runs wrote is recorded in a ledger, a line a file: SHA-256 of its path, and SHA-256 of
+/// its content; "-" and that of content that is about to be put in place (a run that is killed then leaves the one or
+/// the other); or "?" where nothing was written after all.
 class WrittenFiles {
   public:
     enum class Others { kKept, kReplaced };
@@ -44,8 +44,8 @@ class WrittenFiles {
     std::map<std::filesystem::path, Taken> taken_;  ///< guarded by mutex_
 };
 
-/// Tells all WrittenFiles of this process that `finished` is about to be renamed to `target`: for code that puts files
-/// in place.
+/// Notifies all WrittenFiles of this process that `finished` is about to be renamed to `target`: for code that puts
+/// files in place.
 void note_replacement(const std::filesystem::path& target, const std::filesystem::path& finished);
 
 /// A file of this name where programs keep their state: $XDG_STATE_HOME/dynlab, else ~/.local/state/dynlab; empty when
