@@ -353,5 +353,24 @@ TEST(gradebook_memory, one_run_at_a_time_and_results_are_no_submissions) {
     EXPECT_THAT(second.error_output, HasSubstr("\"marks\" holds the results of dynlab grade; it is left out"));
 }
 
+// oracle: what a killed run had made until then, in a folder that was moved since
+TEST(gradebook_memory, results_of_a_killed_run_are_no_submissions) {
+    const TemporaryFolder folder;
+    const auto write = [&](const std::string& name) {
+        fs::create_directories((folder.path() / name).parent_path());
+        write_file_atomically(folder.path() / name, "x");
+    };
+    for (const char* file :
+         {"group-1/analysis.lua", "locked/.lock", "begun/.lock", "begun/manual.csv", "begun/grading.json",
+          "begun/results/group-1/results.json", "begun/runs/group-1/run.cbor", "work/.lock", "work/analysis.lua"})
+        write(file);
+    std::vector<Message> left_out;
+    std::vector<std::string> names;
+    for (const Submission& submission : submissions_in(folder.path(), left_out)) names.push_back(submission.name);
+    EXPECT_THAT(names, ElementsAre("group-1", "work"));
+    ASSERT_EQ(left_out.size(), 2u);
+    EXPECT_THAT(message_text(left_out[0]), HasSubstr("\"begun\" holds the results of dynlab grade"));
+}
+
 }  // namespace test_gradebook_memory
 }  // namespace dynlab::test
