@@ -149,6 +149,18 @@ TEST_F(names_in_all_scripts, right_to_left_names_keep_numbers_and_words_in_their
     EXPECT_EQ(shown, "BEFORE ן ב ד ו ד 12 MIDDLE ي ل ع د م ح م 34 AFTER ");
 }
 
+TEST_F(names_in_all_scripts, names_in_a_column_begin_at_its_left_edge) {
+    record_.tables["marks"] = {{"name", "points"}, {{"Wilhelmina", "12.5"}, {"Дмитрий", "4"}, {"דוד", "3"}}};
+    const auto boxes = boxes_of(make("::: {.table name=marks}\n:::\n", "out.pdf"));
+    const auto left_of = [&boxes](const std::string& text) {
+        const auto box = std::ranges::find(boxes, text, &Box::text);
+        EXPECT_NE(box, boxes.end()) << text;
+        return box == boxes.end() ? 0 : box->left;
+    };
+    EXPECT_NEAR(left_of("Дмитрий"), left_of("Wilhelmina"), 1);
+    EXPECT_NEAR(left_of("ד"), left_of("Wilhelmina"), 1) << "its last letter";
+}
+
 TEST_F(names_in_all_scripts, pdflatex_sets_what_it_can) {
     const auto pdf = make(
         "---\ntitle: Nguyễn ω\n---\n# Đặng\n\nŁukasz, İpek, Oğuz, Trần Quốc *Nguyễn* **Phương**, "

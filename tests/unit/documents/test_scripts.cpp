@@ -40,6 +40,8 @@ TEST(scripts, right_to_left_phrases_get_marks_and_links_do_not) {
     EXPECT_EQ(with_direction_marks("محمد~علي, دوד"), "\u200Eمحمد~علي\u200E, \u200Eدوד\u200E");
     EXPECT_EQ(with_direction_marks("שָׁלוֹם."), "\u200Eשָׁלוֹם\u200E.") << "with vowel signs";
     EXPECT_EQ(with_direction_marks("\\href{https://x.org/דוד}{דוד}"), "\\href{https://x.org/דוד}{\u200Eדוד\u200E}");
+    EXPECT_EQ(with_direction_marks("דוד\na & דוד \\\\\nדוד"),
+              "\u200Eדוד\u200E\na & \\mbox{\u200Eדוד\u200E} \\\\\n\u200Eדוד\u200E");
     EXPECT_EQ(with_direction_marks("plain é"), "plain é");
 }
 
