@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include "base/reader.h"
+#include "course/grading/deadlines.h"
 #include "platform/atomic_file.h"
 #include "platform/temporary_folder.h"
 #include "support/environment_variable.h"
@@ -20,8 +22,8 @@ std::vector<std::string> texts(const std::vector<Message>& messages) {
     return all;
 }
 
-Deadlines::Lateness late_by(long seconds, double percent, bool typed = false) {
-    return {static_cast<double>(seconds) / 3600, percent, 1'000'000 + seconds, 1'000'000, 10, 100, typed};
+Lateness late_by(std::int64_t seconds, double percent, bool typed = false) {
+    return {static_cast<double>(seconds) / 3600, percent, Message("received late"), seconds, typed};
 }
 
 TEST(late_penalties, half_the_points_or_more_wait_for_the_instructor) {
@@ -46,10 +48,10 @@ TEST(late_penalties, what_was_accepted_stays_so_until_it_costs_more) {
     {
         LatePenalties penalties(out.path(), true);
         EXPECT_EQ(penalties.counted("a", late_by(6 * 86400, 60)).percent, 60);
-        GradingOutcome outcome;
-        penalties.conclude(outcome);
-        EXPECT_EQ(outcome.late.size(), 1u);
-        EXPECT_EQ(outcome.unconfirmed, 0);
+        ClassWork work;
+        penalties.conclude(work);
+        EXPECT_EQ(work.late.size(), 1u);
+        EXPECT_THAT(work.unconfirmed, IsEmpty());
     }
     LatePenalties penalties(out.path(), false);
     EXPECT_EQ(penalties.counted("a", late_by(6 * 86400, 60)).percent, 60);

@@ -60,6 +60,7 @@ class ClassGrader {
         outcome_.unowned = static_cast<int>(attention.unowned);
         outcome_.unreadable = static_cast<int>(attention.unreadable);
         write_class_results(all);
+        for (const Message& note : pipeline_.documents().notes()) outcome_.notes.push_back(note);
         return std::move(outcome_);
     }
 

@@ -203,7 +203,7 @@ std::string marks_csv(Course& course, const Assignment& a) {
     const Marks marks = course_marks(course, a);
     const auto of_reviewers = remarks_by_reviewer(course, a, marks);
     const std::vector<ReviewPair> pairs = review_pairs(course, a);
-    const auto authors = groups_at_submission(course, a.id);
+    const auto authors = author_groups(course, a);
     const char* const part = a.document();
     auto versions = newest_versions(course, a);
     OralComments said = oral_comments(course, a);

@@ -34,6 +34,32 @@ std::map<std::int64_t, std::map<std::string, HandedInParts>> newest_versions(Cou
     return all;
 }
 
+std::map<std::string, std::int64_t> author_groups(Course& course, const Assignment& assignment) {
+    std::map<std::int64_t, Instant> submitted;
+    for (Rows rows = course.database().query(
+             "SELECT group_id, min(received_at) FROM standing WHERE assignment = ? AND stage = 'first' GROUP BY "
+             "group_id",
+             assignment.id);
+         rows.next();)
+        submitted[rows.integer(0)] = rows.integer(1);
+    std::map<std::string, std::int64_t> authors, present;
+    // The group of several that counts comes last: a present one, the first by name.
+    for (Rows rows = course.database().query(
+             "SELECT m.student, m.group_id, m.since, m.until, m.since = min(m.since) OVER (PARTITION BY m.student) "
+             "FROM memberships m JOIN groups g ON g.id = m.group_id ORDER BY m.until IS NULL, g.name DESC, m.since");
+         rows.next();) {
+        const std::string student = rows.text(0);
+        const std::int64_t group = rows.integer(1);
+        const std::optional<Instant> until = rows.optional_integer(3);
+        if (!until) present[student] = group;
+        const auto at = submitted.find(group);
+        if (at == submitted.end() || (until && *until <= at->second)) continue;
+        if (rows.integer(2) <= at->second || rows.integer(4) != 0) authors[student] = group;
+    }
+    authors.merge(present);
+    return authors;
+}
+
 std::optional<StandingFile> newest_file(Course& course, const Assignment& assignment, std::int64_t group,
                                         const std::string& stage, const std::string& part, std::int64_t pair) {
     return file_in(course.database().query(
