@@ -79,6 +79,13 @@ void check_isolation() {
          !obstacle);
 }
 
+/// Whether copies for peer review can be made.
+void check_copies() {
+    const bool there = find_program("gs").has_value();
+    show("gs", there ? "makes copies for peer review" : "not installed (ghostscript): copies for peer review only",
+         true);
+}
+
 /// Looks for the data sets; returns the packages whose records are missing.
 std::set<std::string> check_data() {
     std::set<std::string> missing;
@@ -113,6 +120,7 @@ int examine() {
     show("lessons", std::to_string(lessons().size()), !lessons().empty());
     missing.merge(check_data());
     check_isolation();
+    check_copies();
     show("inner loops", processor_level() + std::string(" (instructions of the processor that they use)"), true);
     show("editor of pages", has_editor() ? "CodeMirror" : "a plain field of text (libjs-codemirror has more)", true);
     check_kernel();

@@ -174,13 +174,16 @@ class AnonymitySearch {
   public:
     explicit AnonymitySearch(const IdentityMatcher& matcher) : matcher_(matcher) {}
 
-    void search_pages(const PdfLayout& layout) {
+    void search_pages(const PdfLayout& layout, const std::vector<std::string>& in_content_order) {
         std::vector<std::string> before;
         int number = 0;
         for (const PdfPage& page : layout.pages) {
             const std::vector<std::string> lines = page_lines(page);
             ++number;
             search({TextPlace::kText, number, "", joined(lines)}, TextManner::kProse);
+            if (static_cast<std::size_t>(number) <= in_content_order.size())
+                search({TextPlace::kText, number, "", in_content_order[static_cast<std::size_t>(number) - 1]},
+                       TextManner::kProse);
             search_page_break(before, lines, number);
             before = lines;
         }
@@ -293,7 +296,7 @@ class AnonymitySearch {
 Findings anonymity_findings(const fs::path& file, const PdfLayout& layout, const IdentityMatcher& matcher,
                             const PdfObjectLimits& limits) {
     AnonymitySearch search(matcher);
-    search.search_pages(layout);
+    search.search_pages(layout, text_in_content_order(file));
     search.search_inside(file, layout, limits);
     search.search_name(file);
     return search.findings();

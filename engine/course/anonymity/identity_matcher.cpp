@@ -272,11 +272,11 @@ void IdentityMatcher::find_patterns(const Tokens& tokens, std::string_view text,
             if (pattern.account && !whole_text && !identifier) continue;
             if (pattern.initialled && !has_point(pattern, text, tokens[i].begin, last.end)) continue;
             if (in_small && !identifier && short_or_given) continue;
+            const bool cited = alone && looks_cited(pattern, tokens, i, end, text);
             const bool passed_over = !pattern.own && !authors_.empty();
             const bool as_name =
                 manner == TextManner::kProse ? !identifier && may_be_name(tokens, i, text) : whole_text;
-            if (pattern.ordinary && (passed_over || !as_name)) continue;
-            const bool cited = alone && looks_cited(pattern, tokens, i, end, text);
+            if (pattern.ordinary && (passed_over || cited || !as_name)) continue;
             if (alone && (is_cited(pattern, tokens, i, end) || (cited && cited_.contains(pattern.letters)))) continue;
             bool certain = pattern.given_only ? identifier && pattern.own : pattern.whole || !cited;
             if (in_small && !identifier && !pattern.own) certain = false;
