@@ -1,9 +1,9 @@
-#include "course/anonymity/name_tokens.h"
+#include "platform/text/name_tokens.h"
 
 #include "platform/text/look_alikes.h"
 #include "platform/utf8.h"
 
-namespace dynlab::inline course {
+namespace dynlab::inline platform {
 namespace {
 
 constexpr std::size_t kNarrowest = 3;  ///< signs
@@ -109,4 +109,4 @@ bool reads_otherwise(std::string_view utf8, Reading reading) {
     return false;
 }
 
-}  // namespace dynlab::inline course
+}  // namespace dynlab::inline platform
