@@ -82,7 +82,7 @@ TEST(name_forms, groups_in_other_words) {
 TEST(name_forms, surnames_in_small_letters_and_identifiers) {
     expect_certain({"fig_lovelace.pdf", "lovelace_hopper", "crane_lovelace2", "a.lovelace", "LovelaceHopper",
                     "author = lovelace", "plotHopper(x)", "/srv/hopper/crane", "hopper@laptop", "data_hopper = 3"});
-    expect_hint({"the hopper of the mill"});
+    expect_hint({"the hopper of the mill", "a lovelace of it"});
 }
 
 TEST(name_forms, short_names_with_initials_and_together) {

@@ -276,7 +276,7 @@ class AnonymitySearch {
     }
 
     void add_word(int page, const NameHit& hit) {
-        if (!ordinary_.insert(hit.who).second || ordinary_.size() > kMaxWords) return;
+        if (!ordinary_.insert(hit.written).second || ordinary_.size() > kMaxWords) return;
         if (words_.empty()) first_word_ = page;
         words_ += (words_.empty() ? "\"" : ", \"") + printable(hit.written, 40) + "\" (" + std::to_string(page) + ")";
     }

@@ -279,7 +279,7 @@ void IdentityMatcher::find_patterns(const Tokens& tokens, std::string_view text,
             if (pattern.ordinary && (passed_over || cited || !as_name)) continue;
             if (alone && (is_cited(pattern, tokens, i, end) || (cited && cited_.contains(pattern.letters)))) continue;
             bool certain = pattern.given_only ? identifier && pattern.own : pattern.whole || !cited;
-            if (in_small && !identifier && !pattern.own) certain = false;
+            if (in_small && !identifier && !(pattern.own && is_labelled(tokens, i))) certain = false;
             if (pattern.bare && !pattern.own) certain = false;
             if (pattern.ordinary || (match->parted && alone)) certain = false;
             if (pattern.whole && cited_names_.contains(pattern.letters)) certain = false;
