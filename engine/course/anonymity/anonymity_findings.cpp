@@ -270,7 +270,8 @@ class AnonymitySearch {
         if (!known_.emplace(hit.who, text.place, text.page, hit.kind).second) return;
         if (hit.ordinary) return add_word(text.page, hit);
         const PlaceText& place = text_about(text.place);
-        const Message where = text.detail.empty() ? place.where : Message("{} ({})", place.where, text.detail);
+        const Message where =
+            text.detail.empty() ? place.where : Message("{} ({})", place.where, printable(text.detail, 40));
         found_.push_back({place.id, hit.certain ? Severity::kRule : Severity::kHint, text.page, "",
                           sentence_about(hit, where, excerpt_of(hit)), place.remedy});
     }
