@@ -65,6 +65,11 @@ Message refusal_message(const Message& reason, const std::string& section, const
                : Message("LaTeX cannot set this document in section \"{}\": {} after \"{}\"", section, reason, before);
 }
 
+/// A character as a message shows it: accents on a dotted circle.
+std::string shown(char32_t character) {
+    return (is_mark(character) ? "\u25CC" : "") + utf8_of(character);
+}
+
 void begin_with_error(const std::string& message, const fs::path& file, MarkdownText& text) {
     MarkdownText begun;
     begun.append(error_block(message), file, 0);
@@ -225,28 +230,30 @@ class DocumentBuilder {
         }
     }
 
-    Place place_of(char32_t letter) const { return find_in(text_.markdown, utf8_of(letter), source_.template_file); }
+    /// With the letter's place, where the text has one.
+    void add_note(char32_t letter, const Message& sentence) const {
+        const Place place = find_in(text_.markdown, utf8_of(letter), source_.template_file);
+        options_.notes->push_back(place.line > 0 ? placed(place, sentence) : sentence);
+    }
 
     void add_notes(const LatexDocument& document) const {
         if (!document.first_beyond) return;
         const char32_t first = *document.first_beyond;
-        options_.notes->push_back(placed(
-            place_of(first),
-            document.by_lualatex
-                ? Message("LuaLaTeX makes this PDF, which takes longer, because pdflatex cannot print \"{}\" ({})",
-                          utf8_of(first), code_of(first))
-                : Message("pdflatex cannot print \"{}\" ({}), and LuaLaTeX is not installed: letters of this kind are "
-                          "printed as \"?\". To print them: sudo apt install {}",
-                          utf8_of(first), code_of(first), kLualatexPackages)));
+        add_note(first,
+                 document.by_lualatex
+                     ? Message("LuaLaTeX makes this PDF, which takes longer, because pdflatex cannot print \"{}\" ({})",
+                               shown(first), code_of(first))
+                     : Message("pdflatex cannot print \"{}\" ({}), and LuaLaTeX is not installed: letters of this kind "
+                               "are printed as \"?\". To print them: sudo apt install {}",
+                               shown(first), code_of(first), kLualatexPackages));
         if (!document.by_lualatex || document.replaced.empty()) return;
         std::vector<Message> letters;
         for (const char32_t letter : document.replaced)
-            letters.push_back(Message::verbatim(utf8_of(letter) + " (" + code_of(letter) + ")"));
-        options_.notes->push_back(placed(
-            place_of(*document.replaced.begin()),
-            Message("no installed font has these letters, which are printed as \"?\": {}. To add fonts: sudo apt "
-                    "install {}",
-                    MessageList{letters, Join::kComma}, "fonts-noto-core fonts-noto-cjk")));
+            letters.push_back(Message::verbatim(shown(letter) + " (" + code_of(letter) + ")"));
+        add_note(*document.replaced.begin(),
+                 Message("no installed font has these letters, which are printed as \"?\": {}. To add fonts: sudo apt "
+                         "install {}",
+                         MessageList{letters, Join::kComma}, "fonts-noto-core fonts-noto-cjk"));
     }
 
     const DocumentSource& source_;

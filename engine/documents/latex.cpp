@@ -180,6 +180,9 @@ class LatexRun {
         return job_.work_folder / "main.pdf";
     }
 
+    /// Reads preamble, fonts and text, and writes no PDF.
+    void read_all() const { run_pass(1, true); }
+
   private:
     void write_document(const std::string& before_preamble, const std::string& body) {
         if (format_folder_.empty()) {
@@ -208,6 +211,7 @@ class LatexRun {
         ChildOptions child;
         child.command = {engine_.program, "-no-shell-escape", "-interaction=nonstopmode", "-halt-on-error",
                          "-file-line-error"};
+        if (engine_.program == kLualatex.program) child.command.push_back("--nosocket");
         if (draft) child.command.push_back("-draftmode");
         if (!format_folder_.empty()) child.command.push_back(std::string("-fmt=") + kLatexFormatName);
         child.command.push_back("main.tex");
@@ -314,7 +318,7 @@ void make_lualatex_fonts(const LatexLayout& layout, const std::set<std::string>&
     const TemporaryFolder work;
     LatexJob job{kFontSample, layout, work.path(), "", false};
     job.lualatex_fonts = folder;
-    LatexRun(job, scripts, job.body).pdf();
+    LatexRun(job, scripts, job.body).read_all();
 }
 
 }  // namespace dynlab::inline documents

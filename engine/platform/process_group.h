@@ -56,6 +56,7 @@ class ProcessGroup {
     /// where it heeds it.
     ChildResult wait();
     bool leader_exited() const;
+    pid_t leader() const { return leader_; }
 
   private:
     void collect_until_exit();

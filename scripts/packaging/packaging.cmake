@@ -60,4 +60,5 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_BINARY_DIR}/lib/dynlab)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "${matio_package}, ${needed}")
 set(CPACK_DEBIAN_PACKAGE_PREDEPENDS sse4.2-support)
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "${recommended}")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "texlive-luatex, fonts-noto-core, fonts-noto-cjk")  # names in all scripts
 include(CPack)

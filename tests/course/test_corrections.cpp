@@ -167,7 +167,7 @@ TEST_F(corrections, an_override_is_taken_back) {
     EXPECT_THAT(done({"marks", "crane"}), Not(HasSubstr("yours")));
     EXPECT_THAT(course({"withdraw", "crane", "group-01", "--mark", "work", "--reason", "x"}).error_output,
                 HasSubstr("you have set no mark of group-01"));
-    done({"override", "crane", "group-01", "work", "105", "--reason", "more than was asked"});
+    done({"override", "crane", "group-01", "work", "105", "--force", "--reason", "more than was asked"});
     EXPECT_THAT(done({"marks", "crane"}), HasSubstr("105.0 (yours)"));
 }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "course/course_bench.h"
+#include "course/store/newest_versions.h"
 #include "numerics/error.h"
 
 namespace dynlab::test {
@@ -101,7 +102,7 @@ TEST(group_names, work_belongs_to_the_members_when_it_was_submitted) {
     const Assignment crane = assignment_named(course, "crane");
     const std::int64_t first = group_named(course, "group-01").id, second = group_named(course, "group-02").id,
                        third = group_named(course, "group-03").id;
-    EXPECT_THAT(groups_at_submission(course, crane.id),
+    EXPECT_THAT(author_groups(course, crane),
                 UnorderedElementsAre(Pair("s1", first), Pair("s2", second), Pair("s3", third)));
 }
 

@@ -77,7 +77,7 @@ std::vector<PrintedCommand> printed_in(const std::string& block) {
 TEST(instructor_guide_marks, of_a_class_are_made_as_it_is_printed) {
     if (obstacle_to(Isolation::kFull))
         GTEST_SKIP() << "the guide shows marks made in boxes, which are not to be had here";
-    const std::string part = guide("instructor");
+    const std::string whole = guide("instructor"), part = whole.substr(whole.find("## Marks without a course"));
     const std::vector<PrintedCommand> commands = printed_in(blocks_in(part).at(0));
     const Workbench work;
     const std::string solution = quick_solution_of("04_estimators");
@@ -118,6 +118,19 @@ TEST(instructor_guide_marks, of_a_class_are_made_as_it_is_printed) {
         if (command == "dynlab pack") continue;  // the command's name alone
         const ChildResult result = in_shell(work, "", command);
         EXPECT_EQ(result.exit_code, 0) << command << '\n' << result.error_output << result.output;
+    }
+}
+
+// oracle: the program itself knows every command of the first page, and there are 20
+TEST(instructor_guides, a_term_in_20_commands_has_commands_that_there_are) {
+    const Workbench work;
+    const std::vector<std::string> commands = lines_in(blocks_in(guide("instructor")).at(0));
+    EXPECT_EQ(commands.size(), 20u);
+    for (const std::string& line : commands) {
+        const std::string command = line.substr(0, std::min(line.find("  #"), line.find(" &&")));
+        const ChildResult help = in_shell(work, "", command + " --help");
+        EXPECT_EQ(help.exit_code, 0) << command << help.error_output;
+        EXPECT_EQ(help.error_output, "") << command << " is an old name";
     }
 }
 

@@ -184,7 +184,7 @@ TEST_F(review_rules, marks_follow_the_membership_at_the_submission) {
     mine("group-03", "4"), mine("group-04", "2");
     course_.database().run("UPDATE memberships SET until = ? WHERE student = 's3'", at("2026-03-03 10:00"));
     course_.database().run("INSERT INTO memberships VALUES ('s3', ?, ?, NULL)", id("group-04"), at("2026-03-03 10:00"));
-    const auto authors = groups_at_submission(course_, crane_.id);
+    const auto authors = author_groups(course_, crane_);
     EXPECT_EQ(authors.at("s3"), id("group-03"));
     EXPECT_EQ(authors.at("s4"), id("group-04"));
     const std::string csv = marks_csv(course_, crane_);
@@ -194,7 +194,7 @@ TEST_F(review_rules, marks_follow_the_membership_at_the_submission) {
                            at("2026-02-20 10:00"));
     course_.database().run("UPDATE memberships SET since = ? WHERE student = 's3' AND until IS NULL",
                            at("2026-02-20 10:00"));
-    EXPECT_EQ(groups_at_submission(course_, crane_.id).at("s3"), id("group-04"));  // moved before the submission
+    EXPECT_EQ(author_groups(course_, crane_).at("s3"), id("group-04"));  // moved before the submission
 }
 
 // oracle: the remark, and the pair that is taken back

@@ -1,12 +1,15 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 
 #include "base/reader.h"
 #include "cli/commands.h"
 #include "cli/course/course_commands.h"
+#include "course/office/course_export.h"
 #include "course/office/course_status.h"
+#include "course/office/who.h"
 #include "course/store/assignments.h"
 #include "course/store/groups.h"
 #include "numerics/error.h"
@@ -39,73 +42,97 @@ void add_init(CLI::App& course, Action& action) {
                 "Course made in {}, times in {}.\n"
                 "course.key signs the receipts: keep a copy of the whole folder, and give the key to nobody.\n"
                 "course.pub verifies them: give it to your students, who need dynlab verify and no course.\n"
-                "Next: cd {} and dynlab course roster import roster.csv\n",
+                "Next: cd {} and dynlab course import roster.csv\n",
                 folder.string(), words->zone, words->folder);
             return kDone;
         };
     });
 }
 
-void add_roster(CLI::App& course, CourseArguments& where, Action& action) {
-    CLI::App* roster = course.add_subcommand("roster", "Students and groups: import, drop, return");
-    roster->require_subcommand(1);
-    auto file = std::make_shared<std::string>();
-    auto no_groups = std::make_shared<bool>(false);
-    CLI::App* import = roster->add_subcommand("import", "Read students and groups from a CSV; may be repeated");
-    import->add_option("CSV", *file, "Columns id and group, and optionally name, email (or mail), moodle, canvas")
-        ->required();
-    import->add_flag("--no-groups", *no_groups, "The file has no column group: new students work alone");
-    import->footer(
-        "A student without a group is one alone; in several, they are joined by |. Who is not in the file stays, and\n"
-        "so does what has no column in it. Names and addresses that change are still looked for in anonymous copies.\n"
-        "Example:  dynlab course roster import roster.csv");
-    import->callback([&where, file, no_groups, &action] {
-        action = [&where, file, no_groups] {
-            Course opened(where.folder);
-    const RosterChange change = import_roster(opened, *file, *no_groups);
+int import_people(const CourseArguments& where, const std::string& file, bool no_groups) {
+    Course opened(where.folder);
+    const RosterChange change = import_roster(opened, file, no_groups);
     if (change.converted)
         std::cerr << terminal_text(
-            fmt::format("dynlab: {} is not UTF-8; it was read as Latin-1 (Windows-1252)\n", *file));
+            fmt::format("dynlab: {} is not UTF-8; it was read as Latin-1 (Windows-1252)\n", file));
     if (!change.unknown_columns.empty())
-        std::cerr << terminal_text(fmt::format("dynlab: {}: not read: the unknown columns {}\n", *file,
+        std::cerr << terminal_text(fmt::format("dynlab: {}: not read: the unknown columns {}\n", file,
                                                fmt::join(change.unknown_columns, ", ")));
     if (!change.short_ids.empty())
-        std::cerr << terminal_text(fmt::format("dynlab: {}: {}\n", *file, message_text(change.short_ids)));
+        std::cerr << terminal_text(fmt::format("dynlab: {}: {}\n", file, message_text(change.short_ids)));
     std::cout << fmt::format("{} students: {} new, {} changed, {} moved to another group; {} new groups.\n",
                              change.students, change.new_students, change.changed, change.moved, change.new_groups);
     if (!change.absent.empty())
         std::cout << terminal_text(
-            fmt::format("Not in this file, but in the course (they stay; roster drop GROUP takes a group out): {}\n",
+            fmt::format("Not in this file, but in the course (they stay; drop GROUP takes a group out): {}\n",
                         fmt::join(change.absent, ", ")));
     return kDone;
-};
-}  // namespace
-);
-const auto add_move = [&](const char* name, const char* about, bool dropped_out) {
-    auto group = std::make_shared<std::string>(), reason = std::make_shared<std::string>();
-    CLI::App* command = roster->add_subcommand(name, about);
-    command->add_option("GROUP", *group)->required();
-    command->add_option("--reason", *reason, "For the journal");
-    command->callback([&where, group, reason, dropped_out, &action] {
-        action = [&where, group, reason, dropped_out] {
-            Course opened(where.folder);
-            set_group_dropped_out(opened, *group, dropped_out, *reason);
-            std::cout << fmt::format(
-                "{} {}; repeat dynlab course peer assign where reviews are under way.\n", *group,
-                dropped_out ? "has dropped out: its work and the reviews it wrote stay" : "is in the course again");
+}
+
+void add_import(CLI::App& course, CourseArguments& where, Action& action) {
+    struct Arguments {
+        std::string file, folder, from = ".";
+        bool no_groups = false;
+    };
+    auto words = std::make_shared<Arguments>();
+    CLI::App* command = course.add_subcommand("import", "Read students and groups from a CSV; may be repeated");
+    command->add_option("FILE", words->file, "Roster or list of participants: columns id, group, name, email, ...")
+        ->required();
+    command->add_option("DIR", words->folder, "Of a JSON export instead of a roster: folder of the new course");
+    command->add_flag("--no-groups", words->no_groups, "The file has no column group: new students work alone");
+    command->add_option("--from", words->from, "Of a JSON export: folder of the old course, with its files and key")
+        ->capture_default_str();
+    command->footer(
+        "Columns: id and group, and optionally name, email (or mail), moodle, canvas, language, seed; those of "
+        "Moodle's "
+        "and\n"
+        "Canvas's own exports are known. A student without a group is one alone; several groups are joined by |. Who "
+        "is "
+        "not\n"
+        "in the file stays, and so does what has no column in it.\n"
+        "Examples:\n"
+        "  dynlab course import roster.csv\n"
+        "  dynlab course import course.json copy --from signals-2026    from course export --json");
+    command->callback([&where, words, &action] {
+        action = [&where, words]() -> int {
+            if (words->folder.empty()) return import_people(where, words->file, words->no_groups);
+            import_course(words->file, words->from, words->folder);
+            std::cout << fmt::format("Course made in {} from {}.\n", words->folder, words->file);
             return kDone;
         };
     });
-};
-add_move("drop", "A group has dropped out", true);
-add_move("return", "A group that had dropped out is back", false);
-}  // namespace dynlab::inline cli
+}
+
+void add_drop(CLI::App& course, CourseArguments& where, Action& action) {
+    struct Arguments {
+        std::string group, reason;
+        bool end = false;
+    };
+    auto words = std::make_shared<Arguments>();
+    CLI::App* command = course.add_subcommand("drop", "Mark a group as dropped out, or as back");
+    command->add_option("GROUP", words->group, "The group, or one of its students")->required();
+    command->add_flag("--end", words->end, "The group is back");
+    command->add_option("--reason", words->reason, "For the history");
+    command->footer("Example:  dynlab course drop group-07 --reason \"left the course\"");
+    command->callback([&where, words, &action] {
+        action = [&where, words] {
+            Course opened(where.folder);
+            const std::string group = group_named(opened, words->group).name;
+            set_group_dropped_out(opened, group, !words->end, words->reason);
+            std::cout << fmt::format(
+                "{} {}; repeat dynlab course review assign where reviews are under way.\n", group,
+                words->end ? "is in the course again" : "has dropped out: its work and the reviews it wrote stay");
+            return kDone;
+        };
+    });
+}
 
 struct AssignmentArguments {
-    std::string name, kind = "report", lesson, first, review, final, grace, criteria, costs, reason;
+    std::string name, kind, lesson, first, review, final, grace, criteria, costs, reason;
     std::optional<double> final_weight, weight, reviews_weight;
     std::string checks, secret, keep;
-    int reviews = 2;
+    std::optional<int> reviews;
+    bool remove = false;
 };
 
 /// A path as it is found again from elsewhere; "none" takes it back.
@@ -138,41 +165,45 @@ void apply(const AssignmentArguments& words, const CourseClock& clock, Assignmen
     if (!words.keep.empty()) a.keep = words.keep;
 }
 
-int change_one(const CourseArguments& where, const AssignmentArguments& words) {
+/// Adds it, or changes what was named of it: with a reason at any time, without one while that costs no student
+/// anything.
+int set_assignment(const CourseArguments& where, const AssignmentArguments& words) {
     Course course(where.folder);
-    Assignment a = assignment_named(course, words.name);
-    apply(words, course.clock(), a);
-    std::cout << (change_assignment(course, a, words.reason) ? "" : "Nothing new. ")
-              << terminal_text(course_summary(course, CourseClock::now()));
-    return kDone;
-}
-
-int remove_one(const CourseArguments& where, const AssignmentArguments& words) {
-    Course course(where.folder);
-    remove_assignment(course, assignment_named(course, words.name), words.reason);
-    std::cout << terminal_text(course_summary(course, CourseClock::now()));
-    return kDone;
-}
-
-int add_one(const CourseArguments& where, const AssignmentArguments& words) {
-    Course course(where.folder);
+    if (words.remove) {
+        remove_assignment(course, assignment_named(course, words.name), words.reason);
+        std::cout << terminal_text(course_summary(course, CourseClock::now()));
+        return kDone;
+    }
+    const std::vector<Assignment> all = assignments_of(course);
+    const auto known = std::ranges::find_if(
+        all, [&](const Assignment& a) { return ::strcasecmp(a.name.c_str(), words.name.c_str()) == 0; });
     Assignment a;
-    a.name = words.name, a.kind = words.kind, a.reviews = words.reviews;
+    if (known != all.end()) a = *known;
+    const std::string kind = words.kind == "presentation" ? "talk" : words.kind;
+    const bool other_kind = !kind.empty() && kind != a.kind;
+    a.name = known != all.end() ? known->name : words.name;
+    if (!kind.empty()) a.kind = kind;
+    if (words.reviews) a.reviews = *words.reviews;
     apply(words, course.clock(), a);
+    if (!words.criteria.empty())
+        a.criteria = criteria_of(words.criteria);
+    else if (known == all.end() || other_kind)
+        a.criteria = usual_criteria(a.kind);
     if (a.is_lab() && a.lesson.empty()) throw InvalidArgument("a lab is graded by the checks of a lesson: --lesson NN");
-    a.criteria = words.criteria.empty() ? usual_criteria(a.kind) : criteria_of(words.criteria);
-    std::cout << (add_assignment(course, a) ? "" : "Nothing new. ")
-              << terminal_text(course_summary(course, CourseClock::now()));
+    if (known == all.end() && !words.reason.empty() && !all.empty()) assignment_named(course, words.name);  // throws
+    const bool other_form = other_kind || words.reviews || !words.criteria.empty();
+    const bool changed = known != all.end() && !words.reason.empty() && !other_form
+                             ? change_assignment(course, a, words.reason)
+                             : add_assignment(course, a);
+    std::cout << (changed ? "" : "Nothing new. ") << terminal_text(course_summary(course, CourseClock::now()));
     return kDone;
 }
 
-/// Those that may be changed later; returns the option of the first deadline.
-CLI::Option* add_settings(CLI::App& command, AssignmentArguments& words) {
+/// Those that may be changed later.
+void add_settings(CLI::App& command, AssignmentArguments& words) {
     command.add_option("--lesson", words.lesson, "The lesson it belongs to")->type_name("NN");
-    CLI::Option* const first =
-        command
-            .add_option("--first", words.first, "Deadline of the first version (or the slides): \"2026-03-01 18:00\"")
-            ->type_name("TIME");
+    command.add_option("--first", words.first, "Deadline of the first version (or the slides): \"2026-03-01 18:00\"")
+        ->type_name("TIME");
     command.add_option("--review", words.review, "Deadline of the reviews")->type_name("TIME");
     command.add_option("--final", words.final, "Deadline of the final version")->type_name("TIME");
     command.add_option("--grace", words.grace, "So much later counts as in time: 15min, 2h, 1d; 0 at first")
@@ -198,50 +229,57 @@ CLI::Option* add_settings(CLI::App& command, AssignmentArguments& words) {
     command.add_option("--keep", words.keep, "Of a lab: which of several versions counts. Default: best.")
         ->type_name("best|newest")
         ->check(CLI::IsMember({"best", "newest"}));
-    return first;
 }
 
-void add_assignment_commands(CLI::App& course, CourseArguments& where, Action& action) {
-    CLI::App* assignment = course.add_subcommand("assignment", "What is to be handed in, and when");
-    assignment->require_subcommand(1);
+void add_assignment_command(CLI::App& course, CourseArguments& where, Action& action) {
     auto words = std::make_shared<AssignmentArguments>();
-    CLI::App* add = assignment->add_subcommand("add", "Add an assignment, or give more time for one");
-    add->add_option("NAME", words->name, "A short word, such as crane")->required();
-    add->add_option("--kind", words->kind, "lab: script, graded by checks; report: reviewed, improved; talk: slides")
-        ->check(CLI::IsMember({"lab", "report", "talk"}))
-        ->capture_default_str();
-    add_settings(*add, *words);
-    add->add_option("--reviews", words->reviews, "Reviews that each group writes and gets")
-        ->check(CLI::Range(1, 20))
-        ->capture_default_str();
-    add->add_option("--criteria", words->criteria,
-                    "What reviewers (or you, at the oral) score: name:points,...; unless given data, steps, "
-                    "conclusions, strength, suggestions, at the oral content, slides, delivery, answers, of 5 each");
-    add->footer(
-        "Times are in the course's time zone. The same command again changes nothing; once work was handed in, "
-        "deadlines can\n"
-        "only move to later here; assignment change moves them both ways.\n"
-        "Example:  dynlab course assignment add crane --lesson 03_crane --first \"2026-02-28 13:00\" \\\n"
-        "            --review \"2026-03-04 13:00\" --final \"2026-03-07 14:00\" --grace 15min --reviews 2");
-    add->callback([&where, words, &action] { action = [&where, words] { return add_one(where, *words); }; });
+    CLI::App* command = course.add_subcommand("assignment", "Add, change or remove an assignment");
+    command->add_option("NAME", words->name, "A short word, such as crane")->required();
+    command
+        ->add_option("--kind", words->kind,
+                     "lab: graded by checks; report: reviewed, improved; talk: slides. Default: report.")
+        ->type_name("lab|report|talk")
+        ->check(CLI::IsMember({"lab", "report", "talk", "presentation"}));
+    add_settings(*command, *words);
+    command->add_option("--reviews", words->reviews, "Reviews that each group writes and gets. Default: 2.")
+        ->check(CLI::Range(1, 20));
+    command->add_option("--criteria", words->criteria,
+                        "What reviewers (or you, at a talk) score: name:points,... Default: data, steps, conclusions, "
+                        "strength, suggestions; of a talk content, slides, delivery, answers; of 5 each.");
+    command->add_option("--reason", words->reason,
+                        "For the history. Needed to change what was submitted for, and to remove.");
+    command->add_flag("--remove", words->remove, "Remove the assignment, while nothing depends on it");
+    command->footer(
+        "Times are in the course's time zone. What is not named stays, and the same command again changes nothing. "
+        "Once "
+        "work\n"
+        "was submitted, deadlines only move to later without --reason; lateness and marks follow at once.\n"
+        "Examples:\n"
+        "  dynlab course assignment lab4 --kind lab --lesson 04 --first \"2026-03-09 18:00\" --secret secret.txt "
+        "--weight 10\n"
+        "  dynlab course assignment crane --lesson 03_crane --first \"2026-02-28 13:00\" \\\n"
+        "            --review \"2026-03-04 13:00\" --final \"2026-03-07 14:00\" --grace 15min --reviews 2\n"
+        "  dynlab course assignment crane --final \"2026-03-08 14:00\" --reason \"strike on Friday\"");
+    command->callback([&where, words, &action] { action = [&where, words] { return set_assignment(where, *words); }; });
+}
 
-    auto changes = std::make_shared<AssignmentArguments>();
-    CLI::App* change = assignment->add_subcommand("change", "Move deadlines, set costs and weights, at any time");
-    change->add_option("NAME", changes->name, "The assignment")->required();
-    add_settings(*change, *changes);
-    change->add_option("--reason", changes->reason, "Stands in the history")->required();
-    change->footer(
-        "What is not named stays. Lateness and marks follow at once, also of what came before.\n"
-        "Example:  dynlab course assignment change crane --final \"2026-03-08 14:00\" --reason \"strike on Friday\"");
-    change->callback(
-        [&where, changes, &action] { action = [&where, changes] { return change_one(where, *changes); }; });
-
-    auto gone = std::make_shared<AssignmentArguments>();
-    CLI::App* remove = assignment->add_subcommand("remove", "Take an assignment out, while nothing hangs on it");
-    remove->add_option("NAME", gone->name, "The assignment")->required();
-    remove->add_option("--reason", gone->reason, "Stands in the history")->required();
-    remove->footer("Example:  dynlab course assignment remove carne --reason \"mistyped\"");
-    remove->callback([&where, gone, &action] { action = [&where, gone] { return remove_one(where, *gone); }; });
+void add_who(CLI::App& course, CourseArguments& where, Action& action) {
+    struct Arguments {
+        std::string name, at;
+    };
+    auto words = std::make_shared<Arguments>();
+    CLI::App* command =
+        course.add_subcommand("who", "Show all about a student or a group: work, receipts, marks, history");
+    command->add_option("NAME", words->name, "A group in any spelling, or a student's name, id or address")->required();
+    add_time_option(*command, words->at);
+    command->footer("Example:  dynlab course who \"Kim Min-jun\"");
+    command->callback([&where, words, &action] {
+        action = [&where, words] {
+            Course opened(where.folder);
+            std::cout << terminal_text(who_text(opened, words->name, time_of(opened, words->at)));
+            return kDone;
+        };
+    });
 }
 
 void add_status(CLI::App& course, CourseArguments& where, Action& action) {
@@ -288,34 +326,35 @@ Instant time_of(const Course& course, const std::string& text) {
 
 void add_course(CLI::App& app, Action& action) {
     static CourseArguments where;
-    CLI::App* course = app.add_subcommand("course", "A course from roster to marks: hand-ins, peer review, export");
+    CLI::App* course = app.add_subcommand("course", "A course from roster to marks: labs, reports, talks");
     course->require_subcommand(1);
     course->add_option("--course", where.folder, "The course's folder; this one, or one above it, unless given")
         ->type_name("DIR");
     add_init(*course, action);
-    add_roster(*course, where, action);
-    add_assignment_commands(*course, where, action);
+    add_import(*course, where, action);
+    add_drop(*course, where, action);
+    add_assignment_command(*course, where, action);
     add_receive_commands(*course, where, action);
     add_findings_command(*course, where, action);
     add_peer_commands(*course, where, action);
     add_changes(*course, where, action);
     add_remind_command(*course, where, action);
+    add_grade_commands(*course, where, action);
     add_mark_commands(*course, where, action);
     add_course_answers(*course, where, action);
     add_correction_commands(*course, where, action);
     add_status(*course, where, action);
+    add_who(*course, where, action);
     course->footer(
         "Every command is all or nothing and may be repeated; nothing is ever deleted.\n"
         "  dynlab course init signals-2026 --timezone Europe/Paris    then, in that folder:\n"
-        "  dynlab course roster import roster.csv\n"
-        "  dynlab course assignment add crane --first \"2026-02-28 13:00\" --review ... --final ...\n"
-        "  dynlab course receive crane.zip --assignment crane         what Moodle or Canvas exports, or files\n"
-        "  dynlab course status crane                                 who is late, and what to do\n"
-        "  dynlab course findings group-07                            what was found in a group's report\n"
-        "  dynlab course peer assign crane                            who reviews whom\n"
-        "  dynlab course changes --assignment crane                   first and final versions, word by word\n"
-        "  dynlab course marks crane                                  from the reviewers' scores and your own word\n"
-        "  dynlab course export crane --out marks.csv                 for Moodle and Canvas\n"
+        "  dynlab course import roster.csv\n"
+        "  dynlab course assignment lab4 --kind lab --lesson 04 --first ...\n"
+        "  dynlab course submit lab4.zip --assignment lab4            what Moodle or Canvas exports, or files\n"
+        "  dynlab course status lab4                                  who is late, and what to do\n"
+        "  dynlab course grade lab4                                   marks and feedback\n"
+        "  dynlab course export -o term.csv                           all marks, and the total\n"
+        "A term in 20 commands: dynlab help guide-instructor\n"
         "More: dynlab help review_marks (how marks come out of scores), dynlab help names (what is searched for)\n"
         "Exit codes: 0 done, 1 something failed or was not taken, 2 wrong usage.");
 }

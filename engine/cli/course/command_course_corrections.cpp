@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iostream>
 
 #include "cli/course/course_commands.h"
 #include "course/corrections/corrections.h"
 #include "course/office/receive.h"
 #include "course/review/review_marks.h"
+#include "course/store/marks.h"
 #include "course/store/receipts.h"
 #include "numerics/error.h"
 #include "platform/terminal/terminal_text.h"
@@ -28,13 +30,30 @@ int correct_time(Course& course, const Assignment& a, const CorrectionArguments&
     return kDone;
 }
 
-int tell_withdrawn(Course& course, const Assignment& a, const CorrectionArguments& words, bool withdrawn) {
-    if (!words.mark.empty()) {
-        take_back_override(course, a, words.wanted.group, words.mark, words.reason, time_of(course, words.at));
-        std::cout << fmt::format("{}: the mark of {} for its {} is that of the scores again.\n", a.name,
-                                 words.wanted.group, words.mark);
-        return kDone;
+int take_back_mark(Course& course, const Assignment& a, const CorrectionArguments& words) {
+    const Instant now = time_of(course, words.at);
+    const Group group = group_named(course, words.wanted.group);
+    if (!a.is_lab()) {
+        if (words.mark != "work" && words.mark != "reviews")
+            throw InvalidArgument("{} has marks of work and reviews: --mark work, or --mark reviews", a.name);
+        take_back_override(course, a, group.name, words.mark, words.reason, now);
+    } else {
+        Transaction transaction(course.database());
+        const auto own = [&](const GivenMark& mark) {
+            return mark.group == group.id && mark.student.empty() && mark.item == words.mark;
+        };
+        if (std::ranges::none_of(marks_in_force(course, a), own))
+            throw InvalidArgument("{} has no mark of yours for {}", group.name, words.mark);
+        give_mark(course, a, {group.id, "", words.mark, {}, words.reason}, now);
+        transaction.commit();
     }
+    std::cout << terminal_text(
+        fmt::format("{}: your mark of {} ({}) is taken back.\n", a.name, group.name, words.mark));
+    return kDone;
+}
+
+int tell_withdrawn(Course& course, const Assignment& a, const CorrectionArguments& words, bool withdrawn) {
+    if (!words.mark.empty()) return take_back_mark(course, a, words);
     const auto versions = withdraw(course, a, words.wanted, withdrawn, words.reason, time_of(course, words.at));
     for (const std::int64_t version : versions) {
         const Receipt receipt = receipt_of(course, version);
@@ -123,8 +142,8 @@ void add_withdrawals(CLI::App& course, CourseArguments& where, Action& action) {
     const auto away = add_correction(course, "withdraw", "A file that was handed in, or a mark of yours, does not hold",
                                      where, action, withdraw_files);
     add_file_options(away);
-    away.app->add_option("--mark", away.words->mark, "Your own mark instead of a file; that of the scores holds again")
-        ->check(CLI::IsMember({"work", "reviews"}));
+    away.app->add_option("--mark", away.words->mark,
+                         "Your own mark instead of a file: work or reviews, of a lab a check or *");
     add_reason(away);
     away.app->footer(
         "The version before holds then, or none. The file, its receipt and this entry stay.\n"
@@ -142,7 +161,8 @@ void add_withdrawals(CLI::App& course, CourseArguments& where, Action& action) {
 }  // namespace
 
 void add_correction_commands(CLI::App& course, CourseArguments& where, Action& action) {
-    const auto time = add_correction(course, "time", "Correct when a file was handed in", where, action, correct_time);
+    const auto time =
+        add_correction(course, "set-received", "Correct when a file was received", where, action, correct_time);
     time.app->add_option("TIME", time.words->time, "\"2026-03-01 17:30\", in the course's zone")->required();
     add_file_options(time);
     add_reason(time);
@@ -161,8 +181,8 @@ void add_correction_commands(CLI::App& course, CourseArguments& where, Action& a
         "Also for what came already. The grace of the assignment comes on top.\n"
         "Example:  dynlab course extend crane group-05 \"2026-03-03 13:00\" --reason \"illness\"");
 
-    const auto kept = add_correction(course, "hold", "Keep a report from its reviewers, or a review from the authors",
-                                     where, action, hold_back);
+    const auto kept = add_correction(
+        course, "withhold", "Keep a report from its reviewers, or a review from the authors", where, action, hold_back);
     add_stage(kept);
     kept.app->add_option("--of", kept.words->wanted.report, "Of a review: which report it reviews")
         ->type_name("report-NN");

@@ -6,9 +6,11 @@
 #include "base/reader.h"
 #include "cli/course/course_commands.h"
 #include "course/office/course_export.h"
+#include "course/office/course_totals.h"
 #include "course/review/oral_marks.h"
 #include "course/store/graded_work.h"
 #include "course/store/groups.h"
+#include "numerics/error.h"
 #include "platform/atomic_file.h"
 #include "platform/temporary_folder.h"
 #include "platform/terminal/aligned_table.h"
@@ -18,9 +20,8 @@ namespace dynlab::inline cli {
 namespace {
 
 struct MarkArguments {
-    std::string assignment, file, group, what, reason, at, out, graded, from = ".", stage = "first";
-    double percent = 0;
-    bool json = false;
+    std::string assignment, file, at, out, graded, stage = "first";
+    bool json = false, make_sheet = false;
     OralSheetWishes sheet;
 };
 using Run = int (*)(const CourseArguments&, const MarkArguments&);
@@ -36,7 +37,14 @@ int give_out(const std::string& text, const std::string& file) {
     return kDone;
 }
 
+int sheet(const CourseArguments& where, const MarkArguments& words) {
+    Course course(where.folder);
+    return give_out(oral_sheet(course, assignment_named(course, words.assignment), words.sheet), words.out);
+}
+
 int scores(const CourseArguments& where, const MarkArguments& words) {
+    if (words.make_sheet) return sheet(where, words);
+    if (words.file.empty()) throw InvalidArgument("give the CSV with the scores, or --sheet to get one to fill in");
     Course course(where.folder);
     const Assignment a = assignment_named(course, words.assignment);
     const Instant now = time_of(course, words.at);
@@ -56,11 +64,6 @@ int scores(const CourseArguments& where, const MarkArguments& words) {
     for (const std::string& name : left_out)
         std::cerr << terminal_text(fmt::format("dynlab: {} is not graded whole; it has no score\n", name));
     return left_out.empty() ? kDone : kFailed;
-}
-
-int sheet(const CourseArguments& where, const MarkArguments& words) {
-    Course course(where.folder);
-    return give_out(oral_sheet(course, assignment_named(course, words.assignment), words.sheet), words.out);
 }
 
 std::string percent(const std::optional<double>& mark, bool overridden) {
@@ -159,25 +162,12 @@ int marks(const CourseArguments& where, const MarkArguments& words) {
     return kDone;
 }
 
-int set_mark(const CourseArguments& where, const MarkArguments& words) {
-    Course course(where.folder);
-    const Assignment a = assignment_named(course, words.assignment);
-    override_mark(course, a, words.group, words.what, words.percent, words.reason, time_of(course, words.at));
-    std::cout << fmt::format("{}: the mark of {} for its {} is {} percent.\n", a.name, words.group, words.what,
-                             words.percent);
-    return kDone;
-}
-
 int export_course(const CourseArguments& where, const MarkArguments& words) {
     Course course(where.folder);
-    return give_out(words.json ? course_json(course) : marks_csv(course, assignment_named(course, words.assignment)),
+    return give_out(words.json                 ? course_json(course)
+                    : words.assignment.empty() ? totals_csv(course, time_of(course, words.at))
+                                               : marks_csv(course, assignment_named(course, words.assignment)),
                     words.out);
-}
-
-int import(const CourseArguments&, const MarkArguments& words) {
-    import_course(words.file, words.from, words.out);
-    std::cout << fmt::format("Course made in {} from {}.\n", words.out, words.file);
-    return kDone;
 }
 
 struct MarkCommand {
@@ -196,12 +186,15 @@ MarkCommand add_one(CLI::App& course, const char* name, const char* about, Cours
 }  // namespace
 
 void add_mark_commands(CLI::App& course, CourseArguments& where, Action& action) {
-    const auto scored = add_one(course, "scores", "Read scores: of reviewers, or of the oral", where, action, scores);
+    const auto scored = add_one(course, "scores", "Read scores of reviewers or of a talk, or make a sheet for them",
+                                where, action, scores);
     scored.app->add_option("ASSIGNMENT", scored.words->assignment)->required();
-    scored.app
-        ->add_option("CSV", scored.words->file,
-                     "Columns reviewer, report (at the oral group, student, comment), criteria")
-        ->required();
+    scored.app->add_option("CSV", scored.words->file,
+                           "Columns reviewer, report (of a talk group, student, comment), criteria");
+    scored.app->add_flag("--sheet", scored.words->make_sheet, "Of a talk: make a marking sheet to be filled in");
+    scored.app->add_option("-o,--out", scored.words->out, "File of the sheet. Default: printed.")->type_name("CSV");
+    scored.app->add_flag("--students", scored.words->sheet.students, "The sheet has a row for each student, too");
+    scored.app->add_flag("--drawn", scored.words->sheet.drawn, "The sheet is in an order drawn by lot");
     add_time_option(*scored.app, scored.words->at);
     scored.app
         ->add_option("--stage", scored.words->stage,
@@ -219,25 +212,13 @@ void add_mark_commands(CLI::App& course, CourseArguments& where, Action& action)
         "back, an empty cell changes nothing. Scores of a withdrawn review do not count until it is restored. Scores "
         "in\n"
         "the pack of a review (dynlab new review) are read when it is received.\n"
+        "Of a talk, points in a student's row are that student's; where a cell is empty, the points of the group "
+        "count.\n"
         "Examples:\n"
+        "  dynlab course scores final-talk --sheet --students -o sheet.csv\n"
         "  dynlab course scores crane scores.csv\n"
         "  dynlab course scores crane finals.csv --stage final\n"
         "  dynlab course scores final-talk marks/gradebook.csv --graded script");
-
-    CLI::App* oral = course.add_subcommand("oral", "The oral presentation");
-    oral->require_subcommand(1);
-    const auto marking = add_one(*oral, "sheet", "A marking sheet to be filled in, for scores", where, action, sheet);
-    marking.app->add_option("ASSIGNMENT", marking.words->assignment)->required();
-    marking.app->add_option("-o,--out", marking.words->out, "Printed unless given")->type_name("CSV");
-    marking.app->add_flag("--students", marking.words->sheet.students, "A row a student as well");
-    marking.app->add_flag("--drawn", marking.words->sheet.drawn, "In an order drawn by lot, the same each time");
-    marking.app->footer(
-        "Points in a student's row are that student's; where a cell is empty, the points of the group count. - takes\n"
-        "points back. A criterion counts 0 for a group without points as soon as any other group has points for it.\n"
-        "Comments are shown by marks and are part of the export.\n"
-        "Examples:\n"
-        "  dynlab course oral sheet final-talk -o sheet.csv\n"
-        "  dynlab course oral sheet final-talk --students --drawn -o sheet.csv");
 
     const auto shown =
         add_one(course, "marks", "Medians, marks of reports and reviewers, odd reviews", where, action, marks);
@@ -248,30 +229,20 @@ void add_mark_commands(CLI::App& course, CourseArguments& where, Action& action)
         "never below 0, averaged over the reviews; d is the mean of |points - median of the others| / most. Far below\n"
         "the others: more than 0.35 of the scale on average. An example: dynlab help review_marks");
 
-    const auto set = add_one(course, "override", "Set a mark yourself; it always wins", where, action, set_mark);
-    set.app->add_option("ASSIGNMENT", set.words->assignment)->required();
-    set.app->add_option("GROUP", set.words->group)->required();
-    set.app->add_option("WHAT", set.words->what)->required()->check(CLI::IsMember({"work", "reviews"}));
-    set.app->add_option("PERCENT", set.words->percent)->required();
-    set.app->add_option("--reason", set.words->reason, "Stands in the export")->required();
-    set.app->footer("Example:  dynlab course override crane group-09 work 60 --reason \"handed in on paper\"");
-
     const auto given =
         add_one(course, "export", "A row a student as CSV, or the whole store as JSON", where, action, export_course);
-    given.app->add_option("ASSIGNMENT", given.words->assignment, "Needed when there are several");
+    given.app->add_option("ASSIGNMENT", given.words->assignment, "All of them, and the weighted total, unless given");
+    add_time_option(*given.app, given.words->at);
     given.app->add_option("-o,--out", given.words->out, "Printed unless given")->type_name("FILE");
     given.app->add_flag("--json", given.words->json, "The whole store, for import");
     given.app->footer(
+        "Without an assignment: the percent of each one by student, and the total by the weights of the assignments. "
+        "What\n"
+        "is missing after its deadline counts 0; what is not marked yet does not count and is named.\n"
         "Examples:\n"
+        "  dynlab course export -o term.csv\n"
         "  dynlab course export crane -o marks.csv\n"
         "  dynlab course export --json -o course.json");
-
-    const auto taken = add_one(course, "import", "Make a course from a JSON export", where, action, import);
-    taken.app->add_option("JSON", taken.words->file)->required();
-    taken.app->add_option("DIR", taken.words->out, "Folder of the new course")->required();
-    taken.app->add_option("--from", taken.words->from, "Course folder with the handed-in files and the key")
-        ->capture_default_str();
-    taken.app->footer("Example:  dynlab course import course.json copy --from signals-2026");
 }
 
 }  // namespace dynlab::inline cli

@@ -17,7 +17,7 @@ namespace {
 struct PeerArguments {
     std::string assignment, at, reviewer, author, reason;
     std::vector<std::string> accepted;  ///< groups
-    bool early = false;
+    bool early = false, set = false, forbid = false, free = false;
 };
 
 int assign(const CourseArguments& where, const PeerArguments& words) {
@@ -103,14 +103,15 @@ int wish(const CourseArguments& where, const PeerArguments& words, const char* w
     return kDone;
 }
 
-int set_pair(const CourseArguments& where, const PeerArguments& words) {
-    return wish(where, words, "set");
-}
-int forbid_pair(const CourseArguments& where, const PeerArguments& words) {
-    return wish(where, words, "forbid");
-}
-int free_pair(const CourseArguments& where, const PeerArguments& words) {
-    return wish(where, words, "free");
+/// The pairs, or what the instructor has to say about one.
+int pairs(const CourseArguments& where, const PeerArguments& words) {
+    const int wishes = words.set + words.forbid + words.free;
+    if (wishes == 0 && words.reviewer.empty()) return show_pairs(where, words);
+    if (wishes != 1 || words.author.empty() || words.reason.empty())
+        throw InvalidArgument(
+            "say which pair and what about it: review pairs ASSIGNMENT REVIEWER AUTHOR with --set, --forbid or --free, "
+            "and --reason");
+    return wish(where, words, words.set ? "set" : words.forbid ? "forbid" : "free");
 }
 
 int send_reports(const CourseArguments& where, const PeerArguments& words) {
@@ -159,7 +160,8 @@ int give_back(const CourseArguments& where, const ReturnArguments& words) {
 
 void add_return(CLI::App& course, CourseArguments& where, Action& action) {
     auto words = std::make_shared<ReturnArguments>();
-    CLI::App* command = course.add_subcommand("return", "What is new for whom: copies to review, reviews, receipts");
+    CLI::App* command =
+        course.add_subcommand("deliver", "Deliver new files to each student: copies, reviews, receipts");
     command->add_option("ASSIGNMENT", words->assignment, "Needed when there are several");
     command->add_option("-o,--out", words->out, "A new folder: one below it for each group, and mail.csv")
         ->type_name("DIR")
@@ -183,13 +185,14 @@ CLI::App* add_one(CLI::App& parent, const char* name, const char* about, CourseA
                   int (*run)(const CourseArguments&, const PeerArguments&)) {
     auto words = std::make_shared<PeerArguments>();
     CLI::App* command = parent.add_subcommand(name, about);
-    const bool of_pair = run == set_pair || run == forbid_pair || run == free_pair;
-    auto* const assignment = command->add_option("ASSIGNMENT", words->assignment, "Needed when there are several");
-    if (of_pair) {
-        assignment->required();
-        command->add_option("REVIEWER", words->reviewer, "A group")->required();
-        command->add_option("AUTHOR", words->author, "Another group")->required();
-        command->add_option("--reason", words->reason, "Stands in the history")->required();
+    command->add_option("ASSIGNMENT", words->assignment, "Needed when there are several");
+    if (run == pairs) {
+        command->add_option("REVIEWER", words->reviewer, "A group");
+        command->add_option("AUTHOR", words->author, "Another group");
+        command->add_flag("--set", words->set, "The group reviews the report of the other");
+        command->add_flag("--forbid", words->forbid, "The two groups do not review each other");
+        command->add_flag("--free", words->free, "Take back what was set or forbidden");
+        command->add_option("--reason", words->reason, "For the history");
     }
     add_time_option(*command, words->at);
     if (run == assign) command->add_flag("--early", words->early, "Although first versions may still come");
@@ -209,8 +212,7 @@ CLI::App* add_one(CLI::App& parent, const char* name, const char* about, CourseA
 }  // namespace
 
 void add_peer_commands(CLI::App& course, CourseArguments& where, Action& action) {
-    CLI::App* peer = course.add_subcommand("peer", "Who reviews whom");
-    peer->require_subcommand(1);
+    CLI::App* peer = course.get_subcommand("review");
     add_one(*peer, "assign", "Allocate the reviews at random, or adjust them after late-comers and drop-outs", where,
             action, assign)
         ->footer(
@@ -221,23 +223,20 @@ void add_peer_commands(CLI::App& course, CourseArguments& where, Action& action)
             "A name in a copy stops that copy; dynlab prints where it is. Where no person is meant, --accept sends "
             "it.\n"
             "Repeated, the command makes only what is new.\n"
-            "Examples:  dynlab course peer send crane\n"
-            "           dynlab course peer send crane --accept group-01 --reason \"Page is a word there\"");
-    add_one(course, "release", "Make anonymous copies of the reviews for the authors", where, action, release)
+            "Examples:  dynlab course review send crane\n"
+            "           dynlab course review send crane --accept group-01 --reason \"Page is a word there\"");
+    add_one(*peer, "release", "Make anonymous copies of the reviews for the authors", where, action, release)
         ->footer(
             "A review with a name in it is stopped, like a report. Repeated, the command makes only what is new.\n"
             "Example:  dynlab course release crane");
-    add_one(*peer, "set", "A group is to review another one's report", where, action, set_pair)
-        ->footer("Example:  dynlab course peer set crane group-02 group-07 --reason \"agreed with both\"");
-    add_one(*peer, "forbid", "Two groups do not review each other", where, action, forbid_pair)
-        ->footer(
-            "A review that is not written yet is handed on to another group by the next peer assign.\n"
-            "Example:  dynlab course peer forbid crane group-02 group-07 --reason \"they share a flat\"");
-    add_one(*peer, "free", "Take back what peer set or peer forbid said of two groups", where, action, free_pair)
-        ->footer("Example:  dynlab course peer free crane group-02 group-07 --reason \"settled\"");
     add_return(course, where, action);
-    add_one(*peer, "show", "The pairs with their pseudonyms; for your eyes only", where, action, show_pairs)
-        ->footer("Example:  dynlab course peer show crane");
+    add_one(*peer, "pairs", "Show the pairs with their pseudonyms (for you only), or set or forbid one", where, action,
+            pairs)
+        ->footer(
+            "A review that is forbidden and not written yet goes to another group with the next review assign.\n"
+            "Examples:\n"
+            "  dynlab course review pairs crane\n"
+            "  dynlab course review pairs crane group-02 group-07 --forbid --reason \"they share a flat\"");
 }
 
 }  // namespace dynlab::inline cli

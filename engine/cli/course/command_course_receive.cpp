@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 struct ReceiveArguments {
     std::vector<std::string> files;
     std::vector<std::string> of;
-    std::string assignment, from, at, times, isolation = "full";
+    std::string assignment, from, at, times, isolation = "full", stage = "first";
     bool no_checks = false, first = false;
 };
 
@@ -118,8 +118,14 @@ void add_receive(CLI::App& parent, const char* name, const char* about, const st
     command->add_option("--assignment", words->assignment, "Which; needed when there are several")->type_name("NAME");
     command->add_option("--from", words->from, "Whose; by the names of files and folders unless given")
         ->type_name("GROUP");
-    if (stage == "first")
+    words->stage = stage;
+    if (stage == "first") {
+        command->add_option("--stage", words->stage, "Which version")
+            ->type_name("first|final")
+            ->capture_default_str()
+            ->check(CLI::IsMember({"first", "final"}));
         command->add_flag("--first", words->first, "A first version, even of a report whose reviews are out");
+    }
     if (stage == "review")
         command
             ->add_option("--of", words->of,
@@ -147,9 +153,8 @@ void add_receive(CLI::App& parent, const char* name, const char* about, const st
         "is kept\n"
         "and flagged. Example:\n  " +
         example);
-    command->callback([&where, words, stage, &action] {
-        action = [&where, words, stage] { return receive_files(where, *words, stage); };
-    });
+    command->callback(
+        [&where, words, &action] { action = [&where, words] { return receive_files(where, *words, words->stage); }; });
 }
 
 int verify_course(const CourseArguments& where, const std::vector<std::string>& receipts) {
@@ -175,32 +180,26 @@ int verify_course(const CourseArguments& where, const std::vector<std::string>& 
     return well ? kDone : kFailed;
 }
 
+/// The file course.pub holds the same. The secret course.key stays with the instructor.
+int show_key(const CourseArguments& where) {
+    const Course course(where.folder);
+    const fs::path file = course.publish_key();
+    std::cout << terminal_text(read_file(file)) << "File: " << file.string() << '\n';
+    return kDone;
+}
+
 void add_course_verify(CLI::App& course, CourseArguments& where, Action& action) {
     auto receipts = std::make_shared<std::vector<std::string>>();
-    CLI::App* command = course.add_subcommand("verify", "Whether receipts are genuine; without one, the whole store");
+    auto key = std::make_shared<bool>(false);
+    CLI::App* command = course.add_subcommand("verify", "Check receipts, or the whole store");
+    command->add_flag("--key", *key, "Show the public key, with which students verify receipts");
     command->add_option("RECEIPT", *receipts, "Receipts that students show");
     command->footer(
         "Students verify theirs without the course: dynlab verify.\n"
         "It also lists temporary files and folders of killed commands; the next course command removes them.\n"
         "Example:  dynlab course verify 00012-group-07-first-report.txt");
-    command->callback(
-        [&where, receipts, &action] { action = [&where, receipts] { return verify_course(where, *receipts); }; });
-}
-
-void add_key(CLI::App& course, CourseArguments& where, Action& action) {
-    CLI::App* command = course.add_subcommand("key", "Show the public key, by which students verify receipts");
-    command->footer(
-        "The file course.pub holds the same: give it to your students, on the course's page say. The secret "
-        "course.key\n"
-        "stays with you.\n"
-        "Example:  dynlab course key");
-    command->callback([&where, &action] {
-        action = [&where] {
-            const Course course_here(where.folder);
-            const fs::path file = course_here.publish_key();
-            std::cout << terminal_text(read_file(file)) << "File: " << file.string() << '\n';
-            return kDone;
-        };
+    command->callback([&where, receipts, key, &action] {
+        action = [&where, receipts, key] { return *key ? show_key(where) : verify_course(where, *receipts); };
     });
 }
 
@@ -220,7 +219,7 @@ void add_work(CLI::App& parent, CourseArguments& where, Action& action) {
         std::string assignment, out, stage = "first";
     };
     auto words = std::make_shared<Words>();
-    CLI::App* command = parent.add_subcommand("work", "Lay out scripts and packs for dynlab grade");
+    CLI::App* command = parent.add_subcommand("work", "Lay out scripts and packs for dynlab grade")->group("");
     command->add_option("ASSIGNMENT", words->assignment, "Needed when there are several");
     command->add_option("-o,--out", words->out, "A new folder")->required()->type_name("FOLDER");
     command->add_option("--stage", words->stage, "Of which version")
@@ -242,20 +241,14 @@ void add_work(CLI::App& parent, CourseArguments& where, Action& action) {
 }  // namespace
 
 void add_receive_commands(CLI::App& course, CourseArguments& where, Action& action) {
-    add_receive(course, "receive", "Take what groups handed in: first versions, slides, scripts", "first",
-                "dynlab course receive \"Crane-12345.zip\" --assignment crane", where, action);
-    CLI::App* review = course.add_subcommand("review", "Reviews that were handed in");
+    add_receive(course, "submit", "Take submissions: files, folders, or what Moodle or Canvas exports", "first",
+                "dynlab course submit \"Crane-12345.zip\" --assignment crane", where, action);
+    CLI::App* review = course.add_subcommand("review", "Peer review: assign, send, collect, release");
     review->require_subcommand(1);
-    add_receive(*review, "receive", "Take reviews", "review",
-                "dynlab course review receive review-report-07.pdf --from group-02", where, action);
-    CLI::App* final = course.add_subcommand("final", "Final versions");
-    final->require_subcommand(1);
-    add_receive(*final, "receive", "Take final versions", "final",
-                "dynlab course final receive final.zip --assignment crane", where, action);
-    add_changes(*final, where, action)->group("");  // its old name
+    add_receive(*review, "collect", "Take reviews", "review",
+                "dynlab course review collect review-report-07.pdf --from group-02", where, action);
     add_work(course, where, action);
     add_course_verify(course, where, action);
-    add_key(course, where, action);
 }
 
 }  // namespace dynlab::inline cli

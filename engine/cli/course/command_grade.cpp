@@ -100,7 +100,7 @@ FolderRequest request_of(const GradeArguments& words) {
     return request;
 }
 
-int grade_part(const FolderGrading& grading, const Part& part) {
+int grade_part(const FolderGrading& grading, const WorkPart& part) {
     const GradingOutcome outcome = grading.grade_part();
     show_complaints(outcome);
     std::cout << fmt::format("part {}: {} graded now, {} unchanged, {} could not be graded\n", part.text(),

@@ -37,16 +37,16 @@ class WorkBar {
 /// changes.
 CLI::App* add_changes(CLI::App& course, CourseArguments& where, Action& action);
 
-/// receive, review receive, final receive, work, verify, key.
+/// submit, review collect, work, verify.
 void add_receive_commands(CLI::App& course, CourseArguments& where, Action& action);
 
 /// answers.
 void add_course_answers(CLI::App& course, CourseArguments& where, Action& action);
 
-/// peer assign, peer send, peer show, release.
+/// review assign, review send, review pairs, review release, deliver; after add_receive_commands.
 void add_peer_commands(CLI::App& course, CourseArguments& where, Action& action);
 
-/// time, withdraw, restore, extend, hold, history.
+/// set-received, withdraw, restore, extend, withhold, history.
 void add_correction_commands(CLI::App& course, CourseArguments& where, Action& action);
 
 /// remind.
@@ -55,7 +55,10 @@ void add_remind_command(CLI::App& course, CourseArguments& where, Action& action
 /// findings.
 void add_findings_command(CLI::App& course, CourseArguments& where, Action& action);
 
-/// scores, oral, marks, override, export, import.
+/// grade, mark.
+void add_grade_commands(CLI::App& course, CourseArguments& where, Action& action);
+
+/// scores, marks, export.
 void add_mark_commands(CLI::App& course, CourseArguments& where, Action& action);
 
 }  // namespace dynlab::inline cli

@@ -22,7 +22,7 @@ std::vector<TextPart> text_parts_of_script(const std::string& source);
 /// The text of report.md without header and comments.
 std::vector<TextPart> text_parts_of_report(const std::string& markdown);
 
-/// What a lesson gives to all students, to be told apart from what they write.
+/// What a lesson gives to all students, as opposed to what they write.
 class GivenText {
   public:
     void add(const std::vector<TextPart>& parts);

@@ -54,16 +54,16 @@ std::uint32_t drawn_seed(std::set<std::uint32_t>& taken) {
     }
 }
 
-const std::string& owner_of(const Student& student) {
+const std::string& bundle_owner(const Student& student) {
     return student.group.empty() ? student.id : student.group;
 }
 
 void take_seeds(const std::vector<Student>& students, std::map<std::string, std::uint32_t>& seeds) {
     for (const Student& student : students) {
         if (!student.seed) continue;
-        const auto [known, added] = seeds.try_emplace(owner_of(student), *student.seed);
+        const auto [known, added] = seeds.try_emplace(bundle_owner(student), *student.seed);
         if (!added && known->second != *student.seed)
-            throw EnvironmentError("the members of {} have different seeds", owner_of(student));
+            throw EnvironmentError("the members of {} have different seeds", bundle_owner(student));
     }
 }
 
@@ -106,7 +106,7 @@ std::vector<BundleOwner> bundle_owners(std::vector<Student>& students, const std
     std::vector<BundleOwner> owners;
     std::map<std::string, std::size_t> places;
     for (Student& student : students) {
-        const std::string& name = owner_of(student);
+        const std::string& name = bundle_owner(student);
         if (name.find('/') != std::string::npos) throw EnvironmentError("there is a / in the name of {}", name);
         const auto known = seeds.find(name);
         student.seed = known == seeds.end() ? seeds[name] = drawn_seed(taken) : known->second;

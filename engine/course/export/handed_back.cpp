@@ -163,7 +163,7 @@ std::string comments_on(const fs::path& marks, const MarkedStudent& student) {
 using Delivered = std::map<std::string, std::string>;
 constexpr char kDelivered[] = "delivered.csv";
 
-std::string key_of(const std::string& id, const std::string& files) {
+std::string delivery_key(const std::string& id, const std::string& files) {
     return id + "\n" + files;
 }
 
@@ -173,7 +173,7 @@ Delivered read_deliveries(const fs::path& file) {
     const TextTable table = read_text_table(file);
     const auto id = needed_column(table, "id", file), files = needed_column(table, "files", file),
                hash = needed_column(table, "sha256", file);
-    for (const auto& row : table.rows) delivered[key_of(row[id], row[files])] = row[hash];
+    for (const auto& row : table.rows) delivered[delivery_key(row[id], row[files])] = row[hash];
     return delivered;
 }
 
@@ -188,10 +188,10 @@ class Outbox {
         else if (const std::int64_t contradicted = settle_numbers(students_); contradicted > 0)
             result_.notes.push_back(
                 plural(contradicted,
-                       "{} participant number in the roster's column moodle is another one than in the name of the "
-                       "submission, which is used: Moodle numbers participants for each assignment",
-                       "{} participant numbers in the roster's column moodle are others than in the names of the "
-                       "submissions, which are used: Moodle numbers participants for each assignment"));
+                       "{} participant number in the roster's column moodle differs from the one in the submission's "
+                       "name, which is used: Moodle numbers participants for each assignment",
+                       "{} participant numbers in the roster's column moodle differ from those in the submissions' "
+                       "names, which are used: Moodle numbers participants for each assignment"));
         look_for_news();
     }
 
@@ -341,7 +341,7 @@ class Outbox {
             std::vector<std::string> files = {fs::relative(student.feedback, request_.marks).string()};
             if (const fs::path answers = model_answers(); !answers.empty())
                 files.push_back(answers.filename().string());
-            const auto before = delivered.find(key_of(student.id, fmt::format("{}", fmt::join(files, "; "))));
+            const auto before = delivered.find(delivery_key(student.id, fmt::format("{}", fmt::join(files, "; "))));
             is_new_[i] = before == delivered.end() || before->second != hash;
             mailings.push_back({student, files, is_new_[i]});
             more.push_back({student.points, student.possible, hash});

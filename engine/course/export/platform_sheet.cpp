@@ -8,6 +8,7 @@
 
 #include "base/reader.h"
 #include "course/intake/owners.h"
+#include "course/intake/roster.h"
 #include "data_io/tables/number_cell.h"
 #include "data_io/text_table.h"
 #include "platform/atomic_file.h"
@@ -20,26 +21,19 @@ namespace {
 
 /// Headers as words without accents and case, in the languages of universities that were looked at: English, French,
 /// German, Spanish, Catalan, Italian, Portuguese, Dutch.
-constexpr const char* kGrade[] = {"grade", "note", "bewertung",     "calificacion", "qualificacio", "valutazione",
-                                  "voto",  "nota", "classificacao", "avaliacao",    "cijfer",       "beoordeling"};
-constexpr const char* kIdentifier[] = {"identifier",     "identifiant",    "identificador",
-                                       "identificatore", "identificativo", "identificatie"};
-constexpr const char* kId[] = {"id number",    "idnumber",    "numero d identification",
-                               "id nummer",    "numero id",   "matrikelnummer",
-                               "numero de id", "numero d id", "codice identificativo"};
-constexpr const char* kName[] = {"full name",     "nom complet",    "vollstandiger name", "nombre completo",
-                                 "nome completo", "volledige naam", "cognome nome"};
+constexpr const char* kGradeHeaders[] = {"grade",         "note",        "bewertung", "calificacion",
+                                         "qualificacio",  "valutazione", "voto",      "nota",
+                                         "classificacao", "avaliacao",   "cijfer",    "beoordeling"};
 /// Beginnings of a word of the header.
-constexpr const char* kMaximum[] = {"maxim", "maximal", "bestwertung", "massim", "maxima"};
-constexpr const char* kMail[] = {"mail", "email", "courriel", "correo"};
-constexpr const char* kComment[] = {"comment", "kommentar", "comentari", "opmerking", "retroaliment"};
+constexpr const char* kMaximumWords[] = {"maxim", "maximal", "bestwertung", "massim", "maxima"};
+constexpr const char* kCommentWords[] = {"comment", "kommentar", "comentari", "opmerking", "retroaliment"};
 
-std::string heading_key(const std::string& text) {
+std::string words_of_header(const std::string& text) {
     return fmt::format("{}", fmt::join(words_of_name(text), " "));
 }
 
 template <std::size_t n>
-bool is_one_of(const std::string& words, const char* const (&known)[n]) {
+bool is_known_header(const std::string& words, const char* const (&known)[n]) {
     return std::find(std::begin(known), std::end(known), words) != std::end(known);
 }
 
@@ -68,7 +62,7 @@ std::string without_quotes(const std::string& cell) {
     return value;
 }
 
-std::string digits_at_end(const std::string& text) {
+std::string number_at_end(const std::string& text) {
     const std::size_t last = text.find_last_not_of("0123456789");
     return last == std::string::npos ? text : text.substr(last + 1);
 }
@@ -89,7 +83,7 @@ PlatformSheet::PlatformSheet(const std::filesystem::path& file, const std::strin
     if (!is_utf8(text)) text = utf8_of_windows_1252(text);
     split(text);
     if (lines_.empty()) throw EnvironmentError("{}: the file is empty; download it again", file.string());
-    for (const std::string& cell : lines_.front().cells) names_.push_back(heading_key(without_quotes(cell)));
+    for (const std::string& cell : lines_.front().cells) names_.push_back(words_of_header(without_quotes(cell)));
     if (names_.size() > 1 && names_[1] == "id")
         recognise_canvas(assignment);
     else
@@ -156,7 +150,10 @@ void PlatformSheet::recognise_moodle() {
         return !all.empty() &&
                std::ranges::all_of(all, [&](std::size_t row) { return is_participant(value(row, column)); });
     };
-    number_ = first_column(names_, [](const std::string& name) { return is_one_of(name, kIdentifier); });
+    const auto called = [this](const std::string& ours) {
+        return first_column(names_, [&](const std::string& name) { return our_column(name) == ours; });
+    };
+    number_ = called("moodle");
     for (std::size_t i = 0; i < names_.size() && !number_; ++i)
         if (holds_participants(i)) number_ = i;
     if (!number_)
@@ -165,18 +162,16 @@ void PlatformSheet::recognise_moodle() {
             "nor Canvas's gradebook (second column ID); its columns are {}",
             file_.string(), listed_columns());
     const auto maximum = [&] {
-        const auto named = first_column(names_, [](const std::string& name) { return has_word(name, kMaximum); });
+        const auto named = first_column(names_, [](const std::string& name) { return has_word(name, kMaximumWords); });
         return named ? named : maximum_column();
     }();
-    grade_ = first_column(names_, [](const std::string& name) { return is_one_of(name, kGrade); });
+    grade_ = first_column(names_, [](const std::string& name) { return is_known_header(name, kGradeHeaders); });
     if (!grade_ && maximum && *maximum > 0) grade_ = *maximum - 1;
     if (!grade_ || grade_ == number_)
         throw EnvironmentError("{}: the column of grades is not recognised; its columns are {}", file_.string(),
                                listed_columns());
-    id_ = first_column(names_, [](const std::string& name) { return is_one_of(name, kId); });
-    mail_ = first_column(names_, [](const std::string& name) { return has_word(name, kMail); });
-    name_ = first_column(names_, [](const std::string& name) { return is_one_of(name, kName); });
-    comment_ = first_column(names_, [](const std::string& name) { return has_word(name, kComment); });
+    id_ = called("id"), mail_ = called("email"), name_ = called("name");
+    comment_ = first_column(names_, [](const std::string& name) { return has_word(name, kCommentWords); });
     if (!name_ && *number_ + 1 < names_.size() && grade_ != *number_ + 1) name_ = *number_ + 1;
     if (!comment_)
         unrecognised_.push_back(
@@ -210,7 +205,7 @@ void PlatformSheet::recognise_canvas(const std::string& assignment) {
 void PlatformSheet::find_people() {
     for (const std::size_t row : rows()) {
         Person person{row, value(row, number_), value(row, id_), value(row, mail_), value(row, name_)};
-        if (platform_ == Platform::kMoodle) person.number = digits_at_end(person.number);
+        if (platform_ == Platform::kMoodle) person.number = number_at_end(person.number);
         if (!person.number.empty()) people_.push_back(std::move(person));  // not "Points Possible"
     }
 }

@@ -81,7 +81,7 @@ std::vector<Reminder> reminders_of(Course& course, const Assignment& assignment,
             gaps.reviews(pairs);
             if (assignment.final_due) gaps.document("final", stages["final"], Message("the final version"));
         } else {
-            gaps.document("first", stages["first"], Message("the slides"));
+            if (assignment.kind != "lab") gaps.document("first", stages["first"], Message("the slides"));
             gaps.script(stages["first"]);
         }
         if (std::vector<Message> missing = gaps.found(); !missing.empty())

@@ -62,7 +62,7 @@ std::vector<std::pair<std::string, CheckedSubmission>> mutants_of(const CheckedS
 }
 
 /// All numbers of a file of checks, without those in comments and texts.
-std::set<double> numbers_in(const std::string& checks) {
+std::set<double> numbers_of_checks(const std::string& checks) {
     static const RE2 kPassedOver(R"re(--\[\[(?s:.*?)\]\]|--[^\n]*|"(?:[^"\\\n]|\\.)*"|'(?:[^'\\\n]|\\.)*')re");
     static const RE2 kNumber(R"((?:^|[^\w.])(\d+(?:\.\d*)?(?:[eE][-+]?\d+)?))");
     std::string source = checks;
@@ -173,7 +173,7 @@ CheckTrial try_checks_of(const GradingSetup& setup, Mutants mutants) {
         }
     const std::size_t changed = submissions.size();
     if (const fs::path visible = setup.lesson.folder / "checks.lua"; fs::exists(visible))
-        for (auto& [name, one] : typed_in(submissions[1], submissions.front(), numbers_in(read_text(visible)))) {
+        for (auto& [name, one] : typed_in(submissions[1], submissions.front(), numbers_of_checks(read_text(visible)))) {
             submissions.push_back(std::move(one));
             names.push_back(name);
         }

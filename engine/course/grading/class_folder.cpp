@@ -31,8 +31,7 @@ ClassFolder::ClassFolder(const ClassSources& sources, const fs::path& results, c
         date(item);
         work_.items.push_back(std::move(item));
     }
-    work_.late = late_.late(), work_.unconfirmed = late_.waiting(), work_.doubt = late_.doubt();
-    late_.save();
+    late_.conclude(work_);
     for (const Message& clause : left_out) work_.complaints.push_back(Message("{}; it is left out", clause));
     complain_of_unused_rows(submissions);
     work_.chosen = chosen(sources.only);

@@ -60,6 +60,7 @@ class ClassGrader {
         outcome_.unowned = static_cast<int>(attention.unowned);
         outcome_.unreadable = static_cast<int>(attention.unreadable);
         write_class_results(all);
+        for (const Message& note : pipeline_.documents().notes()) outcome_.notes.push_back(note);
         return std::move(outcome_);
     }
 
@@ -266,7 +267,7 @@ GradingOutcome grade_class(const ClassWork& work, const TriedRules& tried, const
     return grader.conclude();
 }
 
-GradingOutcome grade_part_of_class(const ClassWork& work, const Part& part, const TriedRules& tried,
+GradingOutcome grade_part_of_class(const ClassWork& work, const WorkPart& part, const TriedRules& tried,
                                    const GradingOptions& options) {
     ClassWork own = work;
     own.chosen.clear();
@@ -288,7 +289,7 @@ MissingParts ungraded_parts(const ClassWork& work, int parts, const TriedRules& 
         }
     };
     for (std::size_t k = 0; k < work.chosen.size(); ++k) {
-        const int part = Part{1, parts}.part_of(k);
+        const int part = WorkPart{1, parts}.part_of(k);
         if (!missing.parts.contains(part) && !graded(work.items[work.chosen[k]])) missing.parts.insert(part);
     }
     return missing;

@@ -35,7 +35,7 @@ struct TriedRules {
 
 /// Grades one part of the chosen submissions, and writes nothing that is of the whole class. Several parts may be
 /// graded at a time, on several machines.
-GradingOutcome grade_part_of_class(const ClassWork& work, const Part& part, const TriedRules& tried,
+GradingOutcome grade_part_of_class(const ClassWork& work, const WorkPart& part, const TriedRules& tried,
                                    const GradingOptions& options);
 /// Of so many parts those in which a chosen submission has no result of these files, rules and program.
 MissingParts ungraded_parts(const ClassWork& work, int parts, const TriedRules& tried, const GradingOptions& options);

@@ -68,7 +68,10 @@ Message LatePenalties::doubt() const {
     return doubt_about_zone(std::move(late), seen_.size());
 }
 
-void LatePenalties::save() const {
+void LatePenalties::conclude(ClassWork& work) const {
+    work.late = late();
+    work.unconfirmed = waiting();
+    work.doubt = doubt();
     if (accepted_.empty()) return;
     TextTable table;
     table.names = {"submission", "percent"};

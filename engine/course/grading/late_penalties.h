@@ -25,7 +25,8 @@ class LatePenalties {
     std::vector<Message> late() const;
     std::vector<Message> waiting() const;  ///< sentences: penalties that were not accepted
     Message doubt() const;                 ///< see doubt_about_zone
-    void save() const;
+    /// Adds these to the work and remembers what was accepted.
+    void conclude(ClassWork& work) const;
 
   private:
     struct Seen {

@@ -51,13 +51,14 @@ class Faults {
             return true;
         } catch (const MissingProgram&) {
             throw;
+        } catch (const DocumentError& error) {
+            const Place& place = error.place();
+            const bool here = place.line > 0 && fs::exists(lesson_.folder / place.file.filename());
+            add(here ? place.file : file, here ? place.line : 0, here ? error.sentence() : error.message());
         } catch (const std::runtime_error& error) {
-            const LocatedMessage told = take_apart(error.what());
-            const bool here = told.line > 0 && fs::exists(lesson_.folder / fs::path(told.file).filename());
-            add(here ? fs::path(told.file) : file, here ? told.line : 0,
-                here ? Message::verbatim(told.text) : message_of(error));
-            return false;
+            add(file, 0, message_of(error));
         }
+        return false;
     }
 
     LessonFaults found() { return std::move(found_); }
@@ -224,16 +225,22 @@ void look_at_translated_checks(const Lesson& lesson, const std::string& language
     });
 }
 
+/// Wherever dynlab sheet --lang refuses them.
 void look_at_tasks(const Lesson& lesson, const std::string& language, Faults& faults) {
     const fs::path tasks = lesson.tasks(language);
     if (!fs::exists(tasks)) return;
     faults.attempt(tasks, [&] {
-        lesson_script(lesson, language);
+        const bool fits = lesson_script(lesson, language).header.language == language;
         if (const std::string said = read_percent_script(tasks).header.language; said != language)
             faults.add(tasks, 0,
                        Message("the header says \"language: {}\", but the file's name says {}: dynlab sheet --lang {} "
                                "refuses it",
                                said, language, language));
+        else if (!fits)
+            faults.add(lesson.script(), 0,
+                       Message("the header has no line \"language: en\", so that dynlab sheet --lang {} refuses the "
+                               "translated tasks",
+                               language));
     });
 }
 

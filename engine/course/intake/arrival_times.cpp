@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <set>
 
 #include "base/error.h"
 #include "base/reader.h"
 #include "course/intake/owners.h"
+#include "course/intake/roster.h"
 #include "data_io/text_table.h"
 #include "numerics/error.h"
 #include "platform/error.h"
@@ -35,49 +37,30 @@ std::string key_in(const std::string& cell) {
     return in_small_letters(RE2::FullMatch(cell, kParticipant, &number) ? number : cell);
 }
 
-/// "vendredi 27 février 2026, 17:30" as "27 February 2026 17:30"; empty where it is no such time.
-std::string with_english_month(const std::string& text) {
-    static const std::map<std::string, const char*> kMonths = {{"janvier", "January"},
-                                                               {"fevrier", "February"},
-                                                               {"mars", "March"},
-                                                               {"avril", "April"},
-                                                               {"mai", "May"},
-                                                               {"juin", "June"},
-                                                               {"juillet", "July"},
-                                                               {"aout", "August"},
-                                                               {"septembre", "September"},
-                                                               {"octobre", "October"},
-                                                               {"novembre", "November"},
-                                                               {"decembre", "December"},
-                                                               {"januar", "January"},
-                                                               {"februar", "February"},
-                                                               {"marz", "March"},
-                                                               {"april", "April"},
-                                                               {"juni", "June"},
-                                                               {"juli", "July"},
-                                                               {"august", "August"},
-                                                               {"september", "September"},
-                                                               {"oktober", "October"},
-                                                               {"november", "November"},
-                                                               {"dezember", "December"},
-                                                               {"enero", "January"},
-                                                               {"febrero", "February"},
-                                                               {"marzo", "March"},
-                                                               {"abril", "April"},
-                                                               {"mayo", "May"},
-                                                               {"junio", "June"},
-                                                               {"julio", "July"},
-                                                               {"agosto", "August"},
-                                                               {"septiembre", "September"},
-                                                               {"octubre", "October"},
-                                                               {"noviembre", "November"},
-                                                               {"diciembre", "December"}};
-    static const RE2 kForm(R"((?:\pL+,? )?(\d{1,2})\.? (?:de )?(\pL+) (?:de )?(\d{4}),? (\d{1,2}:\d{2}))");
-    std::string day, month, year, time;
-    if (!RE2::FullMatch(text, kForm, &day, &month, &year, &time)) return "";
-    const std::vector<std::string> words = words_of_name(month);
-    const auto found = words.size() == 1 ? kMonths.find(words.front()) : kMonths.end();
-    return found == kMonths.end() ? "" : fmt::format("{} {} {} {}", day, found->second, year, time);
+/// Names of months without accents, in the languages of kModified other than English.
+constexpr std::string_view kMonths[] = {" janvier januar enero gener gennaio janeiro januari ",
+                                        " fevrier februar febrero febrer febbraio fevereiro februari ",
+                                        " mars marz marzo marc marco maart ",
+                                        " avril april abril aprile ",
+                                        " mai mayo maig maggio maio mei ",
+                                        " juin juni junio juny giugno junho ",
+                                        " juillet juli julio juliol luglio julho ",
+                                        " aout august agosto agost augustus ",
+                                        " septembre september septiembre setembre settembre setembro ",
+                                        " octobre oktober octubre ottobre outubro ",
+                                        " novembre november noviembre novembro ",
+                                        " decembre dezember diciembre desembre dicembre dezembro december "};
+
+/// "vendredi 27 février 2026, 17:30" as "2026-2-27 17:30"; empty where it is no such time.
+std::string in_figures(const std::string& text) {
+    static const RE2 kForm(R"((?:\pL+,? )?(\d{1,2})\.? (?:d[e'’] ?)?(\pL+) (?:de[l]? )?(\d{4}),? (\d{1,2}:\d{2}))");
+    std::string day, name, year, time;
+    if (!RE2::FullMatch(text, kForm, &day, &name, &year, &time)) return "";
+    const std::string word = fmt::format(" {} ", fmt::join(words_of_name(name), ""));
+    for (std::size_t month = 0; month < std::size(kMonths); ++month)
+        if (kMonths[month].find(word) != std::string_view::npos)
+            return fmt::format("{}-{}-{} {}", year, month + 1, day, time);
+    return "";
 }
 
 bool is_time_of_submission(const std::string& header) {
@@ -91,9 +74,10 @@ bool is_time_of_submission(const std::string& header) {
 /// Also as Moodle writes times in English: "Friday, 27 February 2026, 5:30 PM", and in other languages: a day, the name
 /// of a month, a year and a time.
 Instant time_in(const std::string& text) {
-    auto read = plain_clock_reading(text);
+    const bool utc = text.ends_with('Z');
+    auto read = plain_clock_reading(utc ? text.substr(0, text.size() - 1) : text, utc);
     if (!read) read = clock_reading(text, {"%A, %d %B %Y, %I:%M %p", "%d %B %Y, %I:%M %p", "%A, %d %B %Y, %H:%M"});
-    if (!read) read = clock_reading(with_english_month(text), {"%d %B %Y %H:%M"});
+    if (!read) read = plain_clock_reading(in_figures(text));
     if (!read) throw InvalidArgument("the time must be one such as \"2026-03-01 18:00\", but \"{}\" was given", text);
     if (!read->exists) throw InvalidArgument("the time \"{}\" does not exist in the course's time zone", text);
     return read->instant;
@@ -104,10 +88,9 @@ Instant time_in(const std::string& text) {
 ArrivalTimes::ArrivalTimes(const std::filesystem::path& csv) {
     const TextTable table = read_text_table(csv);
     std::vector<std::size_t> whose;
-    for (const char* name :
-         {"identifier", "identifiant", "identificador", "id", "id number", "group", "name", "full name", "nom complet",
-          "vollständiger name", "nombre completo", "mail", "email", "email address", "adresse de courriel"})
-        if (const auto column = table.column(name)) whose.push_back(*column);
+    static const std::set<std::string> kWhose = {"moodle", "id", "group", "name", "email", "mail"};
+    for (std::size_t i = 0; i < table.names.size(); ++i)
+        if (kWhose.contains(our_column(table.names[i]))) whose.push_back(i);
     std::optional<std::size_t> when;
     for (const char* name : {"time", "received", "submitted_at"})
         if (const auto column = table.column(name); column && !when) when = column;

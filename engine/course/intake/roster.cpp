@@ -1,65 +1,44 @@
 #include "course/intake/roster.h"
 
-#include <algorithm>
-#include <map>
-#include <set>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include "course/intake/owners.h"
 #include "data_io/tables/number_cell.h"
 #include "data_io/text_table.h"
 #include "platform/error.h"
 #include "platform/text/read_number.h"
+#include "platform/text/small_letters.h"
 
 namespace dynlab::inline course {
 namespace {
 
-/// What platforms call our columns.
-const std::map<std::string, std::string>& platform_columns() {
-    static const std::map<std::string, std::string> names = {
-        {"id number", "id"},
-        {"idnumber", "id"},
-        {"id-nummer", "id"},
-        {"matrikelnummer", "id"},
-        {"numéro d'identification", "id"},
-        {"numéro d’identification", "id"},
-        {"sis user id", "id"},
-        {"student id", "id"},
-        {"full name", "name"},
-        {"vollständiger name", "name"},
-        {"nom complet", "name"},
-        {"student", "name"},
-        {"first name", "first"},
-        {"vorname", "first"},
-        {"prénom", "first"},
-        {"surname", "last"},
-        {"last name", "last"},
-        {"nachname", "last"},
-        {"nom", "last"},
-        {"nom de famille", "last"},
-        {"groups", "group"},
-        {"gruppe", "group"},
-        {"gruppen", "group"},
-        {"groupe", "group"},
-        {"groupes", "group"},
-        {"group_name", "group"},
-        {"email address", "email"},
-        {"e-mail address", "email"},
-        {"e-mail", "email"},
-        {"e-mail-adresse", "email"},
-        {"adresse de courriel", "email"},
-        {"identifier", "moodle"},
-        {"teilnehmer/in", "moodle"},
-    };
-    return names;
-}
+/// What platforms call our columns, as words without accents, in the languages of universities that were looked at.
+constexpr std::pair<const char*, std::string_view> kPlatformColumns[] = {
+    {"id",
+     "|id number|idnumber|id nummer|matrikelnummer|numero d identification|numero de id|numero d id|sis user "
+     "id|student "
+     "id|"},
+    {"name", "|full name|vollstandiger name|nom complet|nombre completo|nome completo|volledige naam|student|"},
+    {"first", "|first name|vorname|prenom|"},
+    {"last", "|surname|last name|nachname|nom|nom de famille|"},
+    {"group", "|groups|gruppe|gruppen|groupe|groupes|group name|"},
+    {"email",
+     "|email address|e mail address|e mail|e mail adresse|adresse de courriel|adresse e mail|correo "
+     "electronico|direccion "
+     "de correo|"},
+    {"moodle", "|identifier|identifiant|identificador|identificatore|identificativo|teilnehmer in|"}};
 
 /// Translates the header's platform names; what is there under our own name stays.
 void translate_columns(TextTable& table) {
     const bool canvas = table.column("sis user id") && table.column("student");
     if (const auto id = table.column("id"); canvas && id) table.names[*id] = "canvas";
-    for (std::string& name : table.names) {
-        const auto found = platform_columns().find(name);
-        if (found != platform_columns().end() && !table.column(found->second)) name = found->second;
-    }
+    for (std::string& name : table.names)
+        if (const std::string ours = our_column(name); !table.column(ours)) name = ours;
 }
 
 /// "Participant 900010" as 900010.
@@ -69,6 +48,13 @@ std::string digits_at_end(const std::string& text) {
 }
 
 }  // namespace
+
+std::string our_column(const std::string& header) {
+    const std::string words = fmt::format("|{}|", fmt::join(words_of_name(header), " "));
+    for (const auto& [ours, theirs] : kPlatformColumns)
+        if (theirs.find(words) != std::string_view::npos) return ours;
+    return in_small_letters(header);
+}
 
 std::vector<std::string> known_names_of(const Student& student) {
     std::vector<std::string> names;

@@ -20,6 +20,10 @@ struct Student {
     std::string language{};                   ///< "en" or "fr"; empty where the roster does not tell
 };
 
+/// Our name of a column that a platform's table has: id, name, first, last, group, email, moodle; any other header in
+/// lower case.
+std::string our_column(const std::string& header);
+
 /// Group, id and name, of which an instructor may use each for what the student hands in; those that are known.
 std::vector<std::string> known_names_of(const Student& student);
 

@@ -64,8 +64,12 @@ bool is_online_text(const fs::path& entry) {
     return entries.size() == 1 && entries.front().filename() == "onlinetext.html";
 }
 
+/// Whether dynlab grade made the folder, in a run that was killed early as well: its lock comes first, then
+/// manual.csv, gradebook.csv last.
 bool holds_results(const fs::path& folder) {
-    return fs::exists(folder / "gradebook.csv") && fs::is_directory(folder / "results");
+    const bool begun =
+        fs::exists(folder / ".lock") && (fs::exists(folder / "manual.csv") || entries_of(folder).empty());
+    return begun || (fs::exists(folder / "gradebook.csv") && fs::is_directory(folder / "results"));
 }
 
 bool is_named_by_platform(const fs::path& entry) {

@@ -203,7 +203,7 @@ std::string marks_csv(Course& course, const Assignment& a) {
     const Marks marks = course_marks(course, a);
     const auto of_reviewers = remarks_by_reviewer(course, a, marks);
     const std::vector<ReviewPair> pairs = review_pairs(course, a);
-    const auto authors = groups_at_submission(course, a.id);
+    const auto authors = author_groups(course, a);
     const char* const part = a.document();
     auto versions = newest_versions(course, a);
     OralComments said = oral_comments(course, a);
@@ -283,7 +283,10 @@ void import_course(const fs::path& file, const fs::path& from, const fs::path& f
         if (!settings.contains(needed)) throw EnvironmentError("{}: the course's {} is missing", file.string(), needed);
     for (const fs::path& kept : handed_in)
         if (!fs::exists(kept))
-            throw EnvironmentError("{} has no file {}; nothing was made", from.string(), kept.filename().string());
+            throw EnvironmentError(
+                "{} is not the folder of the exported course: the submitted file {} is not in it. Name that folder "
+                "with --from. Nothing was made",
+                from.string(), kept.filename().string());
     const fs::path place = fs::absolute(folder).lexically_normal();
     const fs::path whole = place.has_filename() ? place : place.parent_path();
     if (fs::exists(whole) && !(fs::is_directory(whole) && fs::is_empty(whole)))

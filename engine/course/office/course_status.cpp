@@ -11,7 +11,9 @@
 #include "course/review/review_pairs.h"
 #include "course/store/exceptions.h"
 #include "course/store/groups.h"
+#include "course/store/marks.h"
 #include "course/store/newest_versions.h"
+#include "course/store/refusals.h"
 #include "platform/terminal/aligned_table.h"
 
 namespace dynlab::inline course {
@@ -66,7 +68,8 @@ class Status {
           main_(assignment.document()),
           versions_(newest_versions(course, assignment)),
           pairs_(review_pairs(course, assignment)),
-          twins_(groups_with_the_same_file(course, assignment)) {
+          twins_(groups_with_the_same_file(course, assignment)),
+          labs_(assignment.is_lab() ? lab_marks(course, assignment) : std::vector<LabMark>()) {
         for (const auto& pair : kindred_groups(course)) kindred_.insert(pair);
     }
 
@@ -74,11 +77,22 @@ class Status {
         for (const Group& group : groups_of(course_)) add(group);
         std::string text = heading() + '\n' + aligned_table(header(), rows_) + '\n' + sums();
         const std::string next = next_step();
-        return text + (next.empty() ? "" : "Next: " + next + '\n');
+        return text + refusals() + (next.empty() ? "" : "Next: " + next + '\n');
     }
 
   private:
+    /// Files that were not taken and after which nothing came that was.
+    std::string refusals() const {
+        std::string text;
+        for (const RefusedFile& file : refused_files(course_, assignment_, true))
+            text +=
+                message_text(Message("Not taken: {}, {}: {}", file.name, course_.clock().show(file.at), file.reason)) +
+                "\n";
+        return text;
+    }
+
     std::vector<std::string> header() const {
+        if (assignment_.is_lab()) return {"group", "members", "submission", "points", "to do"};
         if (!assignment_.is_report()) return {"group", "members", "slides", "script", "to do"};
         return {"group", "members", "first version", "reviews written", "reviews received", "final version", "to do"};
     }
@@ -92,7 +106,11 @@ class Status {
         const auto line = [&](const char* what, Instant due) {
             text += fmt::format("  {:<14} {}\n", what, when(clock, due, now_));
         };
-        line(assignment_.is_report() ? "first version" : "slides, script", assignment_.first_due);
+        if (assignment_.first_due != kNoDeadline)
+            line(assignment_.is_report() ? "first version"
+                 : assignment_.is_lab()  ? "deadline"
+                                         : "slides, script",
+                 assignment_.first_due);
         if (assignment_.review_due) line("reviews", *assignment_.review_due);
         if (assignment_.final_due) line("final version", *assignment_.final_due);
         for (Rows rows = course_.database().query(
@@ -119,6 +137,15 @@ class Status {
         if (group.dropped_out && first.empty() && last.empty()) return;
         ++groups_;
         const std::string members = fmt::format("{}", group.members.size());
+        if (assignment_.is_lab()) {
+            const auto mark = std::ranges::find(labs_, group.id, &LabMark::group);
+            const bool known = mark != labs_.end() && mark->earned;
+            rows_.push_back({group.name, members, cell_of(first, main_),
+                             known ? fmt::format("{:.4g} of {:.4g}", *mark->earned, mark->possible) : "-",
+                             to_do(group, first, last)});
+            count(group, first, last);
+            return;
+        }
         if (!assignment_.is_report()) {
             const std::string script =
                 first.contains("pack") ? cell_of(first, "pack") + " (pack)" : cell_of(first, "script");
@@ -193,11 +220,12 @@ class Status {
         if (found == first.end()) {
             only_pack(first, "");
             if (things.empty() && due_over("first"))
-                things.push_back(assignment_.is_report() ? "ask for the first version, or roster drop"
-                                                         : "ask for the slides, or roster drop");
+                things.push_back(assignment_.is_lab()      ? "ask for the submission, or roster drop"
+                                 : assignment_.is_report() ? "ask for the first version, or roster drop"
+                                                           : "ask for the slides, or roster drop");
             return join(things);
         }
-        if (!assignment_.is_report()) {
+        if (assignment_.is_talk()) {
             if (!first.contains("script") && !first.contains("pack") && due_over("first"))
                 things.push_back("ask for the script");
         }
@@ -273,6 +301,7 @@ class Status {
             return fmt::format("dynlab course {} {}", words, assignment_.name);
         };
         if (present_ == 0) return fmt::format("dynlab course receive FILE... --assignment {}", assignment_.name);
+        if (assignment_.is_lab()) return command("grade");
         if (!assignment_.is_report()) return command("oral sheet");
         if (now_ <= assignment_.first_due + assignment_.grace) return {};
         if (pairs_.empty() || unassigned_ > 0) return command("peer assign");
@@ -303,6 +332,7 @@ class Status {
     std::map<std::int64_t, std::map<std::string, HandedInParts>> versions_;
     std::vector<ReviewPair> pairs_;
     std::map<std::int64_t, std::string> twins_;
+    std::vector<LabMark> labs_;
     std::set<std::pair<std::int64_t, std::int64_t>> kindred_;  ///< groups with a common member, now or before
     std::vector<std::vector<std::string>> rows_;
     int groups_ = 0, present_ = 0, late_ = 0, unreadable_ = 0, missing_ = 0, unassigned_ = 0, open_reviews_ = 0,
@@ -325,7 +355,9 @@ std::string course_summary(Course& course, Instant now) {
         "\n";
     std::vector<std::vector<std::string>> rows;
     for (const Assignment& a : assignments_of(course)) {
-        const auto shown = [&](std::optional<Instant> due) { return due ? when(course.clock(), *due, now) : "-"; };
+        const auto shown = [&](std::optional<Instant> due) {
+            return due && *due != kNoDeadline ? when(course.clock(), *due, now) : "-";
+        };
         rows.push_back({a.name, a.kind, shown(a.first_due), shown(a.review_due), shown(a.final_due)});
     }
     if (rows.empty()) return text + "No assignments yet: dynlab course assignment add NAME --first TIME ...\n";

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string first_bytes(const fs::path& file) {
+std::string magic_bytes(const fs::path& file) {
     std::string bytes(8, '\0');
     std::ifstream in(file, std::ios::binary);
     in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
@@ -27,8 +27,8 @@ std::string closed_archive(const std::string& bytes) {
     return "";
 }
 
-void explain(const IncomingFile& file, const Assignment& assignment, RecognisedFile& found) {
-    const std::string bytes = first_bytes(file.file);
+void explain_unreadable(const IncomingFile& file, const Assignment& assignment, RecognisedFile& found) {
+    const std::string bytes = magic_bytes(file.file);
     if (bytes.empty()) {
         found.trouble = "empty", found.reason = Message("The file is empty.");
     } else if (bytes.starts_with("PK\x05\x06")) {
@@ -48,14 +48,14 @@ void explain(const IncomingFile& file, const Assignment& assignment, RecognisedF
 
 std::string document_part_of(const Assignment& assignment, const std::string& stage) {
     if (stage == "review") return "review";
-    return assignment.is_report() ? "report" : "slides";
+    return assignment.is_report() || assignment.kind == "lab" ? "report" : "slides";
 }
 
 RecognisedFile recognise(const IncomingFile& file, const Assignment& assignment, const std::string& stage) {
     RecognisedFile found{kUnreadable, file.name, {}, {}, {}};
     const std::string kind = kind_of_file_at(file.name, file.file);
     if (kind.empty() || (kind == "script" && assignment.is_report()) || fs::file_size(file.file) == 0) {
-        explain(file, assignment, found);
+        explain_unreadable(file, assignment, found);
         return found;
     }
     found.text = kind == "text";

@@ -228,7 +228,7 @@ std::vector<bool> graded_criteria(Course& course, const Assignment& a) {
 void add_student_marks(Course& course, const Assignment& a, std::vector<GroupMark>& marks) {
     const std::vector<bool> graded = graded_criteria(course, a);
     const auto own_points = student_points(course, a);
-    for (const auto& [id, group] : groups_at_submission(course, a.id)) {
+    for (const auto& [id, group] : author_groups(course, a)) {
         const CriterionPoints* const own = given_for(own_points, id);
         if (!own || !has_points(*own)) continue;
         for (GroupMark& mark : marks) {

@@ -44,7 +44,7 @@ struct ChangesRequest {
 
 /// Compares the final version of each group with the version that its reviewers read (the newest first version where
 /// none was sent). Leaves out groups that submitted nothing; changes nothing in the store. Throws InvalidArgument for a
-/// presentation or an unknown group.
+/// talk or an unknown group.
 std::vector<GroupChanges> version_changes(Course& course, const Assignment& assignment, const ChangesRequest& request);
 
 /// A table for the terminal with one row per group.

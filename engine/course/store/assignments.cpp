@@ -112,9 +112,9 @@ bool add_assignment(Course& course, Assignment wanted) {
         const bool used = db.query("SELECT 1 FROM versions WHERE assignment = ?", known.id).next();
         if (used && !only_later(known, wanted))
             throw InvalidArgument(
-                "work was handed in for {} already: only deadlines may move, to later ones, and the grace grow; dynlab "
-                "course assignment change {} moves them both ways",
-                known.name, known.name);
+                "work was submitted for {} already: only deadlines may move, to later ones, and the grace grow; give "
+                "--reason to change more",
+                known.name);
         db.run(
             "UPDATE assignments SET kind = ?, lesson = ?, first_due = ?, review_due = ?, final_due = ?, grace = ?, "
             "reviews = ?, costs = ?, final_weight = ?, weight = ?, reviews_weight = ?, checks = ?, secret = ?, keep = "

@@ -135,8 +135,30 @@ ALTER TABLE allocations DROP COLUMN seed;
     // Labs are assignments like reports and talks. An assignment has a weight in the total, a lab what it is graded
     // with, a student what a group's own data are drawn from. `results` is what the checks gave a version, `marks` what
     // the instructor gave instead (item: a check, or * for the whole; null takes back), `refusals` the files that were
-    // not taken.
+    // not taken. Every score can be taken back: null points. `stops`: copies
+    // that a name stopped.
     R"(
+ALTER TABLE scores RENAME TO former_scores;
+CREATE TABLE scores (pair INTEGER NOT NULL REFERENCES pairs, criterion INTEGER NOT NULL, given_at INTEGER NOT NULL,
+  points REAL CHECK (points >= 0), PRIMARY KEY (pair, criterion, given_at)) WITHOUT ROWID;
+INSERT INTO scores SELECT pair, criterion, given_at, points FROM former_scores;
+DROP TABLE former_scores;
+ALTER TABLE oral_scores RENAME TO former_scores;
+CREATE TABLE oral_scores (assignment INTEGER NOT NULL REFERENCES assignments,
+  group_id INTEGER NOT NULL REFERENCES groups, criterion INTEGER NOT NULL, given_at INTEGER NOT NULL,
+  points REAL CHECK (points >= 0), PRIMARY KEY (assignment, group_id, criterion, given_at)) WITHOUT ROWID;
+INSERT INTO oral_scores SELECT assignment, group_id, criterion, given_at, points FROM former_scores;
+DROP TABLE former_scores;
+ALTER TABLE instructor_scores RENAME TO former_scores;
+CREATE TABLE instructor_scores (assignment INTEGER NOT NULL REFERENCES assignments,
+  group_id INTEGER NOT NULL REFERENCES groups, stage TEXT NOT NULL CHECK (stage IN ('first', 'final')),
+  criterion INTEGER NOT NULL, given_at INTEGER NOT NULL, points REAL CHECK (points >= 0),
+  PRIMARY KEY (assignment, group_id, stage, criterion, given_at)) WITHOUT ROWID;
+INSERT INTO instructor_scores SELECT assignment, group_id, stage, criterion, given_at, points FROM former_scores;
+DROP TABLE former_scores;
+CREATE TABLE stops (pair INTEGER NOT NULL REFERENCES pairs,
+  way TEXT NOT NULL CHECK (way IN ('to reviewer', 'to author')), version INTEGER NOT NULL REFERENCES versions,
+  made_at INTEGER NOT NULL, PRIMARY KEY (pair, way, version)) WITHOUT ROWID;
 DROP VIEW standing;
 DROP VIEW arrived;
 CREATE TABLE new_assignments (id INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE COLLATE NOCASE,
@@ -178,30 +200,6 @@ CREATE VIEW standing AS SELECT *,
     NOT e.withdrawn AND e.assignment = w.assignment AND e.group_id = w.group_id AND e.stage = w.stage AND
     ifnull(e.pair, 0) = ifnull(w.pair, 0) AND e.part = w.part) AS first_at
     FROM arrived w WHERE NOT w.withdrawn);
-)",
-    // Every score can be taken back: null points. `stops`: copies that a name stopped.
-    R"(
-ALTER TABLE scores RENAME TO former_scores;
-CREATE TABLE scores (pair INTEGER NOT NULL REFERENCES pairs, criterion INTEGER NOT NULL, given_at INTEGER NOT NULL,
-  points REAL CHECK (points >= 0), PRIMARY KEY (pair, criterion, given_at)) WITHOUT ROWID;
-INSERT INTO scores SELECT pair, criterion, given_at, points FROM former_scores;
-DROP TABLE former_scores;
-ALTER TABLE oral_scores RENAME TO former_scores;
-CREATE TABLE oral_scores (assignment INTEGER NOT NULL REFERENCES assignments,
-  group_id INTEGER NOT NULL REFERENCES groups, criterion INTEGER NOT NULL, given_at INTEGER NOT NULL,
-  points REAL CHECK (points >= 0), PRIMARY KEY (assignment, group_id, criterion, given_at)) WITHOUT ROWID;
-INSERT INTO oral_scores SELECT assignment, group_id, criterion, given_at, points FROM former_scores;
-DROP TABLE former_scores;
-ALTER TABLE instructor_scores RENAME TO former_scores;
-CREATE TABLE instructor_scores (assignment INTEGER NOT NULL REFERENCES assignments,
-  group_id INTEGER NOT NULL REFERENCES groups, stage TEXT NOT NULL CHECK (stage IN ('first', 'final')),
-  criterion INTEGER NOT NULL, given_at INTEGER NOT NULL, points REAL CHECK (points >= 0),
-  PRIMARY KEY (assignment, group_id, stage, criterion, given_at)) WITHOUT ROWID;
-INSERT INTO instructor_scores SELECT assignment, group_id, stage, criterion, given_at, points FROM former_scores;
-DROP TABLE former_scores;
-CREATE TABLE stops (pair INTEGER NOT NULL REFERENCES pairs,
-  way TEXT NOT NULL CHECK (way IN ('to reviewer', 'to author')), version INTEGER NOT NULL REFERENCES versions,
-  made_at INTEGER NOT NULL, PRIMARY KEY (pair, way, version)) WITHOUT ROWID;
 )"};
 
 std::int64_t pragma(Database& database, const char* name) {
@@ -218,8 +216,8 @@ const std::vector<std::string>& course_tables() {
         "files",          "pseudonyms",    "allocations", "pairs",       "versions",          "sendings",
         "scores",         "oral_scores",   "overrides",   "journal",     "former_names",      "arrivals",
         "extensions",     "withdrawals",   "holds",       "pair_wishes", "instructor_scores", "returns",
-        "student_scores", "oral_comments", "results",     "marks",       "refusals",          "seals",
-        "stops"};
+        "student_scores", "oral_comments", "results",     "marks",       "refusals",          "stops",
+        "seals"};
     return tables;
 }
 

@@ -224,22 +224,6 @@ std::vector<std::string> members_at(Course& course, std::int64_t group, Instant 
     return members;
 }
 
-std::map<std::string, std::int64_t> groups_at_submission(Course& course, std::int64_t assignment) {
-    std::map<std::string, std::int64_t> groups;
-    for (Rows rows = course.database().query(
-             "SELECT group_id, max(received_at) FROM standing WHERE assignment = ? AND stage = 'first' GROUP BY "
-             "group_id ORDER BY 2",
-             assignment);
-         rows.next();)
-        for (const std::string& student : members_at(course, rows.integer(0), rows.integer(1)))
-            groups[student] = rows.integer(0);
-    for (Rows rows = course.database().query(
-             "SELECT student, min(group_id) FROM memberships WHERE until IS NULL GROUP BY student");
-         rows.next();)
-        groups.try_emplace(rows.text(0), rows.integer(1));
-    return groups;
-}
-
 std::vector<Student> students_of(Course& course) {
     std::vector<Student> students;
     for (Rows rows = course.database().query(

@@ -1,6 +1,5 @@
 #pragma once
 #include <filesystem>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -30,9 +29,6 @@ Student student_named(Course& course, const std::string& name);
 /// Ids of those who belonged to a group at an instant, sorted. The first group of a student counts from the beginning,
 /// as a roster is often read after the first work came; later changes count from the moment they were entered.
 std::vector<std::string> members_at(Course& course, std::int64_t group, Instant at);
-/// For each student, by id, the group whose work for an assignment is theirs: the one they belonged to when it handed
-/// in its newest first version that is not withdrawn; of those who belong to none, the group they are in now.
-std::map<std::string, std::int64_t> groups_at_submission(Course& course, std::int64_t assignment);
 
 /// All who ever were in the course, with the names and addresses that they had before; `group` is the one each belongs
 /// to now (the first by name where there are several).

@@ -14,8 +14,6 @@ DYNLAB_DESCRIBE(CheckPoints, id, points, earned, graded)
 
 namespace {
 
-constexpr char kWhole[] = "*";
-
 std::string name_of(Course& course, std::int64_t group) {
     Rows rows = course.database().query("SELECT name FROM groups WHERE id = ?", group);
     return rows.next() ? rows.text(0) : "";
@@ -38,7 +36,7 @@ std::vector<GradedVersion> graded_versions(Course& course, const Assignment& ass
              assignment.id);
          rows.next();) {
         GradedVersion version{rows.integer(0), rows.integer(1), rows.integer(2), {}};
-        if (!rows.isColumnNull(3)) version.checks = from_json<std::vector<CheckPoints>>(rows.text(3));
+        if (!rows.isColumnNull(3)) version.checks = checks_in(rows.text(3));
         versions.push_back(std::move(version));
     }
     return versions;
@@ -64,6 +62,10 @@ LabMark mark_of(const Assignment& assignment, const GradedVersion& version, cons
 }
 
 }  // namespace
+
+std::vector<CheckPoints> checks_in(const std::string& json) {
+    return from_json<std::vector<CheckPoints>>(json);
+}
 
 std::vector<GivenMark> marks_ever_given(Course& course, const Assignment& assignment) {
     std::vector<GivenMark> marks;
@@ -97,7 +99,7 @@ bool give_mark(Course& course, const Assignment& assignment, const GivenMark& ma
         "INSERT INTO marks (assignment, group_id, student, item, points, reason, made_at) VALUES (?, ?, ?, ?, ?, ?, ?)",
         assignment.id, mark.group, student, mark.item, mark.points, mark.reason, now);
     const std::string who = mark.student.empty() ? name_of(course, mark.group) : mark.student,
-                      what = mark.item == kWhole ? "the whole" : mark.item,
+                      what = mark.item == kWholeItem ? "the whole" : mark.item,
                       why = mark.reason.empty() ? "" : "; reason: " + mark.reason;
     course.note(mark.points
                     ? fmt::format("{}: {} has {} points for {}{}", assignment.name, who, *mark.points, what, why)
@@ -141,7 +143,7 @@ std::vector<LabMark> lab_marks(Course& course, const Assignment& assignment, con
         if (!fresh && (assignment.keep == "newest" || better)) known->second = mark;
     }
     for (const auto& [group, items] : given) {
-        const auto whole = items.find(kWhole);
+        const auto whole = items.find(kWholeItem);
         if (whole == items.end()) continue;
         LabMark& mark = marks[group];
         mark.group = group, mark.earned = whole->second.points, mark.penalty = 0;

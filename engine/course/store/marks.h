@@ -7,6 +7,9 @@
 
 namespace dynlab::inline course {
 
+/// The item of a mark that is of the whole submission.
+inline constexpr char kWholeItem[] = "*";
+
 /// Points that the instructor gave by hand, instead of those of a check, or of all of them.
 struct GivenMark {
     std::int64_t group = 0;
@@ -31,6 +34,9 @@ struct CheckPoints {
     double points = 0, earned = 0;
     bool graded = true;
 };
+/// Of the text in which the store has them.
+std::vector<CheckPoints> checks_in(const std::string& json);
+
 struct VersionResult {
     std::int64_t version = 0;  ///< its id
     std::vector<CheckPoints> checks;

@@ -19,9 +19,11 @@ std::map<std::int64_t, std::map<std::string, HandedInParts>> newest_versions(Cou
                                                                              const Assignment& assignment) {
     std::map<std::int64_t, std::map<std::string, HandedInParts>> all;
     for (Rows rows = course.database().query(
-             "SELECT group_id, stage, part, number, late, received_at, findings FROM standing WHERE assignment = ? AND "
-             "stage <> 'review' ORDER BY number",
-             assignment.id);
+             "SELECT group_id, stage, CASE ?2 WHEN 'lab' THEN replace(part, 'pack', 'script') ELSE part END, number, "
+             "late, received_at, findings FROM standing WHERE assignment = ?1 AND stage <> 'review' ORDER BY CASE ?2 "
+             "WHEN "
+             "'lab' THEN received_at ELSE number END, id",
+             assignment.id, assignment.kind);
          rows.next();) {
         HandedIn& newest = all[rows.integer(0)][rows.text(1)][rows.text(2)];
         const Inspection seen = inspection_from(rows.text(6));
@@ -30,6 +32,32 @@ std::map<std::int64_t, std::map<std::string, HandedInParts>> newest_versions(Cou
                   seen.rules_broken, seen.trouble};
     }
     return all;
+}
+
+std::map<std::string, std::int64_t> author_groups(Course& course, const Assignment& assignment) {
+    std::map<std::int64_t, Instant> submitted;
+    for (Rows rows = course.database().query(
+             "SELECT group_id, min(received_at) FROM standing WHERE assignment = ? AND stage = 'first' GROUP BY "
+             "group_id",
+             assignment.id);
+         rows.next();)
+        submitted[rows.integer(0)] = rows.integer(1);
+    std::map<std::string, std::int64_t> authors, present;
+    // The group of several that counts comes last: a present one, the first by name.
+    for (Rows rows = course.database().query(
+             "SELECT m.student, m.group_id, m.since, m.until, m.since = min(m.since) OVER (PARTITION BY m.student) "
+             "FROM memberships m JOIN groups g ON g.id = m.group_id ORDER BY m.until IS NULL, g.name DESC, m.since");
+         rows.next();) {
+        const std::string student = rows.text(0);
+        const std::int64_t group = rows.integer(1);
+        const std::optional<Instant> until = rows.optional_integer(3);
+        if (!until) present[student] = group;
+        const auto at = submitted.find(group);
+        if (at == submitted.end() || (until && *until <= at->second)) continue;
+        if (rows.integer(2) <= at->second || rows.integer(4) != 0) authors[student] = group;
+    }
+    authors.merge(present);
+    return authors;
 }
 
 std::optional<StandingFile> newest_file(Course& course, const Assignment& assignment, std::int64_t group,

@@ -16,11 +16,16 @@ struct HandedIn {
     std::string trouble;  ///< why it cannot be read; else empty
     bool is_late() const { return late > 0 && in_time == 0; }
 };
-using HandedInParts = std::map<std::string, HandedIn>;  ///< by part: report, slides, script, pack
+using HandedInParts = std::map<std::string, HandedIn>;  ///< by part: report, slides, script, pack; of a lab a pack is a
+                                                        ///< script
 
 /// By group and stage ("first", "final").
 std::map<std::int64_t, std::map<std::string, HandedInParts>> newest_versions(Course& course,
                                                                              const Assignment& assignment);
+
+/// The group whose work of an assignment counts for each student (by id): the group that the student belonged to when
+/// it first submitted, else the student's group now. The first membership of a student counts from the beginning.
+std::map<std::string, std::int64_t> author_groups(Course& course, const Assignment& assignment);
 
 /// A file of a version that is not withdrawn.
 struct StandingFile {

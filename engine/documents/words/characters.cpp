@@ -54,11 +54,8 @@ std::optional<Message> PrintableCharacters::complaint(std::string_view text) con
     while (!text.empty()) {
         const std::optional<char32_t> taken = take_character(text);
         if (!taken) return Message("this is not UTF-8 text; save the file with the encoding UTF-8");
-        const char32_t c = *taken;
-        if (can_print(c)) continue;
-        const std::string code = code_of(c);
-        if (is_control(c)) return Message("the control character {} cannot be printed; remove it", code);
-        return Message("the character \"{}\" ({}) cannot be printed by LaTeX", utf8_of(c), code);
+        if (is_control(*taken))
+            return Message("the control character {} cannot be printed; remove it", code_of(*taken));
     }
     return std::nullopt;
 }

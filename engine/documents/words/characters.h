@@ -15,7 +15,8 @@ class PrintableCharacters {
     static PrintableCharacters of_latex(const std::string& declarations);
     static PrintableCharacters of_html();
 
-    /// A sentence about the first character of `text` that cannot be printed, naming it; nothing when all can.
+    /// A sentence about the first thing in `text` that no document can have: bytes that are not UTF-8, a control
+    /// character. Nothing when there is none.
     std::optional<Message> complaint(std::string_view text) const;
 
     bool can_print(char32_t character) const;

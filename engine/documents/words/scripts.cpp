@@ -59,6 +59,13 @@ std::size_t length_of_phrase(std::string_view text) {
     return length;
 }
 
+/// Whether the line around the first byte of `rest` is a row of a table.
+bool is_in_row(std::string_view text, std::string_view rest) {
+    const std::size_t at = text.size() - rest.size(), before = text.rfind('\n', at);
+    const std::size_t begin = before == std::string_view::npos ? 0 : before;
+    return text.substr(begin, text.find('\n', at) - begin).find(" & ") != std::string_view::npos;
+}
+
 }  // namespace
 
 std::optional<char32_t> first_beyond(const PrintableCharacters& pdflatex, std::string_view text) {
@@ -90,6 +97,7 @@ std::set<std::string> scripts_of(const PrintableCharacters& pdflatex, std::strin
 std::string with_direction_marks(std::string_view latex) {
     constexpr std::string_view kLink = "\\href{";
     const std::string mark = utf8_of(kLeftToRightMark);
+    const std::string_view whole = latex;
     std::string result;
     while (!latex.empty()) {
         if (latex.starts_with(kLink)) {
@@ -101,7 +109,8 @@ std::string with_direction_marks(std::string_view latex) {
         std::string_view rest = latex;
         if (is_right_to_left(next_character(rest))) {
             const std::size_t length = length_of_phrase(latex);
-            result += mark + std::string(latex.substr(0, length)) + mark;
+            const std::string phrase = mark + std::string(latex.substr(0, length)) + mark;
+            result += is_in_row(whole, latex) ? "\\mbox{" + phrase + "}" : phrase;
             latex.remove_prefix(length);
         } else {
             result += latex.substr(0, latex.size() - rest.size());

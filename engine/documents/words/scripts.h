@@ -19,7 +19,7 @@ std::optional<char32_t> first_beyond(const PrintableCharacters& pdflatex, std::s
 std::set<std::string> scripts_of(const PrintableCharacters& pdflatex, std::string_view text);
 
 /// LaTeX text with U+200E around each right-to-left phrase, so that the numbers and signs beside a name keep their
-/// places. Targets of links stay as they are.
+/// places, and in a box in rows of tables, so that the cell keeps its alignment. Targets of links stay as they are.
 std::string with_direction_marks(std::string_view latex);
 
 /// The text with "?" for each of these letters; accents are left out.

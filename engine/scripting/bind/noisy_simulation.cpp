@@ -230,13 +230,8 @@ constexpr FunctionEntry kNoisySimulationFunctions[] = {
     {"simsd", "simulation", "simsd(G, u, Ts, {options}) -> fig, table; simsd(G, data, {...})",
      "how far the uncertainty of an estimate spreads its simulated output", guarded<simulate_spread>, kSpreadTables,
      kSpreadArguments},
-    {"bode_values",
-     "simulation",
-     "bode_values(G, w) -> mag, ph, w, sdmag, sdph",
-     "the numbers of bode with their standard deviations",
-     guarded<frequency_values>,
-     {},
-     kValuesArguments},
+    {"bode_values", "simulation", "bode_values(G, w) -> mag, ph, w, sdmag, sdph",
+     "the numbers of bode with their standard deviations", guarded<frequency_values>, kNoOptions, kValuesArguments},
 };
 
 }  // namespace

@@ -27,6 +27,7 @@ TEST(language, of_a_script_is_that_of_lint_and_its_errors) {
     EXPECT_THAT(command_line({"lint", english}).output, HasSubstr("there is no function or variable 'prinnt'"));
     const std::string broken = script(folder, "broken.lua", "-- ---\n-- titel: T\n-- language: fr\n-- ---\n");
     EXPECT_THAT(command_line({"run", broken}).error_output, HasSubstr("la clé «"));
+    EXPECT_THAT(command_line({"lint", broken}).output, HasSubstr("broken.lua:2:1: en-tête du script"));
 }
 
 TEST(language, of_the_option_is_that_of_errors) {

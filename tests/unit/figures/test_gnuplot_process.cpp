@@ -37,8 +37,8 @@ TEST(gnuplot_process, of_a_killed_program_ends_with_it) {
         write_all(ready.write_end.get(), "x", 1);
         for (;;) ::pause();
     }
-    char told = 0;
-    ASSERT_EQ(::read(ready.read_end.get(), &told, 1), 1);
+    char said = 0;
+    ASSERT_EQ(::read(ready.read_end.get(), &said, 1), 1);
     const pid_t gnuplot = child_of(program);
     ASSERT_GT(gnuplot, 0);
     const FileDescriptor watched(static_cast<int>(::syscall(SYS_pidfd_open, gnuplot, 0)));

@@ -68,8 +68,8 @@ TEST_F(cache, unfinished_entries_of_killed_processes_are_removed_by_the_next_one
             write_all(ready.write_end.get(), "x", 1);
             for (;;) ::pause();
         }
-        char told = 0;
-        EXPECT_EQ(::read(ready.read_end.get(), &told, 1), 1);
+        char said = 0;
+        EXPECT_EQ(::read(ready.read_end.get(), &said, 1), 1);
         return process;
     };
     const auto kill_it = [](pid_t process) {

@@ -1,0 +1,168 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iostream>
+#include <thread>
+
+#include "cli/course/course_commands.h"
+#include "cli/course/grading_options.h"
+#include "cli/course/grading_report.h"
+#include "course/office/course_grading.h"
+#include "course/review/review_marks.h"
+#include "course/store/exceptions.h"
+#include "course/store/groups.h"
+#include "course/store/marks.h"
+#include "data_io/text_table.h"
+#include "numerics/error.h"
+#include "platform/program_lookup.h"
+#include "platform/terminal/terminal_text.h"
+
+namespace dynlab::inline cli {
+namespace {
+
+struct GradeWords {
+    std::string assignment, isolation = "full";
+    std::vector<std::string> only;
+    int jobs = 0, timeout = 60;
+    bool regrade = false, no_pdf = false, force = false;
+};
+
+int grade(const CourseArguments& where, const GradeWords& words) {
+    Course course(where.folder);
+    const Assignment assignment = assignment_named(course, words.assignment);
+    CourseGradingRequest request;
+    request.setup.isolation = words.isolation == "full" ? Isolation::kFull : Isolation::kProcess;
+    request.setup.time.processor = std::chrono::seconds(words.timeout);
+    request.setup.program = running_program();
+    request.setup.jobs =
+        words.jobs > 0 ? words.jobs : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    request.only = words.only;
+    request.regrade = words.regrade, request.pdf = !words.no_pdf, request.above_maximum = words.force;
+    const GradingOutcome outcome = grade_assignment(course, assignment, request);
+    show_complaints(outcome);
+    return show_grading(outcome, request.setup.isolation, results_folder(course, assignment), request.pdf);
+}
+
+struct MarkWords {
+    std::string assignment, who, reason, at;
+    std::vector<std::string> mark;  ///< the item, which may miss, and the points
+    bool alone = false, force = false;
+};
+
+/// The most that the checks of a lab give, by check and as a whole; nothing before it was graded.
+std::optional<double> most_of(Course& course, const Assignment& a, const std::string& item) {
+    std::optional<double> most;
+    for (Rows rows = course.database().query(
+             "SELECT r.checks, r.possible FROM results r JOIN versions v ON v.id = r.version WHERE v.assignment = ? "
+             "ORDER BY r.id DESC LIMIT 1",
+             a.id);
+         rows.next();) {
+        if (item == kWholeItem) return rows.number(1);
+        for (const CheckPoints& check : checks_in(rows.text(0)))
+            if (check.id == item) most = check.points;
+        if (!most) throw InvalidArgument("{} has no check \"{}\"; * is the whole submission", a.name, item);
+    }
+    return most;
+}
+
+void mark_lab(Course& course, const Assignment& a, const GivenMark& mark, const MarkWords& words) {
+    const std::optional<double> most = most_of(course, a, mark.item);
+    if (most && *mark.points > *most && !words.force)
+        throw InvalidArgument("{} points are more than the {} of \"{}\"; correct it, or give --force", *mark.points,
+                              *most, mark.item);
+    Transaction transaction(course.database());
+    give_mark(course, a, mark, time_of(course, words.at));
+    transaction.commit();
+    std::cout << terminal_text(fmt::format("{}: {} has {} points for {}; dynlab course grade {} writes the feedback.\n",
+                                           a.name, words.who, *mark.points, mark.item, a.name));
+}
+
+void mark_percent(Course& course, const Assignment& a, const GivenMark& mark, const MarkWords& words) {
+    const Instant now = time_of(course, words.at);
+    const std::string group = group_named(course, words.who).name;
+    if (*mark.points > 100 && !words.force)
+        throw InvalidArgument("{} percent are more than 100; correct it, or give --force", *mark.points);
+    if (mark.student.empty()) {
+        override_mark(course, a, group, mark.item, *mark.points, words.reason, now);
+    } else {
+        refuse_without_reason(words.reason);
+        Transaction transaction(course.database());
+        give_mark(course, a, mark, now);
+        transaction.commit();
+    }
+    std::cout << terminal_text(fmt::format("{}: the mark of {} for its {} is {} percent.\n", a.name,
+                                           mark.student.empty() ? group : mark.student, mark.item, *mark.points));
+}
+
+int set_mark(const CourseArguments& where, const MarkWords& words) {
+    Course course(where.folder);
+    const Assignment a = assignment_named(course, words.assignment);
+    GivenMark mark;
+    mark.group = group_named(course, words.who).id;
+    if (words.alone) mark.student = student_named(course, words.who).id;
+    mark.item = words.mark.size() > 1 ? words.mark.front() : a.is_lab() ? kWholeItem : "work";
+    mark.points = number_in_cell(words.mark.back());
+    mark.reason = words.reason;
+    if (!mark.points || *mark.points < 0)
+        throw InvalidArgument("a mark is a number from 0, but \"{}\" was given", words.mark.back());
+    if (!a.is_lab() && mark.item != "work" && mark.item != "reviews")
+        throw InvalidArgument("{} has marks of work and reviews, but \"{}\" was given", a.name, mark.item);
+    if (a.is_lab())
+        mark_lab(course, a, mark, words);
+    else
+        mark_percent(course, a, mark, words);
+    return kDone;
+}
+
+void add_mark(CLI::App& course, CourseArguments& where, Action& action) {
+    auto words = std::make_shared<MarkWords>();
+    CLI::App* command = course.add_subcommand("mark", "Set a mark yourself; it always wins");
+    command->add_option("ASSIGNMENT", words->assignment)->required();
+    command->add_option("WHO", words->who, "A group, or a student by name or id")->required();
+    command
+        ->add_option("MARK", words->mark,
+                     "Of a lab [CHECK] POINTS, without a check of the whole; of others [work|reviews] PERCENT")
+        ->required()
+        ->expected(1, 2);
+    command->add_option("--reason", words->reason, "For the history; the student reads it")->required();
+    command->add_flag("--alone", words->alone, "Of this student only, not of the group");
+    command->add_flag("--force", words->force, "Although it is more than the maximum");
+    add_time_option(*command, words->at);
+    command->footer(
+        "dynlab course withdraw takes a mark back. Marks of a lab may also be written into marks.csv beside its "
+        "results.\n"
+        "Examples:\n"
+        "  dynlab course mark lab4 \"Wei Li\" q3 2 --reason \"right idea\"\n"
+        "  dynlab course mark lab4 group-08 14 --reason \"shown at the desk\"\n"
+        "  dynlab course mark crane group-09 work 60 --reason \"submitted on paper\"");
+    command->callback([&where, words, &action] { action = [&where, words] { return set_mark(where, *words); }; });
+}
+
+}  // namespace
+
+void add_grade_commands(CLI::App& course, CourseArguments& where, Action& action) {
+    auto words = std::make_shared<GradeWords>();
+    CLI::App* command = course.add_subcommand("grade", "Grade the submissions of a lab: marks, feedback, summary");
+    command->add_option("ASSIGNMENT", words->assignment, "Needed when there are several");
+    command->add_option("--only", words->only, "A group or student; may be repeated")->type_name("NAME");
+    command->add_flag("--regrade", words->regrade, "Grade again what has a result; your own marks stay");
+    command->add_option("--jobs", words->jobs, "Number of parallel jobs. Default: number of cores.")
+        ->type_name("N")
+        ->check(CLI::Range(1, 256));
+    add_timeout_option(*command, words->timeout);
+    command->add_option("--isolation", words->isolation, "full: file system, network and processes of its own")
+        ->type_name("full|process")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"full", "process"}));
+    command->add_flag("--force", words->force, "Take marks that are above the points of their check");
+    command->add_flag("--no-pdf", words->no_pdf, "Feedback and summary as Markdown only");
+    command->footer(
+        "The assignment says which lesson, checks and secret (dynlab course assignment). Results are in "
+        "marks/ASSIGNMENT\n"
+        "of the course's folder: gradebook.csv, summary.pdf, feedback, and marks.csv for your own marks.\n"
+        "Example:  dynlab course grade lab4");
+    command->callback([&where, words, &action] { action = [&where, words] { return grade(where, *words); }; });
+    add_mark(course, where, action);
+}
+
+}  // namespace dynlab::inline cli

@@ -1,0 +1,76 @@
+#include "cli/course_aliases.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "base/reader.h"
+
+namespace dynlab::inline cli {
+namespace {
+
+using Words = std::vector<std::string>;
+
+struct Alias {
+    Words before, now;
+};
+
+/// The one place where old names are known.
+const std::vector<Alias>& aliases() {
+    static const std::vector<Alias> all = {
+        {{"roster", "import"}, {"import"}},
+        {{"roster", "drop"}, {"drop"}},
+        {{"roster", "return"}, {"drop", "--end"}},
+        {{"assignment", "add"}, {"assignment"}},
+        {{"assignment", "change"}, {"assignment"}},
+        {{"assignment", "remove"}, {"assignment", "--remove"}},
+        {{"receive"}, {"submit"}},
+        {{"review", "receive"}, {"review", "collect"}},
+        {{"final", "receive"}, {"submit", "--stage", "final"}},
+        {{"final", "changes"}, {"changes"}},
+        {{"peer", "assign"}, {"review", "assign"}},
+        {{"peer", "send"}, {"review", "send"}},
+        {{"peer", "show"}, {"review", "pairs"}},
+        {{"peer", "set"}, {"review", "pairs", "--set"}},
+        {{"peer", "forbid"}, {"review", "pairs", "--forbid"}},
+        {{"peer", "free"}, {"review", "pairs", "--free"}},
+        {{"release"}, {"review", "release"}},
+        {{"return"}, {"deliver"}},
+        {{"time"}, {"set-received"}},
+        {{"hold"}, {"withhold"}},
+        {{"override"}, {"mark"}},
+        {{"oral", "sheet"}, {"scores", "--sheet"}},
+        {{"key"}, {"verify", "--key"}},
+    };
+    return all;
+}
+
+/// Behind `course` and its option --course DIR; the end where the words are of another command.
+std::size_t course_command(const Words& words) {
+    const auto skip_folder = [&words](std::size_t at) {
+        while (at < words.size() && words[at].starts_with("--course")) at += words[at] == "--course" ? 2 : 1;
+        return std::min(at, words.size());
+    };
+    const std::size_t at = skip_folder(0);
+    return at < words.size() && words[at] == "course" ? skip_folder(at + 1) : words.size();
+}
+
+}  // namespace
+
+std::vector<std::string> with_new_names(std::vector<std::string> words, std::string& note) {
+    const auto begin = words.begin() + static_cast<std::ptrdiff_t>(course_command(words));
+    for (const auto& [before, now] : aliases()) {
+        if (static_cast<std::size_t>(words.end() - begin) < before.size() ||
+            !std::equal(before.begin(), before.end(), begin))
+            continue;
+        note = message_text(Message("note: dynlab course {} is now dynlab course {}; the old name works until 2027",
+                                    fmt::format("{}", fmt::join(before, " ")), fmt::format("{}", fmt::join(now, " "))));
+        const auto rest = words.erase(begin, begin + static_cast<std::ptrdiff_t>(before.size()));
+        words.insert(rest, now.begin(), now.end());
+        break;
+    }
+    return words;
+}
+
+}  // namespace dynlab::inline cli

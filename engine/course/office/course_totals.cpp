@@ -1,0 +1,114 @@
+#include "course/office/course_totals.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "course/review/review_marks.h"
+#include "course/store/exceptions.h"
+#include "course/store/groups.h"
+#include "course/store/marks.h"
+#include "course/store/newest_versions.h"
+#include "data_io/text_table.h"
+
+namespace dynlab::inline course {
+namespace {
+
+/// The marks of one assignment, as far as there are some.
+class AssignmentMarks {
+  public:
+    AssignmentMarks(Course& course, const Assignment& assignment, Instant now) : course_(course), a_(assignment) {
+        for (const GivenMark& mark : marks_in_force(course, assignment))
+            if (!mark.student.empty()) own_[mark.student].push_back(mark);
+        if (a_.is_lab())
+            labs_ = lab_marks(course, assignment);
+        else
+            marks_ = course_marks(course, assignment, now);
+    }
+
+    std::optional<double> percent(std::int64_t group, const std::string& student) const {
+        const auto own = own_.find(student);
+        if (a_.is_lab()) return lab_percent(own == own_.end() ? labs_ : lab_marks(course_, a_, student), group);
+        const auto mark = std::ranges::find(marks_.groups, group, &GroupMark::group);
+        std::optional<double> work, reviews;
+        if (mark != marks_.groups.end()) work = mark->work_mark_of(student), reviews = mark->reviews_mark();
+        if (own != own_.end())
+            for (const GivenMark& given : own->second) (given.item == "reviews" ? reviews : work) = given.points;
+        if (!work || !reviews || !a_.is_report()) return work;
+        const double share = a_.reviews_weight / 100;
+        return (1 - share) * *work + share * *reviews;
+    }
+
+  private:
+    static std::optional<double> lab_percent(const std::vector<LabMark>& labs, std::int64_t group) {
+        const auto mark = std::ranges::find(labs, group, &LabMark::group);
+        return mark == labs.end() ? std::nullopt : mark->percent();
+    }
+
+    Course& course_;
+    const Assignment& a_;
+    std::map<std::string, std::vector<GivenMark>> own_;  ///< by student
+    std::vector<LabMark> labs_;
+    Marks marks_;
+};
+
+std::string mark_text(const std::optional<double>& percent) {
+    return percent ? fmt::format("{:.4g}", *percent) : "";
+}
+
+}  // namespace
+
+std::map<std::string, AssignmentMark> marks_of_students(Course& course, const Assignment& a, Instant now) {
+    const AssignmentMarks known(course, a, now);
+    auto versions = newest_versions(course, a);
+    std::map<std::string, AssignmentMark> marks;
+    for (const auto& [student, group] : author_groups(course, a)) {
+        AssignmentMark& mark = marks[student];
+        mark.percent = known.percent(group, student);
+        const bool submitted = !versions[group]["first"].empty();
+        if (!submitted && now > due_for(course, a, group, "first") + a.grace && !mark.percent.has_value())
+            mark.missing = true, mark.percent = 0;
+        mark.open = submitted && !mark.percent;
+    }
+    return marks;
+}
+
+std::optional<double> weighted_total(const std::vector<Assignment>& assignments,
+                                     const std::vector<AssignmentMark>& marks) {
+    double sum = 0, weight = 0;
+    for (std::size_t i = 0; i < assignments.size(); ++i)
+        if (marks[i].percent) sum += assignments[i].weight * *marks[i].percent, weight += assignments[i].weight;
+    if (weight <= 0) return {};
+    return sum / weight;
+}
+
+std::string totals_csv(Course& course, Instant now) {
+    const std::vector<Assignment> assignments = assignments_of(course);
+    TextTable table;
+    table.names = {"id", "name", "mail", "moodle", "canvas", "group"};
+    std::vector<std::map<std::string, AssignmentMark>> marks;
+    for (const Assignment& a : assignments) {
+        table.names.push_back(fmt::format("{} percent (weight {:g})", a.name, a.weight));
+        marks.push_back(marks_of_students(course, a, now));
+    }
+    table.names.insert(table.names.end(), {"total percent", "missing", "not marked yet"});
+    for (const Student& student : students_of(course)) {
+        std::vector<std::string> row = {student.id,     student.name,   student.mail,
+                                        student.moodle, student.canvas, student.group};
+        std::vector<AssignmentMark> own;
+        std::vector<std::string> missing, open;
+        for (std::size_t i = 0; i < assignments.size(); ++i) {
+            own.push_back(marks[i][student.id]);
+            row.push_back(mark_text(own.back().percent));
+            if (own.back().missing) missing.push_back(assignments[i].name);
+            if (own.back().open) open.push_back(assignments[i].name);
+        }
+        row.insert(row.end(), {mark_text(weighted_total(assignments, own)),
+                               fmt::format("{}", fmt::join(missing, ", ")), fmt::format("{}", fmt::join(open, ", "))});
+        table.rows.push_back(std::move(row));
+    }
+    return csv_text(table);
+}
+
+}  // namespace dynlab::inline course

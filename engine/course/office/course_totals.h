@@ -1,0 +1,31 @@
+#pragma once
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "course/store/assignments.h"
+
+namespace dynlab::inline course {
+
+/// What a student has for one assignment.
+struct AssignmentMark {
+    std::optional<double> percent;  ///< nothing: not marked yet, or not due
+    bool missing = false;           ///< nothing was submitted, though it was due: 0 percent
+    bool open = false;              ///< submitted and not marked yet
+};
+
+/// By student, by id. The work of the group that the student belonged to when it submitted counts; marks of single
+/// students go before those of their groups. A report's percent has that of its reviews in it, by reviews_weight.
+std::map<std::string, AssignmentMark> marks_of_students(Course& course, const Assignment& assignment, Instant now);
+
+/// The mean of the percent of assignments by their weights; nothing where none counts. `marks` in the order of
+/// `assignments`.
+std::optional<double> weighted_total(const std::vector<Assignment>& assignments,
+                                     const std::vector<AssignmentMark>& marks);
+
+/// A row a student: identifiers, group, the percent of each assignment, the total, and what is not marked yet. CSV with
+/// formulas neutralised.
+std::string totals_csv(Course& course, Instant now);
+
+}  // namespace dynlab::inline course

@@ -1,0 +1,104 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "course/course_bench.h"
+#include "course/grading_bench.h"
+#include "course/store/marks.h"
+
+namespace dynlab::test {
+namespace test_course_grading {
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// A course with a lab on a small lesson: x is checked, 2 points; q is marked by hand, 4 points.
+class course_grading : public ::testing::Test {
+  protected:
+    course_grading()
+        : bench_("--   x: number\n",
+                 "check{id = 'x', points = 2, about = 'The number', test = function(a) return near(a.x, 42) end}\n"
+                 "check{id = 'q', points = 4, about = 'The reason', by_hand = true, rubric = 'two reasons'}\n",
+                 kSolution) {
+        work().write("roster.csv",
+                     "id,name,group,language\n221,Kim Min-jun,group-01,\n222,Élise Petit,group-01,\n"
+                     "223,Max Mustermann,group-02,fr\n");
+        done({"init", "k"});
+        done({"import", "roster.csv"});
+        done({"assignment", "lab4", "--kind", "lab", "--lesson", "99", "--first", "2026-03-01 12:00", "--costs",
+              "late-day:10"});
+    }
+    const Workbench& work() { return bench_.bench(); }
+    ChildResult course(std::vector<std::string> words) {
+        if (words.front() != "init") words.insert(words.begin(), {"--course", "k"});
+        words.insert(words.begin(), "course");
+        return work().dynlab(words);
+    }
+    std::string done(std::vector<std::string> words) {
+        const ChildResult result = course(std::move(words));
+        EXPECT_EQ(result.exit_code, 0) << result.error_output << result.output;
+        return result.output;
+    }
+    void submit(const std::string& who, const std::string& script, const std::string& at) {
+        work().write("in/" + who + "/analysis.lua", script);
+        done({"submit", "in/" + who + "/analysis.lua", "--from", who, "--at", at, "--isolation", bench_.level()});
+    }
+    ChildResult grade(std::vector<std::string> more = {}) {
+        more.insert(more.begin(), {"grade", "lab4", "--no-pdf", "--isolation", bench_.level()});
+        return course(std::move(more));
+    }
+    std::string book() { return work().read("k/marks/lab4/gradebook.csv"); }
+
+    static constexpr const char* kSolution = "answer('x', 42)\n";
+    GradingBench bench_;
+};
+
+// oracle: the marks by hand, the points of the check, and 10 percent a day
+TEST_F(course_grading, lab_is_graded_marked_extended_and_totalled) {
+    submit("Kim Min-jun", kSolution, "2026-02-27 12:00");
+    submit("Group 2", kSolution, "2026-03-01 13:00");
+    EXPECT_EQ(grade().exit_code, 1) << "q is not marked yet";
+    EXPECT_THAT(work().read("k/marks/lab4/marks.csv"),
+                AllOf(HasSubstr("group-01,q,,,4,The reason,two reasons"), HasSubstr("group-02,q,,")));
+    EXPECT_THAT(done({"status", "lab4", "--at", "2026-03-02 12:00"}), HasSubstr("Next: dynlab course grade lab4"));
+    // One mark by command, one in the file; each reaches the other's place.
+    done({"mark", "lab4", "Élise Petit", "q", "3", "--reason", "one reason"});
+    std::string rows = work().read("k/marks/lab4/marks.csv");
+    rows.replace(rows.find("group-02,q,,"), 12, "group-02,q,4,");
+    work().write("k/marks/lab4/marks.csv", rows);
+    EXPECT_EQ(grade().exit_code, 0);
+    EXPECT_THAT(work().read("k/marks/lab4/marks.csv"), HasSubstr("group-01,q,3,one reason"));
+    EXPECT_THAT(book(), AllOf(HasSubstr("221,Kim Min-jun,group-01,graded,5,6,0,"),
+                              HasSubstr("222,Élise Petit,group-01,graded,5,6,0,"),
+                              HasSubstr("223,Max Mustermann,group-02,graded,5.4,6,0.6,")));
+    EXPECT_THAT(work().read("k/marks/lab4/results/group-01/feedback.md"), HasSubstr("one reason"));
+    EXPECT_THAT(done({"who", "223", "--at", "2026-03-02 12:00"}),
+                AllOf(HasSubstr("late by 1 h"), HasSubstr("90 percent"), HasSubstr("group-02 has 4 points for q")));
+    // An extension holds at once in the course, and in the feedback with the next run.
+    done({"extend", "lab4", "Max Mustermann", "2026-03-02 12:00", "--reason", "illness"});
+    EXPECT_THAT(done({"export", "--at", "2026-03-05 12:00"}),
+                AllOf(HasSubstr("lab4 percent (weight 1)"), HasSubstr("group-02,100,100,,"),
+                      HasSubstr("group-01,83.33,83.33,,")));
+    EXPECT_EQ(grade().exit_code, 0);
+    EXPECT_THAT(book(), HasSubstr("223,Max Mustermann,group-02,graded,6,6,0,"));
+}
+
+// oracle: the maximum of the check; what was taken back is in force no more
+TEST_F(course_grading, marks_above_the_maximum_are_refused_and_marks_are_taken_back) {
+    submit("group-01", "answer('x', 1)\n", "2026-02-27 12:00");
+    grade();
+    const ChildResult refused = course({"mark", "lab4", "221", "q", "5", "--reason", "slip"});
+    EXPECT_EQ(refused.exit_code, 1);
+    EXPECT_THAT(refused.error_output, HasSubstr("5 points are more than the 4 of \"q\""));
+    EXPECT_THAT(course({"mark", "lab4", "221", "nosuch", "1", "--reason", "slip"}).error_output,
+                HasSubstr("has no check \"nosuch\""));
+    done({"mark", "lab4", "221", "5", "--reason", "shown at the desk"});
+    EXPECT_EQ(grade().exit_code, 0);
+    EXPECT_THAT(book(), HasSubstr("221,Kim Min-jun,group-01,graded,5,6,0,"));
+    done({"withdraw", "lab4", "group-01", "--mark", "*", "--reason", "a mistake"});
+    grade();
+    EXPECT_THAT(book(), AllOf(HasSubstr("221,Kim Min-jun,group-01,partly ungraded,,"), Not(HasSubstr("graded,5"))));
+    EXPECT_THAT(course({"grade", "nosuch"}).error_output, HasSubstr("there is no assignment \"nosuch\""));
+}
+
+}  // namespace test_course_grading
+}  // namespace dynlab::test

@@ -1,0 +1,44 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cli/course_aliases.h"
+
+namespace dynlab::test {
+namespace test_course_aliases {
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+using Words = std::vector<std::string>;
+
+Words renamed(const Words& words) {
+    std::string note;
+    Words now = with_new_names(words, note);
+    EXPECT_EQ(note.empty(), now == words) << note;
+    return now;
+}
+
+// oracle: the table of old and new names
+TEST(course_aliases, old_names_become_new_ones_with_a_note) {
+    EXPECT_THAT(renamed({"course", "peer", "send", "crane"}), ElementsAre("course", "review", "send", "crane"));
+    EXPECT_THAT(renamed({"course", "--course", "k", "receive", "a.zip"}),
+                ElementsAre("course", "--course", "k", "submit", "a.zip"));
+    EXPECT_THAT(renamed({"--course", "x", "course", "--course=k", "final", "receive", "a.pdf"}),
+                ElementsAre("--course", "x", "course", "--course=k", "submit", "--stage", "final", "a.pdf"));
+    EXPECT_THAT(renamed({"course", "assignment", "remove", "carne"}),
+                ElementsAre("course", "assignment", "--remove", "carne"));
+    EXPECT_THAT(renamed({"course", "roster", "return", "g1"}), ElementsAre("course", "drop", "--end", "g1"));
+    std::string note;
+    with_new_names({"course", "override", "crane", "g1", "work", "60"}, note);
+    EXPECT_THAT(note, HasSubstr("dynlab course override is now dynlab course mark"));
+}
+
+// oracle: only the command itself is a name, no file and no group of the same name
+TEST(course_aliases, other_words_stay) {
+    for (const Words& words : {Words{"course", "submit", "receive"}, Words{"course", "extend", "time", "return"},
+                               Words{"grade", "receive"}, Words{"course"}, Words{"course", "peer"}, Words{},
+                               Words{"course", "review", "assign", "crane"}, Words{"run", "course", "release"}})
+        EXPECT_EQ(renamed(words), words);
+}
+
+}  // namespace test_course_aliases
+}  // namespace dynlab::test
