@@ -112,7 +112,7 @@ std::vector<std::string> page_lines(const PdfPage& page) {
     return lines;
 }
 
-std::string joined(const std::vector<std::string>& lines) {
+std::string text_of_lines(const std::vector<std::string>& lines) {
     std::string text;
     for (const std::string& line : lines) text += line + "\n";
     return text;
@@ -180,7 +180,7 @@ class AnonymitySearch {
         for (const PdfPage& page : layout.pages) {
             const std::vector<std::string> lines = page_lines(page);
             ++number;
-            search({TextPlace::kText, number, "", joined(lines)}, TextManner::kProse);
+            search({TextPlace::kText, number, "", text_of_lines(lines)}, TextManner::kProse);
             if (static_cast<std::size_t>(number) <= in_content_order.size())
                 search({TextPlace::kText, number, "", in_content_order[static_cast<std::size_t>(number) - 1]},
                        TextManner::kProse);

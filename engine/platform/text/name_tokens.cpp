@@ -13,10 +13,10 @@ bool is_unseen(char32_t c) {
            c == 0x3000;
 }
 
-constexpr char32_t kSoftHyphen = 0xAD;
+constexpr char32_t kHyphenation = 0xAD;
 
 bool is_hyphen(char32_t c) {
-    return c == '-' || c == 0x2010 || c == 0x2011 || c == kSoftHyphen;
+    return c == '-' || c == 0x2010 || c == 0x2011 || c == kHyphenation;
 }
 
 bool is_line_end(char32_t c) {
@@ -26,7 +26,7 @@ bool is_line_end(char32_t c) {
 /// A soft hyphen is a sign where a line ends behind it.
 bool is_unheard(char32_t c, std::string_view rest) {
     if (!is_silent(c)) return false;
-    if (c != kSoftHyphen) return true;
+    if (c != kHyphenation) return true;
     while (!rest.empty() && rest.front() == ' ') rest.remove_prefix(1);
     return rest.empty() || !is_line_end(static_cast<unsigned char>(rest.front()));
 }
