@@ -92,7 +92,7 @@ TEST(gradebook_memory, a_later_call_goes_on_with_the_options_of_the_first) {
                           "deadlines.csv", "--timezone", "Europe/Paris", "--timeout", "2", "--keep", "newest"})
                   .exit_code,
               0);
-    const std::string book = work.read("out/gradebook.csv"), options = work.read("out/grading.json");
+    const std::string book = work.read("out/gradebook.csv");
     const ChildResult again = work.shell("mkdir below && cd below && \"$DYNLAB\" grade ../in --out ../out --no-pdf");
     EXPECT_EQ(again.exit_code, 0) << again.error_output;
     EXPECT_THAT(again.output, HasSubstr("0 graded now, 1 unchanged"));
