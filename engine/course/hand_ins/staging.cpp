@@ -91,13 +91,11 @@ std::optional<FoundScript> newest_of(const std::vector<FoundScript>& found) {
     return newest_by([&](auto i, auto k) { return found[i].written > found[k].written + kSameTime; });
 }
 
-/// A script that can be read as one. PowerShell's > writes UTF-16; nothing but a byte order mark at its start tells of it.
-/// A PDF that was given a script's name is no script that fails.
-void make_readable(const fs::path& script) {
+/// PowerShell's > writes UTF-16. Nothing but a byte order mark at its start tells of it.
+void make_utf8(const fs::path& script) {
     constexpr std::uintmax_t kMostText = 4u << 20;
     if (fs::file_size(script) > kMostText) return;
     const std::string bytes = read_file(script), mark = bytes.substr(0, 2);
-    if (bytes.starts_with("%PDF-")) throw SubmissionError("Your analysis.lua is a PDF, not a script.");
     if (mark != "\xFF\xFE" && mark != "\xFE\xFF") return;
     const fs::file_time_type written = fs::last_write_time(script);
     std::vector<Message> notes;
@@ -141,7 +139,7 @@ class Stager {
 
   private:
     StagedWork staged(const FoundScript& script, const Message& remark) const {
-        make_readable(script.folder / kScript);
+        make_utf8(script.folder / kScript);
         return {script.folder, remark, "", of_notebooks_.contains(script.folder)};
     }
 
