@@ -69,7 +69,8 @@ void ClassFolder::address(WorkItem& item) const {
 void ClassFolder::date(WorkItem& item) const {
     try {
         const std::vector<std::string> names = names_of(item);
-        item.lateness = deadlines_.of(item.submission, names);
+        const Deadlines::Lateness late = deadlines_.of(item.submission, names);
+        item.lateness = {late.hours, late.percent, late.reason()};
         if (work_.newest_counts) item.received = deadlines_.received(item.submission, names);
     } catch (const fs::filesystem_error&) {
     }

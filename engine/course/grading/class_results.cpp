@@ -311,6 +311,7 @@ Attention what_needs_attention(const ClassResults& results) {
                         shown_name(same->second->item->submission)));
     }
     for (Message& sentence : several_of_one(results)) add(std::move(sentence));
+    for (const Message& sentence : results.work->attention) add(sentence);
     return attention;
 }
 

@@ -116,7 +116,8 @@ Deadlines::Deadlines(const fs::path& file) {
         Rule rule = all != rules_.end() ? all->second : Rule{};
         if (who != kForAll) rule.received.reset();
         const std::optional<long> deadline = table.time(row, "deadline"), extra = table.duration(row, "extra");
-        if (!deadline && all == rules_.end()) table.fail(row, "deadline", Message("a time such as 2026-03-01 18:00"));
+        if (!deadline && all == rules_.end())
+            table.fail(row, "deadline", Message("a time such as 2026-03-01 18:00"));
         rule.deadline = deadline.value_or(rule.deadline) + extra.value_or(0);
         if (const auto received = table.time(row, "received")) rule.received = received;
         rule.grace = table.duration(row, "grace").value_or(rule.grace);
@@ -150,27 +151,30 @@ long Deadlines::received(const Submission& submission, const std::vector<std::st
     return newest;
 }
 
-/// "received 2026-03-01 18:20 CET, 20 min after the deadline of 2026-03-01 18:00 CET; each begun day costs 10 % of the
-/// points"
-Message Deadlines::reason(const Rule& rule, long came) {
-    const std::string received = shown_instant(came), due = shown_instant(rule.deadline);
-    const Message duration = duration_message(came - rule.deadline);
-    if (rule.most_percent < 100)
-        return Message(
-            "received {}, {} after the deadline of {}; each begun day costs {} % of the points, at most {} %", received,
-            duration, due, significant(rule.percent_per_day, 4), significant(rule.most_percent, 4));
-    return Message("received {}, {} after the deadline of {}; each begun day costs {} % of the points", received,
-                   duration, due, significant(rule.percent_per_day, 4));
-}
-
-Lateness Deadlines::of(const Submission& submission, const std::vector<std::string>& also) const {
+Deadlines::Lateness Deadlines::of(const Submission& submission, const std::vector<std::string>& also) const {
     const Rule* const rule = rule_for(submission, also);
     if (rule == nullptr) return {};
     const long came = received(submission, also), late = came - rule->deadline;
     if (late <= rule->grace) return {};
     const double days = std::ceil(static_cast<double>(late) / kSecondsOfADay);
-    return {static_cast<double>(late) / 3600, std::min(rule->most_percent, days * rule->percent_per_day),
-            reason(*rule, came)};
+    return {static_cast<double>(late) / 3600,
+            std::min(rule->most_percent, days * rule->percent_per_day),
+            came,
+            rule->deadline,
+            rule->percent_per_day,
+            rule->most_percent};
+}
+
+Message Deadlines::Lateness::reason() const {
+    if (percent == 0 && hours == 0) return {};
+    const std::string received = shown_instant(came), due = shown_instant(deadline);
+    const Message duration = duration_message(came - deadline);
+    if (most_percent < 100)
+        return Message(
+            "received {}, {} after the deadline of {}; each begun day costs {} % of the points, at most {} %", received,
+            duration, due, significant(percent_per_day, 4), significant(most_percent, 4));
+    return Message("received {}, {} after the deadline of {}; each begun day costs {} % of the points", received,
+                   duration, due, significant(percent_per_day, 4));
 }
 
 std::vector<std::string> Deadlines::strays(const std::vector<Submission>& submissions,

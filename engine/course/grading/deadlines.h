@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "course/grading/work_item.h"
+#include "course/hand_ins/submission.h"
 
 namespace dynlab::inline course {
 
@@ -20,6 +20,14 @@ class Deadlines {
     /// Times are in the process's time zone. Throws EnvironmentError with file, line and column.
     explicit Deadlines(const std::filesystem::path& file);
 
+    struct Lateness {
+        double hours = 0, percent = 0;  ///< of the points earned; 0 in time
+        long came = 0, deadline = 0;    ///< seconds since 1970
+        double percent_per_day = 0, most_percent = 100;
+        /// "received 2026-03-01 18:20 CET, 20 min after the deadline of 2026-03-01 18:00 CET; each begun day costs 10 %
+        /// of the points"; empty in time
+        Message reason() const;
+    };
     /// `also`: by what else the submission may be named in the table: its owners' group, ids and names. A row of its
     /// own name goes first; of several others the one with the latest deadline holds.
     Lateness of(const Submission& submission, const std::vector<std::string>& also) const;
@@ -37,7 +45,6 @@ class Deadlines {
         long grace = 0;
         double percent_per_day = 10, most_percent = 100;
     };
-    static Message reason(const Rule& rule, long came);
     const Rule* rule_for(const Submission& submission, const std::vector<std::string>& also) const;
 
     std::map<std::string, Rule> rules_;

@@ -33,6 +33,7 @@ class ClassGrader {
         outcome_.submissions = static_cast<int>(work.items.size());
         outcome_.complaints = tried.complaints;
         outcome_.complaints.insert(outcome_.complaints.end(), work.complaints.begin(), work.complaints.end());
+        outcome_.notes = work.notes;
         if (tried.note) outcome_.notes.push_back(*tried.note);
     }
 

@@ -38,6 +38,8 @@ struct ClassWork {
     bool newest_counts = false;       ///< of several submissions of one student; else the best one
     std::vector<std::size_t> chosen;  ///< places of the items that are graded now; earlier results count for the others
     std::vector<Message> complaints;  ///< for the instructor, about rows that match no submission and the like
+    std::vector<Message> attention;   ///< what else needs attention, sentences for the terminal and the summary
+    std::vector<Message> notes;       ///< for the terminal only
 };
 
 }  // namespace dynlab::inline course
