@@ -56,7 +56,7 @@ TEST_F(class_folder, without_a_roster_has_submissions_and_nobody) {
     const ClassFolder folder(sources_, folder_.path() / "out", {});
     const ClassWork& work = folder.work();
     EXPECT_FALSE(work.roster);
-    EXPECT_THAT(work.chosen, ElementsAre(0, 1, 2));
+    EXPECT_THAT(work.chosen, ElementsAre(0u, 1u, 2u));
     for (const WorkItem& one : work.items) {
         EXPECT_THAT(one.students, IsEmpty());
         EXPECT_EQ(one.lateness.percent, 0);
@@ -68,11 +68,11 @@ TEST_F(class_folder, knows_whose_each_is_and_how_they_are_addressed) {
     sources_.roster = folder_.path() / "roster.csv";
     const ClassFolder folder(sources_, folder_.path() / "out", {});
     const WorkItem &group = item(folder.work(), "group-1"), &ben = item(folder.work(), "Ben Lee");
-    EXPECT_THAT(group.students, ElementsAre(0, 1));
+    EXPECT_THAT(group.students, ElementsAre(0u, 1u));
     EXPECT_EQ(group.addressee, "group-1");
     EXPECT_EQ(group.language, "fr");
     EXPECT_EQ(group.seed, 7u);
-    EXPECT_THAT(ben.students, ElementsAre(2));
+    EXPECT_THAT(ben.students, ElementsAre(2u));
     EXPECT_EQ(ben.addressee, "Ben Lee");
     EXPECT_FALSE(ben.seed);
     EXPECT_FALSE(item(folder.work(), "stranger").unmatched.empty());
@@ -97,7 +97,7 @@ TEST_F(class_folder, owners_need_a_roster) {
     EXPECT_THROW(ClassFolder(sources_, folder_.path() / "out", {}), EnvironmentError);
     sources_.roster = folder_.path() / "roster.csv";
     const ClassFolder folder(sources_, folder_.path() / "out", {});
-    EXPECT_THAT(item(folder.work(), "stranger").students, ElementsAre(2));
+    EXPECT_THAT(item(folder.work(), "stranger").students, ElementsAre(2u));
 }
 
 }  // namespace test_class_folder

@@ -94,14 +94,14 @@ TEST(gradebook_memory, a_later_call_goes_on_with_the_options_of_the_first) {
     work.write("own/more.lua", kOwn);
     work.write("secret.txt", "first");
     work.write("roster.csv", "id,name,group\n1,Anna Müller,group-1\n2,Zoë Ade,group-2\n");
-    work.write("deadlines.csv", "submission,deadline\n*,2001-03-01 18:00\n");
+    work.write("deadlines.csv", "submission,deadline\n*,2096-03-01 18:00\n");
     EXPECT_EQ(work.dynlab({"grade", "in", "--out", "out"}).exit_code, 2);  // nothing to go on with: no lesson
     ASSERT_EQ(bench
                   .grade({"--checks", "own", "--secret", "secret.txt", "--roster", "roster.csv", "--deadlines",
                           "deadlines.csv", "--timezone", "Europe/Paris", "--timeout", "2", "--keep", "newest"})
                   .exit_code,
               0);
-    const std::string book = work.read("out/gradebook.csv"), options = work.read("out/grading.json");
+    const std::string book = work.read("out/gradebook.csv");
     const ChildResult again = work.shell("mkdir below && cd below && \"$DYNLAB\" grade ../in --out ../out --no-pdf");
     EXPECT_EQ(again.exit_code, 0) << again.error_output;
     EXPECT_THAT(again.output, HasSubstr("0 graded now, 1 unchanged"));
@@ -109,7 +109,7 @@ TEST(gradebook_memory, a_later_call_goes_on_with_the_options_of_the_first) {
     bench.hand_in("group-2", kSolution);
     EXPECT_THAT(work.dynlab({"grade", "in", "--out", "out", "--no-pdf"}).output,
                 HasSubstr("1 graded now, 1 unchanged"));
-    EXPECT_THAT(work.read("out/gradebook.csv"), HasSubstr("2,Zoë Ade,group-2,graded,0,5,5,"));
+    EXPECT_THAT(work.read("out/gradebook.csv"), HasSubstr("2,Zoë Ade,group-2,graded,5,5,0,"));
 }
 
 // oracle: the summary
@@ -306,7 +306,7 @@ TEST(gradebook_memory, a_row_of_deadlines_may_give_only_what_differs) {
     EXPECT_EQ(late("Max Mustermann").percent, 10);
     EXPECT_EQ(late("Ann").percent, 0);
     EXPECT_EQ(late("Bo").percent, 0);
-    EXPECT_EQ(late("Cy").reason.empty(), late("somebody else").reason.empty());
+    EXPECT_EQ(late("Cy").percent, late("somebody else").percent);
     ::tzset();
 }
 

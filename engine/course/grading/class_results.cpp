@@ -319,6 +319,7 @@ Attention what_needs_attention(const ClassResults& results) {
         add(Message("{} are the same, byte for byte", listed(names, Join::kAnd)));
     }
     for (Message& sentence : several_of_one(results)) add(std::move(sentence));
+    for (const Message& sentence : results.work->attention) add(sentence);
     return attention;
 }
 

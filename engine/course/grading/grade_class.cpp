@@ -28,10 +28,10 @@ class ClassGrader {
         outcome_.submissions = static_cast<int>(work.items.size());
         outcome_.complaints = tried.complaints;
         outcome_.complaints.insert(outcome_.complaints.end(), work.complaints.begin(), work.complaints.end());
+        outcome_.notes = work.notes;
         if (tried.note) outcome_.notes.push_back(*tried.note);
-        if (!work.doubt.empty()) outcome_.notes.push_back(work.doubt);
         outcome_.late = work.late;
-        outcome_.unconfirmed = static_cast<int>(work.unconfirmed.size());
+        outcome_.unconfirmed = work.unconfirmed;
     }
 
     void grade_chosen() {
@@ -56,7 +56,6 @@ class ClassGrader {
         const ClassResults all = results();
         Attention attention = what_needs_attention(all);
         outcome_.attention = std::move(attention.sentences);
-        outcome_.attention.insert(outcome_.attention.end(), work_.unconfirmed.begin(), work_.unconfirmed.end());
         outcome_.unowned = static_cast<int>(attention.unowned);
         outcome_.unreadable = static_cast<int>(attention.unreadable);
         write_class_results(all);

@@ -70,8 +70,11 @@ Message LatePenalties::doubt() const {
 
 void LatePenalties::conclude(ClassWork& work) const {
     work.late = late();
-    work.unconfirmed = waiting();
-    work.doubt = doubt();
+    for (const Message& sentence : waiting()) {
+        work.attention.push_back(sentence);
+        ++work.unconfirmed;
+    }
+    if (Message question = doubt(); !question.empty()) work.notes.push_back(std::move(question));
     if (accepted_.empty()) return;
     TextTable table;
     table.names = {"submission", "percent"};

@@ -41,8 +41,9 @@ struct ClassWork {
     std::vector<std::size_t> chosen;  ///< places of the items that are graded now; earlier results count for the others
     std::vector<Message> complaints;  ///< for the instructor, about rows that match no submission and the like
     std::vector<Message> late;        ///< a clause for each late submission, with what it costs
-    std::vector<Message> unconfirmed;  ///< penalties that wait for the instructor (late_penalties.h), a sentence each
-    Message doubt;                     ///< about the zone of the times; may be empty
+    int unconfirmed = 0;              ///< penalties that wait for the instructor (late_penalties.h)
+    std::vector<Message> attention;   ///< what else needs attention, sentences for the terminal and the summary
+    std::vector<Message> notes;       ///< for the terminal only
 };
 
 }  // namespace dynlab::inline course

@@ -215,8 +215,9 @@ Message submit_to_slurm(const Machines& machines, const WorkInParts& work) {
     std::vector<std::string> ids;
     const auto after_last = [&] { return "--dependency=afterok:" + ids.back(); };
     for (int round = 0; round < machines.rounds; ++round) {
-        std::vector<std::string> options = {fmt::format("--array={}", fmt::join(work.missing, ",")),
-                                            "--output=slurm-%A_%a.txt"};
+        const std::string tasks =
+            round == 0 ? fmt::format("{}", fmt::join(work.missing, ",")) : fmt::format("1-{}", machines.parts);
+        std::vector<std::string> options = {"--array=" + tasks, "--output=slurm-%A_%a.txt"};
         if (!ids.empty()) options.insert(options.end(), {"--kill-on-invalid-dep=yes", after_last()});
         ids.push_back(submit(machines, logs, std::move(options), fmt::format(kScript, part)));
         write_file_atomically(logs / kJobs, fmt::format("{}", fmt::join(ids, ",")));
